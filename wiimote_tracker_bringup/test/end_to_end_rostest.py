@@ -15,9 +15,10 @@ import numpy as np
 import rospkg
 import rospy
 import rostest
+from geometry_msgs.msg import PointStamped
 from wiimote_tracker_evaluation import alignment, bound, experiment, scene, scoring
 from wiimote_tracker_evaluation.conductor import SETTLE, Conductor
-from wiimote_tracker_evaluation.recording import LiveRecorder
+from wiimote_tracker_evaluation.recording import LiveRecorder, Recording, truth_row
 
 DWELL = 0.5  # [s]
 RATE = 100.0  # of images of one camera [Hz]
@@ -38,6 +39,26 @@ def least_scatter(places):
     return np.percentile(np.sqrt(squares.mean(axis=1) / len(images)), 0.1)
 
 
+class Recorder(LiveRecorder):
+    """Records what a score needs, too."""
+
+    def __init__(self, led):
+        self._truths, self._latencies, self._ages = [], [], []
+        super().__init__()
+        rospy.Subscriber('simulation/truth/' + led, PointStamped,
+                         lambda message: self._truths.append(truth_row(message)))
+
+    def _on_points(self, message):
+        now = rospy.Time.now()
+        super()._on_points(message)
+        self._latencies.append((now - message.latest_arrival).to_sec())
+        self._ages.append((now - message.header.stamp).to_sec())
+
+    def recording(self):
+        return Recording(list(self._points), list(self._truths), list(self._latencies),
+                         list(self._ages))
+
+
 class EndToEnd(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
@@ -51,7 +72,7 @@ class EndToEnd(unittest.TestCase):
         shutil.rmtree(os.path.dirname(cls.rig_file), ignore_errors=True)
 
     def test_calibrated_by_four_corners_it_reaches_the_best_accuracy(self):
-        recorder = LiveRecorder('led')
+        recorder = Recorder('led')
         conductor = Conductor('led', recorder)
         conductor.wait_for_cameras([camera.name for camera in self.scene.cameras])
         checked = conductor.check_connection(0.5)

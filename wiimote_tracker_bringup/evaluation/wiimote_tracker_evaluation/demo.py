@@ -104,7 +104,7 @@ class Demo:
         from wiimote_tracker_evaluation.conductor import Conductor
         from wiimote_tracker_evaluation.recording import LiveRecorder
         progress = self._progress
-        conductor = Conductor(LED, LiveRecorder(LED), stack.check, progress.passing)
+        conductor = Conductor(LED, LiveRecorder(), stack.check, progress.passing)
 
         progress.step('Connection check')
         conductor.wait_for_cameras([camera.name for camera in self._scene.cameras])

@@ -1,11 +1,10 @@
-"""Published and true positions as arrays; from a bag or live."""
+"""Published and true positions of a bag as arrays, and published ones live."""
 
 import itertools
 
 import numpy as np
 import rosbag
 import rospy
-from geometry_msgs.msg import PointStamped
 from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
 
 
@@ -73,21 +72,15 @@ def read_bag(path: str, led: str) -> Recording:
 
 
 class LiveRecorder:
-    """Records from its construction on."""
+    """Records points from its construction on."""
 
-    def __init__(self, led):
-        self._points, self._truths, self._latencies, self._ages = [], [], [], []
+    def __init__(self):
+        self._points = []
         self.newest_stamp = 0.0  # of the points [s]
-        self._subscribers = [
-            rospy.Subscriber('points', TrackedPointArray, self._on_points, tcp_nodelay=True),
-            rospy.Subscriber('simulation/truth/' + led, PointStamped,
-                             lambda message: self._truths.append(truth_row(message)))]
+        rospy.Subscriber('points', TrackedPointArray, self._on_points, tcp_nodelay=True)
 
     def _on_points(self, message):
-        now = rospy.Time.now()
         self._points.extend(point_rows(message))
-        self._latencies.append((now - message.latest_arrival).to_sec())
-        self._ages.append((now - message.header.stamp).to_sec())
         if message.points:
             self.newest_stamp = message.header.stamp.to_sec()
 
@@ -96,7 +89,3 @@ class LiveRecorder:
         newest = [row[1:4] for row in
                   itertools.takewhile(lambda row: row[0] >= start, reversed(list(self._points)))]
         return float(np.max(np.ptp(newest, axis=0))) if newest else np.inf
-
-    def recording(self) -> Recording:
-        return Recording(list(self._points), list(self._truths), list(self._latencies),
-                         list(self._ages))

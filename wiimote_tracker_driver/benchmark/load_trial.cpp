@@ -9,7 +9,6 @@
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>

@@ -6,7 +6,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <cmath>
 
 namespace wiimote_tracker::monte_carlo {

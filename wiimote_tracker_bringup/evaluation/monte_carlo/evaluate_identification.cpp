@@ -8,7 +8,6 @@
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>

@@ -6,10 +6,7 @@
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
-#include <algorithm>
 #include <cmath>
-#include <limits>
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>

@@ -6,9 +6,7 @@
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
-#include <algorithm>
 #include <set>
-#include <string>
 
 namespace wiimote_tracker::panel {
 namespace {

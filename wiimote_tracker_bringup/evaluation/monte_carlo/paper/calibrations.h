@@ -7,10 +7,7 @@
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
-#include <Eigen/Core>
-
 #include <optional>
-#include <vector>
 
 // Calibrations of a session by the paper's methods and ours, and points measured with them.
 namespace wiimote_tracker::monte_carlo {

@@ -5,7 +5,6 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 

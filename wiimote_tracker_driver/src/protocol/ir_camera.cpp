@@ -1,5 +1,7 @@
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <sstream>
 #include <stdexcept>
@@ -54,13 +56,9 @@ IrSensitivity parseIrSensitivity(const std::string& text) {
     }
     bytes.push_back(static_cast<std::uint8_t>(std::stoi(word, nullptr, 16)));
   }
-  if (bytes.size() != 11) {
-    std::string names;
-    for (const std::string& name : irSensitivityNames())
-      names += name + ", ";
-    throw std::invalid_argument(quoted + " must be one of " + names +
-                                "or eleven bytes such as '07 00 00 71 01 00 72 00 20 / 1f 03'");
-  }
+  if (bytes.size() != 11)
+    throw std::invalid_argument(quoted + " must be one of " + joined(irSensitivityNames()) +
+                                ", or eleven bytes such as '07 00 00 71 01 00 72 00 20 / 1f 03'");
   IrSensitivity sensitivity;
   std::copy_n(bytes.begin(), 9, sensitivity.block1.begin());
   std::copy_n(bytes.begin() + 9, 2, sensitivity.block2.begin());

@@ -1,7 +1,8 @@
 #include "wiimote/session.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <utility>
 
@@ -20,10 +21,6 @@ constexpr double kBusyPause = 0.02;
 constexpr double kImplausibleAccepted = 10.0;
 
 constexpr double kForever = std::numeric_limits<double>::infinity();
-
-bool isDataReport(std::uint8_t id) {
-  return id >= 0x30 && id <= 0x3f;
-}
 
 }  // namespace
 
@@ -170,17 +167,16 @@ void Session::retry(const std::string& why, double now) {
     factory_.skip();  // images come without it
     answered(now);
   } else {
-    char id[3];
-    std::snprintf(id, sizeof(id), "%02x", static_cast<unsigned>(request().id()));
-    throw SessionError("the Wii Remote " + why + " report 0x" + id +
-                       ": take its batteries out and put them back");
+    throw SessionError(
+        format("the Wii Remote %s report 0x%02x: take its batteries out and put them back",
+               why.c_str(), request().id()));
   }
 }
 
 // ---- Reports of the remote
 
 std::optional<protocol::DataReport> Session::handle(const Report& report, double now) {
-  if (isDataReport(report.id()))
+  if (protocol::isDataReport(report.id()))
     return handleData(report, now);
   if (const auto acknowledgement = protocol::decodeAcknowledgement(report))
     handleAcknowledgement(*acknowledgement, now);

@@ -77,6 +77,11 @@ struct IrSpot {
 /// The data report without camera and accelerometer; also the mode after switching on.
 constexpr std::uint8_t kButtonsReportId = 0x30;
 
+/// Whether the id is that of a data report, of those known here or another one.
+constexpr bool isDataReport(std::uint8_t id) {
+  return id >= 0x30 && id <= 0x3f;
+}
+
 /// 0x30..0x37, or a pair of 0x3e and 0x3f.
 struct DataReport {
   std::uint8_t id = 0;

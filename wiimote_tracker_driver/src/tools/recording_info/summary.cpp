@@ -1,5 +1,7 @@
 #include "summary.h"
 
+#include "wiimote_tracker_driver/protocol/input_reports.h"
+
 #include <wiimote_tracker_msgs/text.h>
 
 #include <time.h>
@@ -14,11 +16,7 @@ using recording::Record;
 
 constexpr double kStep = 1e-4;  // of the histogram [s]
 
-bool isData(const protocol::Report& report) {
-  return report.id() >= 0x30 && report.id() <= 0x3f;
-}
-
-const char* nameOf(std::size_t id) {
+const char* nameOf(std::uint8_t id) {
   switch (id) {
     case 0x10:
       return "rumble";
@@ -51,7 +49,7 @@ const char* nameOf(std::size_t id) {
     case 0x3f:
       return "full infrared";
     default:
-      return id >= 0x30 && id <= 0x3f ? "other data" : "unknown";
+      return protocol::isDataReport(id) ? "other data" : "unknown";
   }
 }
 
@@ -83,7 +81,8 @@ std::string describeReports(const char* title, const std::array<std::uint64_t, 2
   for (std::size_t id = 0; id < counts.size(); ++id) {
     if (counts[id] > 0)
       lines += format("%-14s 0x%02zx %9llu  %s\n", lines.empty() ? title : "", id,
-                      static_cast<unsigned long long>(counts[id]), nameOf(id));
+                      static_cast<unsigned long long>(counts[id]),
+                      nameOf(static_cast<std::uint8_t>(id)));
   }
   return lines;
 }
@@ -146,7 +145,7 @@ Summary summarize(recording::Reader& reader) {
         break;
       case Record::Kind::kReceived:
         ++summary.received[record.report.id()];
-        if (isData(record.report)) {
+        if (protocol::isDataReport(record.report.id())) {
           if (last_data)
             summary.intervals.add(record.time - *last_data);
           last_data = record.time;

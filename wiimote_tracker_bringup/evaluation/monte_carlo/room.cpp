@@ -9,6 +9,8 @@ namespace {
 
 // Of the LEDs; with a given size the brightness does not depend on distance.
 constexpr double kLedBrightness = 1.0;
+// Of all cameras: the middle one of the console's settings.
+constexpr char kSensitivity[] = "wii_3";
 // For images with exact stamps [s].
 constexpr double kExactStampStddev = 1e-6;
 
@@ -46,7 +48,7 @@ Room::Room(const simulation::Description& description,
     const virtual_wiimote::FrameTime first = times.next();
     cameras_.push_back(
         {simulation::VirtualCamera(camera.camera, description.pixel_noise, pixel_seed),
-         RemoteCamera(options.sensitivity), times, first, exposure_clock::ExposureClock()});
+         RemoteCamera(kSensitivity), times, first, exposure_clock::ExposureClock()});
   }
 }
 

@@ -15,7 +15,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <string>
 #include <vector>
 
 namespace wiimote_tracker::monte_carlo {
@@ -33,8 +32,7 @@ enum class Stamping {
 struct RoomOptions {
   bool synchronised = false;  ///< All cameras expose together; else each by its own clock.
   Stamping stamping = Stamping::kEstimated;
-  std::string sensitivity = "wii_3";  ///< Of all cameras.
-  double led_size = 3.0;              ///< As reported by the sensor; closer LEDs merge.
+  double led_size = 3.0;  ///< As reported by the sensor; closer LEDs merge.
 
   /// Whether an LED is dark for a camera at an exposure time [s], as by occlusion or blinking.
   std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;

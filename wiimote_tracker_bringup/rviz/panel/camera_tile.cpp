@@ -1,5 +1,6 @@
 #include "camera_tile.h"
 
+#include <QColor>
 #include <QFontMetrics>
 #include <QPainter>
 
@@ -15,8 +16,7 @@ constexpr double kWiimoteAspect = 1024.0 / 768.0;  // until the first image tell
 const QColor kGround(30, 33, 40), kPicture(12, 13, 17), kText(232, 235, 240), kFaint(150, 156, 168);
 const QColor kSpot(255, 244, 214), kMask(90, 94, 104), kCell(60, 130, 200, 70);
 
-}  // namespace
-
+/// For the state's border and words; legible on the tiles' dark ground.
 QColor colorOf(CameraState state) {
   switch (state) {
     case CameraState::kFrozen:
@@ -34,6 +34,8 @@ QColor colorOf(CameraState state) {
   }
   return QColor(74, 205, 120);
 }
+
+}  // namespace
 
 void CameraTile::show(const CameraView& camera,
                       CameraState state,

@@ -3,7 +3,6 @@
 
 #include "camera_view.h"
 
-#include <QColor>
 #include <QString>
 #include <QWidget>
 
@@ -12,9 +11,6 @@
 class QPainter;
 
 namespace wiimote_tracker::panel {
-
-/// For the state's border and words; legible on the tiles' dark ground.
-QColor colorOf(CameraState state);
 
 /// One camera: its picture with spots, trails, masks and the cells that a wave has filled; name,
 /// rate, battery, and its state by colour and in words.

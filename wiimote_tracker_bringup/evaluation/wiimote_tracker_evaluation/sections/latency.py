@@ -52,6 +52,11 @@ class Measured:
     def chosen(self):
         return self.trace.between(self.laps[0], self.laps[-1])
 
+    def parts(self):
+        """Times of the chosen outputs by parts [ms], with their sum, and all but Bluetooth."""
+        parts = {key: 1e3 * values for key, values in self.trace.parts(self.chosen()).items()}
+        return dict(parts, own=parts['total'] - parts['bluetooth'])
+
     def per_lap(self, values):
         """Values of the chosen outputs, divided by laps: the independent units."""
         cut = np.searchsorted(self.trace.published[self.chosen()], self.laps[1:-1])
@@ -148,13 +153,13 @@ def tell(run, results):
     fig6(run, results)
     direct(run, results)
     main = results[0][2]
-    total = 1e3 * main.trace.parts(main.chosen())['total']
-    bluetooth = 1e3 * np.median(main.trace.parts(main.chosen())['bluetooth'])
+    parts = main.parts()
     run.summary(
         '**Latency**, simulated: a point is published %.1f ms after the exposure (median, 99 %% '
         'within %.1f ms) with four Wiimotes; %.1f ms of it are the simulated Bluetooth delay, the '
         'rest is drivers, filter and transport.'
-        % (np.median(total), np.quantile(total, 0.99), bluetooth))
+        % (np.median(parts['total']), np.quantile(parts['total'], 0.99),
+           np.median(parts['bluetooth'])))
 
 
 def fig6(run, results):
@@ -253,14 +258,13 @@ def direct(run, results):
                              for _, title, m in results)))
     rows = []
     for name, title, measured in results:
-        parts = measured.trace.parts(measured.chosen())
-        for key, words in (('total', 'exposure to published point'),) + PARTS:
-            values = 1e3 * parts[key]
+        parts = measured.parts()
+        for key, words in (('total', 'exposure to published point'),) + PARTS + (
+                ('own', 'total without Bluetooth'),):
+            values = parts[key]
             rows.append((title, words, len(values), np.mean(values), np.median(values),
                          np.quantile(values, 0.95), np.quantile(values, 0.99)))
-        rows.append((title, 'total without Bluetooth') + summary_of(
-            1e3 * (parts['total'] - parts['bluetooth'])))
-        tell_figures(run, name, title, measured, parts)
+        tell_figures(run, name, title, measured)
     run.table('parts', [('cameras', ''), ('part', ''), ('points', ''), ('mean', 'ms'),
                         ('median', 'ms'), ('p95', 'ms'), ('p99', 'ms')], rows,
               'The means of the parts add up to the mean of the whole.')
@@ -270,8 +274,7 @@ def direct(run, results):
         (title, published - measured.laps[0]) + tuple(values) for _, title, measured in results
         for published, values in zip(
             measured.trace.published[measured.chosen()],
-            1e3 * np.column_stack([measured.trace.parts(measured.chosen())[key]
-                                   for key in keys]))], 'Every point.', shown=False)
+            np.column_stack([measured.parts()[key] for key in keys]))], 'Every point.', shown=False)
     run.table('images', [('cameras', ''), ('exposed', 's'), ('bluetooth', 'ms')], [
         (title, exposed - measured.laps[0], 1e3 * (delivered - exposed))
         for _, title, measured in results
@@ -280,23 +283,19 @@ def direct(run, results):
     plot_distribution(run, results)
 
 
-def summary_of(values):
-    return (len(values), np.mean(values), np.median(values), np.quantile(values, 0.95),
-            np.quantile(values, 0.99))
-
-
-def tell_figures(run, name, title, measured, parts):
-    own = parts['total'] - parts['bluetooth']
-    for key, values, share, note in (
-            ('total_median', parts['total'], 0.5, 'exposure to published point, median'),
-            ('total_p99', parts['total'], 0.99, 'exposure to published point, 99 %'),
-            ('bluetooth_median', parts['bluetooth'], 0.5,
+def tell_figures(run, name, title, measured):
+    parts = measured.parts()
+    for key, part, share, note in (
+            ('total_median', 'total', 0.5, 'exposure to published point, median'),
+            ('total_p99', 'total', 0.99, 'exposure to published point, 99 %'),
+            ('bluetooth_median', 'bluetooth', 0.5,
              'Bluetooth delay that the simulation is given, median'),
-            ('own_median', own, 0.5, 'exposure to published point without Bluetooth, median'),
-            ('own_p99', own, 0.99, 'exposure to published point without Bluetooth, 99 %')):
+            ('own_median', 'own', 0.5, 'exposure to published point without Bluetooth, median'),
+            ('own_p99', 'own', 0.99, 'exposure to published point without Bluetooth, 99 %')):
+        values = parts[part]
         statistic = statistics.quantile(share)
-        units = measured.per_lap(1e3 * values)
-        run.figure(f'{name}_{key}_ms', statistic(1e3 * values), 'ms', len(values),
+        units = measured.per_lap(values)
+        run.figure(f'{name}_{key}_ms', statistic(values), 'ms', len(values),
                    statistics.bootstrap(units, statistic, run.seed) if len(units) > 1 else None,
                    f'{note}, {title}', end_to_end=True, headline=key in (
                        'total_median', 'own_p99'))
@@ -305,18 +304,15 @@ def tell_figures(run, name, title, measured, parts):
 def plot_distribution(run, results):
     figure, (whole, split) = charts.figure(1, 2, height=3.4)
     for (_, title, measured), color in zip(results, (charts.BLUE, charts.ORANGE)):
-        parts = measured.trace.parts(measured.chosen())
-        charts.cumulative(whole, 1e3 * parts['total'], color, title)
-        charts.cumulative(whole, 1e3 * (parts['total'] - parts['bluetooth']), color,
-                          linestyle='--')
-    whole.set_xlim(0.0, 1.15 * max(1e3 * np.quantile(m.trace.parts(m.chosen())['total'], 0.995)
-                                   for _, _, m in results))
+        parts = measured.parts()
+        charts.cumulative(whole, parts['total'], color, title)
+        charts.cumulative(whole, parts['own'], color, linestyle='--')
+    whole.set_xlim(0.0, 1.15 * max(np.quantile(m.parts()['total'], 0.995) for _, _, m in results))
     whole.set_xlabel('exposure to published point [ms]')
     whole.set_ylabel('share of the points')
     charts.key(whole, loc='lower right', extra=[('--', 'without Bluetooth')])
     for row, (_, title, measured) in enumerate(results):
-        mean = {key: 1e3 * float(np.mean(values))
-                for key, values in measured.trace.parts(measured.chosen()).items()}
+        mean = {key: float(np.mean(values)) for key, values in measured.parts().items()}
         begin = 0.0
         for (key, words), color in zip(PARTS[1:], (charts.GREEN, charts.BLUE, charts.ORANGE)):
             split.barh(row, mean[key], left=begin, color=color, height=0.5,

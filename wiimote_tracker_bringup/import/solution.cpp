@@ -18,21 +18,6 @@ namespace {
 
 using bundle::Reconstruction;
 
-Reconstruction reconstructionOf(const std::vector<geometry::Camera>& cameras,
-                                const std::vector<Pixels>& frames) {
-  Reconstruction reconstruction;
-  reconstruction.cameras = cameras;
-  reconstruction.points.resize(frames.size());
-  for (std::size_t frame = 0; frame < frames.size(); ++frame) {
-    for (std::size_t camera = 0; camera < cameras.size(); ++camera) {
-      if (frames[frame][camera])
-        reconstruction.observations.push_back({camera, frame, *frames[frame][camera]});
-    }
-  }
-  reconstruction.inliers.assign(reconstruction.observations.size(), false);
-  return reconstruction;
-}
-
 /// Triangulates points with the present cameras. @returns the number of inliers.
 std::size_t triangulate(const bundle::Options& options, Reconstruction* reconstruction) {
   bundle::triangulatePoints(reconstruction, std::vector<bool>(reconstruction->cameras.size(), true),
@@ -117,16 +102,7 @@ Reference withShippedCenters(const Recording& recording, Reconstruction start) {
 }
 
 Solution fromPixels(const Recording& recording) {
-  std::vector<geometry::Camera> cameras;
-  for (const RecordedCamera& recorded : recording.cameras) {
-    geometry::Camera camera;
-    camera.name = recorded.name;
-    camera.intrinsics = recorded.intrinsics;
-    cameras.push_back(camera);
-  }
-  const Reconstruction unsolved = reconstructionOf(cameras, recording.frames);
-  Reconstruction solved =
-      bundle::solve(cameras, unsolved.observations, recording.frames.size(), bundle::Options());
+  Reconstruction solved = bundle::solve(observedBy(recording), bundle::Options());
   Solution solution;
   solution.frames = recording.frames;
   if (hasCenters(recording)) {

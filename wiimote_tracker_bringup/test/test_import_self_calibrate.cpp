@@ -14,24 +14,15 @@ namespace {
 
 TEST(SelfCalibrateExcerpt, isNoWorseThanFlydrasCalibration) {
   const Recording recording = readRecording(FLYDRA_EXCERPT);
-  std::vector<geometry::Camera> cameras;
-  for (const RecordedCamera& recorded : recording.cameras) {
-    geometry::Camera camera;
-    camera.name = recorded.name;
-    camera.intrinsics.width = recorded.intrinsics.width;
-    camera.intrinsics.height = recorded.intrinsics.height;
-    cameras.push_back(camera);
-  }
-  std::vector<bundle::Observation> observations;
-  for (std::size_t frame = 0; frame < recording.frames.size(); ++frame) {
-    for (std::size_t i = 0; i < cameras.size(); ++i) {
-      if (recording.frames[frame][i])
-        observations.push_back({i, frame, *recording.frames[frame][i]});
-    }
+  bundle::Reconstruction observed = observedBy(recording);
+  for (geometry::Camera& camera : observed.cameras) {
+    geometry::Intrinsics unknown;
+    unknown.width = camera.intrinsics.width;
+    unknown.height = camera.intrinsics.height;
+    camera.intrinsics = unknown;
   }
   const bundle::SelfCalibrationOptions options;
-  const bundle::SelfCalibration solution =
-      bundle::selfCalibrate(cameras, observations, recording.frames.size(), options);
+  const bundle::SelfCalibration solution = bundle::selfCalibrate(observed, options);
   const auto comparison = compare(recording, solution, options.bundle);
   ASSERT_TRUE(comparison);
   ASSERT_EQ(comparison->own.size(), 5u);

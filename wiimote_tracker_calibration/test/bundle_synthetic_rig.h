@@ -60,10 +60,11 @@ struct SyntheticRig {
     }
   }
 
-  /// The cameras as a solver may know them: their poses are nonsense.
-  std::vector<geometry::Camera> withoutPoses() const {
-    std::vector<geometry::Camera> result = cameras;
-    for (geometry::Camera& camera : result)
+  /// What a solver may know: the cameras' poses are nonsense.
+  Reconstruction observed() const {
+    Reconstruction result{cameras, {}, observations, {}};
+    result.points.resize(points.size());
+    for (geometry::Camera& camera : result.cameras)
       camera.world_from_camera = Eigen::Isometry3d::Identity();
     return result;
   }

@@ -42,11 +42,9 @@ void align(const SyntheticRig& rig, Reconstruction* solution) {
   transform(fitSimilarity(solved, truth), solution);
 }
 
-std::string refusal(const std::vector<geometry::Camera>& cameras,
-                    const std::vector<Observation>& observations,
-                    std::size_t point_count) {
+std::string refusal(const Reconstruction& observed) {
   try {
-    solve(cameras, observations, point_count, Options());
+    solve(observed, Options());
   } catch (const BundleError& error) {
     return error.what();
   }
@@ -58,8 +56,7 @@ TEST(Bundle, RecoversARigFromExactPixels) {
     for (unsigned seed = 1; seed <= 3; ++seed) {
       SCOPED_TRACE(std::to_string(camera_count) + " cameras, seed " + std::to_string(seed));
       const SyntheticRig rig(camera_count, 120, seed);
-      Reconstruction solution =
-          solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+      Reconstruction solution = solve(rig.observed(), Options());
       align(rig, &solution);
       for (std::size_t i = 0; i < camera_count; ++i) {
         EXPECT_TRUE(
@@ -84,8 +81,7 @@ TEST(Bundle, SolvesWithWideAngleLenses) {
     camera.intrinsics.distortion = {-0.05, 0.01, 0.002, -0.001, 0.0};
   }
   rig.observe();
-  Reconstruction solution =
-      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+  Reconstruction solution = solve(rig.observed(), Options());
   align(rig, &solution);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     EXPECT_TRUE(
@@ -97,8 +93,7 @@ TEST(Bundle, ResidualsAreAsLargeAsTheNoise) {
   const SyntheticRig exact(4, 400, 5);
   SyntheticRig rig = exact;
   rig.addNoise(kNoise);
-  const Reconstruction solution =
-      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+  const Reconstruction solution = solve(rig.observed(), Options());
   const Statistics all = statistics(solution);
   // Expected sum of squares: noise variance times (measured numbers - unknowns), Gauss-Markov.
   std::size_t points = 0;
@@ -122,8 +117,7 @@ TEST(Bundle, GrossErrorsAreFoundAndDoNoHarm) {
     rig.observations[i].pixel += Eigen::Vector2d(rig.uniform(40.0, 90.0), rig.uniform(40.0, 90.0));
     spoiled[i] = true;
   }
-  Reconstruction solution =
-      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+  Reconstruction solution = solve(rig.observed(), Options());
   std::vector<std::size_t> views(rig.points.size(), 0);
   for (const Observation& observation : rig.observations)
     ++views[observation.point];
@@ -140,10 +134,8 @@ TEST(Bundle, GrossErrorsAreFoundAndDoNoHarm) {
 TEST(Bundle, IsDeterministic) {
   SyntheticRig rig(3, 100, 7);
   rig.addNoise(0.3);
-  const Reconstruction a =
-      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
-  const Reconstruction b =
-      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+  const Reconstruction a = solve(rig.observed(), Options());
+  const Reconstruction b = solve(rig.observed(), Options());
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     EXPECT_EQ(a.cameras[i].world_from_camera.matrix(), b.cameras[i].world_from_camera.matrix());
 }
@@ -160,8 +152,7 @@ TEST(Bundle, ACameraNeedNotShareAnythingWithTheFirst) {
     chain.push_back(observation);
   }
   rig.observations = chain;
-  Reconstruction solution =
-      solve(rig.withoutPoses(), rig.observations, rig.points.size(), Options());
+  Reconstruction solution = solve(rig.observed(), Options());
   align(rig, &solution);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     EXPECT_LT((solution.cameras[i].center() - rig.cameras[i].center()).norm(), 0.02);
@@ -219,32 +210,34 @@ TEST(Bundle, HeldCamerasStayAndPointsAreFound) {
 
 TEST(Bundle, RefusesWhatCannotBeSolved) {
   const SyntheticRig rig(3, 60, 10);
-  EXPECT_NE(refusal({rig.cameras[0]}, {}, 0).find("two cameras or more"), std::string::npos);
+  EXPECT_NE(refusal({{rig.cameras[0]}, {}, {}, {}}).find("two cameras or more"), std::string::npos);
 
-  std::vector<Observation> bad = rig.observations;
-  bad[4].pixel.x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_NE(refusal(rig.cameras, bad, 60).find("observation 4 is not finite"), std::string::npos);
-  bad = rig.observations;
-  bad[5].camera = 3;
-  EXPECT_NE(refusal(rig.cameras, bad, 60).find("observation 5 names camera 3"), std::string::npos);
-  EXPECT_NE(refusal(rig.cameras, rig.observations, 59).find("names point 59"), std::string::npos);
+  Reconstruction bad = rig.observed();
+  bad.observations[4].pixel.x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_NE(refusal(bad).find("observation 4 is not finite"), std::string::npos);
+  bad = rig.observed();
+  bad.observations[5].camera = 3;
+  EXPECT_NE(refusal(bad).find("observation 5 names camera 3"), std::string::npos);
+  bad = rig.observed();
+  bad.points.resize(59);
+  EXPECT_NE(refusal(bad).find("names point 59"), std::string::npos);
 }
 
 TEST(Bundle, RefusesTooFewPoints) {
   const SyntheticRig rig(3, 7, 11);
-  EXPECT_NE(refusal(rig.withoutPoses(), rig.observations, 7).find("10 or more points in common"),
-            std::string::npos);
+  EXPECT_NE(refusal(rig.observed()).find("10 or more points in common"), std::string::npos);
 }
 
 TEST(Bundle, RefusesACameraWithoutCommonPointsAndNamesIt) {
   const SyntheticRig rig(4, 200, 12);
-  std::vector<Observation> split;
+  Reconstruction split = rig.observed();
+  split.observations.clear();
   for (const Observation& observation : rig.observations) {
     // camera_3 sees only points that nobody else sees
     if ((observation.camera == 2) == (observation.point >= 150))
-      split.push_back(observation);
+      split.observations.push_back(observation);
   }
-  const std::string text = refusal(rig.withoutPoses(), split, 200);
+  const std::string text = refusal(split);
   EXPECT_NE(text.find("camera_3 shares 0 points"), std::string::npos) << text;
 }
 
@@ -255,7 +248,7 @@ TEST(Bundle, RefusesPointsOnALine) {
     rig.points[i] = Eigen::Vector3d(-1.0, -0.5, 0.4) + s * Eigen::Vector3d(2.0, 1.0, 1.0);
   }
   rig.observe();
-  const std::string text = refusal(rig.withoutPoses(), rig.observations, 80);
+  const std::string text = refusal(rig.observed());
   EXPECT_NE(text.find("spread over the room"), std::string::npos) << text;
 }
 
@@ -264,19 +257,19 @@ TEST(Bundle, RefusesCamerasInOnePlace) {
   rig.cameras[1].world_from_camera = rig.cameras[0].world_from_camera;
   rig.cameras[1].world_from_camera.rotate(Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitY()));
   rig.observe();
-  const std::string text = refusal(rig.withoutPoses(), rig.observations, 100);
+  const std::string text = refusal(rig.observed());
   EXPECT_NE(text.find("do not stand in one place"), std::string::npos) << text;
 }
 
 TEST(Bundle, RefusesIntrinsicsThatCannotBe) {
   const SyntheticRig rig(4, 200, 15);
-  std::vector<geometry::Camera> cameras = rig.withoutPoses();
-  cameras[2].intrinsics.fx = -400.0;
-  EXPECT_NE(refusal(cameras, rig.observations, 200).find("camera_3: "), std::string::npos);
+  Reconstruction wrong = rig.observed();
+  wrong.cameras[2].intrinsics.fx = -400.0;
+  EXPECT_NE(refusal(wrong).find("camera_3: "), std::string::npos);
   // In range, but not this camera's: half the focal length.
-  cameras = rig.withoutPoses();
-  cameras[2].intrinsics.fx *= 0.5;
-  EXPECT_NE(refusal(cameras, rig.observations, 200).find("camera_3"), std::string::npos);
+  wrong = rig.observed();
+  wrong.cameras[2].intrinsics.fx *= 0.5;
+  EXPECT_NE(refusal(wrong).find("camera_3"), std::string::npos);
 }
 
 TEST(BundleSimilarity, RecoversAKnownOne) {

@@ -33,7 +33,7 @@ SyntheticRig rigOf(std::size_t camera_count, std::size_t point_count, unsigned s
 }
 
 SelfCalibration solved(const SyntheticRig& rig, const SelfCalibrationOptions& options = {}) {
-  return selfCalibrate(rig.withoutPoses(), rig.observations, rig.points.size(), options);
+  return selfCalibrate(rig.observed(), options);
 }
 
 std::string refusal(const SyntheticRig& rig, const SelfCalibrationOptions& options = {}) {
@@ -288,11 +288,10 @@ TEST(SelfCalibrate, RefusesTooFew) {
 TEST(SelfCalibrate, ReportsItsProgress) {
   const SyntheticRig rig = rigOf(3, 60, 32);
   double last = 0.0;
-  selfCalibrate(rig.withoutPoses(), rig.observations, rig.points.size(), {},
-                [&](const std::string&, double fraction) {
-                  EXPECT_GE(fraction, last);
-                  last = fraction;
-                });
+  selfCalibrate(rig.observed(), {}, [&](const std::string&, double fraction) {
+    EXPECT_GE(fraction, last);
+    last = fraction;
+  });
   EXPECT_GE(last, 0.9);
 }
 

@@ -90,17 +90,6 @@ class PointSolver {
 
 }  // namespace
 
-Reconstruction observedBy(const std::vector<geometry::Camera>& cameras,
-                          const std::vector<Observation>& observations,
-                          std::size_t point_count) {
-  Reconstruction reconstruction;
-  reconstruction.cameras = cameras;
-  reconstruction.points.resize(point_count);
-  reconstruction.observations = observations;
-  reconstruction.inliers.assign(observations.size(), false);
-  return reconstruction;
-}
-
 std::optional<double> reprojectionError(const Reconstruction& reconstruction,
                                         const Observation& observation) {
   const auto& point = reconstruction.points[observation.point];

@@ -292,7 +292,7 @@ SelfCalibration solveOnce(const Reconstruction& all,
   SelfCalibration result;
   bool ambiguous = false;
   if (options.fixed_lenses) {
-    result.reconstruction = solve(all.cameras, all.observations, all.points.size(), options.bundle);
+    result.reconstruction = solve(all, options.bundle);
   } else {
     Search search(all, options, progress);
     result.reconstruction = search.run(&result).reconstruction;
@@ -308,22 +308,19 @@ SelfCalibration solveOnce(const Reconstruction& all,
 
 }  // namespace
 
-SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
-                              const std::vector<Observation>& observations,
-                              std::size_t point_count,
+SelfCalibration selfCalibrate(Reconstruction observed,
                               const SelfCalibrationOptions& options,
                               const ProgressCallback& progress) {
-  Reconstruction all = observedBy(cameras, observations, point_count);
   if (!options.fixed_lenses) {
-    for (geometry::Camera& camera : all.cameras)
+    for (geometry::Camera& camera : observed.cameras)
       camera.intrinsics = guessedLens(camera.intrinsics.width, camera.intrinsics.height, 1.0, 0.0);
   }
-  checkObservations(all, options.bundle);
-  if (isOnALine(all))
+  checkObservations(observed, options.bundle);
+  if (isOnALine(observed))
     throw BundleError("the light moved on a line only: move it through all of the room");
   SelfCalibration result;
   try {
-    result = solveOnce(all, options, progress);
+    result = solveOnce(observed, options, progress);
   } catch (const BundleError& error) {
     // It only matters whether it works: fewer points and starts are enough.
     SelfCalibrationOptions quick = options;
@@ -337,8 +334,8 @@ SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
         return false;
       }
     };
-    throw BundleError(
-        suspicion(thinned(all, kFewPerCamera), options.fixed_lenses, works).value_or(error.what()));
+    throw BundleError(suspicion(thinned(observed, kFewPerCamera), options.fixed_lenses, works)
+                          .value_or(error.what()));
   }
   // Points close to a plane still determine the depth when a lens is known.
   const double kFlat = 0.005;

@@ -47,15 +47,11 @@ void startFromPair(const NormalizedViews& views,
 
 }  // namespace
 
-Reconstruction solve(const std::vector<geometry::Camera>& cameras,
-                     const std::vector<Observation>& observations,
-                     std::size_t point_count,
-                     const Options& options) {
-  Reconstruction reconstruction = observedBy(cameras, observations, point_count);
+Reconstruction solve(Reconstruction reconstruction, const Options& options) {
   checkObservations(reconstruction, options);
 
   const NormalizedViews views = normalize(reconstruction);
-  std::vector<bool> placed(cameras.size(), false);
+  std::vector<bool> placed(reconstruction.cameras.size(), false);
   startFromPair(views, options, &reconstruction, &placed);
   while (true) {
     // A camera that was just placed is off by more than its noise.

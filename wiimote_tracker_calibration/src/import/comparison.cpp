@@ -199,12 +199,11 @@ std::optional<Comparison> compare(const Recording& recording,
     comparePoints(own, shipped.reconstruction, solution.expected_shape_error, &comparison);
     return comparison;
   }
-  std::vector<geometry::Camera> cameras = own.cameras;
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    cameras[i].intrinsics = recording.cameras[i].intrinsics;
-  bundle::Reconstruction shipped;
+  bundle::Reconstruction shipped = own;
+  for (std::size_t i = 0; i < shipped.cameras.size(); ++i)
+    shipped.cameras[i].intrinsics = recording.cameras[i].intrinsics;
   try {
-    shipped = bundle::solve(cameras, own.observations, own.points.size(), options);
+    shipped = bundle::solve(shipped, options);
   } catch (const bundle::BundleError& error) {
     comparison.what = std::string("the shipped intrinsics lead to no solution: ") + error.what();
     return comparison;

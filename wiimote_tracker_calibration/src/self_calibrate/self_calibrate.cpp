@@ -73,7 +73,6 @@ Report solve(const Arguments& arguments) {
   Recording used = recording;
   if (!arguments.intrinsics.empty())
     takeIntrinsics(arguments.intrinsics, &used);
-  const bundle::Reconstruction observed = observedBy(used);
   bundle::SelfCalibrationOptions options;
   options.fixed_lenses = !arguments.intrinsics.empty();
   options.bundle.one_lens = arguments.one_lens;
@@ -81,8 +80,7 @@ Report solve(const Arguments& arguments) {
   report.source = arguments.source;
   report.frames = used.frames.size();
   report.lenses_given = options.fixed_lenses;
-  report.solution = bundle::selfCalibrate(observed.cameras, observed.observations, report.frames,
-                                          options, ProgressLine());
+  report.solution = bundle::selfCalibrate(observedBy(used), options, ProgressLine());
   report.comparison = compare(recording, report.solution, options.bundle);
   return report;
 }

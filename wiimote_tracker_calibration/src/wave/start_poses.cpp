@@ -250,7 +250,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
       result.z_up = solution.z_up;
       placeRest(tolerance, &wave, &placed);
     } else {
-      wave = bundle::solve(wave.cameras, wave.observations, wave.points.size(), tolerance);
+      wave = bundle::solve(wave, tolerance);
       if (recording.square)
         moveOnSquare(recording, tolerance, &wave, &result);
     }

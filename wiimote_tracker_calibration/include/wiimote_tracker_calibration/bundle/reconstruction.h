@@ -26,11 +26,6 @@ struct Reconstruction {
   std::vector<bool> inliers;  ///< For each observation.
 };
 
-/// Points that are not determined, and no inliers yet.
-Reconstruction observedBy(const std::vector<geometry::Camera>& cameras,
-                          const std::vector<Observation>& observations,
-                          std::size_t point_count);
-
 /// Distance from the projected point to the observed pixel [px]. Nothing when the point is not
 /// determined or not in front of the camera.
 std::optional<double> reprojectionError(const Reconstruction& reconstruction,

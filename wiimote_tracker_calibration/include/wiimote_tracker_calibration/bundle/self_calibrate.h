@@ -49,9 +49,9 @@ struct SelfCalibration {
 /// Called during the work with the present step and the progress, 0 to 1.
 using ProgressCallback = std::function<void(const std::string& step, double fraction)>;
 
-/// Estimates cameras, lenses and points from the observations alone. Of `cameras` it uses names and
-/// image sizes, and the intrinsics if these are given. The result is determined up to a similarity,
-/// as that of solve(), and up to a reflection.
+/// Estimates cameras, lenses and points from the observations alone. Of the cameras in `observed`
+/// it uses names and image sizes, and the intrinsics if these are given; of the points their
+/// number. The result is determined up to a similarity, as that of solve(), and up to a reflection.
 ///
 /// With given intrinsics: solve(). Otherwise it tries many starts with some of the points: pairs of
 /// cameras whose views no plane explains, with each focal length and distortion (essential matrix);
@@ -63,9 +63,7 @@ using ProgressCallback = std::function<void(const std::string& step, double frac
 /// @throws BundleError as solve(), and: one camera's image is mirrored; the given intrinsics of two
 /// cameras are exchanged; the light moved on a line or in a plane only, or all cameras stand in one
 /// place; no solution fits.
-SelfCalibration selfCalibrate(const std::vector<geometry::Camera>& cameras,
-                              const std::vector<Observation>& observations,
-                              std::size_t point_count,
+SelfCalibration selfCalibrate(Reconstruction observed,
                               const SelfCalibrationOptions& options,
                               const ProgressCallback& progress = nullptr);
 

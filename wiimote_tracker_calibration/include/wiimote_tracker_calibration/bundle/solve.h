@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 namespace wiimote_tracker::bundle {
 
@@ -39,19 +38,15 @@ struct Held {
   bool points = false;
 };
 
-/// Estimates the poses of the cameras and the points, with the intrinsics given; the poses in
-/// `cameras` are ignored. The result is determined up to a similarity: the world is the frame of
-/// the first camera of the start pair, whose baseline has length 1. Starts from the pair of cameras
-/// with the most parallax (essential matrix, Nister 2004), adds the others one by one by resection,
-/// and calls adjust().
-/// @param point_count observations name points 0 .. point_count - 1.
+/// Estimates the poses of the cameras and the points, with the intrinsics given; poses, points and
+/// inliers in `observed` are ignored, but not how many points there are. The result is determined
+/// up to a similarity: the world is the frame of the first camera of the start pair, whose baseline
+/// has length 1. Starts from the pair of cameras with the most parallax (essential matrix, Nister
+/// 2004), adds the others one by one by resection, and calls adjust().
 /// @throws BundleError: fewer than two cameras, an observation that is not finite or names no
 /// camera or point, intrinsics out of range, a camera that shares too few points with the others or
 /// only points on one line, a camera most of whose observations do not fit.
-Reconstruction solve(const std::vector<geometry::Camera>& cameras,
-                     const std::vector<Observation>& observations,
-                     std::size_t point_count,
-                     const Options& options);
+Reconstruction solve(Reconstruction observed, const Options& options);
 
 /// Bundle adjustment: minimises the reprojection errors of the inliers (Huber loss) over cameras
 /// and points except what is held, and selects the inliers again until they no longer change. If no

@@ -13,10 +13,7 @@ bool knownCameras(session::Session session,
                   std::vector<geometry::Camera>* cameras) {
   for (wave::CameraRecording& recording : session.recording.cameras) {
     recording.frames.clear();
-    geometry::Camera camera;
-    camera.name = recording.sightings.name;
-    camera.intrinsics = recording.sightings.intrinsics;
-    cameras->push_back(camera);
+    cameras->push_back(recording.sightings.camera());
   }
   session.recording.wand.reset();
   if (!session.recording.square)

@@ -99,14 +99,12 @@ void addGravity(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
   add(as_is, all,
       [seen = as_is.recording.cameras[i].sightings](const Attempt& attempt) {
         const geometry::RigCamera* camera = attempt.rig.find(seen.name);
-        const Eigen::Vector3d up(0.0, 0.0, attempt.z_up ? 1.0 : -1.0);
-        const Eigen::Vector3d measured =
-            camera ? camera->camera.world_from_camera.linear() * seen.gravity->normalized() : up;
+        const auto tilt =
+            camera ? seen.tilt(camera->camera.world_from_camera, attempt.z_up) : std::nullopt;
         return format(
             "the accelerometer of %s contradicts all images by %.0f degrees: its axes or its "
             "image are turned; correct that, or do not use gravity",
-            seen.name.c_str(),
-            std::atan2(up.cross(measured).norm(), up.dot(measured)) * 180.0 / M_PI);
+            seen.name.c_str(), tilt.value_or(0.0) * 180.0 / M_PI);
       })
       .recording.cameras[i]
       .sightings.gravity.reset();

@@ -175,14 +175,8 @@ RigModel RigModel::only(std::size_t camera) const {
 RigState RigModel::start(const std::vector<Eigen::Isometry3d>& world_from_camera) const {
   RigState state;
   state.corners = nominal_corners_;
-  for (std::size_t i = 0; i < sightings_.size(); ++i) {
-    geometry::Camera camera;
-    camera.name = sightings_[i].name;
-    camera.identity = sightings_[i].identity;
-    camera.intrinsics = sightings_[i].intrinsics;
-    camera.world_from_camera = world_from_camera[i];
-    state.cameras.push_back(camera);
-  }
+  for (std::size_t i = 0; i < sightings_.size(); ++i)
+    state.cameras.push_back(sightings_[i].camera(world_from_camera[i]));
   return state;
 }
 
@@ -264,16 +258,6 @@ double RigModel::reprojectionError(const RigState& state, std::size_t camera) co
 double RigModel::lensDeviation(const RigState& state, std::size_t camera) const {
   return lensPrior(sightings_[camera].intrinsics, uncertainty_)
       .deviation(state.cameras[camera].intrinsics);
-}
-
-std::optional<double> RigModel::tiltAgainstGravity(const RigState& state,
-                                                   std::size_t camera) const {
-  const std::optional<Eigen::Vector3d>& gravity = sightings_[camera].gravity;
-  if (!gravity)
-    return std::nullopt;
-  const Eigen::Vector3d measured =
-      state.cameras[camera].world_from_camera.linear() * gravity->normalized();
-  return std::atan2(up().cross(measured).norm(), up().dot(measured));
 }
 
 }  // namespace wiimote_tracker::square

@@ -111,9 +111,12 @@ bool isAbsurd(const RigModel& model, const RigState& state) {
   return false;
 }
 
-void checkGravity(const RigModel& model, const RigState& state, const Uncertainty& uncertainty) {
+void checkGravity(const RigModel& model,
+                  const RigState& state,
+                  bool z_up,
+                  const Uncertainty& uncertainty) {
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
-    const std::optional<double> tilt = model.tiltAgainstGravity(state, i);
+    const auto tilt = model.sightings()[i].tilt(state.cameras[i].world_from_camera, z_up);
     if (tilt && *tilt > kGravityLimit * uncertainty.gravity)
       throw SquareContradiction(
           "the floor as " + model.sightings()[i].name + " sees it is tilted by " +
@@ -195,7 +198,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   const BranchChoice choice = chooseBranches(model, branches, options.branch_odds);
   solution.branches = branches;
   solution.chosen = choice.chosen;
-  checkGravity(model, choice.state, options.uncertainty);
+  checkGravity(model, choice.state, usable.z_up, options.uncertainty);
   if (!isAbsurd(model, choice.state))
     solution.suspect =
         suspectCorner(model.cornerEstimates(choice.state), options.uncertainty.placement);

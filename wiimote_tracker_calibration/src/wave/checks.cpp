@@ -216,18 +216,15 @@ void checkGravityAndClock(const Recording& recording,
                           std::size_t i) {
   const geometry::RigCamera& camera = solution.rig.cameras[i];
   const std::string& name = camera.camera.name;
-  if (camera.gravity &&
-      (recording.square || isOnFloor(recording) || recording.cameras.front().sightings.gravity)) {
-    const Eigen::Vector3d up(0.0, 0.0, solution.z_up ? 1.0 : -1.0);
-    const Eigen::Vector3d measured =
-        camera.camera.world_from_camera.linear() * camera.gravity->normalized();
-    const double tilt = std::atan2(up.cross(measured).norm(), up.dot(measured));
-    if (tilt > kGravityLimit * options.uncertainty.gravity)
-      throw WaveContradiction("the world as " + name + " sees it is tilted by " +
-                              format("%.0f degrees", tilt * 180.0 / M_PI) +
-                              " against its accelerometer: its image is mirrored or turned, it was "
-                              "moved, or the floor is not level");
-  }
+  const auto tilt =
+      recording.cameras[i].sightings.tilt(camera.camera.world_from_camera, solution.z_up);
+  const bool is_level =
+      recording.square || isOnFloor(recording) || recording.cameras.front().sightings.gravity;
+  if (is_level && tilt && *tilt > kGravityLimit * options.uncertainty.gravity)
+    throw WaveContradiction("the world as " + name + " sees it is tilted by " +
+                            format("%.0f degrees", *tilt * 180.0 / M_PI) +
+                            " against its accelerometer: its image is mirrored or turned, it was "
+                            "moved, or the floor is not level");
   const double stddev = offsetStddev(solution.rig, i);
   if (stddev > options.maximum_offset_stddev)
     throw WaveError("the clock of " + name + " is known to " + format("%.2f ms", 1e3 * stddev) +

@@ -126,11 +126,6 @@ void refuseStrangers(const Recording& recording,
   }
 }
 
-bool sawAllCorners(const square::CameraSightings& sightings) {
-  return std::all_of(sightings.corners.begin(), sightings.corners.end(),
-                     [](const auto& corner) { return corner.has_value(); });
-}
-
 /// Words a refusal of the reconstruction for a wave.
 [[noreturn]] void refuse(const bundle::BundleError& error) {
   throw WaveContradiction(std::string("the wave does not tell where the cameras stand: ") +
@@ -221,13 +216,10 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
   std::vector<bool> placed(recording.cameras.size(), false);
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const square::CameraSightings& camera = recording.cameras[i].sightings;
-    placed[i] = recording.square && sawAllCorners(camera);
+    placed[i] = recording.square && camera.cornersSeen() == 4;
     if (placed[i])
       sightings.push_back(camera);
-    wave.cameras.emplace_back();
-    wave.cameras.back().name = camera.name;
-    wave.cameras.back().identity = camera.identity;
-    wave.cameras.back().intrinsics = camera.intrinsics;
+    wave.cameras.push_back(camera.camera());
   }
   if (sightings.size() < 2)
     placed.assign(recording.cameras.size(), false);

@@ -41,9 +41,7 @@ std::optional<WaveRecorder> waveOf(const wave::Recording& recording,
   std::vector<geometry::Camera> cameras;
   double first = std::numeric_limits<double>::infinity();
   for (const wave::CameraRecording& camera : recording.cameras) {
-    cameras.emplace_back();
-    cameras.back().name = camera.sightings.name;
-    cameras.back().intrinsics = camera.sightings.intrinsics;
+    cameras.push_back(camera.sightings.camera());
     if (!camera.frames.empty())
       first = std::min(first, camera.frames.front().stamp);
   }

@@ -97,9 +97,6 @@ class RigModel {
   /// them together (root of the sum of squares).
   double lensDeviation(const RigState& state, std::size_t camera) const;
 
-  /// Angle between the floor's up and the accelerometer's [rad]; nothing without accelerometer.
-  std::optional<double> tiltAgainstGravity(const RigState& state, std::size_t camera) const;
-
  private:
   class Problem;
 

@@ -3,10 +3,11 @@
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -26,6 +27,22 @@ struct CameraSightings {
   /// How many of the corners, and of the known places, it saw.
   std::size_t cornersSeen() const { return seen(corners); }
   std::size_t placesSeen() const { return seen(places); }
+
+  /// The camera with its starting values at some pose.
+  geometry::Camera camera(
+      const Eigen::Isometry3d& world_from_camera = Eigen::Isometry3d::Identity()) const {
+    return {name, identity, intrinsics, world_from_camera};
+  }
+
+  /// Angle between the up of a world and the accelerometer's with the camera at some pose [rad];
+  /// nothing without accelerometer.
+  std::optional<double> tilt(const Eigen::Isometry3d& world_from_camera, bool z_up) const {
+    if (!gravity)
+      return std::nullopt;
+    const Eigen::Vector3d up(0.0, 0.0, z_up ? 1.0 : -1.0);
+    const Eigen::Vector3d measured = world_from_camera.linear() * gravity->normalized();
+    return std::atan2(up.cross(measured).norm(), up.dot(measured));
+  }
 
  private:
   template <typename Pixels>

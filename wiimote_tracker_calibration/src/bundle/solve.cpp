@@ -64,7 +64,8 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
     adjust(&reconstruction, now, Held());
     if (all_placed)
       break;
-    placeNext(views, options, &reconstruction, &placed);
+    const std::size_t next = nextToPlace(views, options, reconstruction, placed);
+    place(views, options, next, &reconstruction, &placed);
   }
   refuseUnexplained(reconstruction, options);
   return reconstruction;

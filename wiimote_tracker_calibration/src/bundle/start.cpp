@@ -220,12 +220,4 @@ std::size_t place(const NormalizedViews& views,
   return inliers.size();
 }
 
-void placeNext(const NormalizedViews& views,
-               const Options& options,
-               Reconstruction* reconstruction,
-               std::vector<bool>* placed) {
-  place(views, options, nextToPlace(views, options, *reconstruction, *placed), reconstruction,
-        placed);
-}
-
 }  // namespace wiimote_tracker::bundle

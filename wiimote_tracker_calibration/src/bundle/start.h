@@ -71,12 +71,6 @@ std::size_t place(const NormalizedViews& views,
                   Reconstruction* reconstruction,
                   std::vector<bool>* placed);
 
-/// Calls place() for nextToPlace(). @throws BundleError as both do.
-void placeNext(const NormalizedViews& views,
-               const Options& options,
-               Reconstruction* reconstruction,
-               std::vector<bool>* placed);
-
 }  // namespace wiimote_tracker::bundle
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_START_H

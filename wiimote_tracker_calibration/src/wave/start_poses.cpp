@@ -140,7 +140,8 @@ void placeRest(const bundle::Options& options,
   while (std::find(placed->begin(), placed->end(), false) != placed->end()) {
     bundle::triangulatePoints(reconstruction, *placed, options.maximum_error,
                               options.minimum_angle);
-    bundle::placeNext(views, options, reconstruction, placed);
+    const std::size_t next = bundle::nextToPlace(views, options, *reconstruction, *placed);
+    bundle::place(views, options, next, reconstruction, placed);
   }
 }
 

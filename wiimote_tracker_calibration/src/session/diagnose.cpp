@@ -92,7 +92,7 @@ class Diagnosis {
   std::optional<Attempt> solve(const wave::Recording& recording,
                                const square::Uncertainty& uncertainty) {
     if (progress_ && !progress_({"looking for the mistake", 1.0}))
-      throw wave::Cancelled("the calibration was cancelled: nothing was changed");
+      throw wave::Cancelled();
     try {
       if (recording.hasFrames()) {
         wave::WaveOptions options = options_.wave;

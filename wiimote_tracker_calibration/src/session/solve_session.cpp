@@ -14,8 +14,6 @@ namespace wiimote_tracker::session {
 
 namespace {
 
-constexpr const char* kCancelled = "the calibration was cancelled: nothing was changed";
-
 /// A rig and the other results of its solver.
 struct Solved {
   geometry::Rig rig;
@@ -58,7 +56,7 @@ Solved solveFromSquare(const square::SquareLayout& layout,
                        const SolveOptions& options,
                        const wave::ProgressCallback& progress) {
   if (progress && !progress({"solving the square", 0.0}))
-    throw wave::Cancelled(kCancelled);
+    throw wave::Cancelled();
   const bool exact =
       options.square.method == square::Method::kPerCamera || options.correct_principal_points;
   if (exact && !(layout.lengths.empty() && layout.places.empty()))
@@ -92,7 +90,7 @@ Solved solveFromSquare(const square::SquareLayout& layout,
                          static_cast<double>(rounds) / std::max(1, correction.rounds)});
       });
   if (result.outcome == principal_point::Outcome::kCancelled)
-    throw wave::Cancelled(kCancelled);
+    throw wave::Cancelled();
   solved.rig = result.rig;
   solved.findings.z_up = result.z_up;
   solved.findings.doubts = hasDoubts(result.warnings, result.z_up);

@@ -98,7 +98,7 @@ class WaveProblem {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
     if (summary.termination_type == ceres::USER_FAILURE)
-      throw Cancelled("the calibration was cancelled: nothing was changed");
+      throw Cancelled();
     if (!summary.IsSolutionUsable())
       throw WaveContradiction(
           "the LED would be behind the cameras in the solution: check that nobody moved a camera, "

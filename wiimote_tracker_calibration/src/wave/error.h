@@ -23,7 +23,7 @@ struct WandMislaid : WaveError {
 
 /// The progress callback asked to stop.
 struct Cancelled : WaveError {
-  using WaveError::WaveError;
+  Cancelled() : WaveError("the calibration was cancelled: nothing was changed") {}
 };
 
 }  // namespace wiimote_tracker::wave

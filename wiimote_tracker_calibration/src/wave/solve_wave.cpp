@@ -67,7 +67,7 @@ class Reporter {
   /// @throws Cancelled.
   void report(const char* step, double fraction) {
     if (!keepGoing(step, fraction))
-      throw Cancelled("the calibration was cancelled: nothing was changed");
+      throw Cancelled();
   }
 
  private:

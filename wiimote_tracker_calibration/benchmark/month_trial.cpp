@@ -102,7 +102,7 @@ void Month::add(const capture::Image& image, MonthFigures* figures) {
   stepped.stamp += clock_step_;
   stepped.clock_epoch = epochs_[camera];
   stepped.identity = rig_.cameras[camera].camera.identity;
-  health_.addImage(stepped, stepped.identity);
+  health_.addImage(stepped);
 
   tracking::CameraImage seen;
   seen.stamp = stepped.stamp;

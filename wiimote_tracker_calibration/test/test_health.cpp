@@ -300,11 +300,12 @@ TEST(DriftWatch, StartsAnewWhenTheClockIsSetBack) {
 void track(WavedLed* scene, double from, double until, HealthWatch* watch, Random* random) {
   const std::vector<geometry::RigCamera>& truth = scene->truth;
   double next = from;
-  scene->runUntil(until, [&](const capture::Image& image) {
+  scene->runUntil(until, [&](capture::Image image) {
     for (const geometry::RigCamera& camera : truth) {
       if (camera.camera.name == image.camera)
-        watch->addImage(image, camera.camera.identity);
+        image.identity = camera.camera.identity;
     }
+    watch->addImage(image);
     for (; next < image.stamp - WavedLed::kClock; next += 0.05) {
       for (const geometry::RigCamera& camera : truth) {
         const Eigen::Vector3d up = camera.camera.world_from_camera.linear().row(2);
@@ -350,18 +351,22 @@ TEST(HealthWatch, NoticesAnotherDevice) {
   HealthWatch watch(rig, {});
   capture::Image image;
   image.camera = "camera_2";
-  watch.addImage(image, "");
+  const auto addFrom = [&](const char* device) {
+    image.identity = device;
+    watch.addImage(image);
+  };
+  addFrom("");
   EXPECT_TRUE(watch.takeNews().empty());
-  watch.addImage(image, "00:1e:35:ff:ff:ff");
-  watch.addImage(image, "00:1e:35:ff:ff:ff");
+  addFrom("00:1e:35:ff:ff:ff");
+  addFrom("00:1e:35:ff:ff:ff");
   const auto news = watch.takeNews();
   ASSERT_EQ(news.size(), 1u);
   EXPECT_SAYS(news.front(), "camera_2 is another device (00:1e:35:ff:ff:ff)");
-  watch.addImage(image, "00:1e:35:00:00:02");
+  addFrom("00:1e:35:00:00:02");
   EXPECT_EQ(watch.cameras().at("camera_2").text, "");
   // Cameras that are not in the rig are nobody's concern.
   image.camera = "elsewhere";
-  watch.addImage(image, "x");
+  addFrom("x");
   watch.addAcceleration("elsewhere", 0.0, {0.0, 0.0, 9.81});
   EXPECT_EQ(watch.cameras().size(), 4u);
 }

@@ -43,14 +43,14 @@ HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
   }
 }
 
-void HealthWatch::addImage(const capture::Image& image, const std::string& identity) {
+void HealthWatch::addImage(const capture::Image& image) {
   const auto found = cameras_.find(image.camera);
   if (found == cameras_.end())
     return;
   Camera& camera = found->second;
-  const bool other = !identity.empty() && !camera.calibrated_identity.empty() &&
-                     identity != camera.calibrated_identity;
-  const std::string other_device = other ? identity : "";
+  const bool other = !image.identity.empty() && !camera.calibrated_identity.empty() &&
+                     image.identity != camera.calibrated_identity;
+  const std::string other_device = other ? image.identity : "";
   if (other_device != camera.other_device) {
     camera.other_device = other_device;
     describe(image.camera);

@@ -34,8 +34,8 @@ class HealthWatch {
  public:
   HealthWatch(const geometry::Rig& rig, const HealthOptions& options);
 
-  /// One image of any camera, and the device it is from (empty: unknown).
-  void addImage(const capture::Image& image, const std::string& identity);
+  /// One image of any camera.
+  void addImage(const capture::Image& image);
 
   /// A reading of a camera's accelerometer at rest, optical frame [m/s^2].
   void addAcceleration(const std::string& camera,

@@ -23,7 +23,7 @@ class HealthMonitor {
   explicit HealthMonitor(NodeContext* context) : context_(*context) {
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
       if (watch_)
-        watch_->addImage(image, context_.inputs().cameras().at(image.camera).identity);
+        watch_->addImage(image);
     });
     context_.inputs().subscribeGravity([this](const std::string& camera, double stamp,
                                               const Eigen::Vector3d& specific_force, const Lock&) {

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
 #define WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
 
-#include <Eigen/Core>
+#include "wiimote_tracker_calibration/remap/fit.h"
 
 #include <cstddef>
 #include <string>
@@ -9,13 +9,8 @@
 
 namespace wiimote_tracker::place {
 
-/// A known place, and where a rig measured it without correction of the volume.
-struct KnownPlace {
-  Eigen::Vector3d known;     ///< World [m].
-  Eigen::Vector3d measured;  ///< World [m].
-};
-
-/// The places to fit a correction of the volume to. All are measured with one calibration.
+/// The places to fit a correction of the volume to. All are measured with one calibration, without
+/// the present correction.
 class KnownPlaces {
  public:
   /// Sets the calibration in use (geometry::Rig::id()). @returns how many places of another one
@@ -29,7 +24,7 @@ class KnownPlaces {
     return dropped;
   }
 
-  void add(const KnownPlace& place) { places_.push_back(place); }
+  void add(const remap::KnownPoint& place) { places_.push_back(place); }
 
   /// Drops the latest. @returns false when there is none.
   bool undo() {
@@ -41,12 +36,11 @@ class KnownPlaces {
 
   void clear() { places_.clear(); }
 
-  const std::vector<KnownPlace>& places() const { return places_; }
-  const std::string& rigId() const { return rig_id_; }
+  const std::vector<remap::KnownPoint>& places() const { return places_; }
 
  private:
   std::string rig_id_;
-  std::vector<KnownPlace> places_;
+  std::vector<remap::KnownPoint> places_;
 };
 
 }  // namespace wiimote_tracker::place

@@ -157,7 +157,7 @@ class FileServices {
     place::KnownPlaces& known = context_.knownPlaces(lock);
     known.useRig(rig_id);
     std::vector<session::CommonPlace> places;
-    for (const place::KnownPlace& place : known.places())
+    for (const remap::KnownPoint& place : known.places())
       places.push_back({place.known, place.measured,
                         context_.parameters(lock).solve.square.uncertainty.placement});
     return places;

@@ -138,7 +138,7 @@ class PlaceServices {
           throw Refusal(place::checkPlace(place, known, 0.0).message);
         context_.requireSameRig(rig.id(), lock);
         // Without the present correction: the one that is fitted will replace it.
-        places.add({known, place.position});
+        places.add({place.position, known});
         response->measured = pointOf(place.position);
         return Reply{true, "place " + std::to_string(places.places().size()) + " measured at " +
                                metres(place.position)};
@@ -177,9 +177,7 @@ class PlaceServices {
     const std::string dropped = dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
       const std::string rig_id = context_.existingRig("to correct", lock).id();
-      std::vector<remap::KnownPoint> points;
-      for (const place::KnownPlace& place : context_.knownPlaces(lock).places())
-        points.push_back({place.measured, place.known});
+      const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).places();
       const remap::FitResult result = context_.compute(
           &lock, [&] { return remap::fitRemap(points, rig_id, fitOptions(request.models)); });
       context_.requireSameRig(rig_id, lock);

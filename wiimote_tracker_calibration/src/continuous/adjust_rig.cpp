@@ -74,15 +74,10 @@ geometry::Rig priorOf(const geometry::Rig& rig,
 
 /// Whether there are enough, and they do not lie together.
 bool areSpread(const std::vector<Keyframe>& keyframes) {
-  if (keyframes.size() < kLeastKeyframes)
-    return false;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  std::vector<Eigen::Vector3d> points;
   for (const Keyframe& keyframe : keyframes)
-    mean += keyframe.point / static_cast<double>(keyframes.size());
-  double squared = 0.0;
-  for (const Keyframe& keyframe : keyframes)
-    squared += (keyframe.point - mean).squaredNorm();
-  return squared > kLeastExtent * kLeastExtent * static_cast<double>(keyframes.size());
+    points.push_back(keyframe.point);
+  return points.size() >= kLeastKeyframes && geometry::spreadOf(points).norm() > kLeastExtent;
 }
 
 /// The keyframes and the prior around the present values of the cameras' blocks.

@@ -4,6 +4,8 @@
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/import/pinhole.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+
 #include <Eigen/Dense>
 
 #include <algorithm>
@@ -31,12 +33,10 @@ Eigen::Matrix4d normalizing(const Points& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points)
     mean += point / static_cast<double>(points.size());
-  double squares = 0.0;
-  for (const Eigen::Vector3d& point : points)
-    squares += (point - mean).squaredNorm() / static_cast<double>(points.size());
+  const double scale = std::sqrt(3.0) / geometry::spreadOf(points).norm();
   Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  matrix.topLeftCorner<3, 3>() *= std::sqrt(3.0 / squares);
-  matrix.topRightCorner<3, 1>() = -std::sqrt(3.0 / squares) * mean;
+  matrix.topLeftCorner<3, 3>() *= scale;
+  matrix.topRightCorner<3, 1>() = -scale * mean;
   return matrix;
 }
 
@@ -112,10 +112,7 @@ void comparePoints(const bundle::Reconstruction& own,
   };
   comparison->similar = distancesBetween(aligned(from, to, bundle::fitSimilarity, move), to);
   comparison->projective = distancesBetween(aligned(from, to, fitProjective, project), to);
-  const Points mean(to.size(),
-                    std::accumulate(to.begin(), to.end(), Eigen::Vector3d(0.0, 0.0, 0.0)) /
-                        static_cast<double>(to.size()));
-  comparison->extent = distancesBetween(mean, to).rms;
+  comparison->extent = geometry::spreadOf(to).norm();
   if (expected)
     comparison->expected = *expected * bundle::fitSimilarity(from, to).scale;
 }

@@ -1,8 +1,9 @@
 #include "view_geometry.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <opencv2/calib3d.hpp>
 
 #include <algorithm>
@@ -33,15 +34,11 @@ double area(const std::array<Eigen::Vector2d, 4>& corners) {
 /// Whether the points lie nearly in a line: their smaller principal spread is below 2 % of the
 /// larger one.
 bool areInLine(const std::vector<cv::Point2d>& points) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  std::vector<Eigen::Vector3d> in_plane;
   for (const cv::Point2d& p : points)
-    mean += Eigen::Vector2d(p.x, p.y) / static_cast<double>(points.size());
-  Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
-  for (const cv::Point2d& p : points) {
-    const Eigen::Vector2d d = Eigen::Vector2d(p.x, p.y) - mean;
-    spread += d * d.transpose();
-  }
-  return spread.determinant() < 4e-4 * std::pow(spread.trace(), 2);
+    in_plane.emplace_back(p.x, p.y, 0.0);
+  const Eigen::Vector3d spread = geometry::spreadOf(in_plane);
+  return spread[1] < 0.02 * spread[0];
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include "misled_trial.h"
 #include "waved_led.h"
 
+#include "continuous/adjust_rig.h"
 #include "continuous/continuous_calibration.h"
 #include "continuous/keyframes.h"
 #include "continuous/motion_window.h"
@@ -165,7 +166,7 @@ TEST(Continuous, ACameraWithoutATimeOffsetHasNotReconnected) {
     EXPECT_FALSE(watch.add(image));
     images.push_back(image);
   });
-  const auto adjusted = adjustRig(rig, images, {});
+  const auto adjusted = adjustRig(rig, images);
   ASSERT_TRUE(adjusted);
   for (const geometry::RigCamera& camera : adjusted->cameras) {
     EXPECT_EQ(camera.time_offset_rule, geometry::TimeOffsetRule::kNone);

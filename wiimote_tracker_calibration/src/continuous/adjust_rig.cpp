@@ -46,12 +46,33 @@ constexpr Eigen::Index kPose = 6;     // Parameters of a pose: rotation, positio
 // Least variance of a parameter: one that was held has none.
 constexpr double kHeldVariance = 1e-12;
 
+// How far a camera may have turned since the rig was solved, standard deviation per axis: at once,
+// with time, at most. It moves by the lever times the angle.
+constexpr double kLeastTurn = 0.0001;        // [rad]
+constexpr double kTurnRate = 0.0005 / 3600;  // [rad/s]
+constexpr double kMostTurn = 0.002;          // [rad]
+constexpr double kLever = 0.1;               // [m]
+
+// Error of the stamps that changes slowly, and of the time offset in a new epoch, around 0 [s].
+constexpr double kOffsetStddev = 0.0001;
+constexpr double kNewOffsetStddev = 0.02;
+
+/// The rig with its covariance widened by turns of the cameras [rad], standard deviation per axis.
+geometry::Rig withTurns(geometry::Rig rig, double turn) {
+  if (!geometry::hasCovariance(rig))
+    return rig;
+  const double move = kLever * turn;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    auto variance = rig.covariance.diagonal().segment<kParameters>(firstParameter(i));
+    variance.segment<3>(kRotation).array() += turn * turn;
+    variance.segment<3>(kPosition).array() += move * move;
+  }
+  return rig;
+}
+
 /// The rig with the drift since, and the clocks' latest epochs.
-geometry::Rig priorOf(const geometry::Rig& rig,
-                      const KeyframeSource& source,
-                      double time,
-                      const AdjustOptions& options) {
-  geometry::Rig prior = withDrift(rig, time, options);
+geometry::Rig priorOf(const geometry::Rig& rig, const KeyframeSource& source, double time) {
+  geometry::Rig prior = withDrift(rig, time);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     geometry::RigCamera& camera = prior.cameras[i];
     const Eigen::Index first = firstParameter(i);
@@ -65,7 +86,7 @@ geometry::Rig priorOf(const geometry::Rig& rig,
       prior.covariance.row(clock).setZero();
       prior.covariance.col(clock).setZero();
     }
-    const double offset = known ? options.offset_stddev : options.new_offset_stddev;
+    const double offset = known ? kOffsetStddev : kNewOffsetStddev;
     prior.covariance(clock, clock) += offset * offset;
     prior.covariance.diagonal().segment<kTimeOffset>(first).array() += kHeldVariance;
   }
@@ -205,26 +226,12 @@ class Adjustment {
 
 }  // namespace
 
-geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& options) {
-  if (!geometry::hasCovariance(rig))
-    return rig;
-  const double turn = std::min(
-      options.least_turn + options.turn_rate * std::abs(time - rig.solved_at), options.most_turn);
-  const double move = options.lever * turn;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    auto variance = rig.covariance.diagonal().segment<kParameters>(firstParameter(i));
-    variance.segment<3>(kRotation).array() += turn * turn;
-    variance.segment<3>(kPosition).array() += move * move;
-  }
-  return rig;
+geometry::Rig withDrift(geometry::Rig rig, double time) {
+  const double age = std::abs(time - rig.solved_at);
+  return withTurns(std::move(rig), std::min(kLeastTurn + kTurnRate * age, kMostTurn));
 }
-
-bool isWithinDrift(const geometry::Rig& rig,
-                   const geometry::Rig& adjusted,
-                   const AdjustOptions& options) {
-  AdjustOptions most = options;
-  most.least_turn = options.most_turn;
-  const Eigen::MatrixXd all = withDrift(rig, rig.solved_at, most).covariance;
+bool isWithinDrift(const geometry::Rig& rig, const geometry::Rig& adjusted) {
+  const Eigen::MatrixXd all = withTurns(rig, kMostTurn).covariance;
   const auto cameras = static_cast<Eigen::Index>(rig.cameras.size());
   Eigen::VectorXd change(kPose * cameras);
   Eigen::MatrixXd covariance(kPose * cameras, kPose * cameras);
@@ -245,17 +252,16 @@ bool isWithinDrift(const geometry::Rig& rig,
 }
 
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
-                                       const std::vector<capture::Image>& images,
-                                       const AdjustOptions& options) {
+                                       const std::vector<capture::Image>& images) {
   if (!geometry::hasCovariance(rig) || rig.ray_model != geometry::RayModel::kCalibrated ||
       images.empty())
     return std::nullopt;
   const KeyframeSource source(rig, images);
-  const geometry::Rig prior = priorOf(rig, source, images.back().stamp, options);
+  const geometry::Rig prior = priorOf(rig, source, images.back().stamp);
   auto adjusted = Adjustment(prior, source).solve();
   for (std::size_t i = 0; adjusted && i < rig.cameras.size(); ++i) {
     const Eigen::Index clock = firstParameter(i) + kTimeOffset;
-    adjusted->covariance(clock, clock) += options.offset_stddev * options.offset_stddev;
+    adjusted->covariance(clock, clock) += kOffsetStddev * kOffsetStddev;
     if (rig.cameras[i].time_offset_rule == geometry::TimeOffsetRule::kNone)
       copyClock(rig, i, &*adjusted);
   }

@@ -13,24 +13,12 @@
 
 namespace wiimote_tracker::continuous {
 
-/// How far a camera may have drifted since the rig was solved: standard deviations, per axis.
-struct AdjustOptions {
-  double least_turn = 0.0001;         ///< [rad, > 0]
-  double turn_rate = 0.0005 / 3600.;  ///< Added with time [rad/s, >= 0].
-  double most_turn = 0.002;           ///< [rad, >= least_turn]
-  double lever = 0.1;               ///< A camera that turns moves by this times the angle [m, > 0].
-  double offset_stddev = 0.0001;    ///< Error of the stamps that changes slowly [s, > 0].
-  double new_offset_stddev = 0.02;  ///< Of the time offset in a new epoch, around 0 [s, > 0].
-};
-
 /// The rig with its covariance widened by what cameras may have done from solved_at to a time [s].
-geometry::Rig withDrift(geometry::Rig rig, double time, const AdjustOptions& options);
+geometry::Rig withDrift(geometry::Rig rig, double time);
 
 /// Whether the cameras' poses differ by no more than the rig's covariance and the most that cameras
 /// drift explain: chi-squared of all poses together, 99.9 %.
-bool isWithinDrift(const geometry::Rig& rig,
-                   const geometry::Rig& adjusted,
-                   const AdjustOptions& options);
+bool isWithinDrift(const geometry::Rig& rig, const geometry::Rig& adjusted);
 
 /// All cameras adjusted together to images of one moving LED: maximum a posteriori pose, lens and
 /// time offset, the prior being the rig with its joint covariance, and the drift since solved_at.
@@ -39,8 +27,7 @@ bool isWithinDrift(const geometry::Rig& rig,
 /// @returns the rig with its covariance, but without solved_at and verdict; nothing when the rig
 /// has no covariance, when three cameras agree on too few places, or when these lie together.
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
-                                       const std::vector<capture::Image>& images,
-                                       const AdjustOptions& options);
+                                       const std::vector<capture::Image>& images);
 
 /// Copies a camera's time offset and its variance, without its correlations.
 void copyClock(const geometry::Rig& from, std::size_t camera, geometry::Rig* to);

@@ -1,5 +1,7 @@
 #include "continuous/continuous_calibration.h"
 
+#include "continuous/adjust_rig.h"
+
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
@@ -15,13 +17,20 @@ namespace wiimote_tracker::continuous {
 namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
+// A change is proposed only if each camera's mean residual then is below this [px].
+constexpr double kAccepted = 0.7;
+// Drift is proposed if it explains as much of the images' misfit, root mean square [px].
+constexpr double kGain = 0.1;
+// A camera that seems farther from where it was is left alone: it was put elsewhere, or it sees a
+// light that moves with the LED [m].
+constexpr double kFarthest = 0.2;
 
 using Drifts = std::vector<std::optional<health::Drift>>;
 
 /// How far each camera of the rig is off in these images.
-Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images, double limit) {
+Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
   const double duration = images.back().stamp - images.front().stamp;
-  health::DriftWatch watch(rig, {limit, duration});
+  health::DriftWatch watch(rig, {kAccepted, duration});
   for (const capture::Image& image : images)
     watch.add(image);
   watch.judge();
@@ -168,19 +177,18 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
   } catch (const geometry::Error&) {
     return std::nullopt;  // More motion is needed, or what the camera sees is another light.
   }
-  if (result.moved > options_.farthest)
+  if (result.moved > kFarthest)
     return std::nullopt;
   const auto index = static_cast<std::size_t>(rig_.find(evidence.camera) - rig_.cameras.data());
-  const Drifts before = driftsOf(rig_, check, options_.accepted);
-  const Drifts after = driftsOf(result.rig, check, options_.accepted);
+  const Drifts before = driftsOf(rig_, check);
+  const Drifts after = driftsOf(result.rig, check);
   const bool was_off = evidence.new_clock || (before[index] && before[index]->ratio >= 1.0);
   if (!was_off || !after[index] || !allFit(after))
     return std::nullopt;
   // The same pose; its covariance includes the drift of the others, which the checks do not grant.
   recalibrate::Options unchecked = options_.recalibrate;
   unchecked.maximum_offset_stddev = std::numeric_limits<double>::infinity();
-  result = recalibrate::recalibrateCamera(withDrift(rig_, check.back().stamp, options_.adjust),
-                                          request, unchecked);
+  result = recalibrate::recalibrateCamera(withDrift(rig_, check.back().stamp), request, unchecked);
   const std::string message =
       evidence.camera + (evidence.new_clock ? " reconnected with another clock and" : "") +
       format(
@@ -199,9 +207,9 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   // though no camera has turned, and do not make points more accurate.
   if (lacksClock(rig_))
     return std::nullopt;
-  auto rig = adjustRig(rig_, images.to_solve, options_.adjust);
+  auto rig = adjustRig(rig_, images.to_solve);
   // Another light carried along can fit, with all cameras turned farther than they drift.
-  if (!rig || !clocksHold(*rig, images.to_check) || !isWithinDrift(rig_, *rig, options_.adjust))
+  if (!rig || !clocksHold(*rig, images.to_check) || !isWithinDrift(rig_, *rig))
     return std::nullopt;
   const geometry::Rig with_clocks = withNewClocks(rig_, *rig);
   const auto before = fitOf(with_clocks, images.to_check);
@@ -209,12 +217,12 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
   if (!before || !after)
     return std::nullopt;
   const double gain = before->misfit * before->misfit - after->misfit * after->misfit;
-  const bool keeps_poses = gain < options_.gain * options_.gain;
+  const bool keeps_poses = gain < kGain * kGain;
   if (keeps_poses) {
     rig = with_clocks;
     after = before;
   }
-  const Drifts drifts = driftsOf(*rig, images.to_check, options_.accepted);
+  const Drifts drifts = driftsOf(*rig, images.to_check);
   if (!allFit(drifts))
     return std::nullopt;
   if (!newClocksAreJudged(rig_, *rig, drifts))

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_CONTINUOUS_CALIBRATION_H
 
 #include "capture/image.h"
-#include "continuous/adjust_rig.h"
 #include "continuous/motion_window.h"
 #include "continuous/suspect_watch.h"
 #include "recalibrate/recalibrate_camera.h"
@@ -21,14 +20,6 @@ struct Options {
   // {{limit [px], window [s]}, {samples to solve, samples to check}}; 20 samples a second.
   SuspectOptions knock = {{3.0, 6.0}, {140, 60}};  ///< Noticed in 6 s; 7 s solve it, 3 s check it.
   MotionOptions drift = {600, 200};                ///< 30 s and 10 s.
-  /// A change is proposed only if each camera's mean residual then is below this [px, > 0].
-  double accepted = 0.7;
-  /// Drift is proposed if it explains as much of the images' misfit, root mean square [px, > 0].
-  double gain = 0.1;
-  /// A camera that seems farther from where it was is left alone: it was put elsewhere, or it sees
-  /// a light that moves with the LED [m, > 0].
-  double farthest = 0.2;
-  AdjustOptions adjust;
   recalibrate::Options recalibrate;
 };
 

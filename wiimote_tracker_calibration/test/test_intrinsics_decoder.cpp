@@ -41,11 +41,11 @@ struct Scene {
     return p.x() >= 0.0 && p.x() <= 1023.0 && p.y() >= 0.0 && p.y() <= 767.0;
   }
 
-  BoardReading read(unsigned seed, const DecoderOptions& options = DecoderOptions()) const {
+  BoardReading read(unsigned seed, int minimum_leds = 8) const {
     std::mt19937 random(seed);
     std::normal_distribution<double> normal;
     std::uniform_real_distribution<double> uniform;
-    BoardDecoder decoder(options);
+    BoardDecoder decoder(minimum_leds);
     const double phase = uniform(random) * 1e-3 * kCycleMs;
     for (double time = uniform(random) * period; time < 2.2; time += period) {
       if (uniform(random) < loss)
@@ -135,9 +135,7 @@ TEST(BoardDecoder, ReadsTheLedsThatAreInTheImage) {
       int visible = 0;
       for (int led = 0; led < kBoardLeds; ++led)
         visible += Scene::isInImage(scene.place(led, 0.0)) ? 1 : 0;
-      DecoderOptions options;
-      options.minimum_leds = 4;
-      const BoardReading reading = scene.read(seed, options);
+      const BoardReading reading = scene.read(seed, 4);
       if (visible >= 5) {
         ASSERT_TRUE(reading.view) << reading.message;
         EXPECT_GE(correctLeds(scene, reading), visible - 3);
@@ -161,9 +159,7 @@ TEST(BoardDecoder, LeavesOutALamp) {
   for (unsigned seed = 0; seed < 50; ++seed) {
     Scene scene;
     scene.lamp = Eigen::Vector2d(100.0, 100.0);
-    DecoderOptions options;
-    options.minimum_leds = 6;
-    const BoardReading reading = scene.read(seed, options);
+    const BoardReading reading = scene.read(seed, 6);
     ASSERT_TRUE(reading.view) << reading.message;
     // The camera reports four lights, so that the lamp hides one LED of each row and column, and
     // so 7 of the 16; lost images cost a few more.
@@ -187,7 +183,7 @@ TEST(BoardDecoder, DoesNotReadOtherLights) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform;
   for (int run = 0; run < 20; ++run) {
-    BoardDecoder decoder{DecoderOptions()};
+    BoardDecoder decoder;
     for (double time = 0.0; time < 2.5; time += 0.01) {
       std::vector<Eigen::Vector2d> spots;
       for (int i = 0; i < 4; ++i)
@@ -199,7 +195,7 @@ TEST(BoardDecoder, DoesNotReadOtherLights) {
 }
 
 TEST(BoardDecoder, SaysWhatItWaitsFor) {
-  BoardDecoder decoder{DecoderOptions()};
+  BoardDecoder decoder;
   EXPECT_NE(decoder.read().message.find("no images"), std::string::npos);
   decoder.add(0.0, {});
   decoder.add(0.05, {});
@@ -220,15 +216,7 @@ TEST(BoardDecoder, SaysWhatItWaitsFor) {
   EXPECT_NE(far.read(1).message.find("nearer"), std::string::npos) << far.read(1).message;
   Scene edge;
   edge.center = {0.0, 384.0};
-  DecoderOptions whole;
-  whole.minimum_leds = 12;
-  EXPECT_NE(edge.read(1, whole).message.find("of 16 LEDs"), std::string::npos);
-}
-
-TEST(BoardDecoder, RefusesOptionsOutOfRange) {
-  DecoderOptions options;
-  options.minimum_separation = options.radius;
-  EXPECT_THROW(BoardDecoder{options}, Error);
+  EXPECT_NE(edge.read(1, 12).message.find("of 16 LEDs"), std::string::npos);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ BoardView frontView(double left, double top, double side) {
 }
 
 TEST(ViewCollector, BarsAreThoseOfTheDefinition) {
-  ViewCollector collector(Board(), 1024, 768, CollectorOptions());
+  ViewCollector collector(Board(), 1024, 768, 12);
   EXPECT_FALSE(collector.coverage().enough());
   EXPECT_EQ(collector.add(frontView(0.0, 0.0, 200.0)), "");
   EXPECT_EQ(collector.add(frontView(412.0, 568.0, 200.0)), "");
@@ -37,7 +37,7 @@ TEST(ViewCollector, BarsAreThoseOfTheDefinition) {
 }
 
 TEST(ViewCollector, KeepsWhatDiffersAndSaysWhyNot) {
-  ViewCollector collector(Board(), 1024, 768, CollectorOptions());
+  ViewCollector collector(Board(), 1024, 768, 12);
   EXPECT_EQ(collector.add(frontView(100.0, 100.0, 200.0)), "");
   EXPECT_NE(collector.add(frontView(110.0, 105.0, 200.0)).find("too much like"), std::string::npos);
   EXPECT_EQ(collector.samples().views.size(), 1u);
@@ -50,7 +50,7 @@ TEST(ViewCollector, KeepsWhatDiffersAndSaysWhyNot) {
 
 TEST(ViewCollector, CompleteCoverageSufficesToSolve) {
   std::mt19937 random(3);
-  ViewCollector collector(Board(), 1024, 768, CollectorOptions());
+  ViewCollector collector(Board(), 1024, 768, 12);
   for (int i = 0; i < 2000 && !collector.coverage().enough(); ++i)
     collector.add(simulatedView(paperCamera(), randomPose(random), 0.5, random));
   ASSERT_TRUE(collector.coverage().enough());

@@ -2,7 +2,6 @@
 
 #include "intrinsics/board_sequence.h"
 
-#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -13,9 +12,14 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-constexpr double kPhaseStep = 0.005;  // between the phases tried [s]
-constexpr int kSpotsPerFlash = 2;     // minimum: a flash gives about four, some are lost
-constexpr double kLampShare = 0.25;   // above this share of the images: no LED (an LED: 0.04)
+constexpr double kPhaseStep = 0.005;       // between the phases tried [s]
+constexpr int kSpotsPerFlash = 2;          // minimum: a flash gives about four, some are lost
+constexpr double kLampShare = 0.25;        // above this share of the images: no LED (an LED: 0.04)
+constexpr double kRadius = 4.0;            // spots this close are one light [px]
+constexpr double kLeastSeparation = 12.0;  // between LEDs of a view [px]
+constexpr double kMostMotion = 1.5;        // of an LED between its two flashes, RMS [px]
+constexpr double kLeastExplained = 0.8;    // share of spots that follow the sequence
+constexpr double kLongestGap = 0.1;        // between images [s]
 
 /// Spots of one light that stayed in one place.
 struct Light {
@@ -44,9 +48,9 @@ struct Led {
 };
 using Leds = std::array<Led, kBoardLeds>;
 
-void addSpot(double time, const Eigen::Vector2d& pixel, double radius, std::vector<Light>* lights) {
+void addSpot(double time, const Eigen::Vector2d& pixel, std::vector<Light>* lights) {
   Light* nearest = nullptr;
-  double distance = radius;
+  double distance = kRadius;
   for (Light& light : *lights) {
     const double d = (light.mean() - pixel).norm();
     if (d <= distance) {
@@ -183,18 +187,10 @@ double smallestSeparation(const BoardView& view) {
 
 }  // namespace
 
-BoardDecoder::BoardDecoder(const DecoderOptions& options) : options_(options) {
-  if (!(options.minimum_leds >= 4 && options.minimum_leds <= kBoardLeds && options.radius > 0.0 &&
-        options.minimum_separation > 2.0 * options.radius && options.motion_limit > 0.0 &&
-        options.minimum_explained >= 0.0 && options.minimum_explained <= 1.0 &&
-        options.longest_gap > 0.0))
-    throw Error("an option of the board decoder is out of range: see DecoderOptions");
-}
-
 void BoardDecoder::add(double time, const std::vector<Eigen::Vector2d>& spots) {
   if (!std::isfinite(time))
     return;
-  if (!frames_.empty() && time < frames_.back().time - options_.longest_gap)
+  if (!frames_.empty() && time < frames_.back().time - kLongestGap)
     frames_.clear();
   Frame frame{time, {}};
   for (const Eigen::Vector2d& spot : spots) {
@@ -213,12 +209,12 @@ std::string BoardDecoder::whyNotReady() const {
   if (frames_.empty())
     return "no images: check the camera's connection and its driver";
   for (std::size_t i = 1; i < frames_.size(); ++i) {
-    if (frames_[i].time - frames_[i - 1].time > options_.longest_gap)
+    if (frames_[i].time - frames_[i - 1].time > kLongestGap)
       return format("no image came for %.0f ms: wait, and check the connection if this stays",
                     1e3 * (frames_[i].time - frames_[i - 1].time));
   }
   const double span = frames_.back().time - frames_.front().time;
-  if (span < sequence::kCycle - options_.longest_gap)
+  if (span < sequence::kCycle - kLongestGap)
     return format("%.1f of %.1f s: hold the board still", span, sequence::kCycle);
   return "";
 }
@@ -232,7 +228,7 @@ BoardReading BoardDecoder::read() const {
   std::vector<Light> lights;
   for (const Frame& frame : frames_) {
     for (const Eigen::Vector2d& spot : frame.spots)
-      addSpot(frame.time, spot, options_.radius, &lights);
+      addSpot(frame.time, spot, &lights);
   }
   const double lamp = kLampShare * static_cast<double>(frames_.size());
   const auto lamps = std::remove_if(lights.begin(), lights.end(), [lamp](const Light& light) {
@@ -257,26 +253,26 @@ BoardReading BoardDecoder::read() const {
   }
   reading.motion = motionBetweenFlashes(leds);
   const double explained = has_lamps ? shareInLitSteps(lights, phase) : shareOfLeds(lights, leds);
-  if (explained < options_.minimum_explained)
+  if (explained < kLeastExplained)
     reading.message = format(
         "%.0f %% of the spots follow the board's sequence, at least %.0f %% are "
         "needed: hold the board still and cover other lights",
-        100.0 * explained, 100.0 * options_.minimum_explained);
-  else if (reading.motion > options_.motion_limit)
+        100.0 * explained, 100.0 * kLeastExplained);
+  else if (reading.motion > kMostMotion)
     reading.message =
         format("the board moved by %.1f px, at most %.1f px are allowed: hold it still",
-               reading.motion, options_.motion_limit);
-  else if (static_cast<int>(view.count()) < options_.minimum_leds)
+               reading.motion, kMostMotion);
+  else if (static_cast<int>(view.count()) < minimum_leds_)
     reading.message = format(
         "%d of %d LEDs stayed in place, at least %d are needed: hold the board "
         "still, and more of it in the image%s",
-        static_cast<int>(view.count()), kBoardLeds, options_.minimum_leds,
+        static_cast<int>(view.count()), kBoardLeds, minimum_leds_,
         has_lamps ? "; cover other lights" : "");
-  else if (smallestSeparation(view) < options_.minimum_separation)
+  else if (smallestSeparation(view) < kLeastSeparation)
     reading.message = format(
         "LEDs are %.0f px from one another, at least %.0f px are needed: bring "
         "the board nearer or tilt it less",
-        smallestSeparation(view), options_.minimum_separation);
+        smallestSeparation(view), kLeastSeparation);
   else {
     reading.message = format("%d of %d LEDs", static_cast<int>(view.count()), kBoardLeds);
     reading.view = view;

@@ -12,15 +12,6 @@
 
 namespace wiimote_tracker::intrinsics {
 
-struct DecoderOptions {
-  int minimum_leds = 8;              ///< That a view must have [4 to 16].
-  double radius = 4.0;               ///< Spots this close are one light [px, > 0].
-  double minimum_separation = 12.0;  ///< Between LEDs of a view [px, > 2 radius].
-  double motion_limit = 1.5;         ///< Of an LED between its two flashes, RMS [px, > 0].
-  double minimum_explained = 0.8;    ///< Minimum share of spots that follow the sequence [0 to 1].
-  double longest_gap = 0.1;          ///< Between images [s, > 0].
-};
-
 /// Result of decoding the last cycle.
 struct BoardReading {
   std::optional<BoardView> view;  ///< Nothing: message says why.
@@ -33,11 +24,11 @@ struct BoardReading {
 /// out of view, and ignores lights that do not follow the sequence.
 class BoardDecoder {
  public:
-  /// @throws Error: options out of range.
-  explicit BoardDecoder(const DecoderOptions& options);
+  /// @param minimum_leds that a view must have [4 to 16].
+  explicit BoardDecoder(int minimum_leds = 8) : minimum_leds_(minimum_leds) {}
 
   /// One image, also an empty one. Time [s] is that of the exposure. Images are sorted; a
-  /// time that jumps backwards by more than longest_gap clears all earlier images.
+  /// time that jumps backwards by more than 0.1 s clears all earlier images.
   /// Spots [px] that are not finite are ignored.
   void add(double time, const std::vector<Eigen::Vector2d>& spots);
 
@@ -55,7 +46,7 @@ class BoardDecoder {
 
   std::string whyNotReady() const;
 
-  DecoderOptions options_;
+  int minimum_leds_;
   std::deque<Frame> frames_;  // of one cycle
 };
 

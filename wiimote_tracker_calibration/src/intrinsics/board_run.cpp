@@ -10,8 +10,8 @@ constexpr double kPeriod = 0.25;  // between two readings [s]
 
 }  // namespace
 
-BoardRun::BoardRun(const Board& board, int width, int height, const CollectorOptions& options)
-    : collector_(board, width, height, options) {}
+BoardRun::BoardRun(const Board& board, int width, int height, int minimum_views)
+    : collector_(board, width, height, minimum_views) {}
 
 bool BoardRun::add(double time, const std::vector<Eigen::Vector2d>& spots) {
   decoder_.add(time, spots);

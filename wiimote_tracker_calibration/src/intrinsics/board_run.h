@@ -16,8 +16,8 @@ namespace wiimote_tracker::intrinsics {
 /// board was held still and the view differs from those kept.
 class BoardRun {
  public:
-  /// @throws Error: board, image size or options out of range.
-  BoardRun(const Board& board, int width, int height, const CollectorOptions& options);
+  /// As ViewCollector(). @throws Error: board or image size out of range.
+  BoardRun(const Board& board, int width, int height, int minimum_views);
 
   /// One image, as BoardDecoder::add. @returns whether message() or the views changed.
   bool add(double time, const std::vector<Eigen::Vector2d>& spots);
@@ -32,7 +32,7 @@ class BoardRun {
   const Samples& samples() const { return collector_.samples(); }
 
  private:
-  BoardDecoder decoder_{DecoderOptions()};
+  BoardDecoder decoder_;
   ViewCollector collector_;
   std::string message_ = "hold the board still in front of the camera";
   double next_reading_ = -std::numeric_limits<double>::infinity();

@@ -16,6 +16,7 @@ constexpr std::size_t kY = 1;
 constexpr std::size_t kSize = 2;
 constexpr std::size_t kSkew = 3;
 constexpr std::array<double, 4> kFull = {0.7, 0.7, 0.4, 0.5};  // ranges that fill a bar
+constexpr double kLeastDifference = 0.2;  // between views: sum over x, y, size, skew [0 to 4]
 
 double unit(double value) {
   return std::clamp(value, 0.0, 1.0);
@@ -35,17 +36,11 @@ double difference(const std::array<double, 4>& a, const std::array<double, 4>& b
 
 }  // namespace
 
-ViewCollector::ViewCollector(const Board& board,
-                             int width,
-                             int height,
-                             const CollectorOptions& options)
-    : samples_{board, width, height, {}}, options_(options) {
+ViewCollector::ViewCollector(const Board& board, int width, int height, int minimum_views)
+    : samples_{board, width, height, {}}, minimum_views_(minimum_views) {
   board.check();
   if (width < 1 || height < 1)
     throw Error("the image size must be above 0 px: check the camera's driver");
-  if (!(options.minimum_views > 0 && options.minimum_difference >= 0.0 &&
-        options.minimum_difference <= 4.0))
-    throw Error("an option of the collector is out of range: see CollectorOptions");
 }
 
 std::string ViewCollector::add(const BoardView& view) {
@@ -64,7 +59,7 @@ std::string ViewCollector::add(const BoardView& view) {
     return error.what();
   }
   for (const Parameters& kept : parameters_) {
-    if (difference(parameters, kept) <= options_.minimum_difference)
+    if (difference(parameters, kept) <= kLeastDifference)
       return "this view is too much like one that was kept: move or tilt the board";
   }
   samples_.views.push_back(view);
@@ -81,7 +76,7 @@ void ViewCollector::undo() {
 
 Coverage ViewCollector::coverage() const {
   Coverage result;
-  const int missing_views = options_.minimum_views - static_cast<int>(samples_.views.size());
+  const int missing_views = minimum_views_ - static_cast<int>(samples_.views.size());
   if (missing_views > 0)
     result.missing.push_back(std::to_string(missing_views) + " more views of the board");
   Parameters low{};

@@ -9,11 +9,6 @@
 
 namespace wiimote_tracker::intrinsics {
 
-struct CollectorOptions {
-  int minimum_views = 12;           ///< [> 0]
-  double minimum_difference = 0.2;  ///< Between views: sum over x, y, size, skew [0 to 4].
-};
-
 /// Variety of the views, as four bars like those of ROS' camera_calibration.
 /// x and y are full when the board covered 0.7 of its range from edge to edge; size when the
 /// largest view covers 0.16 of the image; skew when an angle of a view is 0.25 rad from a right
@@ -30,8 +25,8 @@ struct Coverage {
 /// Keeps those views of the board that differ from all kept before.
 class ViewCollector {
  public:
-  /// @throws Error: board, image size or options out of range.
-  ViewCollector(const Board& board, int width, int height, const CollectorOptions& options);
+  /// @param minimum_views that are enough [> 0]. @throws Error: board or image size out of range.
+  ViewCollector(const Board& board, int width, int height, int minimum_views);
 
   /// Keeps the view, or says why not.
   /// @returns empty when it was kept, else one sentence.
@@ -47,7 +42,7 @@ class ViewCollector {
   using Parameters = std::array<double, 4>;  // x, y, size, skew [0 to 1]
 
   Samples samples_;
-  CollectorOptions options_;
+  int minimum_views_;
   std::vector<Parameters> parameters_;  // of samples_.views
 };
 

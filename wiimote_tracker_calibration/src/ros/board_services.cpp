@@ -84,10 +84,8 @@ class BoardServices {
       board.column_spacing = board.row_spacing = request.column_spacing;
     if (request.row_spacing != 0.0)
       board.row_spacing = request.row_spacing;
-    intrinsics::CollectorOptions options;
-    options.minimum_views = parameters.board_views;
-    intrinsics::BoardRun run(board, input->second.width, input->second.height, options);
-    run_ = std::move(run);
+    run_ = intrinsics::BoardRun(board, input->second.width, input->second.height,
+                                parameters.board_views);
     camera_ = request.camera;
     lens_.reset();
     const std::string message =

@@ -22,6 +22,9 @@ constexpr double kDegree = M_PI / 180.0;
 // three standard deviations of an accelerometer [rad].
 constexpr double kSteepest = 9.0 * kDegree;
 constexpr std::size_t kMostAdvised = 200;  // Passages.
+// How well the second room should be known.
+constexpr double kWantedPosition = 0.05;           // [m]
+constexpr double kWantedRotation = 0.5 * kDegree;  // [rad]
 
 /// The vertical axis of a world, z or -z, as the z axis of the result.
 /// @throws Error: by the accelerometers it is not vertical.
@@ -81,17 +84,16 @@ Eigen::Vector3d middleOf(const geometry::Rig& rig) {
 /// What to do to know a point of the second room, and its rotation, as well as wanted.
 std::string adviceFor(const PassageProblem& problem,
                       const PassageFit& fit,
-                      const Eigen::Vector3d& point,
-                      const JoinOptions& options) {
-  const std::string wanted = format("%.0f cm and %.1f degrees", 100.0 * options.wanted_position,
-                                    options.wanted_rotation / kDegree);
+                      const Eigen::Vector3d& point) {
+  const std::string wanted =
+      format("%.0f cm and %.1f degrees", 100.0 * kWantedPosition, kWantedRotation / kDegree);
   const std::size_t passages = fit.used.size();
   for (std::size_t total = passages; total <= kMostAdvised; total += 1 + total / 10) {
     // As many passages as accurate as these: each counts for several.
     const double share = static_cast<double>(total) / static_cast<double>(passages);
     const Accuracy accuracy = accuracyOf(
         problem.fit(fit.used, fit.motion.first_from_second, fit.scatter / std::sqrt(share)), point);
-    if (accuracy.position > options.wanted_position || accuracy.rotation > options.wanted_rotation)
+    if (accuracy.position > kWantedPosition || accuracy.rotation > kWantedRotation)
       continue;
     if (total == passages)
       return "that is as good as wanted (" + wanted + ")";
@@ -123,20 +125,19 @@ JoinedRooms joinRooms(const geometry::Rig& first,
                       const JoinOptions& options) {
   session::checkRigs(first, second);
   checkNoSharedCamera(first, second);
-  const Passages found = findPassages(first_tracks, second_tracks, options.passages);
+  const Passages found = findPassages(first_tracks, second_tracks, options.walk);
   std::string left_out = leftOut(found.crowded, "several LEDs at the same time") +
                          leftOut(found.crooked, "not straight");
   std::vector<SharedPlaces> places;
   for (const Passage& passage : found.passages) {
-    if (const auto shared = sharedPlaces(first, second, passage, options.passages.walk))
+    if (const auto shared = sharedPlaces(first, second, passage, options.walk))
       places.push_back(*shared);
   }
   left_out += leftOut(found.passages.size() - places.size(), "not in view of two cameras");
   if (places.empty())
     throw Error(format("no passage from one room to the other was found (LED hidden for at most "
                        "%.0f s, straight, faster than %.1f m/s, seen for %.1f s on either side)",
-                       options.passages.longest, options.passages.slowest,
-                       options.passages.shortest_part) +
+                       kLongestHidden, kSlowest, kShortestPart) +
                 left_out);
   const PassageProblem problem(first, second, places, sharedVertical(first, second, options.slope));
   const PassageFit fit = fitPassages(problem);
@@ -161,7 +162,7 @@ JoinedRooms joinRooms(const geometry::Rig& first,
           second.cameras.size(), first.cameras.size(), result.passages,
           result.passages == 1 ? "passage" : "passages", left_out.c_str(),
           100.0 * result.position_stddev, result.rotation_stddev / kDegree) +
-      adviceFor(problem, fit, middle, options);
+      adviceFor(problem, fit, middle);
   result.rig.method = first.method + " joined with " + second.method;
   result.rig.verdict = result.message + "; first: " + first.verdict + "; second: " + second.verdict;
   result.rig.check();

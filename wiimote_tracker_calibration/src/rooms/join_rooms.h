@@ -15,14 +15,12 @@
 namespace wiimote_tracker::rooms {
 
 struct JoinOptions {
-  PassageOptions passages;
+  WalkModel walk;
   /// Standard deviation of the angle between the verticals (z axes) of both worlds, about each
   /// horizontal axis [rad, > 0]. The default: a flat floor may differ by 10 mm over 4 m (DIN
   /// 18202), which is 0.14 degrees, in both rooms. Infinite: a world may have any slope; then only
   /// the passages say how the rooms are tilted.
   double slope = 0.2 * M_PI / 180.0;
-  double wanted_position = 0.05;                ///< [m]
-  double wanted_rotation = 0.5 * M_PI / 180.0;  ///< [rad]
 };
 
 /// Two rooms in one world.

@@ -11,6 +11,9 @@ namespace wiimote_tracker::rooms {
 namespace {
 
 constexpr double kSpacing = 0.1;  // Of a thinned path; deviations are correlated for longer [s].
+constexpr double kLongestPart = 3.0;  // Of each track, next to the door [s].
+// RMS distance of a part from its line over that of the model.
+constexpr double kMostCrooked = 1.7;
 
 /// The part of a track next to its end or beginning, in the order of time.
 Path partOf(const Path& track, bool end, double duration) {
@@ -41,22 +44,19 @@ struct End {
   const Path* track;
 };
 
-bool isCarried(const Path& track, bool end, const PassageOptions& options) {
-  if (durationOf(track) < options.shortest_part)
+bool isCarried(const Path& track, bool end) {
+  if (durationOf(track) < kShortestPart)
     return false;
-  const Path part = partOf(track, end, options.shortest_part);
+  const Path part = partOf(track, end, kShortestPart);
   const double length = (part.back().position - part.front().position).norm();
-  return length > options.slowest * durationOf(part);
+  return length > kSlowest * durationOf(part);
 }
 
-std::vector<End> endsOf(const std::vector<Path>& first,
-                        const std::vector<Path>& second,
-                        bool end,
-                        const PassageOptions& options) {
+std::vector<End> endsOf(const std::vector<Path>& first, const std::vector<Path>& second, bool end) {
   std::vector<End> ends;
   for (const std::vector<Path>* room : {&first, &second}) {
     for (const Path& track : *room) {
-      if (isCarried(track, end, options))
+      if (isCarried(track, end))
         ends.push_back({end ? track.back().time : track.front().time, room == &first, &track});
     }
   }
@@ -66,11 +66,10 @@ std::vector<End> endsOf(const std::vector<Path>& first,
 }
 
 /// The longest part that is straight; empty: none.
-Path straightPart(const Path& track, bool end, const PassageOptions& options) {
-  for (double duration = options.part; duration >= options.shortest_part; duration -= 0.25) {
+Path straightPart(const Path& track, bool end, const WalkModel& model) {
+  for (double duration = kLongestPart; duration >= kShortestPart; duration -= 0.25) {
     Path part = partOf(track, end, duration);
-    if (durationOf(part) >= options.shortest_part - kSpacing &&
-        crookednessOf(part, options.walk) <= options.most_crooked)
+    if (durationOf(part) >= kShortestPart - kSpacing && crookednessOf(part, model) <= kMostCrooked)
       return part;
   }
   return {};
@@ -80,15 +79,15 @@ Path straightPart(const Path& track, bool end, const PassageOptions& options) {
 
 Passages findPassages(const std::vector<Path>& first_tracks,
                       const std::vector<Path>& second_tracks,
-                      const PassageOptions& options) {
+                      const WalkModel& model) {
   const std::vector<Path> first = joinTracks(first_tracks);
   const std::vector<Path> second = joinTracks(second_tracks);
-  const std::vector<End> exits = endsOf(first, second, true, options);
-  const std::vector<End> entries = endsOf(first, second, false, options);
+  const std::vector<End> exits = endsOf(first, second, true);
+  const std::vector<End> entries = endsOf(first, second, false);
   // An LED that was hidden within a room competes with those that change rooms.
   const auto follows = [&](const End& entry, const End& exit) {
     const double hidden = entry.time - exit.time;
-    return hidden > 0.0 && hidden <= options.longest;
+    return hidden > 0.0 && hidden <= kLongestHidden;
   };
   Passages result;
   for (const End& exit : exits) {
@@ -106,8 +105,8 @@ Passages findPassages(const std::vector<Path>& first_tracks,
       ++result.crowded;
       continue;
     }
-    const Passage passage{exit.in_first, straightPart(*exit.track, true, options),
-                          straightPart(*entry->track, false, options)};
+    const Passage passage{exit.in_first, straightPart(*exit.track, true, model),
+                          straightPart(*entry->track, false, model)};
     if (passage.before.empty() || passage.after.empty())
       ++result.crooked;
     else

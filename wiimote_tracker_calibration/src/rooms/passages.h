@@ -8,15 +8,10 @@
 
 namespace wiimote_tracker::rooms {
 
-/// Which ends of tracks are taken for an LED that is carried through the door.
-struct PassageOptions {
-  WalkModel walk;
-  double longest = 3.0;        ///< An LED is hidden for at most this long [s].
-  double part = 3.0;           ///< Of each track, next to the door, at most [s].
-  double shortest_part = 0.7;  ///< The same at least [s].
-  double slowest = 0.5;        ///< Speed [m/s].
-  double most_crooked = 1.7;   ///< RMS distance of a part from its line over that of the model [1].
-};
+// Which ends of tracks are taken for an LED that is carried through the door:
+constexpr double kLongestHidden = 3.0;  ///< An LED is hidden for at most this long [s].
+constexpr double kShortestPart = 0.7;   ///< Of each track, next to the door, at least [s].
+constexpr double kSlowest = 0.5;        ///< Speed [m/s].
 
 /// An LED that went from one room to the other, in the order of time. Each path is in the world of
 /// its room, thinned, next to the door.
@@ -38,7 +33,7 @@ struct Passages {
 /// several, also at the same time.
 Passages findPassages(const std::vector<Path>& first_tracks,
                       const std::vector<Path>& second_tracks,
-                      const PassageOptions& options);
+                      const WalkModel& model);
 
 }  // namespace wiimote_tracker::rooms
 

@@ -63,6 +63,9 @@ bool agree(const Attempt& a, const Attempt& b, double tolerance) {
   return true;
 }
 
+// A focal length with a larger relative standard deviation counts as not determined.
+constexpr double kMostFocalUncertainty = 0.05;
+
 // Observations of each camera that suffice to distinguish a good start from a bad one.
 constexpr std::size_t kFewPerCamera = 100;
 
@@ -99,7 +102,7 @@ class Search {
     const double kAsWell = 1.2;
     return std::any_of(attempts_.begin(), attempts_.end(), [&](const Attempt& attempt) {
       return attempt.cost < kAsWell * attempts_.front().cost &&
-             !agree(attempt, attempts_.front(), options_.maximum_focal_uncertainty);
+             !agree(attempt, attempts_.front(), kMostFocalUncertainty);
     });
   }
 
@@ -250,8 +253,8 @@ void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCali
     } else if (covariance) {
       lens.focal_stddev = ratio * std::sqrt((*covariance)(0, 0));
       lens.focal_determined =
-          !ambiguous && lens.focal_stddev < options.maximum_focal_uncertainty *
-                                                result->reconstruction.cameras[i].intrinsics.fx;
+          !ambiguous && lens.focal_stddev <
+                            kMostFocalUncertainty * result->reconstruction.cameras[i].intrinsics.fx;
     } else {
       lens.focal_stddev = std::numeric_limits<double>::infinity();
     }

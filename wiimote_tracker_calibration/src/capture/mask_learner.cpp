@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kFewestImages = 20;     // to learn masks from
 constexpr std::size_t kFewestDetections = 3;  // fewer are false detections
+// A light that gets farther than this from its centre is moving: it is no lamp [px].
+constexpr double kReach = 15.0;
 
 }  // namespace
 
@@ -30,13 +32,13 @@ void MaskLearner::add(const Image& image) {
   }
 }
 
-void MaskLearner::addSpot(const Eigen::Vector2d& spot, Camera* camera) const {
+void MaskLearner::addSpot(const Eigen::Vector2d& spot, Camera* camera) {
   Light* nearest = nullptr;
   for (Light& light : camera->lights) {
     if (nearest == nullptr || (light.mean - spot).norm() < (nearest->mean - spot).norm())
       nearest = &light;
   }
-  if (nearest == nullptr || (nearest->mean - spot).norm() > 2.0 * options_.reach) {
+  if (nearest == nullptr || (nearest->mean - spot).norm() > 2.0 * kReach) {
     camera->lights.push_back({spot, spot, spot, 1});
     return;
   }
@@ -67,7 +69,7 @@ LearnedMasks MaskLearner::learned(const Camera& camera) const {
   std::size_t moving = 0;  // detections of lights that move
   for (const Light& light : camera.lights) {
     const double radius = 0.5 * (light.upper - light.lower).norm();
-    if (radius > options_.reach) {
+    if (radius > kReach) {
       moving += light.images;
     } else if (static_cast<double>(light.images) >= needed) {
       result.masks.push_back({0.5 * (light.lower + light.upper), radius + options_.margin});

@@ -16,8 +16,6 @@ struct MaskOptions {
   /// Least share of the images that show a light [0..1]; lamps may flicker.
   double share = 0.02;
   double margin = 8.0;  ///< Radius of a mask beyond the farthest position of its light [px].
-  /// A light that gets farther than this from its centre is moving: it is no lamp [px].
-  double reach = 15.0;
 };
 
 /// What was learned of one camera.
@@ -50,7 +48,7 @@ class MaskLearner {
     std::vector<Light> lights;
   };
 
-  void addSpot(const Eigen::Vector2d& spot, Camera* camera) const;
+  static void addSpot(const Eigen::Vector2d& spot, Camera* camera);
   LearnedMasks learned(const Camera& camera) const;
 
   MaskOptions options_;

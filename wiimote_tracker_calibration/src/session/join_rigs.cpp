@@ -134,9 +134,7 @@ JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
                 "first: it was moved in between, or was calibrated badly; calibrate one of "
                 "the rooms again");
   }
-  JoinedRigs result = finish(first, second, motion, square::listOf(names));
-  result.shared = names;
-  return result;
+  return finish(first, second, motion, square::listOf(names));
 }
 
 JoinedRigs joinRigs(const geometry::Rig& first,

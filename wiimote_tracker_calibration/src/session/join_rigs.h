@@ -15,7 +15,6 @@ namespace wiimote_tracker::session {
 struct JoinedRigs {
   geometry::Rig rig;  ///< The first as it was, then the cameras that only the second has.
   Eigen::Isometry3d first_from_second;  ///< World of the second in the world of the first [m].
-  std::vector<std::string> shared;      ///< Cameras of both rigs.
   /// Disagreement of the two rigs, chi-squared distributed with degrees_of_freedom.
   double chi_squared = 0.0;
   int degrees_of_freedom = 0;

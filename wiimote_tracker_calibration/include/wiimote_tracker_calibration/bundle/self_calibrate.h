@@ -24,8 +24,6 @@ struct SelfCalibrationOptions {
   std::vector<double> focal_lengths = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
   /// Distortions k1 to start from [1].
   std::vector<double> distortions = {0.0, -0.25};
-  /// A focal length with a larger relative standard deviation counts as not determined [1].
-  double maximum_focal_uncertainty = 0.05;
 };
 
 /// How well the lens of one camera is known.

@@ -16,14 +16,10 @@ namespace {
 
 constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
 
-std::set<std::string> uniqueNames(const std::vector<std::string>& names) {
-  return {names.begin(), names.end()};
-}
-
 Captured newRun(const std::vector<std::string>& cameras,
                 const std::optional<square::SquareLayout>& layout,
                 const CalibrationOptions& options) {
-  const std::set<std::string> names = uniqueNames(cameras);
+  const std::set<std::string> names(cameras.begin(), cameras.end());
   Captured captured;
   captured.cameras.assign(names.begin(), names.end());
   captured.layout = layout;
@@ -59,7 +55,7 @@ Reply Calibration::startWithoutSquare(const std::vector<std::string>& cameras) {
 Reply Calibration::startWith(Captured captured) {
   if (busy_)
     return refuse(occupied());
-  const std::size_t count = uniqueNames(captured.cameras).size();
+  const std::size_t count = captured.cameras.size();
   if (count < 2)
     return refuse("a calibration needs at least two cameras, but there are " +
                   std::to_string(count) + ": connect the cameras and start again");

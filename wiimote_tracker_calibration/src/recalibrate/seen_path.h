@@ -8,8 +8,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <cstdint>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -1,6 +1,7 @@
 #include "rooms/join_rooms.h"
 
 #include "rooms/passage_fit.h"
+#include "rooms/passages.h"
 #include "session/joined_rig.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -9,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <string>
 

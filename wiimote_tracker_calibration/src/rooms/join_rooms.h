@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H
 
-#include "rooms/passages.h"
+#include "rooms/walk.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 

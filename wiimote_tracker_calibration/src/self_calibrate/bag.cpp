@@ -7,7 +7,6 @@
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
 #include <algorithm>
-#include <cstddef>
 #include <map>
 #include <optional>
 

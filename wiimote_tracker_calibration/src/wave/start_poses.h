@@ -6,7 +6,6 @@
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
-#include <string>
 #include <vector>
 
 namespace wiimote_tracker::wave {

@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <string>
 #include <vector>
 

@@ -14,13 +14,12 @@ inline Eigen::Vector3d vectorFromCv(const cv::Mat& column) {
   return {column.at<double>(0), column.at<double>(1), column.at<double>(2)};
 }
 
-/// World from camera, of the rotation vector and the translation that cv::solvePnP() gives: those
-/// of camera from world.
+/// Camera from world, of the rotation vector and the translation that OpenCV gives.
 inline Eigen::Isometry3d poseFromCv(const cv::Mat& rotation_vector, const cv::Mat& translation) {
   Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
   camera_from_world.linear() = geometry::so3::exp(vectorFromCv(rotation_vector)).toRotationMatrix();
   camera_from_world.translation() = vectorFromCv(translation);
-  return camera_from_world.inverse();
+  return camera_from_world;
 }
 
 }  // namespace wiimote_tracker::adjust

@@ -209,7 +209,7 @@ std::size_t place(const NormalizedViews& views,
     found = false;  // degenerate points
   }
   if (found)
-    camera.world_from_camera = adjust::poseFromCv(rotation_vector, translation);
+    camera.world_from_camera = adjust::poseFromCv(rotation_vector, translation).inverse();
   if (!found || inliers.size() < options.minimum_common_points ||
       !camera.world_from_camera.matrix().allFinite())
     throw BundleError("no pose of " + camera.name + " explains what it saw of " +

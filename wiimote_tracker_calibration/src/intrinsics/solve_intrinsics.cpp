@@ -3,11 +3,11 @@
 #include "lens_fit.h"
 #include "view_geometry.h"
 
+#include "adjust/opencv_pose.h"
+
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
-
-#include <opencv2/calib3d.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -42,18 +42,6 @@ Candidate candidateOf(const Fit& fit, const Points& points) {
   candidate.bic = n * std::log(variance) + parameters * std::log(n);
   candidate.holds = holdsOverImage(intrinsicsOf(fit, points));
   return candidate;
-}
-
-Eigen::Isometry3d poseOf(const cv::Mat& rotation, const cv::Mat& translation) {
-  cv::Matx33d r;
-  cv::Rodrigues(rotation, r);
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
-      pose.linear()(i, j) = r(i, j);
-    pose.translation()(i) = translation.at<double>(i);
-  }
-  return pose;
 }
 
 /// Inverse information of the intrinsics, poses eliminated (Schur complement), for unit noise.
@@ -112,7 +100,8 @@ void checkTilts(const Fit& fit) {
   double most = 0.0;
   std::vector<Eigen::Vector3d> normals;
   for (const cv::Mat& rotation : fit.rotations)
-    normals.push_back(poseOf(rotation, cv::Mat::zeros(3, 1, CV_64F)).linear().col(2));
+    normals.emplace_back(geometry::so3::exp(adjust::vectorFromCv(rotation)) *
+                         Eigen::Vector3d::UnitZ());
   for (const Eigen::Vector3d& a : normals) {
     for (const Eigen::Vector3d& b : normals)
       most = std::max(most, std::acos(std::clamp(a.dot(b), -1.0, 1.0)));
@@ -248,7 +237,8 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
         "board's column and row spacing must be as measured");
   solution.covariance.topLeftCorner(parameters, parameters) = variance * *covariance;
   for (std::size_t i = 0; i < samples.views.size(); ++i)
-    solution.camera_from_board.push_back(poseOf(chosen.rotations[i], chosen.translations[i]));
+    solution.camera_from_board.push_back(
+        adjust::poseFromCv(chosen.rotations[i], chosen.translations[i]));
   solution.summary = summaryOf(solution);
   return solution;
 }

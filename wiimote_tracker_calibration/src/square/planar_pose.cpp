@@ -79,7 +79,7 @@ std::vector<Eigen::Isometry3d> startPoses(const geometry::Intrinsics& intrinsics
       cv::solvePnPGeneric(plane, image, pinhole, cv::noArray(), rotations, translations, false,
                           cv::SOLVEPNP_IPPE);
     for (std::size_t i = 0; i < rotations.size(); ++i) {
-      Eigen::Isometry3d pose = adjust::poseFromCv(rotations[i], translations[i]);
+      Eigen::Isometry3d pose = adjust::poseFromCv(rotations[i], translations[i]).inverse();
       pose.translation().z() += seen.places.front().z();
       if (isInFront(seen.places, pose))
         poses.push_back(pose);

@@ -22,13 +22,9 @@ constexpr int kVersion = 1;
 template <typename Numbers>
 void emitNumbers(const Numbers& numbers, YAML::Emitter& out) {
   out << YAML::Flow << YAML::BeginSeq;
-  for (const double number : numbers)
-    out << exactNumber(number);
+  for (decltype(numbers.size()) i = 0; i < numbers.size(); ++i)
+    out << exactNumber(numbers[i]);
   out << YAML::EndSeq;
-}
-
-std::vector<double> valuesOf(const Eigen::VectorXd& vector) {
-  return {vector.data(), vector.data() + vector.size()};
 }
 
 void emitKey(const std::string& key, double value, YAML::Emitter& out) {
@@ -52,7 +48,7 @@ void emitPlaces(const std::vector<square::KnownPlace>& places, YAML::Emitter& ou
   out << YAML::Key << "places" << YAML::Value << YAML::BeginSeq;
   for (const square::KnownPlace& place : places) {
     out << YAML::Flow << YAML::BeginMap << YAML::Key << "position" << YAML::Value;
-    emitNumbers(valuesOf(place.position), out);
+    emitNumbers(place.position, out);
     emitKey("stddev", place.stddev, out);
     out << YAML::EndMap;
   }
@@ -70,7 +66,7 @@ void emitSquare(const std::optional<square::SquareLayout>& square, YAML::Emitter
   emitKey("side_y", square->side_y, out);
   emitKey("led_height", square->led_height, out);
   out << YAML::Key << "origin" << YAML::Value;
-  emitNumbers(valuesOf(square->origin), out);
+  emitNumbers(square->origin, out);
   emitKey("yaw", square->yaw, out);
   // Older programs refuse these keys.
   if (!square->lengths.empty())
@@ -117,7 +113,7 @@ void emitPixels(const char* key, const Pixels& pixels, YAML::Emitter& out) {
   out << YAML::Key << key << YAML::Value << YAML::BeginSeq;
   for (const auto& pixel : pixels) {
     if (pixel)
-      emitNumbers(valuesOf(*pixel), out);
+      emitNumbers(*pixel, out);
     else
       out << YAML::Null;
   }
@@ -134,7 +130,7 @@ void emitCamera(const wave::CameraRecording& camera,
   emitLens(sightings.intrinsics, out);
   out << YAML::Key << "gravity" << YAML::Value;
   if (sightings.gravity)
-    emitNumbers(valuesOf(*sightings.gravity), out);
+    emitNumbers(*sightings.gravity, out);
   else
     out << YAML::Null;
   out << YAML::Key << "clock_epoch" << YAML::Value << camera.clock_epoch;
@@ -144,7 +140,7 @@ void emitCamera(const wave::CameraRecording& camera,
   out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
   for (const geometry::ImageMask& mask : masks) {
     out << YAML::Flow << YAML::BeginMap << YAML::Key << "center" << YAML::Value;
-    emitNumbers(valuesOf(mask.center), out);
+    emitNumbers(mask.center, out);
     emitKey("radius", mask.radius, out);
     out << YAML::EndMap;
   }

@@ -116,8 +116,7 @@ class Measurements {
  public:
   Measurements(const WaveScene& scene,
                const std::vector<geometry::Camera>& truth,
-               std::mt19937_64& random)
-      : truth_(truth) {
+               std::mt19937_64& random) {
     std::uniform_real_distribution<double> place(0.0, 2.5);
     std::normal_distribution<double> noise(0.0, scene.pixel);
     while (points_.size() < kAlignment + 1000) {
@@ -165,7 +164,6 @@ class Measurements {
 
  private:
   static constexpr std::ptrdiff_t kAlignment = 500;
-  const std::vector<geometry::Camera>& truth_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<std::vector<Eigen::Vector2d>> pixels_;
 };

@@ -125,7 +125,8 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   emitNumber("virtual_hfov", rig.virtual_hfov, out);
   emitNumbers("square_sides", rig.square_sides, out);
   if (rig.square_pose) {
-    emitNumbers("square_origin", rig.square_pose->origin, out);
+    const Eigen::Vector2d& origin = rig.square_pose->origin;
+    emitNumbers("square_origin", std::array<double, 2>{origin.x(), origin.y()}, out);
     emitNumber("square_yaw", rig.square_pose->yaw, out);
   }
   emitNumber("led_height", rig.led_height, out);

@@ -33,8 +33,8 @@ void readCoverage(ParameterReader* reader, wave::CoverageOptions* options) {
   reader->read("wave_seconds", &options->seconds, 1.0, 600.0);
   reader->read("wave_image_share", &options->image_share, 0.0, 1.0);
   reader->read("wave_image_speed", &options->image_speed, 0.0, 1e4);
-  reader->read("wave_volume", &options->volume, 0.0, 1e6);
-  reader->read("wave_speed", &options->speed, 0.0, 100.0);
+  reader->read("wave_volume", &options->volume, 0.0, 1e4);
+  reader->read("wave_speed", &options->speed, 0.0, 10.0);
   reader->read("wave_distraction", &options->distraction, 0.0, 1.0);
 }
 

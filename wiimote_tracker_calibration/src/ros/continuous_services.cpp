@@ -248,6 +248,7 @@ class ContinuousServices {
             "you want");
       const geometry::Rig before = changes_.back().before;
       changes_.pop_back();
+      approach_.reset();  // Perhaps before its first step.
       reverted_to_ = before.id();
       const std::string message = "rig " + before.id() +
                                   " from before the last change is in use again; until there is "

@@ -86,7 +86,7 @@ class BoardServices {
     run_ = intrinsics::BoardRun(board, input->second.width, input->second.height,
                                 parameters.board_views);
     camera_ = request.camera;
-    lens_.reset();
+    dropLens();
     const std::string message =
         "hold the board still in front of " + camera_ +
         " for two seconds, then elsewhere: each view is captured automatically";
@@ -99,7 +99,7 @@ class BoardServices {
     if (run().samples().views.empty())
       throw Refusal("there is no view to undo");
     run_->undo();
-    lens_.reset();
+    dropLens();
     publish(run_->message(), lock);
     return {true, run_->message()};
   }
@@ -108,7 +108,7 @@ class BoardServices {
     const Lock lock(context_.mutex());
     run();
     run_.reset();
-    lens_.reset();
+    dropLens();
     camera_.clear();
     publish("the views of the board are dropped", lock);
     return {true, "the views of the board are dropped"};
@@ -117,6 +117,7 @@ class BoardServices {
   Reply solve(const SolveBoard::Request& request, SolveBoard::Response* response) {
     Lock lock(context_.mutex());
     const std::string camera = camera_;
+    const unsigned lens_number = lens_number_;
     const intrinsics::Samples samples = run().samples();
     intrinsics::SolverOptions options;
     options.minimum_views = context_.parameters(lock).board_views;
@@ -129,7 +130,7 @@ class BoardServices {
     const auto parameters = static_cast<Eigen::Index>(4 + response->camera_info.D.size());
     for (Eigen::Index i = 0; i < parameters; ++i)
       response->stddev.push_back(std::sqrt(solution.covariance(i, i)));
-    if (camera == camera_) {
+    if (lens_number == lens_number_) {
       lens_ = solution.intrinsics;
       publish("solved: " + solution.summary, lock);
     }
@@ -158,6 +159,12 @@ class BoardServices {
     if (!run_)
       throw Refusal(kNothingStarted);
     return *run_;
+  }
+
+  /// A lens of dropped views, solved or being solved, is not used.
+  void dropLens() {
+    lens_.reset();
+    ++lens_number_;
   }
 
   void onImage(const capture::Image& image, const Lock& lock) {
@@ -193,6 +200,7 @@ class BoardServices {
   std::string camera_;  // that sees the board; empty: nothing started
   std::optional<intrinsics::BoardRun> run_;
   std::optional<geometry::Intrinsics> lens_;  // solved from these views
+  unsigned lens_number_ = 0;                  // counts dropLens()
 };
 
 }  // namespace

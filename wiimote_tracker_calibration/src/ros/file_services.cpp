@@ -81,7 +81,8 @@ class FileServices {
     const std::string message = "saved to " + path + appendix(warnings);
     if (!warnings.empty())
       ROS_WARN_STREAM(message);
-    context_.calibration(lock).saved(message);
+    if (const auto& now = context_.rig(lock); now && now->id() == rig.id())
+      context_.calibration(lock).saved(message);
     context_.publishStatus(lock);
     return {true, message};
   }

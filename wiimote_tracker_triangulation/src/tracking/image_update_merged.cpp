@@ -1,0 +1,183 @@
+// The part of ImageUpdate for LEDs that are so close in an image that they show one spot.
+#include "image_update.h"
+#include "merged_spot.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace wiimote_tracker::tracking {
+
+/// Whether an LED without a spot may be merged with another one, which has a spot or has none, too.
+/// A tentative track without one may be of the LED itself.
+bool ImageUpdate::mayBeMerged(const StoredImage& image,
+                              const Candidate& candidate,
+                              const std::vector<Track>& tracks) const {
+  return std::any_of(candidates_.data(), end(), [&](const Candidate& other) {
+    return other.track != candidate.track &&
+           pixelsBetween(candidate, other) < options_.merging_distance &&
+           (other.spot != kNone ||
+            (tracks[other.track].isConfirmed() && spotBetween(image, candidate, other)));
+  });
+}
+
+/// The unassigned spot that is nearest to a pixel, and nearer than this distance [px].
+std::optional<std::size_t> ImageUpdate::nearestUnassigned(const StoredImage& image,
+                                                          const Eigen::Vector2d& pixel,
+                                                          double distance) const {
+  std::optional<std::size_t> nearest;
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+    const double to_spot = (image.pixels[spot] - pixel).norm();
+    if (track_of_spot_[spot] == association::kFalseDetection && to_spot < distance) {
+      distance = to_spot;
+      nearest = spot;
+    }
+  }
+  return nearest;
+}
+
+/// An unassigned spot between two LEDs that have none is the merged spot of both, if they are close
+/// enough. It may be outside the gates of both.
+std::optional<std::size_t> ImageUpdate::spotBetween(const StoredImage& image,
+                                                    const Candidate& a,
+                                                    const Candidate& b) const {
+  if (pixelsBetween(a, b) >= options_.merging_distance)
+    return std::nullopt;
+  const Eigen::Vector2d middle = 0.5 * (a.prediction.pixel() + b.prediction.pixel());
+  return nearestUnassigned(image, middle, 0.5 * options_.merging_distance);
+}
+
+/// The LED that a candidate is most probably merged with in one spot, of which one of the two has
+/// none.
+const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
+                                                      const Candidate& candidate,
+                                                      const std::vector<Track>& tracks) const {
+  const Candidate* result = nullptr;
+  double greatest = 0.5;
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& other = candidates_[i];
+    if (other.track == candidate.track || (other.spot == kNone) == (candidate.spot == kNone) ||
+        !tracks[other.track].isConfirmed())
+      continue;
+    const Candidate& visible = other.spot == kNone ? candidate : other;
+    const Candidate& absent = other.spot == kNone ? other : candidate;
+    // An LED that was hidden from this camera mostly stays hidden.
+    const double hidden = tracks[absent.track].wasMissedBy(image.camera)
+                              ? options_.detection_probability
+                              : 1.0 - options_.detection_probability;
+    const double probability = mergedProbability(
+        image.pixels[static_cast<std::size_t>(visible.spot)], visible.prediction, absent.prediction,
+        hidden, noise_.pixel_stddev, options_.merging_distance);
+    if (probability > greatest) {
+      greatest = probability;
+      result = &other;
+    }
+  }
+  return result;
+}
+
+void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks) {
+  const auto isAlone = [&](const Candidate& candidate) {
+    return candidate.spot == kNone && tracks[candidate.track].isConfirmed();
+  };
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    for (std::size_t j = i + 1; j < candidate_count_; ++j) {
+      Candidate &a = candidates_[i], &b = candidates_[j];
+      const auto spot = isAlone(a) && isAlone(b) ? spotBetween(image, a, b) : std::nullopt;
+      if (!spot)
+        continue;
+      const Eigen::Vector2d between = b.prediction.pixel() - a.prediction.pixel();
+      const Eigen::Vector2d from_a = image.pixels[*spot] - a.prediction.pixel();
+      assignSpot(*spot, from_a.dot(between) > 0.5 * between.squaredNorm() ? &b : &a);
+    }
+  }
+}
+
+void ImageUpdate::addMergedPairs(const StoredImage& image,
+                                 const std::vector<Track>& tracks,
+                                 std::vector<MergedPair>* pairs) const {
+  for (std::size_t i = 0; i < candidate_count_; ++i) {
+    const Candidate& candidate = candidates_[i];
+    const Candidate* other =
+        candidate.spot == kNone ? nullptr : mergedWith(image, candidate, tracks);
+    if (!other || !tracks[candidate.track].isConfirmed())
+      continue;
+    const Track& a = tracks[candidate.track];
+    const Track& b = tracks[other->track];
+    const bool is_known = std::any_of(pairs->begin(), pairs->end(), [&](const MergedPair& pair) {
+      return pair.has(a.id) || pair.has(b.id);
+    });
+    if (!is_known && !a.isShownBeside(b, image.time - options_.birth_window))
+      pairs->emplace_back(a.id, b.id, MergedPair::Filters{a.filter, b.filter});
+  }
+}
+
+/// Lets each pair choose the spots of its two LEDs in an image that shows both. Other images update
+/// the two as any other track.
+void ImageUpdate::updateMergedPairs(const GroupCamera& camera,
+                                    const StoredImage& image,
+                                    std::vector<Track>* tracks,
+                                    std::vector<MergedPair>* pairs) {
+  for (MergedPair& pair : *pairs) {
+    const std::array<Candidate*, 2> both = {find(*tracks, pair.ids()[0]),
+                                            find(*tracks, pair.ids()[1])};
+    if (!both[0] || !both[1])
+      continue;
+    MergedPair::View view;
+    view.camera = &camera.forRays();
+    view.noise = noise_;
+    view.time = image.time;
+    std::array<std::size_t, association::kMaximumSpots> spot_of;  // of the view
+    for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
+      const int owner = track_of_spot_[spot];
+      if (owner != association::kFalseDetection && owner != static_cast<int>(both[0]->track) &&
+          owner != static_cast<int>(both[1]->track))
+        continue;
+      spot_of[view.spot_count] = spot;
+      view.pixels[view.spot_count++] = image.pixels[spot];
+    }
+    const auto chosen = pair.update(view, options_.gate);
+    if (!chosen)
+      continue;
+    for (std::size_t i = 0; i < view.spot_count; ++i)
+      track_of_spot_[spot_of[i]] = association::kFalseDetection;
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::size_t spot = spot_of[(*chosen)[i]];
+      assignSpot(spot, both[i]);
+      both[i]->updated = true;
+      Track& track = (*tracks)[both[i]->track];
+      track.filter = pair.likeliest()[i];
+      track.hit(image.camera, image.pixels[spot] - both[i]->prediction.pixel(), true);
+      track.noteOwnSpot();
+    }
+  }
+}
+
+/// A merged spot lies between its two LEDs, perhaps nearer to the brighter one. It moves both by
+/// the same, and its noise covers any place between them.
+void ImageUpdate::updateMerged(const GroupCamera& camera,
+                               const StoredImage& image,
+                               const Candidate& candidate,
+                               const Candidate& other,
+                               std::vector<Track>* tracks) const {
+  const bool is_own = candidate.spot != kNone;
+  const auto spot = static_cast<std::size_t>(is_own ? candidate.spot : other.spot);
+  Track& track = (*tracks)[candidate.track];
+  const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
+  motion::PixelNoise noise = noise_;
+  noise.pixel_stddev =
+      std::sqrt(noise_.pixel_stddev * noise_.pixel_stddev + between.squaredNorm() / 12.0 +
+                0.5 * other.prediction.covariance().trace());
+  const auto prediction = track.filter.predictPixel(camera.forRays(), noise);
+  const Eigen::Vector2d pixel = image.pixels[spot] + 0.5 * between;
+  if (!prediction || !(prediction->squaredDistance(pixel) <= options_.gate)) {
+    track.miss(image.camera, image.time);
+    return;
+  }
+  if (!track.filter.update(camera.forRays(), *prediction, pixel))
+    return;
+  track.hit(image.camera, pixel - prediction->pixel(), is_own);
+  track.noteSharedSpot((*tracks)[other.track].id, is_own);
+}
+
+}  // namespace wiimote_tracker::tracking

@@ -23,12 +23,9 @@ void require(bool good, const std::string& what, double value) {
 std::optional<Vector2> pixelBeforeFold(const Intrinsics& lens,
                                        const Vector2& normalized,
                                        Matrix2* jacobian) {
-  if (lens.distortion_model == DistortionModel::kEquidistant) {
-    if (!equidistant::isBeforeFold(lens.distortion, normalized))
-      return std::nullopt;
-    return lens.pixelFromNormalized(normalized, jacobian);
-  }
-  const auto distorted = plumb_bob::distortBeforeFold(lens.distortion, normalized, jacobian);
+  const auto distorted = lens.distortion_model == DistortionModel::kEquidistant
+                             ? equidistant::distortBeforeFold(lens.distortion, normalized, jacobian)
+                             : plumb_bob::distortBeforeFold(lens.distortion, normalized, jacobian);
   if (!distorted)
     return std::nullopt;
   jacobian->row(0) *= lens.fx;
@@ -72,12 +69,6 @@ std::optional<Vector2> Intrinsics::normalizedFromPixel(const Vector2& pixel) con
   return distortion_model == DistortionModel::kEquidistant
              ? equidistant::undistort(distortion, target)
              : plumb_bob::undistort(distortion, target);
-}
-
-bool Intrinsics::isBeforeFold(const Vector2& normalized) const {
-  return distortion_model == DistortionModel::kEquidistant
-             ? equidistant::isBeforeFold(distortion, normalized)
-             : plumb_bob::isBeforeFold(distortion, normalized);
 }
 
 void Intrinsics::check() const {

@@ -22,9 +22,7 @@ Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::
 /// Nothing where no point before the fold has this image. The target must be finite.
 std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
 
-bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
-
-/// distort(), or nothing beyond the fold: both share most of the computation.
+/// distort(), or nothing beyond the fold. `jacobian` must not be null.
 std::optional<Eigen::Vector2d> distortBeforeFold(const Coefficients& k,
                                                  const Eigen::Vector2d& n,
                                                  Eigen::Matrix2d* jacobian);
@@ -39,8 +37,10 @@ Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::
 
 std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
 
-/// Also false beyond 1.55 rad from the axis.
-bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
+/// Nothing beyond 1.55 rad from the axis either.
+std::optional<Eigen::Vector2d> distortBeforeFold(const Coefficients& k,
+                                                 const Eigen::Vector2d& n,
+                                                 Eigen::Matrix2d* jacobian);
 
 }  // namespace equidistant
 

@@ -106,8 +106,12 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
   return std::tan(angle) / radius * target;
 }
 
-bool isBeforeFold(const Coefficients& k, const Vector2& n) {
-  return growsUpTo(k, std::atan(n.norm()));
+std::optional<Vector2> distortBeforeFold(const Coefficients& k,
+                                         const Vector2& n,
+                                         Matrix2* jacobian) {
+  if (!growsUpTo(k, std::atan(n.norm())))
+    return std::nullopt;
+  return distort(k, n, jacobian);
 }
 
 }  // namespace wiimote_tracker::geometry::equidistant

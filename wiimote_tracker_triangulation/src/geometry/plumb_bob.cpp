@@ -34,6 +34,11 @@ bool radiusGrowsUpTo(const Coefficients& k, double s) {
                      [&](double t) { return !(t > 0.0 && t < s) || slope(t) > 0.0; });
 }
 
+bool isBeforeFold(const Coefficients& k, const Vector2& n) {
+  Matrix2 jacobian;
+  return distortBeforeFold(k, n, &jacobian).has_value();
+}
+
 }  // namespace
 
 Vector2 distort(const Coefficients& k, const Vector2& n, Matrix2* jacobian) {
@@ -91,11 +96,6 @@ std::optional<Vector2> distortBeforeFold(const Coefficients& k,
   if (!(jacobian->determinant() > 0.0))
     return std::nullopt;
   return distorted;
-}
-
-bool isBeforeFold(const Coefficients& k, const Vector2& n) {
-  Matrix2 jacobian;
-  return distortBeforeFold(k, n, &jacobian).has_value();
 }
 
 }  // namespace wiimote_tracker::geometry::plumb_bob

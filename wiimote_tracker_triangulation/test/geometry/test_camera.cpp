@@ -128,11 +128,11 @@ TEST(Camera, DoesNotSeeAGhostThatTheLensPolynomialFoldsBackIntoTheImage) {
 
 TEST(Camera, FindsAFoldThatAHigherCoefficientHidesAgain) {
   // 1 + 3 k1 s + 5 k2 s^2 = 1 - 6 s + 8 s^2: negative between s = 0.25 and 0.5, positive after.
-  Intrinsics intrinsics;
-  intrinsics.distortion = {-2.0, 1.6, 0.0, 0.0, 0.0};
-  EXPECT_TRUE(intrinsics.isBeforeFold({0.49, 0.0}));
-  EXPECT_FALSE(intrinsics.isBeforeFold({0.6, 0.0}));
-  EXPECT_FALSE(intrinsics.isBeforeFold({0.9, 0.0}));
+  Camera camera;
+  camera.intrinsics.distortion = {-2.0, 1.6, 0.0, 0.0, 0.0};
+  EXPECT_TRUE(camera.project({0.49, 0.0, 1.0}));
+  EXPECT_FALSE(camera.project({0.6, 0.0, 1.0}));
+  EXPECT_FALSE(camera.project({0.9, 0.0, 1.0}));
 }
 
 TEST(Camera, RefusesPixelsThatAreNoNumbers) {

@@ -31,6 +31,13 @@ Intrinsics ideal() {
   return intrinsics;
 }
 
+/// Whether a lens projects a point at this distance from the axis, at depth 1.
+bool isBeforeFold(const Intrinsics& lens, double distance) {
+  Camera camera;
+  camera.intrinsics = lens;
+  return camera.project({distance, 0.0, 1.0}).has_value();
+}
+
 /// Up to about 70 degrees off the axis.
 Vector2d randomPixel(const Intrinsics& intrinsics, Random& random) {
   const double radius = random.uniform(0.0, 1.1);
@@ -114,8 +121,8 @@ TEST(Fisheye, RefusesWhatLiesBeyondTheFold) {
   // a - a^3 / 3 turns back at a = 1, where it is 2/3.
   Intrinsics lens = ideal();
   lens.distortion[0] = -1.0 / 3.0;
-  EXPECT_TRUE(lens.isBeforeFold({std::tan(0.99), 0.0}));
-  EXPECT_FALSE(lens.isBeforeFold({std::tan(1.01), 0.0}));
+  EXPECT_TRUE(isBeforeFold(lens, std::tan(0.99)));
+  EXPECT_FALSE(isBeforeFold(lens, std::tan(1.01)));
   EXPECT_TRUE(lens.normalizedFromPixel({512.0 + 500.0 * 0.666, 384.0}));
   EXPECT_FALSE(lens.normalizedFromPixel({512.0 + 500.0 * 0.667, 384.0}));
   // The branch from the centre, not the one that comes back.
@@ -127,15 +134,15 @@ TEST(Fisheye, FindsAFoldThatAHigherCoefficientHidesAgain) {
   // With s = a^2 the slope 1 - 6 s + 8 s^2 is negative between s = 0.25 and 0.5, positive after.
   Intrinsics lens = ideal();
   lens.distortion = {-2.0, 1.6, 0.0, 0.0, 0.0};
-  EXPECT_TRUE(lens.isBeforeFold({std::tan(0.499), 0.0}));
-  EXPECT_FALSE(lens.isBeforeFold({std::tan(0.501), 0.0}));
-  EXPECT_FALSE(lens.isBeforeFold({std::tan(0.9), 0.0}));
+  EXPECT_TRUE(isBeforeFold(lens, std::tan(0.499)));
+  EXPECT_FALSE(isBeforeFold(lens, std::tan(0.501)));
+  EXPECT_FALSE(isBeforeFold(lens, std::tan(0.9)));
   // 9 k4 (s - 0.3)^2 (s - 0.5)^2 plus a constant: near zero twice, but never zero.
   const auto grazing = [](double above) {
     const double c = 1.0 / (0.0225 + above);
     Intrinsics graze = ideal();
     graze.distortion = {c * -0.24 / 3.0, c * 0.94 / 5.0, c * -1.6 / 7.0, c * 1.0 / 9.0, 0.0};
-    return graze.isBeforeFold({std::tan(0.9), 0.0});
+    return isBeforeFold(graze, std::tan(0.9));
   };
   EXPECT_TRUE(grazing(1e-5));
   EXPECT_FALSE(grazing(-1e-5));
@@ -145,7 +152,7 @@ TEST(Fisheye, RefusesPixelsThatAreNoNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(ideal().normalizedFromPixel({nan, 0.0}));
   EXPECT_FALSE(ideal().normalizedFromPixel({0.0, std::numeric_limits<double>::infinity()}));
-  EXPECT_FALSE(ideal().isBeforeFold({nan, 0.0}));
+  EXPECT_FALSE(isBeforeFold(ideal(), nan));
 }
 
 TEST(Fisheye, PointsAreTriangulatedAsWithAnyLens) {

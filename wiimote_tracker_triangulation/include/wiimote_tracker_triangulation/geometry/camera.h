@@ -48,9 +48,6 @@ struct Intrinsics {
   /// 1.55 rad off the axis.
   std::optional<Eigen::Vector2d> normalizedFromPixel(const Eigen::Vector2d& pixel) const;
 
-  /// Whether the lens model is one to one from the principal point out to this normalised point.
-  bool isBeforeFold(const Eigen::Vector2d& normalized) const;
-
   /// @throws InvalidRigError naming the value that is out of range or not finite.
   void check() const;
 };
@@ -65,9 +62,9 @@ struct Camera {
   /// Optical centre in the world [m].
   Eigen::Vector3d center() const { return world_from_camera.translation(); }
 
-  /// Pixel of a world point [m]. Nothing when the point is not in front of the camera, or so far
-  /// off its axis that the lens model does not hold (Intrinsics::isBeforeFold). The pixel may lie
-  /// outside the image. @param jacobian receives d pixel / d point [px/m], when it is not null.
+  /// Pixel of a world point [m]. Nothing when the point is not in front of the camera, or beyond
+  /// the fold of the lens model (Intrinsics::normalizedFromPixel). The pixel may lie outside the
+  /// image. @param jacobian receives d pixel / d point [px/m], when it is not null.
   std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point,
                                          Eigen::Matrix<double, 2, 3>* jacobian = nullptr) const;
 

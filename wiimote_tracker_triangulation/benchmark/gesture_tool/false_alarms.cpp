@@ -33,7 +33,7 @@ FalseAlarms countFalseAlarms(const std::vector<Person>& teachers,
       if (!point.position.allFinite())
         continue;
       alarms.continuous += spotter.add(point, recognizer) ? 1 : 0;
-      if (const auto path = segmenter.add(point)) {
+      if (const auto path = segmenter.add(point, point.time)) {
         const auto recognition = recognizer.recognize(*path);
         alarms.between_rests += recognition && recognition->accepted() ? 1 : 0;
       }

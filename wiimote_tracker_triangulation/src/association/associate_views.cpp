@@ -120,8 +120,6 @@ ViewAssociator::ViewAssociator(const geometry::Rig& rig,
     : workspace_(std::make_unique<Workspace>(rig, std::move(partners), options)) {}
 
 ViewAssociator::~ViewAssociator() = default;
-ViewAssociator::ViewAssociator(ViewAssociator&&) noexcept = default;
-ViewAssociator& ViewAssociator::operator=(ViewAssociator&&) noexcept = default;
 
 const Association& ViewAssociator::associate(const std::vector<View>& views) {
   Workspace& w = *workspace_;

@@ -85,9 +85,7 @@ class MatchSearch {
       found_ = true;
       best_cost_ = cost;
       best_.point_of_led = chosen_;
-      best_.seen = seen;
       best_.world_from_body = alignment.world_from_body;
-      best_.chi_squared = alignment.cost;
     } else if (cost < runner_up_cost_ &&
                !isSamePose(best_.world_from_body, alignment.world_from_body)) {
       runner_up_cost_ = cost;

@@ -23,7 +23,7 @@ std::optional<Matrix3> CalibrationUncertainty::covarianceOf(const Vector3& point
                                                             const std::size_t* cameras,
                                                             std::size_t count) const {
   count = std::min(count, kMaximumCameras);
-  if (!isKnown() || count < 2)
+  if (!hasCovariance(rig_) || count < 2)
     return std::nullopt;
   std::array<PointJacobian, kMaximumCameras> by_camera;
   if (!pointSensitivity(rig_, point, cameras, count, by_camera.data()))
@@ -46,7 +46,7 @@ std::optional<Matrix3> CalibrationUncertainty::covarianceNear(const Vector3& poi
                                                               const std::size_t* cameras,
                                                               std::size_t count) {
   count = std::min(count, kMaximumCameras);
-  if (!isKnown() || count < 2 || !(point.cwiseAbs().maxCoeff() < kFarthest))
+  if (!hasCovariance(rig_) || count < 2 || !(point.cwiseAbs().maxCoeff() < kFarthest))
     return std::nullopt;
   std::array<std::int32_t, 3> place;
   std::uint64_t hash = 1469598103934665603u;  // Fowler, Noll and Vo

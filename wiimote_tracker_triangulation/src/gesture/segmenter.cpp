@@ -59,12 +59,6 @@ std::optional<Path> Segmenter::button(double time, bool pressed) {
   return !path_.empty() && path_.back().time >= time ? cutAtButton() : std::nullopt;
 }
 
-void Segmenter::reset() {
-  path_.clear();
-  moving_ = false;
-  end_.reset();
-}
-
 /// The path between pressing and releasing the button.
 std::optional<Path> Segmenter::cutAtButton() {
   forgetBefore(begin_);

@@ -42,7 +42,6 @@ class Segmenter {
   /// gesture only if the LED is seen again.
   /// @returns a gesture that this position ends.
   std::optional<Path> add(const PathPoint& point, double seen);
-  std::optional<Path> add(const PathPoint& point) { return add(point, point.time); }
 
   /// Advances to `time` [s] without a position (the LED is hidden or off).
   std::optional<Path> advance(double time);
@@ -53,9 +52,6 @@ class Segmenter {
   /// @returns a gesture that this event ends.
   std::optional<Path> button(double time, bool pressed);
   static constexpr double kButtonDelay = 0.5;  // [s]
-
-  /// Forgets all state, as after a jump in time.
-  void reset();
 
  private:
   std::optional<Path> end();

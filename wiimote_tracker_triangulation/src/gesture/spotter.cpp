@@ -49,11 +49,6 @@ std::optional<Spotted> Spotter::advance(double time) {
   return found;
 }
 
-void Spotter::reset() {
-  motion_.clear();
-  best_.reset();
-}
-
 /// Motion that was reported is not examined again.
 std::optional<Spotted> Spotter::report() {
   std::optional<Spotted> spotted = std::exchange(best_, std::nullopt);

@@ -53,9 +53,6 @@ class Spotter {
   /// Advances to `time` [s] without a position (the LED is hidden or off).
   std::optional<Spotted> advance(double time);
 
-  /// Forgets all state, as after a jump in time.
-  void reset();
-
  private:
   std::optional<Spotted> report();
   bool isAfterRest(const PathPoint& beginning) const;

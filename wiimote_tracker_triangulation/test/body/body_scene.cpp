@@ -128,6 +128,7 @@ FollowedBody::FollowedBody(const geometry::Rig& rig,
                            const tracking::test::SceneOptions& options,
                            unsigned seed)
     : rig_(rig),
+      body_(body),
       motion_(motion),
       pixel_noise_(options.pixel_noise),
       scene_(rig, pathsOf(body, motion), options, seed),

@@ -80,11 +80,12 @@ class FollowedBody {
   Eigen::Vector3d trueAngularVelocity() const;  ///< World [rad/s].
 
   const geometry::Rig& rig() const { return rig_; }
-  const Constellation& body() const { return tracker_.constellations()[0]; }
+  const Constellation& body() const { return body_; }
   double pixelNoise() const { return pixel_noise_; }  ///< [px]
 
  private:
   geometry::Rig rig_;
+  Constellation body_;
   Motion motion_;
   double pixel_noise_;
   tracking::test::Scene scene_;

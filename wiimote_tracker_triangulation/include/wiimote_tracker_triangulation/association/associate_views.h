@@ -87,8 +87,6 @@ class ViewAssociator {
                  const AssociationOptions& options);
 
   ~ViewAssociator();
-  ViewAssociator(ViewAssociator&&) noexcept;
-  ViewAssociator& operator=(ViewAssociator&&) noexcept;
 
   /// @param views one per camera of the rig, in its order. Valid until the next call.
   const Association& associate(const std::vector<View>& views);

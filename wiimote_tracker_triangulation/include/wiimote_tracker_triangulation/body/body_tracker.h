@@ -129,8 +129,6 @@ class BodyTracker {
   /// One per constellation, at time(); nothing while the body's pose is unknown.
   const std::vector<std::optional<BodyEstimate>>& bodies() const { return estimates_; }
 
-  const std::vector<Constellation>& constellations() const { return constellations_; }
-
   /// Forgets all state, as after a jump in time.
   void reset();
 

@@ -26,11 +26,7 @@ constexpr int kUnseen = -1;
 /// Assignment of points to the LEDs of a body.
 struct Match {
   std::array<int, kMaximumLeds> point_of_led;  ///< Index of the point, or kUnseen.
-  std::size_t seen = 0;                        ///< LEDs that have a point.
   Eigen::Isometry3d world_from_body;
-
-  /// Sum of squared distances, each divided by its variance [1].
-  double chi_squared = 0.0;
 
   /// Cost of the best match with another pose minus the cost of this one (in units of chi^2);
   /// infinity when there is none.

@@ -27,11 +27,8 @@ class CalibrationUncertainty {
 
   explicit CalibrationUncertainty(const Rig& rig);
 
-  /// Whether the rig has the covariance of its parameters. If not, there is none of any point.
-  bool isKnown() const { return rig_.covariance.size() > 0; }
-
-  /// Covariance [m^2] of a point seen by these cameras of the rig (ascending). Nothing when it is
-  /// not known, or the cameras do not determine the point.
+  /// Covariance [m^2] of a point seen by these cameras of the rig (ascending). Nothing when the rig
+  /// has no covariance, or the cameras do not determine the point.
   std::optional<Eigen::Matrix3d> covarianceOf(const Eigen::Vector3d& point,
                                               const std::size_t* cameras,
                                               std::size_t count) const;

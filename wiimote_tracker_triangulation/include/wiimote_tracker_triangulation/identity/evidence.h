@@ -27,10 +27,8 @@ class Evidence {
   void add(const Sighting& sighting);
 
   /// Present log likelihoods of all cells, and of a light that does not blink.
-  /// @param cells output, hypotheses().cells() values.
+  /// @param cells output, Hypotheses::cells() values.
   void read(Eigen::ArrayXf* cells, double* steady) const;
-
-  const Hypotheses& hypotheses() const { return *hypotheses_; }
 
  private:
   /// The present dark interval of a camera.

@@ -32,9 +32,6 @@ class Correction {
   /// has a support without volume, or a model that is undefined at a point of the support.
   Correction(const Remap& remap, const std::string& rig_id);
 
-  const Remap& remap() const { return remap_; }
-  const ConvexHull& hull() const { return hull_; }
-
   /// Nothing for a point that is not finite. The covariance is J S J' with the derivative J of the
   /// whole correction; it does not include the error of the correction. Never allocates.
   std::optional<CorrectedPoint> apply(const Eigen::Vector3d& measured,

@@ -53,6 +53,14 @@ inline std::string lowerCase(std::string text) {
   return text;
 }
 
+/// Whether a text is a letter, then letters, digits and underscores, all of ASCII.
+inline bool isWord(const std::string& text) {
+  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  return !text.empty() && isLetter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) {
+    return isLetter(c) || (c >= '0' && c <= '9') || c == '_';
+  });
+}
+
 /// The words of a list as "a, b, c".
 template <typename Words>
 std::string joined(const Words& words, const char* separator = ", ") {

@@ -77,13 +77,6 @@ class SymmetrySearch {
   Symmetry best_;
 };
 
-bool isWord(const std::string& text) {
-  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  return isLetter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) {
-           return isLetter(c) || (c >= '0' && c <= '9') || c == '_';
-         });
-}
-
 void checkLabels(const Constellation& body) {
   const std::set<std::string> different(body.labels.begin(), body.labels.end());
   if (!body.labels.empty() &&

@@ -2,20 +2,15 @@
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
-#include <cctype>
 
 namespace wiimote_tracker::identity {
 namespace {
 
 // Two LEDs must differ in this share of the period; less is not seen in a few periods at 100 Hz.
 constexpr double kLeastDifference = 0.05;
-
-bool isLabel(const std::string& label) {
-  return !label.empty() && std::isalpha(static_cast<unsigned char>(label[0])) &&
-         std::all_of(label.begin(), label.end(),
-                     [](unsigned char c) { return std::isalnum(c) || c == '_'; });
-}
 
 void checkWaveform(const BlinkCode& code) {
   double last = -1.0;
@@ -47,7 +42,7 @@ void BlinkCodes::check() const {
     throw Error("at most " + std::to_string(kMaximumSynchronous) +
                 " LEDs can blink together; use cyclic codes for more");
   for (std::size_t i = 0; i < codes.size(); ++i) {
-    if (!isLabel(codes[i].label))
+    if (!isWord(codes[i].label))
       throw Error("'" + codes[i].label + "' is no label; use a letter, then letters, digits and _");
     checkWaveform(codes[i]);
     for (std::size_t j = 0; j < i; ++j) {

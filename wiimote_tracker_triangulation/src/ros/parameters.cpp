@@ -4,6 +4,8 @@
 #include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <set>
 #include <sstream>
@@ -16,13 +18,6 @@ const std::vector<std::string>& methodNames() {
   static const std::vector<std::string> names = {"mean_closest", "least_squares",
                                                  "maximum_likelihood", "reweighted_midpoint"};
   return names;
-}
-
-bool isWord(const std::string& text) {
-  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  return !text.empty() && isLetter(text[0]) && std::all_of(text.begin(), text.end(), [&](char c) {
-    return isLetter(c) || (c >= '0' && c <= '9') || c == '_';
-  });
 }
 
 /// Whether a track without a label may have this name.

@@ -3,9 +3,11 @@
 
 #include "wiimote_tracker_msgs/error.h"
 #include "wiimote_tracker_msgs/parameter_tree.h"
+#include "wiimote_tracker_msgs/text.h"
 
 #include <ros/node_handle.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <map>
 #include <set>
@@ -89,13 +91,10 @@ class ParameterReader {
                      const std::string& default_value,
                      const std::vector<std::string>& words) {
     const std::string value = optional<std::string>(key, default_value);
-    std::string list;
-    for (const std::string& word : words) {
-      if (word == value)
-        return value;
-      list += (list.empty() ? "" : ", ") + word;
-    }
-    throw ParameterError(nameOf(key) + " is '" + value + "', but must be one of: " + list);
+    if (std::find(words.begin(), words.end(), value) == words.end())
+      throw ParameterError(nameOf(key) + " is '" + value +
+                           "', but must be one of: " + joined(words));
+    return value;
   }
 
   /// Full names of all values that are set.
@@ -110,13 +109,14 @@ class ParameterReader {
 
   /// @throws ParameterError naming every key below the namespace that was not read.
   void refuseUnknown() const {
-    std::string unknown;
+    std::vector<std::string> unknown;
     for (const std::string& name : fullNames()) {
       if (!isUsed(name))
-        unknown += (unknown.empty() ? "" : ", ") + name;
+        unknown.push_back(name);
     }
     if (!unknown.empty())
-      throw ParameterError("unknown parameter " + unknown + ": remove it or correct its spelling");
+      throw ParameterError("unknown parameter " + joined(unknown) +
+                           ": remove it or correct its spelling");
   }
 
  private:

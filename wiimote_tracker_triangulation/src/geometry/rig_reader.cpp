@@ -4,6 +4,9 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -13,13 +16,10 @@ namespace {
 template <typename Enum, std::size_t N>
 Enum readWord(YamlMap& map, const std::string& key, const std::array<const char*, N>& words) {
   const std::string word = map.get<std::string>(key);
-  std::string list;
-  for (std::size_t i = 0; i < N; ++i) {
-    if (word == words[i])
-      return static_cast<Enum>(i);
-    list += std::string(i == 0 ? "" : ", ") + words[i];
-  }
-  throw map.error(key, "is '" + word + "', but must be one of: " + list);
+  const auto found = std::find(words.begin(), words.end(), word);
+  if (found == words.end())
+    throw map.error(key, "is '" + word + "', but must be one of: " + joined(words));
+  return static_cast<Enum>(found - words.begin());
 }
 
 Eigen::Isometry3d readTransform(YamlMap map) {

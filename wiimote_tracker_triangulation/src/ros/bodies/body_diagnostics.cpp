@@ -2,6 +2,8 @@
 
 #include "body_parameters.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cmath>
 #include <limits>
 
@@ -33,9 +35,7 @@ void BodyDiagnostics::setBodies(const std::vector<body::Constellation>& bodies) 
   statuses_.clear();
   seen_.clear();
   for (const body::Constellation& body : bodies) {
-    std::string warning;
-    for (const std::string& sentence : shapeWarnings({body}))
-      warning += (warning.empty() ? "" : "; ") + sentence;
+    const std::string warning = joined(shapeWarnings({body}), "; ");
     statuses_.push_back("body " + body.name);
     seen_[body.name].leds.resize(body.leds.size());
     updater_.add(statuses_.back(), [=](diagnostic_updater::DiagnosticStatusWrapper& status) {

@@ -4,6 +4,7 @@
 #include <wiimote_tracker_msgs/RigCalibration.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -87,13 +88,9 @@ ros::Time Recording::justBefore() const {
 Topics Recording::topics() const {
   if (rig_topics_.empty())
     return Topics();
-  if (rig_topics_.size() > 1) {
-    std::string names;
-    for (const std::string& topic : rig_topics_)
-      names += (names.empty() ? "" : ", ") + topic;
-    throw BagError(path_ + " holds the rigs of several trackers (" + names +
+  if (rig_topics_.size() > 1)
+    throw BagError(path_ + " holds the rigs of several trackers (" + joined(rig_topics_) +
                    "): say whose with --namespace");
-  }
   const std::string& topic = *rig_topics_.begin();
   return Topics(topic.substr(0, topic.size() - std::string("calibration/rig").size()));
 }

@@ -13,13 +13,10 @@ namespace wiimote_tracker::remap {
 ConvexHull::ConvexHull(const std::vector<Eigen::Vector3d>& points) {
   if (points.empty())
     return;
-  Eigen::Vector3d low = points[0];
-  Eigen::Vector3d high = points[0];
-  for (const Eigen::Vector3d& point : points) {
-    low = low.cwiseMin(point);
-    high = high.cwiseMax(point);
-  }
-  const double size = (high - low).norm();
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& point : points)
+    box.extend(point);
+  const double size = box.diagonal().norm();
   tolerance_ = 1e-9 * size;
   const auto liesOn = [&](const Face& face, const Eigen::Vector3d& point) {
     return std::abs(face.normal.dot(point) - face.offset) <= tolerance_;

@@ -9,6 +9,8 @@
 #include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/GestureEvent.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -26,10 +28,6 @@ constexpr double kJump = 1.0;  // [s]
 
 // LEDs that may draw at the same time; others are ignored.
 constexpr std::size_t kMostHands = 64;
-
-bool holds(const geometry::Zone& zone, const Eigen::Vector3d& p) {
-  return (p.array() >= zone.minimum.array()).all() && (p.array() <= zone.maximum.array()).all();
-}
 
 }  // namespace
 
@@ -213,14 +211,11 @@ void Gestures::publish(std::uint8_t event,
   message.zone = zoneOf(path);
   message.begin.fromSec(path.front().time);
   message.end.fromSec(path.back().time);
-  Eigen::Array3d minimum = path.front().position;
-  Eigen::Array3d maximum = path.front().position;
-  for (const gesture::PathPoint& point : path) {
-    minimum = minimum.min(point.position.array());
-    maximum = maximum.max(point.position.array());
-  }
-  message.minimum = pointOf(minimum);
-  message.maximum = pointOf(maximum);
+  Eigen::AlignedBox3d box;
+  for (const gesture::PathPoint& point : path)
+    box.extend(point.position);
+  message.minimum = pointOf(box.min());
+  message.maximum = pointOf(box.max());
   events_publisher_.publish(message);
   if (markers_publisher_.getNumSubscribers() > 0) {
     static const char* const kWords[] = {"", " (rejected)", " (recorded)"};
@@ -312,8 +307,9 @@ bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
 /// The first zone that contains the middle of the path.
 std::string Gestures::zoneOf(const gesture::Path& path) const {
   const Eigen::Vector3d& middle = path[path.size() / 2].position;
-  const auto zone = std::find_if(zones_.begin(), zones_.end(),
-                                 [&](const geometry::Zone& z) { return holds(z, middle); });
+  const auto zone = std::find_if(zones_.begin(), zones_.end(), [&](const geometry::Zone& z) {
+    return Eigen::AlignedBox3d(z.minimum, z.maximum).contains(middle);
+  });
   return zone == zones_.end() ? "" : zone->name;
 }
 

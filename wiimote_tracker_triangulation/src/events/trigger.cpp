@@ -83,19 +83,11 @@ void Trigger::ask(double time, std::uint64_t request) {
 }
 
 void Trigger::add(const tracking::Snapshot& snapshot) {
-  if (size_ > 0 && snapshot.time <= at(size_ - 1).time)
-    size_ = 0;
-  while (size_ > 1 && at(1).time < snapshot.time - options_.history) {
-    first_ = (first_ + 1) % ring_.size();
-    --size_;
-  }
-  if (size_ == ring_.size()) {
-    std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(first_), ring_.end());
-    first_ = 0;
-    ring_.resize(2 * ring_.size() + 8);
-  }
-  Kept& kept = ring_[(first_ + size_) % ring_.size()];
-  ++size_;
+  if (!kept_.empty() && snapshot.time <= kept_.back().time)
+    kept_.clear();
+  while (kept_.size() > 1 && kept_.at(kept_.begin() + 1).time < snapshot.time - options_.history)
+    kept_.popFront();
+  Kept& kept = kept_.push();
   kept.time = snapshot.time;
   kept.latest_arrival = snapshot.latest_arrival;
   kept.skew = snapshot.skew;
@@ -120,26 +112,27 @@ bool Trigger::answer(const Request& request) {
   answer_.request = request.number;
   answer_.snapshot.time = request.time;
   answer_.snapshot.leds.clear();
-  const double newest = size_ > 0 ? at(size_ - 1).time : -std::numeric_limits<double>::infinity();
+  const double newest =
+      kept_.empty() ? -std::numeric_limits<double>::infinity() : kept_.back().time;
   if (request.is_one_too_many) {
     answer_.result = TriggerResult::kTooMany;
-  } else if (size_ > 0 && request.time > newest + options_.history) {
+  } else if (!kept_.empty() && request.time > newest + options_.history) {
     answer_.result = TriggerResult::kTooEarly;
-  } else if (request.time > newest || size_ == 0) {
+  } else if (request.time > newest || kept_.empty()) {
     answer_.result = TriggerResult::kGap;
     return finished_;
-  } else if (request.time < at(0).time) {
+  } else if (request.time < kept_.front().time) {
     answer_.result = TriggerResult::kTooOld;
   } else {
-    std::size_t after = 0;
-    while (at(after).time < request.time)
-      ++after;
-    const std::size_t before = at(after).time == request.time ? after : after - 1;
-    answer_.result = at(after).time - at(before).time <= options_.maximum_gap
-                         ? TriggerResult::kAnswered
-                         : TriggerResult::kGap;
+    std::uint64_t number = kept_.begin();
+    while (kept_.at(number).time < request.time)
+      ++number;
+    const Kept& after = kept_.at(number);
+    const Kept& before = after.time == request.time ? after : kept_.at(number - 1);
+    answer_.result = after.time - before.time <= options_.maximum_gap ? TriggerResult::kAnswered
+                                                                      : TriggerResult::kGap;
     if (answer_.result == TriggerResult::kAnswered)
-      answerBetween(at(before), at(after));
+      answerBetween(before, after);
   }
   return true;
 }

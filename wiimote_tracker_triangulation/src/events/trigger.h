@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_EVENTS_TRIGGER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_EVENTS_TRIGGER_H
 
+#include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <cstddef>
@@ -85,14 +86,11 @@ class Trigger {
     std::vector<tracking::TrackedLed> leds;
   };
 
-  const Kept& at(std::size_t i) const { return ring_[(first_ + i) % ring_.size()]; }
   bool answer(const Request& request);
   void answerBetween(const Kept& before, const Kept& after);
 
   TriggerOptions options_;
-  std::vector<Kept> ring_;  // elements keep their buffers
-  std::size_t first_ = 0;
-  std::size_t size_ = 0;
+  tracking::NumberedQueue<Kept> kept_;
   bool finished_ = false;
   std::deque<Request> pending_;
   TriggerAnswer answer_;

@@ -1,10 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H
 #define WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H
 
-#include <algorithm>
+#include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
+
 #include <cstddef>
+#include <cstdint>
 #include <optional>
-#include <vector>
 
 namespace wiimote_tracker::fusion {
 
@@ -29,71 +30,60 @@ class FrameHistory {
   /// Older images are dropped.
   static constexpr std::size_t kMaximumSize = 1024;
 
-  bool empty() const { return size_ == 0; }
-  const Frame& newest() const { return at(size_ - 1); }
+  bool empty() const { return frames_.empty(); }
+  const Frame& newest() const { return frames_.back(); }
 
   /// The frame's time must be above that of newest().
   void push(const Frame& frame) {
-    if (size_ == kMaximumSize) {
-      first_ = (first_ + 1) % ring_.size();
-      --size_;
-    }
-    if (size_ == ring_.size()) {
-      std::rotate(ring_.begin(), ring_.begin() + static_cast<std::ptrdiff_t>(first_), ring_.end());
-      first_ = 0;
-      ring_.resize(std::min(kMaximumSize, 2 * ring_.size() + 8));
-    }
-    ring_[(first_ + size_) % ring_.size()] = frame;
-    ++size_;
+    if (frames_.size() == kMaximumSize)
+      frames_.popFront();
+    frames_.push() = frame;
   }
 
   /// Drops what is not needed after t: all images before the last one at or before t.
   void forgetBefore(double t) {
-    const std::size_t count = countUpTo(t);
-    if (count < 2)
-      return;
-    first_ = (first_ + count - 1) % ring_.size();
-    size_ -= count - 1;
+    const std::uint64_t next = firstAfter(t);
+    while (frames_.begin() + 1 < next)
+      frames_.popFront();
   }
 
   /// Time of the first image after t; nothing when there is none.
   std::optional<double> firstTimeAfter(double t) const {
-    const std::size_t i = countUpTo(t);
-    if (i == size_)
+    const std::uint64_t next = firstAfter(t);
+    if (next == frames_.end())
       return std::nullopt;
-    return at(i).time;
+    return frames_.at(next).time;
   }
 
   /// The last image at or before t; null when there is none.
   const Frame* lastUpTo(double t) const {
-    const std::size_t count = countUpTo(t);
-    return count == 0 ? nullptr : &at(count - 1);
+    const std::uint64_t next = firstAfter(t);
+    return next == frames_.begin() ? nullptr : &frames_.at(next - 1);
   }
 
   /// Nothing when t lies outside the images kept.
   std::optional<Bracket<Frame>> bracket(double t) const {
-    const std::size_t count = countUpTo(t);
-    if (count == 0)
+    const std::uint64_t next = firstAfter(t);
+    if (next == frames_.begin())
       return std::nullopt;
-    const Frame& before = at(count - 1);
+    const Frame& before = frames_.at(next - 1);
     if (before.time == t)
       return Bracket<Frame>{&before, &before};
-    if (count == size_)
+    if (next == frames_.end())
       return std::nullopt;
-    return Bracket<Frame>{&before, &at(count)};
+    return Bracket<Frame>{&before, &frames_.at(next)};
   }
 
-  void clear() { size_ = 0; }
+  void clear() { frames_.clear(); }
 
  private:
-  const Frame& at(std::size_t i) const { return ring_[(first_ + i) % ring_.size()]; }
-
-  std::size_t countUpTo(double t) const {  // images at or before t
-    std::size_t low = 0;
-    std::size_t high = size_;
+  /// Number of the first image after t, or one past the last.
+  std::uint64_t firstAfter(double t) const {
+    std::uint64_t low = frames_.begin();
+    std::uint64_t high = frames_.end();
     while (low < high) {
-      const std::size_t middle = (low + high) / 2;
-      if (at(middle).time <= t)
+      const std::uint64_t middle = (low + high) / 2;
+      if (frames_.at(middle).time <= t)
         low = middle + 1;
       else
         high = middle;
@@ -101,9 +91,7 @@ class FrameHistory {
     return low;
   }
 
-  std::vector<Frame> ring_;
-  std::size_t first_ = 0;
-  std::size_t size_ = 0;
+  tracking::NumberedQueue<Frame> frames_;
 };
 
 }  // namespace wiimote_tracker::fusion

@@ -30,7 +30,7 @@ void LedPublishers::advertise(const std::string& label) {
 void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
   transforms_.clear();
   for (const TrackedPoint& point : points.points) {
-    if (!isPosition(point, options_.publish_predicted))
+    if (!isPublished(point, options_.publish_predicted))
       continue;
     if (topics_.count(point.label) == 0)
       advertise(point.label);

@@ -66,11 +66,6 @@ TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
   return message;
 }
 
-bool isPosition(const TrackedPoint& point, bool publish_predicted) {
-  return point.state == TrackedPoint::TRACKED ||
-         (publish_predicted && point.state == TrackedPoint::PREDICTED);
-}
-
 geometry_msgs::PointStamped pointStamped(const TrackedPointArray& array,
                                          const TrackedPoint& point) {
   geometry_msgs::PointStamped message;
@@ -84,9 +79,7 @@ geometry_msgs::TransformStamped transform(const TrackedPointArray& array,
   geometry_msgs::TransformStamped message;
   message.header = array.header;
   message.child_frame_id = point.label;
-  message.transform.translation.x = point.position.x;
-  message.transform.translation.y = point.position.y;
-  message.transform.translation.z = point.position.z;
+  setVector(vectorOf(point.position), &message.transform.translation);
   message.transform.rotation.w = 1.0;
   return message;
 }

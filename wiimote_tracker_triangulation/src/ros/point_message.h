@@ -34,10 +34,6 @@ wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& correct
                                                 const geometry::Rig& rig,
                                                 const LedLabels& labels);
 
-/// Whether to publish a point topic and transform: the point is tracked, or predicted and
-/// `publish_predicted`.
-bool isPosition(const wiimote_tracker_msgs::TrackedPoint& point, bool publish_predicted);
-
 geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPointArray& array,
                                          const wiimote_tracker_msgs::TrackedPoint& point);
 

@@ -78,13 +78,13 @@ TEST(PointMessage, OnlyObservedLedsHaveAPosition) {
   TrackedPoint point;
   for (const bool publish_predicted : {false, true}) {
     point.state = TrackedPoint::TENTATIVE;
-    EXPECT_FALSE(isPosition(point, publish_predicted));
+    EXPECT_FALSE(isPublished(point, publish_predicted));
     point.state = TrackedPoint::TRACKED;
-    EXPECT_TRUE(isPosition(point, publish_predicted));
+    EXPECT_TRUE(isPublished(point, publish_predicted));
     point.state = TrackedPoint::PREDICTED;
-    EXPECT_EQ(publish_predicted, isPosition(point, publish_predicted));
+    EXPECT_EQ(publish_predicted, isPublished(point, publish_predicted));
     point.state = TrackedPoint::LOST;
-    EXPECT_FALSE(isPosition(point, publish_predicted));
+    EXPECT_FALSE(isPublished(point, publish_predicted));
   }
 }
 

@@ -44,6 +44,14 @@ inline void setRotation(const Eigen::Quaterniond& q, geometry_msgs::Quaternion* 
   message->z = q.z();
 }
 
+/// Whether to publish topics and a transform of a TrackedPoint or TrackedBody: it is tracked, or
+/// predicted and `publish_predicted`.
+template <typename Message>
+bool isPublished(const Message& message, bool publish_predicted) {
+  return message.state == Message::TRACKED ||
+         (publish_predicted && message.state == Message::PREDICTED);
+}
+
 /// @param row_major of as many elements as the matrix has.
 template <typename Matrix, typename Array>
 void setMatrix(const Matrix& m, Array* row_major) {

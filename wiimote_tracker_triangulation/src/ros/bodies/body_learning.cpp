@@ -87,8 +87,7 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
     if (point.state != TrackedPoint::TRACKED ||
         (!labels_.empty() && labels_.count(point.label) == 0))
       continue;
-    instant.leds.push_back(
-        {point.id, {point.position.x, point.position.y, point.position.z}, stddevOf(point)});
+    instant.leds.push_back({point.id, vectorOf(point.position), stddevOf(point)});
     if (codes_.count(point.label) > 0)
       blinks_[point.id] = point.label;
   }

@@ -83,11 +83,6 @@ TrackedBodyArray bodyMessage(const body::BodySnapshot& snapshot,
   return message;
 }
 
-bool isPose(const TrackedBody& body, bool publish_predicted) {
-  return body.state == TrackedBody::TRACKED ||
-         (publish_predicted && body.state == TrackedBody::PREDICTED);
-}
-
 geometry_msgs::PoseWithCovarianceStamped poseStamped(const TrackedBodyArray& array,
                                                      const TrackedBody& body) {
   geometry_msgs::PoseWithCovarianceStamped message;
@@ -100,9 +95,7 @@ geometry_msgs::TransformStamped transform(const TrackedBodyArray& array, const T
   geometry_msgs::TransformStamped message;
   message.header = array.header;
   message.child_frame_id = body.name;
-  message.transform.translation.x = body.pose.pose.position.x;
-  message.transform.translation.y = body.pose.pose.position.y;
-  message.transform.translation.z = body.pose.pose.position.z;
+  setVector(vectorOf(body.pose.pose.position), &message.transform.translation);
   message.transform.rotation = body.pose.pose.orientation;
   return message;
 }

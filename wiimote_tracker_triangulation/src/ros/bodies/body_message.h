@@ -21,10 +21,6 @@ wiimote_tracker_msgs::TrackedBodyArray bodyMessage(
     const geometry::Rig& rig,
     const std::string& rig_id);
 
-/// Whether to publish a pose topic and transform: the body is tracked, or predicted and
-/// `publish_predicted`.
-bool isPose(const wiimote_tracker_msgs::TrackedBody& body, bool publish_predicted);
-
 geometry_msgs::PoseWithCovarianceStamped poseStamped(
     const wiimote_tracker_msgs::TrackedBodyArray& array,
     const wiimote_tracker_msgs::TrackedBody& body);

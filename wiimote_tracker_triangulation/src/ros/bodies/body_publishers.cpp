@@ -2,6 +2,7 @@
 
 #include "../odometry.h"
 #include "body_message.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <boost/make_shared.hpp>
 
@@ -35,7 +36,7 @@ void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodie
   for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
     const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
     const auto topics = topics_.find(body.name);
-    if (topics == topics_.end() || !isPose(body, options_.publish_predicted || bridged[i]))
+    if (topics == topics_.end() || !isPublished(body, options_.publish_predicted || bridged[i]))
       continue;
     topics->second.pose.publish(
         boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(poseStamped(bodies, body)));

@@ -128,7 +128,7 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
   Hand& hand = hands_.try_emplace(point.id, parameters_, button_).first->second;
   hand.label = point.label;
   hand.last_seen = time;
-  const gesture::PathPoint here{time, {point.position.x, point.position.y, point.position.z}};
+  const gesture::PathPoint here{time, vectorOf(point.position)};
   // An example needs a start and an end.
   if (parameters_.continuous && !wanted_) {
     if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))

@@ -105,7 +105,7 @@ void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& poi
   TFMessage transforms;
   for (const TrackedPoint& point : points->points) {
     ids_.insert(point.id);
-    if (!isPosition(point, options_.publish_predicted))
+    if (!isPublished(point, options_.publish_predicted))
       continue;
     write(topics_.point(point.label), now_, pointStamped(*points, point));
     if (options_.led_odometry)
@@ -124,7 +124,7 @@ void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
   TFMessage transforms;
   for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
     const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
-    if (!isPose(body, options_.publish_predicted || bridged[i]))
+    if (!isPublished(body, options_.publish_predicted || bridged[i]))
       continue;
     write(topics_.pose(body.name), now_, poseStamped(bodies, body));
     write(topics_.twist(body.name), now_, twistStamped(bodies, body));

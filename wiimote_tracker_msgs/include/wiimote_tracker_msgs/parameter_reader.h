@@ -58,7 +58,13 @@ class ParameterReader {
   template <typename T>
   T bounded(const std::string& key, T default_value, T minimum, T maximum) {
     ranges_[key] = {static_cast<double>(minimum), static_cast<double>(maximum)};
-    return checkRange(key, optional<T>(key, default_value), minimum, maximum);
+    const T value = optional<T>(key, default_value);
+    if (minimum <= value && value <= maximum)  // false for NaN
+      return value;
+    std::ostringstream text;
+    text << nameOf(key) << " is " << value << ", but must be within " << minimum << " and "
+         << maximum;
+    throw ParameterError(text.str());
   }
 
   /// A number within [minimum, maximum], into a variable that holds its default.
@@ -78,12 +84,6 @@ class ParameterReader {
   template <typename T>
   void read(const std::string& key, T* value) {
     *value = optional<T>(key, *value);
-  }
-
-  /// A number within [minimum, maximum] that has no default. @throws ParameterError.
-  template <typename T>
-  T requiredBounded(const std::string& key, const std::string& what_to_set, T minimum, T maximum) {
-    return checkRange(key, required<T>(key, what_to_set), minimum, maximum);
   }
 
   /// One of the given words. @throws ParameterError when it is another.
@@ -135,16 +135,6 @@ class ParameterReader {
     return value;
   }
 
-  template <typename T>
-  T checkRange(const std::string& key, T value, T minimum, T maximum) const {
-    if (minimum <= value && value <= maximum)  // false for NaN
-      return value;
-    std::ostringstream text;
-    text << nameOf(key) << " is " << value << ", but must be within " << minimum << " and "
-         << maximum;
-    throw ParameterError(text.str());
-  }
-
   bool isUsed(const std::string& name) const {
     for (const std::string& used : used_) {
       if (name == used || name.compare(0, used.size() + 1, used + "/") == 0)
@@ -160,10 +150,6 @@ class ParameterReader {
   template <typename T>
   static std::string typeName(const std::vector<T>&) {
     return "a list, each entry " + typeName(T());
-  }
-  template <typename T>
-  static std::string typeName(const T&) {
-    return "another type";
   }
 
   static std::string textOf(bool value) { return value ? "true" : "false"; }

@@ -1,6 +1,7 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include "geometry/rotation.h"
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
@@ -125,16 +126,13 @@ geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
 /// Index of each parameter of the message's covariance in that of the rig, which has five
 /// distortion coefficients for every lens.
 std::vector<Eigen::Index> parametersOfMessage(const geometry::Rig& rig) {
-  constexpr std::size_t kBeforeDistortion = 10;
-  constexpr std::size_t kPerCamera = 16;
   std::vector<Eigen::Index> places;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const std::size_t unused =
-        kBeforeDistortion +
-        geometry::coefficientCount(rig.cameras[i].camera.intrinsics.distortion_model);
-    for (std::size_t p = 0; p < kPerCamera; ++p) {
-      if (p < unused || p == kPerCamera - 1)
-        places.push_back(static_cast<Eigen::Index>(kPerCamera * i + p));
+    const auto coefficients = static_cast<Eigen::Index>(
+        geometry::coefficientCount(rig.cameras[i].camera.intrinsics.distortion_model));
+    for (Eigen::Index p = 0; p < geometry::kParameters; ++p) {
+      if (p < geometry::kDistortion + coefficients || p == geometry::kTimeOffset)
+        places.push_back(geometry::firstParameter(i) + p);
     }
   }
   return places;
@@ -160,7 +158,7 @@ Eigen::MatrixXd covarianceFromMessage(const std::vector<double>& message,
                                     " numbers, but its " + std::to_string(rig.cameras.size()) +
                                     " cameras have " + std::to_string(places.size()) +
                                     " parameters; publish the rig again");
-  const auto n = static_cast<Eigen::Index>(16 * rig.cameras.size());
+  const Eigen::Index n = geometry::firstParameter(rig.cameras.size());
   Eigen::MatrixXd covariance = Eigen::MatrixXd::Zero(n, n);
   auto value = message.begin();
   for (const Eigen::Index row : places) {
@@ -206,7 +204,7 @@ RigCalibration toMessage(const geometry::Rig& rig) {
   message.led_height = rig.led_height;
   for (const geometry::RigCamera& camera : rig.cameras)
     message.cameras.push_back(cameraToMessage(camera));
-  if (rig.covariance.size() > 0)
+  if (geometry::hasCovariance(rig))
     message.covariance = covarianceToMessage(rig);
   if (rig.remap)
     message.remap = remapToMessage(*rig.remap);

@@ -170,7 +170,7 @@ LedLabel LedLabels::of(std::uint32_t id) const {
   if (given != given_.end())
     return given->second;
   LedLabel label;
-  label.name = unlisted(id);
+  label.name = "led_" + std::to_string(id);
   return label;
 }
 

@@ -71,9 +71,6 @@ class LedLabels {
   /// Labels that became doubtful by the last update.
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
-  /// The name of a track without a label.
-  static std::string unlisted(std::uint32_t id) { return "led_" + std::to_string(id); }
-
  private:
   void takeIdentity(std::uint32_t id, const identity::Identifier& identifier);
   void agePlaces(double time);

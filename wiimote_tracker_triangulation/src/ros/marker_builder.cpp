@@ -62,10 +62,6 @@ float qualityOf(const TrackedPoint& led) {
   return static_cast<float>(std::min(std::log(kBad / stddev) / std::log(kBad / kGood), 1.0));
 }
 
-void setScale(const Vector3d& scale, Marker* marker) {
-  setVector(scale, &marker->scale);
-}
-
 /// Where a pixel lies on the camera's image plane at a distance, in the world [m].
 Vector3d onImagePlane(const geometry::Camera& camera, const Vector2d& pixel, double distance) {
   const geometry::Intrinsics& i = camera.intrinsics;
@@ -168,7 +164,7 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
   housing.pose.position =
       pointOf(camera.world_from_camera * Vector3d(0.0, 0.0, -0.5 * kHousing.z()));
   setRotation(Eigen::Quaterniond(camera.world_from_camera.rotation()), &housing.pose.orientation);
-  setScale(kHousing, &housing);
+  setVector(kHousing, &housing.scale);
   housing.color = name.color;
   array_.markers.push_back(housing);
 
@@ -184,16 +180,11 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
   array_.markers.push_back(frustum);
 
   Marker plane = marker("image_plane", index, Marker::TRIANGLE_LIST);
-  setScale(Vector3d::Ones(), &plane);
+  setVector(Vector3d::Ones(), &plane.scale);
   plane.color = has_images ? color(0.4f, 0.6f, 1.0f, 0.3f) : color(0.4f, 0.4f, 0.4f, 0.5f);
   for (const std::size_t i : {0, 1, 2, 0, 2, 3})
     plane.points.push_back(pointOf(corners[i]));
   array_.markers.push_back(plane);
-}
-
-/// Whether z = 0 is the plane of a calibration square.
-bool MarkerBuilder::hasFloor() const {
-  return rig_.square_sides.size() == 2;
 }
 
 /// Discs on the image plane.
@@ -201,7 +192,7 @@ void MarkerBuilder::addMasks(std::size_t index) {
   constexpr int kSides = 24;
   const geometry::RigCamera& camera = rig_.cameras[index];
   Marker discs = marker("mask", index, Marker::TRIANGLE_LIST);
-  setScale(Vector3d::Ones(), &discs);
+  setVector(Vector3d::Ones(), &discs.scale);
   discs.color = color(0.2f, 0.2f, 0.2f, 0.8f);
   for (const geometry::ImageMask& mask : camera.masks) {
     const auto border = [&](int i) {
@@ -225,7 +216,7 @@ void MarkerBuilder::addView(std::size_t index,
                             const wiimote_tracker_msgs::TrackedPointArray& points) {
   const geometry::Camera camera = rig_.rayCamera(rig_.cameras[index]);
   Marker blobs = marker("blob", index, Marker::SPHERE_LIST);
-  setScale(Vector3d::Constant(kBlobDiameter), &blobs);
+  setVector(Vector3d::Constant(kBlobDiameter), &blobs.scale);
   blobs.color = color(1.0f, 1.0f, 1.0f, 1.0f);
   std::size_t rays = 0;
   const auto nextRay = [&] {
@@ -282,7 +273,7 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   };
   Marker point = marker("point", led.id, Marker::SPHERE);
   point.pose.position = led.position;
-  setScale(Vector3d::Constant(kPointDiameter), &point);
+  setVector(Vector3d::Constant(kPointDiameter), &point.scale);
   point.color = own_color(alpha);
   array_.markers.push_back(point);
 
@@ -296,7 +287,7 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   ellipsoid.pose.position = led.position;
   setRotation(Eigen::Quaterniond(rotation), &ellipsoid.pose.orientation);
   // rviz warns about a scale of 0.
-  setScale(2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(), &ellipsoid);
+  setVector(2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(), &ellipsoid.scale);
   ellipsoid.color = color(1.0f, 0.2f, 1.0f, 0.4f * alpha);
   array_.markers.push_back(ellipsoid);
 
@@ -311,9 +302,9 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   height.scale.x = kLineWidth;
   height.color = own_color(0.3f * alpha);
   Marker shadow = marker("shadow", led.id, Marker::SPHERE_LIST);
-  setScale({kPointDiameter, kPointDiameter, kLineWidth}, &shadow);
+  setVector({kPointDiameter, kPointDiameter, kLineWidth}, &shadow.scale);
   shadow.color = height.color;
-  if (hasFloor()) {
+  if (rig_.square_sides.size() == 2) {  // z = 0 is the plane of a calibration square
     height.points.resize(2, led.position);
     height.points[1].z = 0.0;
     shadow.points = {height.points[1]};

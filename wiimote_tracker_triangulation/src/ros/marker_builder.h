@@ -60,7 +60,6 @@ class MarkerBuilder {
 
   visualization_msgs::Marker marker(const std::string& ns, std::size_t id, int type) const;
   void add(visualization_msgs::Marker marker);
-  bool hasFloor() const;
   void addCamera(std::size_t index, bool has_images);
   void addMasks(std::size_t index);
   std_msgs::ColorRGBA colorOfLed(const std::string& label, float alpha);

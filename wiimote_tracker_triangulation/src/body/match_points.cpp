@@ -2,7 +2,6 @@
 
 #include "body/align.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace wiimote_tracker::body {

@@ -3,7 +3,7 @@
 
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
-#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <optional>

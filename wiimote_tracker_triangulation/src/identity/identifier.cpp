@@ -33,7 +33,7 @@ Identifier::Identifier(const BlinkCodes& codes, const IdentifierOptions& options
       hypotheses_(codes, options.seeing, options.memory),
       posterior_(hypotheses_, options.steady) {}
 
-Identifier::Led* Identifier::find(std::uint32_t id) {
+Identifier::Led* Identifier::find(std::uint32_t id) const {
   for (const auto& led : leds_) {
     if (led->used && led->id == id)
       return led.get();
@@ -139,11 +139,8 @@ bool Identifier::takeFromOthers(std::size_t label) {
 }
 
 const Identity* Identifier::identityOf(std::uint32_t id) const {
-  for (const auto& led : leds_) {
-    if (led->used && led->id == id)
-      return &led->identity;
-  }
-  return nullptr;
+  const Led* led = find(id);
+  return led ? &led->identity : nullptr;
 }
 
 }  // namespace wiimote_tracker::identity

@@ -5,7 +5,6 @@
 #include "measurements/writer.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <vector>
 

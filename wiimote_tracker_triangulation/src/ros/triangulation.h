@@ -13,7 +13,6 @@
 #include "tracking_diagnostics.h"
 
 #include <ros/ros.h>
-#include <std_msgs/Header.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
 #include <map>

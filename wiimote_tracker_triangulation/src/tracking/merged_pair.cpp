@@ -1,7 +1,6 @@
 #include "merged_pair.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker::tracking {

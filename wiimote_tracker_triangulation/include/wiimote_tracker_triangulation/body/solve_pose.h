@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
 
-#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>

@@ -5,8 +5,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::identity {

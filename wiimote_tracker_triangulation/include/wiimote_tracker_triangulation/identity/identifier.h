@@ -79,7 +79,7 @@ class Identifier {
     }
   };
 
-  Led* find(std::uint32_t id);
+  Led* find(std::uint32_t id) const;
   Led* place(std::uint32_t id);
   void judge(Led* led, double time);
   bool takeFromOthers(std::size_t label);

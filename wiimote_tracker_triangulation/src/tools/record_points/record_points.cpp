@@ -3,7 +3,6 @@
 #include "measurements/table_files.h"
 #include "ros/bodies/trajectory_files.h"
 #include "ros/measurement_message.h"
-#include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>

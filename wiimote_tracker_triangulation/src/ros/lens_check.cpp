@@ -2,10 +2,11 @@
 
 #include "callbacks.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <sstream>
 
 namespace wiimote_tracker {
 namespace {
@@ -66,10 +67,8 @@ std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Ca
   const double distance = distanceOf(rig, *lens);
   if (distance <= kSameLens)
     return "";
-  std::ostringstream text;
-  text << "camera_info of " << calibrated.name << " contradicts the rig by up to " << distance
-       << " px" << what_to_do;
-  return text.str();
+  return format("camera_info of %s contradicts the rig by up to %g px%s", calibrated.name.c_str(),
+                distance, what_to_do.c_str());
 }
 
 void LensCheck::setRig(const geometry::Rig& rig) {

@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <set>
-#include <sstream>
 
 namespace wiimote_tracker {
 namespace {
@@ -199,12 +198,11 @@ std::string describeIdentity(const TrackingParameters& parameters) {
     return "";
   const identity::BlinkCodes& codes = *parameters.identity.codes;
   const tracking::TrackerOptions& tracks = parameters.estimator.tracks;
-  std::ostringstream text;
-  text << codes.codes.size() << " LEDs are identified by blink codes. They are off for up to "
-       << codes.longestDark() << " s, so the tracker uses tracks/prediction_time "
-       << tracks.prediction_time << " s and tracks/detection_probability "
-       << tracks.detection_probability;
-  return text.str();
+  return format(
+      "%zu LEDs are identified by blink codes. They are off for up to %g s, so the tracker uses "
+      "tracks/prediction_time %g s and tracks/detection_probability %g",
+      codes.codes.size(), codes.longestDark(), tracks.prediction_time,
+      tracks.detection_probability);
 }
 
 TrackingParameters TrackingParameters::read(ParameterReader reader) {

@@ -2,11 +2,11 @@
 
 #include <ros/master.h>
 #include <ros/network.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <algorithm>
-#include <iomanip>
-#include <sstream>
+#include <cmath>
 
 namespace wiimote_tracker {
 namespace {
@@ -24,10 +24,6 @@ std::string hostOf(const std::string& node) {
   std::string host;
   std::uint32_t port = 0;
   return ros::network::splitURI(uri, host, port) ? host : "";
-}
-
-unsigned long long count(std::uint64_t n) {
-  return n;
 }
 
 std::string doubtfulLabels(const LedLabels& labels) {
@@ -120,12 +116,12 @@ void TrackingDiagnostics::report(Status& status) {
   status.addf("latency p50 [ms]", "%.3f", 1e3 * reported_.latency(0.50));
   status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));
   const tracking::Counters& counters = tracker_->counters();
-  status.addf("images late", "%llu", count(counters.late));
-  status.addf("images dropped as too late", "%llu", count(counters.dropped));
-  status.addf("images dropped because they waited", "%llu", count(shedding_->dropped()));
-  status.addf("images repeated", "%llu", count(counters.repeated));
-  status.addf("images out of the order of arrival", "%llu", count(counters.disordered));
-  status.addf("restarts because time jumped back", "%llu", count(counters.resets));
+  status.add("images late", counters.late);
+  status.add("images dropped as too late", counters.dropped);
+  status.add("images dropped because they waited", shedding_->dropped());
+  status.add("images repeated", counters.repeated);
+  status.add("images out of the order of arrival", counters.disordered);
+  status.add("restarts because time jumped back", counters.resets);
 }
 
 void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
@@ -140,7 +136,7 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }
   status.addf("images [Hz]", "%.1f", static_cast<double>(statistics.images) / period_);
-  status.addf("images lost", "%llu", count(statistics.lost));
+  status.add("images lost", statistics.lost);
   status.addf("delay from exposure to arrival [ms]", "%.3f", 1e3 * statistics.meanDelay());
   status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.inlierRatio());
   status.addf("residual [px]", "%.3f", statistics.residual());
@@ -152,13 +148,10 @@ std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
   if (!ahead)
     return "";
   const std::string host = hostOf(nodes_[camera]);
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(3) << "the clock "
-       << (host.empty() ? "" : "of " + host + " ") << "of the driver of " << cameras_[camera]
-       << " (" << nodes_[camera] << ") is " << (*ahead > 0.0 ? *ahead : -*ahead) << " s "
-       << (*ahead > 0.0 ? "ahead" : "behind, or its network is slow")
-       << ": run chrony on all computers";
-  return text.str();
+  return format("the clock %sof the driver of %s (%s) is %.3f s %s: run chrony on all computers",
+                host.empty() ? "" : ("of " + host + " ").c_str(), cameras_[camera].c_str(),
+                nodes_[camera].c_str(), std::abs(*ahead),
+                *ahead > 0.0 ? "ahead" : "behind, or its network is slow");
 }
 
 }  // namespace wiimote_tracker

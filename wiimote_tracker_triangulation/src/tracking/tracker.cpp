@@ -200,10 +200,6 @@ void Tracker::describeImages(Snapshot* snapshot) const {
   }
 }
 
-const Counters& Tracker::counters() const {
-  return counters_;
-}
-
 std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
   if (const std::optional<double> ahead = time_watch_->ahead(camera))
     return CameraFault{CameraFault::Kind::kWrongClock, *ahead};

@@ -44,7 +44,7 @@ class Tracker : public Estimator {
 
   void add(std::size_t camera, const CameraImage& image) override;
   const Snapshot* next() override;
-  const Counters& counters() const override;
+  const Counters& counters() const override { return counters_; }
   std::optional<CameraFault> cameraFault(std::size_t camera) const override;
 
   /// Without lost LEDs.

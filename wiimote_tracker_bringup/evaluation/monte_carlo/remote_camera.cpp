@@ -63,7 +63,6 @@ const std::vector<tracking::Spot>& RemoteCamera::look(const virtual_wiimote::Sen
       continue;
     tracking::Spot spot;
     spot.pixel = {seen.x, protocol::kSensorHeight - 1 - seen.y};
-    spot.size = seen.size;
     spot.slot = static_cast<int>(slot);
     spots_.push_back(spot);
   }

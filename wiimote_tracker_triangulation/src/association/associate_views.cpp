@@ -224,7 +224,7 @@ void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_
   result.cost += search.cost();
   for (std::size_t i = 0; i < search.pointCount(); ++i) {
     const PointSearch::Point& point = search.point(i);
-    result.points.push_back({point.location, point.cost, result.spots.size(), point.spots.size()});
+    result.points.push_back({point.location, result.spots.size(), point.spots.size()});
     for (const std::size_t place : point.spots) {
       const Component::Spot& spot = component.spots[place];
       result.spots.push_back({spot.view, spot.index});

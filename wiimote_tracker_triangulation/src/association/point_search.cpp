@@ -240,7 +240,6 @@ void PointSearch::finish(std::size_t ghosts) {
     Point& point = best_[best_count_++];
     point.spots = draft.spots;
     point.location = draft.fit.location;
-    point.cost = costs_[i];
   }
 }
 

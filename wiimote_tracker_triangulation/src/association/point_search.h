@@ -33,7 +33,6 @@ class PointSearch {
   struct Point {
     std::vector<std::size_t> spots;  ///< Places in the component, ascending.
     geometry::TriangulatedPoint location;
-    double cost = 0.0;  ///< As in AssociatedPoint.
   };
 
   PointSearch(const geometry::Rig& rig,

@@ -89,10 +89,9 @@ RigCamera readCamera(YamlMap map, const std::string& name, const std::string& wo
 remap::Remap readRemap(YamlMap map) {
   remap::Remap remap;
   remap.rig_id = map.get<std::string>("rig_id");
+  const std::string model = map.get<std::string>("model");
   try {
-    remap.model = remap::modelFromName(map.get<std::string>("model"));
-  } catch (const FileError&) {
-    throw;
+    remap.model = remap::modelFromName(model);
   } catch (const Error& e) {
     throw map.error("model", std::string("cannot be used: ") + e.what());
   }

@@ -70,11 +70,7 @@ ImageFault readImage(const IrBlobArray& message,
       fault = ImageFault::kImpossibleSpots;
       continue;
     }
-    tracking::Spot spot;
-    spot.pixel = {blob.x, blob.y};
-    spot.size = blob.size;
-    spot.slot = blob.slot;
-    image->spots.push_back(spot);
+    image->spots.push_back({{blob.x, blob.y}, blob.slot});
   }
   return fault;
 }

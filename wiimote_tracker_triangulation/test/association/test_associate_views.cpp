@@ -131,7 +131,7 @@ TEST(AssociateViews, GivesThePointAndCostOfItsSpots) {
   const double stddev = std::sqrt(point.point.covariance.trace());
   EXPECT_LT((point.point.position - led).norm(), 5.0 * stddev);
   const double chi_squared = 3.0 * std::pow(point.point.reprojection_error / 0.5, 2);
-  EXPECT_NEAR(options.point + options.miss + chi_squared, point.cost, 1e-9);
+  EXPECT_NEAR(options.point + options.miss + chi_squared, association.cost, 1e-9);
   views.views[2].watching = false;
   EXPECT_NEAR(options.point + chi_squared, associator.associate(views.views).cost, 1e-9);
   views.views[2].watching = true;

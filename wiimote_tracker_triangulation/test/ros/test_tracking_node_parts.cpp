@@ -44,7 +44,6 @@ IrBlobArray goodImage(const geometry::Camera& camera) {
     IrBlob blob;
     blob.x = 10.0 + i;
     blob.y = 20.0;
-    blob.size = 5.0f;
     blob.slot = static_cast<std::uint8_t>(2 + i);
     image.blobs.push_back(blob);
   }
@@ -62,7 +61,6 @@ TEST(ImageMessage, IsReadUnchanged) {
   EXPECT_EQ(4u, image.maximum_spots);
   ASSERT_EQ(2u, image.spots.size());
   EXPECT_EQ(Eigen::Vector2d(11.0, 20.0), image.spots[1].pixel);
-  EXPECT_EQ(5.0, image.spots[1].size);
   EXPECT_EQ(3, image.spots[1].slot);
 }
 

@@ -57,7 +57,6 @@ struct SpotReference {
 
 struct AssociatedPoint {
   geometry::TriangulatedPoint point;  ///< Maximum likelihood, linearised (see geometry::Sight).
-  double cost;                        ///< chi^2 + misses + AssociationOptions::point.
   std::size_t first_spot;             ///< In Association::spots.
   std::size_t spot_count;
 };

@@ -10,11 +10,10 @@
 
 namespace wiimote_tracker::tracking {
 
-/// One spot (blob) of an image; fields as in IrBlob.msg.
+/// One spot (blob) of an image.
 struct Spot {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();         ///< Distorted [px].
-  double size = std::numeric_limits<double>::quiet_NaN();  ///< The camera's own unit; NaN: unknown.
-  int slot = -1;                                           ///< Index in the report; -1: unknown.
+  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  ///< Distorted [px].
+  int slot = -1;                                    ///< Index in the report; -1: unknown.
 };
 
 /// An image as it comes from a camera; fields as in IrBlobArray.msg.

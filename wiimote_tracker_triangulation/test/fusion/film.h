@@ -62,6 +62,10 @@ inline const tracking::TrackedLed* ledOf(const tracking::Snapshot& snapshot) {
   return led == snapshot.leds.end() ? nullptr : &*led;
 }
 
+inline bool uses(const tracking::TrackedLed& led, std::size_t camera) {
+  return std::count(led.cameras.begin(), led.cameras.end(), camera) > 0;
+}
+
 inline std::vector<tracking::Snapshot> fuse(InstantFuser& fuser,
                                             const std::vector<Delivery>& deliveries) {
   std::vector<tracking::Snapshot> instants;

@@ -28,14 +28,11 @@ using test::ledOf;
 using test::spotAt;
 using test::still;
 using test::threeCameras;
+using test::uses;
 using tracking::CameraImage;
 using tracking::Snapshot;
 using tracking::SpotUse;
 using tracking::TrackedLed;
-
-bool uses(const TrackedLed& led, std::size_t camera) {
-  return std::count(led.cameras.begin(), led.cameras.end(), camera) > 0;
-}
 
 TEST(InstantFuser, FindsALedAtRest) {
   const Rig rig = threeCameras();

@@ -23,6 +23,7 @@ using test::ledOf;
 using test::spotAt;
 using test::still;
 using test::threeCameras;
+using test::uses;
 using tracking::Snapshot;
 
 void expectIdentical(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) {

@@ -5,9 +5,12 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <visualization_msgs/MarkerArray.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <chrono>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -188,12 +191,14 @@ void Triangulation::onTimer() {
   }
   if (const auto bodies = learning_.change())  // while no image comes
     useBodies(*bodies);
-  for (const std::string& body : tracker_.bodiesWithoutSamples()) {
+  std::vector<std::string> without_samples;
+  for (const std::string& body : tracker_.bodiesWithoutSamples())
+    without_samples.push_back(body + " (" + imu_subscribers_[body].getTopic() + ")");
+  if (!without_samples.empty())
     ROS_WARN_THROTTLE(10.0,
-                      "No samples of the IMU of %s fit the times of the images: check that %s is "
+                      "No samples of the IMU of %s fit the times of the images: check that it is "
                       "published 25 times a second or more, and its clock_offset.",
-                      body.c_str(), imu_subscribers_[body].getTopic().c_str());
-  }
+                      joined(without_samples).c_str());
   keepPlaces();
   diagnostics_.update();
   body_diagnostics_.update();

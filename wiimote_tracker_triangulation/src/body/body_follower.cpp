@@ -22,15 +22,23 @@ bool haveSameTimes(const geometry::Rig& before, const geometry::Rig& now) {
   });
 }
 
+bool haveSameCameras(const geometry::Rig& before, const geometry::Rig& now) {
+  return std::equal(
+      before.cameras.begin(), before.cameras.end(), now.cameras.begin(), now.cameras.end(),
+      [](const auto& one, const auto& other) { return one.camera.name == other.camera.name; });
+}
+
 }  // namespace
 
 void BodyFollower::setRig(const geometry::Rig& rig) {
-  if (tracker_ && haveSameTimes(rig_, rig))
+  const bool keeps_times = time_watch_ && haveSameTimes(rig_, rig);
+  if (tracker_ && keeps_times)
     tracker_->setRig(rig);
   else
     useTracker(rig, constellations_);
+  if (!keeps_times || !haveSameCameras(rig_, rig))
+    time_watch_ = std::make_unique<tracking::TimeWatch>(rig.cameras.size());
   rig_ = rig;
-  time_watch_ = std::make_unique<tracking::TimeWatch>(rig_.cameras.size());
 }
 
 void BodyFollower::setBodies(const std::vector<Constellation>& constellations) {

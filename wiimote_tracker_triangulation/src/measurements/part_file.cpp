@@ -50,7 +50,8 @@ void finishPart(const std::string& path) {
   if (::access(path.c_str(), F_OK) == 0) {
     if (::unlink(kept.c_str()) != 0 && errno != ENOENT)
       failToWrite(kept, errno);
-    if (::link(path.c_str(), kept.c_str()) != 0)
+    // FAT has no hard links.
+    if (::link(path.c_str(), kept.c_str()) != 0 && std::rename(path.c_str(), kept.c_str()) != 0)
       failToWrite(kept, errno);
   }
   if (std::rename(part.c_str(), path.c_str()) != 0)

@@ -1,6 +1,7 @@
 // Drives the calibration node like a person, with cameras that this test plays.
 
 #include "node_fixture.h"
+#include "run_command.h"
 
 #include <geometry_msgs/PolygonStamped.h>
 #include <std_msgs/String.h>
@@ -371,19 +372,13 @@ TEST_F(Node, WithARigInUseTheConnectionCheckBeginsTheWalk) {
   EXPECT_TRUE(waitUntil([] { return !status_->get()->walk.empty(); }));
 }
 
-/// Exit code and output of a node that is to end by itself.
+/// Exit status and output of a node that is to end by itself.
 std::pair<int, std::string> outcomeOf(const std::string& environment,
                                       const std::string& arguments) {
-  const std::string command = environment +
-                              " timeout 60 rosrun wiimote_tracker_calibration calibration_node "
-                              "__ns:=/refused " +
-                              arguments + " 2>&1";
-  FILE* pipe = popen(command.c_str(), "r");
-  std::string output;
-  char buffer[256];
-  while (fgets(buffer, sizeof buffer, pipe) != nullptr)
-    output += buffer;
-  return {WEXITSTATUS(pclose(pipe)), output};
+  return runCommand(environment +
+                    " timeout 60 rosrun wiimote_tracker_calibration calibration_node "
+                    "__ns:=/refused " +
+                    arguments);
 }
 
 TEST_F(Node, BadParametersAndAMissingMasterEndItWithASentence) {

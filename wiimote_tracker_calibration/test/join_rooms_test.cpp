@@ -4,6 +4,7 @@
 #include "expect_says.h"
 #include "import_folder.h"
 #include "room_trial.h"
+#include "run_command.h"
 
 #include <gtest/gtest.h>
 #include <rosbag/bag.h>
@@ -12,9 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string>
-#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -49,16 +48,6 @@ void recordImages(const TwoRooms& rooms, const std::string& path) {
   }
 }
 
-/// Exit status and what it says.
-std::pair<int, std::string> rosrun(const std::string& command) {
-  FILE* pipe = popen(("rosrun " + command + " 2>&1").c_str(), "r");
-  std::string output;
-  char buffer[256];
-  while (fgets(buffer, sizeof buffer, pipe) != nullptr)
-    output += buffer;
-  return {WEXITSTATUS(pclose(pipe)), output};
-}
-
 TEST(JoinRoomsProgram, JoinsRecordedRooms) {
   TwoRooms rooms(11, 0.0);
   rooms.carryOften(6);
@@ -72,17 +61,18 @@ TEST(JoinRoomsProgram, JoinsRecordedRooms) {
   recordImages(rooms, at("in.bag"));
   geometry::writeRigFile(rooms.first, at("hall.yaml"));
   geometry::writeRigFile(rooms.second, at("lab.yaml"));
-  const std::string join = "wiimote_tracker_calibration join_rooms " + at("hall.yaml") + " " +
-                           at("lab.yaml") + " " + at("out.yaml") + " ";
-  auto result = rosrun(join + at("in.bag"));
+  const std::string join = "rosrun wiimote_tracker_calibration join_rooms " + at("hall.yaml") +
+                           " " + at("lab.yaml") + " " + at("out.yaml") + " ";
+  auto result = runCommand(join + at("in.bag"));
   EXPECT_EQ(result.first, 1);
   EXPECT_SAYS(result.second, "no points that were computed with " + at("hall.yaml"));
   for (const std::string room : {"hall", "lab"}) {
-    result = rosrun("wiimote_tracker_triangulation track_bag --smooth --results-only --rig " +
-                    at(room + ".yaml") + " " + at("in.bag") + " " + at(room + ".bag"));
+    result =
+        runCommand("rosrun wiimote_tracker_triangulation track_bag --smooth --results-only --rig " +
+                   at(room + ".yaml") + " " + at("in.bag") + " " + at(room + ".bag"));
     ASSERT_EQ(result.first, 0) << result.second;
   }
-  result = rosrun(join + at("hall.bag") + " " + at("lab.bag"));
+  result = runCommand(join + at("hall.bag") + " " + at("lab.bag"));
   ASSERT_EQ(result.first, 0) << result.second;
   EXPECT_SAYS(result.second, "4 cameras joined to the 4 of the first rig by 6 passages");
   const geometry::Rig joined = geometry::readRigFile(at("out.yaml"));

@@ -2,6 +2,7 @@
 // rooms come into one world. With cameras that this test plays.
 
 #include "node_fixture.h"
+#include "run_command.h"
 
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/JoinRig.h>
@@ -107,13 +108,7 @@ TEST_F(Samples, SolvedAgainTheyGiveTheIdenticalRig) {
 
 /// Exit status and what it says, of the program that solves without the node.
 std::pair<int, std::string> solveSamples(const std::string& arguments) {
-  const std::string command = "rosrun wiimote_tracker_calibration solve_samples " + arguments;
-  FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::string output;
-  char buffer[256];
-  while (fgets(buffer, sizeof buffer, pipe) != nullptr)
-    output += buffer;
-  return {WEXITSTATUS(pclose(pipe)), output};
+  return runCommand("rosrun wiimote_tracker_calibration solve_samples " + arguments);
 }
 
 TEST_F(Samples, AreSolvedWithoutTheNodeByItsParameters) {

@@ -1,6 +1,7 @@
 // list_wiimotes: its view of a computer with a simulated /sys and /etc, the list of cameras, and
 // access to a virtual remote.
 #include "contains.h"
+#include "temporary_folder.h"
 #include "tools/list_wiimotes/camera_list.h"
 #include "tools/list_wiimotes/host.h"
 #include "tools/list_wiimotes/remote_check.h"
@@ -8,12 +9,9 @@
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
 #include <chrono>
 #include <filesystem>
-#include <fstream>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -22,32 +20,6 @@ namespace wiimote_tracker::list_wiimotes {
 namespace {
 
 namespace fs = std::filesystem;
-
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    char name[] = "/tmp/test_list_wiimotes.XXXXXX";
-    path_ = ::mkdtemp(name);
-  }
-  ~TemporaryFolder() { fs::remove_all(path_); }
-  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
-  const std::string& path() const { return path_; }
-
-  void write(const std::string& name, const std::string& text) const {
-    fs::create_directories(fs::path(*this / name).parent_path());
-    std::ofstream(*this / name) << text;
-  }
-
-  std::string read(const std::string& name) const {
-    std::ifstream file(*this / name);
-    std::ostringstream text;
-    text << file.rdbuf();
-    return text.str();
-  }
-
- private:
-  std::string path_;
-};
 
 /// Number of sentences that contain the part.
 int count(const std::vector<std::string>& sentences, const std::string& part) {

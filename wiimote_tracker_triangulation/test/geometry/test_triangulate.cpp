@@ -375,19 +375,6 @@ TEST(Triangulate, SightsGiveTheSamePointAsObservations) {
   }
 }
 
-TEST(Sight, ResidualIsThatOfTheLensToFirstOrder) {
-  Random random(20);
-  for (int i = 0; i < 100; ++i) {
-    const Camera camera = test::randomRig(random, 1).cameras[0].camera;
-    const Vector3d point = random.inBox(1.0);
-    const Vector2d offset(random.uniform(-1.0, 1.0), random.uniform(-1.0, 1.0));
-    const Vector2d pixel = OpenCvCamera(camera).project(point) - offset;
-    const auto sight = sightFromPixel(camera, pixel);
-    ASSERT_TRUE(sight);
-    EXPECT_LT((sight->residual(point) - offset).norm(), 5e-3 * offset.norm());
-  }
-}
-
 TEST(Triangulate, TakesAnyNumberOfObservations) {
   Random random(18);
   const Rig rig = test::randomRig(random, 40);

@@ -1,5 +1,6 @@
 // Parts of the node besides tracking and labels: bad images, clocks, lenses, statistics, load.
 #include "geometry/random_rigs.h"
+#include "ros/camera_info.h"
 #include "ros/clock_watch.h"
 #include "ros/image_message.h"
 #include "ros/lens_check.h"
@@ -198,19 +199,6 @@ TEST(ClockWatch, ACommonDelayIsNoClockError) {
     watch.add(camera, 1.7e9);  // a bag without its clock
   for (std::size_t camera = 0; camera < 3; ++camera)
     EXPECT_FALSE(watch.ahead(camera));
-}
-
-sensor_msgs::CameraInfo infoOf(const geometry::Intrinsics& lens) {
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(lens.width);
-  info.height = static_cast<std::uint32_t>(lens.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(lens.distortion.begin(), lens.distortion.end());
-  info.K[0] = lens.fx;
-  info.K[2] = lens.cx;
-  info.K[4] = lens.fy;
-  info.K[5] = lens.cy;
-  return info;
 }
 
 TEST(LensCheck, AgreesWithTheSameLensAndWithAnUnknownOne) {

@@ -1,5 +1,6 @@
 // The running node or nodelet: a rig, blobs and triggers in; points, TF, markers and events out.
 // More than 400 lines, because each test continues where the one before ended.
+#include "ros/camera_info.h"
 #include "ros/triangulation_bench.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
@@ -222,19 +223,6 @@ TEST(Triangulation, NamesImpossibleSpotsOnce) {
   EXPECT_TRUE(warns("camera_2", words));
   EXPECT_TRUE(isWell("camera_2"));
   ASSERT_TRUE(g_bench->waitForLog(words));
-}
-
-sensor_msgs::CameraInfo infoOf(const geometry::Intrinsics& lens) {
-  sensor_msgs::CameraInfo info;
-  info.width = static_cast<std::uint32_t>(lens.width);
-  info.height = static_cast<std::uint32_t>(lens.height);
-  info.distortion_model = "plumb_bob";
-  info.D.assign(lens.distortion.begin(), lens.distortion.end());
-  info.K[0] = lens.fx;
-  info.K[2] = lens.cx;
-  info.K[4] = lens.fy;
-  info.K[5] = lens.cy;
-  return info;
 }
 
 TEST(Triangulation, NamesALensThatContradictsTheRig) {

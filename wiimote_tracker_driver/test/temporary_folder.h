@@ -1,0 +1,42 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_TEST_TEMPORARY_FOLDER_H
+#define WIIMOTE_TRACKER_DRIVER_TEST_TEMPORARY_FOLDER_H
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace wiimote_tracker {
+
+/// A folder for one test, removed at its end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    char name[] = "/tmp/wiimote_tracker_test.XXXXXX";
+    path_ = ::mkdtemp(name);
+  }
+  ~TemporaryFolder() { std::filesystem::remove_all(path_); }
+  std::string operator/(const std::string& name) const { return path_ + "/" + name; }
+  const std::string& path() const { return path_; }
+
+  void write(const std::string& name, const std::string& text) const {
+    std::filesystem::create_directories(std::filesystem::path(*this / name).parent_path());
+    std::ofstream(*this / name) << text;
+  }
+
+  std::string read(const std::string& name) const {
+    std::ifstream file(*this / name);
+    std::ostringstream text;
+    text << file.rdbuf();
+    return text.str();
+  }
+
+ private:
+  std::string path_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_DRIVER_TEST_TEMPORARY_FOLDER_H

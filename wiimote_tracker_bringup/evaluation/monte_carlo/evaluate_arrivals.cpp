@@ -8,6 +8,7 @@
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
+#include <wiimote_tracker_msgs/median.h>
 
 #include <Eigen/Cholesky>
 
@@ -70,9 +71,7 @@ BenchmarkRow settle(Stamps stamps, const std::string& name, std::vector<Frame>* 
   }
   if (errors.empty())
     throw Error(name + " must be longer than 10 s");
-  const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-  std::nth_element(errors.begin(), middle, errors.end());
-  const double offset = *middle;
+  const double offset = medianOf(&errors);
   double sum = 0.0, squares = 0.0, claimed = 0.0, inside = 0.0;
   for (Frame& frame : *frames) {
     frame.stamp[stamps] -= offset;

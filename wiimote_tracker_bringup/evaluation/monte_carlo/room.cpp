@@ -1,5 +1,7 @@
 #include "room.h"
 
+#include <wiimote_tracker_msgs/median.h>
+
 #include <algorithm>
 #include <random>
 #include <utility>
@@ -121,9 +123,7 @@ double medianLateness(const std::vector<RoomImage>& images) {
   lateness.reserve(images.size());
   for (const RoomImage& image : images)
     lateness.push_back(image.image.stamp - image.exposure);
-  const auto middle = lateness.begin() + static_cast<std::ptrdiff_t>(lateness.size() / 2);
-  std::nth_element(lateness.begin(), middle, lateness.end());
-  return *middle;
+  return medianOf(&lateness);
 }
 
 simulation::Description withCameras(const simulation::Description& description, std::size_t count) {

@@ -1,5 +1,6 @@
 #include "drift_residuals.h"
 
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
@@ -25,12 +26,6 @@ constexpr double kMedianOverMean = 1.2533;
 constexpr double kLeastScatter = 0.3;
 // 99.9 % quantiles of chi-squared, for one and two degrees of freedom.
 constexpr double kQuantile[] = {10.8, 13.8};
-
-double medianOf(std::vector<double>* values) {
-  const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
-  std::nth_element(values->begin(), middle, values->end());
-  return *middle;
-}
 
 /// Counts samples, and chooses those whose derivative is computed.
 class EveryNth {

@@ -4,6 +4,7 @@
 
 #include "square/expected_error.h"
 
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
@@ -109,9 +110,7 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
       speeds.push_back(trajectory.velocity(place, led).norm());
     }
   }
-  const auto middle = speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2);
-  std::nth_element(speeds.begin(), middle, speeds.end());
-  solution->median_speed = *middle;
+  solution->median_speed = medianOf(&speeds);
 
   solution->extent = geometry::spreadOf(solution->path);
 }

@@ -2,6 +2,7 @@
 
 #include "wave/error.h"
 
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <Eigen/SparseCholesky>
@@ -201,12 +202,6 @@ class Instants {
   std::vector<Spot> spots_;
 };
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// Tracks which of the wand's LEDs is which from instant to instant.
 void keepLabels(std::vector<Instant>* instants) {
   for (std::size_t i = 1; i < instants->size(); ++i) {
@@ -318,7 +313,7 @@ Trajectory startPath(const Recording& recording, const WaveOptions& options, Sta
       std::vector<double> lengths;
       for (const Instant& instant : instants)
         lengths.push_back((instant.leds[0] - instant.leds[1]).norm());
-      length = median(lengths);
+      length = medianOf(&lengths);
       const double scale = recording.wand->length / length;
       instants.erase(std::remove_if(instants.begin(), instants.end(),
                                     [&](const Instant& instant) {

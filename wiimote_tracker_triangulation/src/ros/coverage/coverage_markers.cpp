@@ -4,6 +4,7 @@
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <sensor_msgs/point_cloud2_iterator.h>
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -79,9 +80,7 @@ std::string sentenceOf(const std::vector<CoverageCell>& cells) {
                             100.0 * geometry::coveredShare(cells));
   if (known.empty())
     return text + ".";
-  const auto median = known.begin() + static_cast<std::ptrdiff_t>(known.size() / 2);
-  std::nth_element(known.begin(), median, known.end());
-  return text + format("; points are known to %.0f mm there (median).", 1e3 * *median);
+  return text + format("; points are known to %.0f mm there (median).", 1e3 * medianOf(&known));
 }
 
 std::string sentenceOf(const geometry::CameraTurn& turn) {

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/principal_point/trace.h"
+#include "wiimote_tracker_calibration/principal_point/correction.h"
 
 #include <wiimote_tracker_msgs/text.h>
 

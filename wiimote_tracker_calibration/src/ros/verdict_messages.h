@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
 
 #include "session/verdict.h"
-#include "wiimote_tracker_calibration/principal_point/trace.h"
+#include "wiimote_tracker_calibration/principal_point/correction.h"
 
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
 #include <wiimote_tracker_msgs/PrincipalPointTrace.h>

@@ -3,8 +3,8 @@
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
+#include "wiimote_tracker_triangulation/identity/hypotheses.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
-#include "wiimote_tracker_triangulation/identity/sighting.h"
 
 #include <algorithm>
 #include <functional>

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_EXHAUSTIVE_LABELS_H
 
 #include "identity/blinking.h"
-#include "wiimote_tracker_triangulation/identity/sighting.h"
+#include "wiimote_tracker_triangulation/identity/hypotheses.h"
 
 #include <Eigen/Core>
 

@@ -1,13 +1,14 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
 #define WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
 
-#include "wiimote_tracker_calibration/principal_point/trace.h"
 #include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
+
+#include <Eigen/Core>
 
 #include <functional>
 #include <limits>
@@ -38,6 +39,24 @@ struct CorrectionOptions {
   /// @throws Error naming the value that is out of range.
   void check() const;
 };
+
+/// The rig after a number of rounds of the correction.
+struct Round {
+  double origin_error = 0.0;  ///< From the ideal to the measured first corner [m].
+  double corner_error = 0.0;  ///< RMS of the same over all four corners [m].
+  std::vector<Eigen::Vector2d> principal_points;  ///< Per camera [px].
+  /// Per camera, ideal less measured in its image, mean over the points that are used [px].
+  std::vector<Eigen::Vector2d> differences;
+};
+
+/// How a correction went: rounds[0] is before it, rounds[n] after n steps.
+struct Trace {
+  std::vector<std::string> cameras;  ///< Names, in the order of all per-camera values.
+  std::vector<Round> rounds;
+};
+
+/// The trace as a text table, one line per round.
+std::string table(const Trace& trace);
 
 enum class Outcome {
   kLimitReached,  ///< The error of the points is below the limit.

@@ -16,6 +16,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -122,10 +123,33 @@ TEST(Continuous, FindsSlowDrift) {
   const auto proposal = proposalUntil(120.0, &led, &watch);
   ASSERT_TRUE(proposal);
   EXPECT_EQ(proposal->cause, Cause::kDrift);
+  EXPECT_GT(proposal->gain, kWorthAsking);
   EXPECT_SAYS(proposal->message, "drift, or errors of the calibration");
   EXPECT_EQ(proposal->camera, truth.name);
   EXPECT_LT(pixelDistance(proposal->rig.cameras[2].camera, truth),
             0.5 * pixelDistance(rig.cameras[2].camera, truth));
+}
+
+TEST(Continuous, NobodyIsAskedWhenClocksWander) {
+  constexpr double kWander = 0.001;  // [s]
+  constexpr double kTime = 60.0;     // Over which it is correlated [s].
+  constexpr double kRate = 50.0;     // Images of a camera [Hz].
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    Random random(seed);
+    const geometry::Rig rig = paperRigWith(calibratedByWave());
+    WavedLed led(drawTruth(rig, random), 300 + seed, kRate);
+    std::map<std::string, double> wander;
+    ContinuousCalibration watch(rig, {});
+    led.runUntil(75.0, [&](capture::Image image) {
+      double& error = wander[image.camera];
+      error += -error / (kTime * kRate) +
+               square::normal(random, kWander * std::sqrt(2.0 / (kTime * kRate)));
+      image.stamp += error;
+      const auto proposal = watch.add(image);
+      ASSERT_TRUE(!proposal || proposal->cause == Cause::kDrift) << proposal->message;
+      EXPECT_LT(proposal ? proposal->gain : 0.0, kWorthAsking) << proposal->message;
+    });
+  }
 }
 
 TEST(Continuous, AReconnectAloneKeepsThePoses) {

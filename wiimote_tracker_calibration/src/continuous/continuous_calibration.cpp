@@ -65,7 +65,7 @@ Proposal proposalOf(Cause cause,
                     const geometry::Rig& rig,
                     const std::string& message,
                     const std::vector<capture::Image>& checked) {
-  Proposal proposal{cause, camera, rig, message, {}};
+  Proposal proposal{cause, camera, rig, 0.0, message, {}};
   proposal.rig.solved_at = checked.back().stamp;
   proposal.rig.verdict = verdictWith(before.verdict, message);
   return proposal;
@@ -239,6 +239,8 @@ std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& imag
       proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
                  rig_, *rig, message, images.to_check);
   proposal.places = after->places;
+  if (proposal.cause == Cause::kDrift)
+    proposal.gain = std::sqrt(gain);
   if (keeps_poses)
     proposal.rig.solved_at = rig_.solved_at;
   return proposal;

@@ -23,6 +23,10 @@ struct Options {
   recalibrate::Options recalibrate;
 };
 
+/// Gain of a proposal about drift for which a person is asked [px]. Clocks that wander by 1 ms
+/// within a minute make smaller ones, which leave points as they are.
+constexpr double kWorthAsking = 0.3;
+
 enum class Cause { kKnock, kReconnect, kDrift };
 
 /// A rig that explains what was seen better than the one in use.
@@ -30,6 +34,7 @@ struct Proposal {
   Cause cause;
   std::string camera;   ///< That has changed most.
   geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
+  double gain;          ///< Of drift: misfit of the images that it explains, RMS [px]; else 0.
   std::string message;  ///< One sentence: what has changed, and how well the images fit then.
   /// Where the LED was, world [m]: places that should not jump. Empty if one camera was knocked,
   /// since the others hold the world.

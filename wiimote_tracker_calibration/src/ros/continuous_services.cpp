@@ -15,6 +15,7 @@
 
 namespace wiimote_tracker {
 
+using continuous::Cause;
 using workflow::Reply;
 using workflow::Step;
 
@@ -113,18 +114,26 @@ class ContinuousServices {
     if (!proposal || idInUse(lock) != in_use_ || !isCalibrated(lock) ||
         (approach_ && approach_->goal().id() != watched_))
       return;
+    const bool applies = in_use_ != reverted_to_ && appliesItself(proposal->cause);
+    if (!applies && proposal->cause == Cause::kDrift && proposal->gain < continuous::kWorthAsking) {
+      if (proposal_ && proposal_->cause == Cause::kDrift)
+        forgetProposal(lock);
+      return;
+    }
     const bool is_news = !proposal_ || proposal_->camera != proposal->camera;
     proposal_ = proposal;
     context_.setProposal(proposal->camera, proposal->message + kApply, lock);
-    const bool applies =
-        policy_ == ContinuousPolicy::kAll ||
-        (policy_ == ContinuousPolicy::kKnocked && proposal->cause != continuous::Cause::kDrift);
-    if (applies && in_use_ != reverted_to_) {
+    if (applies) {
       const Reply applied = applyProposal(&lock);
       ROS_WARN_STREAM(applied.message);
     } else if (is_news) {
       ROS_WARN_STREAM(proposal->message + kApply);
     }
+  }
+
+  bool appliesItself(Cause cause) const {
+    return policy_ == ContinuousPolicy::kAll ||
+           (policy_ == ContinuousPolicy::kKnocked && cause != Cause::kDrift);
   }
 
   /// Empty: there is none.

@@ -170,10 +170,11 @@ void throwOpenError(int error_number, const std::string& path) {
   switch (error_number) {
     case EACCES:
     case EPERM:
-      throw PermissionDenied("permission denied on " + path + ": install the udev rule " +
-                             kUdevRule + " of wiimote_tracker_driver in /etc/udev/rules.d, run " +
-                             "'udevadm control --reload', and reconnect the Wii Remote; over SSH also join "
-                             "the group input (usermod -aG input USER) and log in again");
+      throw PermissionDenied(
+          "permission denied on " + path + ": install the udev rule " + kUdevRule +
+          " of wiimote_tracker_driver in /etc/udev/rules.d, run " +
+          "'udevadm control --reload', and reconnect the Wii Remote; over SSH also join "
+          "the group input (usermod -aG input USER) and log in again");
     case ENOENT:
     case ENODEV:
     case ENXIO:

@@ -308,7 +308,8 @@ bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
 std::string Gestures::zoneOf(const gesture::Path& path) const {
   const Eigen::Vector3d& middle = path[path.size() / 2].position;
   const auto zone = std::find_if(zones_.begin(), zones_.end(), [&](const geometry::Zone& z) {
-    return Eigen::AlignedBox3d(z.minimum, z.maximum).contains(middle);
+    return (middle.array() >= z.minimum.array()).all() &&
+           (middle.array() <= z.maximum.array()).all();
   });
   return zone == zones_.end() ? "" : zone->name;
 }

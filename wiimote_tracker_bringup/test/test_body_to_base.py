@@ -155,7 +155,7 @@ def test_a_bag_with_an_imu(tmp_path, capsys):
     assert (found.body, found.base) == ('robot', 'imu_link')
     told = capsys.readouterr()
     assert 'step' not in told.out
-    steps = re.findall(r'body_to_base: step (\d+) of 7 to 30: clock offset 3\d\.\d\d \+- ', told.err)
+    steps = re.findall(r'body_to_base: step (\d+) of at most 30: clock offset 3\d\.\d\d \+- ', told.err)
     assert steps == [str(number + 1) for number in range(len(steps))] and len(steps) >= 7
     with pytest.raises(SystemExit, match='has no IMU samples on /imu'):
         body_to_base.main([path, '--body', '/robot/odometry', '--imu', '/imu'])

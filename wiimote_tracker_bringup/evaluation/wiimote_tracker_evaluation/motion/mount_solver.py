@@ -83,7 +83,7 @@ def solve(problem, state, names, report):
         common, local = equations.step()
         covariance = (equations.covariance() + equations.lasting_covariance(noise))[:7, :7]
         state = state.moved(common, local)
-        report(f'step {iteration + 1} of {LEAST_ITERATIONS + 1} to {MOST_ITERATIONS}: clock offset '
+        report(f'step {iteration + 1} of at most {MOST_ITERATIONS}: clock offset '
                f'{1e3 * state.vector[3]:.2f} +- {1e3 * np.sqrt(covariance[6, 6]):.2f} ms')
         if (iteration >= LEAST_ITERATIONS
                 and (np.abs(common[3:7]) < 0.05 * np.sqrt(np.diag(covariance)[3:])).all()):

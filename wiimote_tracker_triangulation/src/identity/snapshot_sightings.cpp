@@ -65,7 +65,10 @@ const std::vector<TrackSighting>& SnapshotSightings::collect(const geometry::Rig
     if (!view.time || view.time == times_[camera])
       continue;
     times_[camera] = view.time;
-    expectPixels(rig.cameras[camera].camera, snapshot);
+    if (rig.ray_model == geometry::RayModel::kCalibrated)
+      expectPixels(rig.cameras[camera].camera, snapshot);
+    else
+      expectPixels(rig.rayCamera(rig.cameras[camera]), snapshot);
     for (std::size_t led = 0; led < snapshot.leds.size(); ++led) {
       if (snapshot.leds[led].state == TrackState::kLost)
         continue;

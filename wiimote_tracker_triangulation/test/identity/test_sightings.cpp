@@ -96,6 +96,17 @@ TEST_F(Sightings, ASpotThatMayBeAnotherLedsIsNoEvidence) {
   EXPECT_EQ(1u, sightings_.collect(rig_, snapshot_).size()) << "a tentative LED does not count";
 }
 
+TEST_F(Sightings, AreLookedForWhereTheRaysOfTheRigAre) {
+  rig_.ray_model = geometry::RayModel::kImageCenter;
+  rig_.cameras[0].camera.intrinsics.cx += 100.0;
+  tracking::SeenSpot spot;
+  spot.pixel = *rig_.rayCamera(rig_.cameras[0]).project(Eigen::Vector3d::Zero());
+  spot.use = tracking::SpotUse::kAssigned;
+  spot.led = 8;
+  snapshot_.views[0].spots.push_back(spot);
+  EXPECT_EQ("u1", collect()) << "perhaps both in one spot";
+}
+
 TEST_F(Sightings, MaskedRegionsSeeNothing) {
   rig_.cameras[1].masks.push_back({*rig_.cameras[1].camera.project(Eigen::Vector3d::Zero()), 20.0});
   EXPECT_EQ("u0", collect());

@@ -154,17 +154,21 @@ make_workspace() {
     -DCMAKE_EXPORT_COMPILE_COMMANDS=ON -DCMAKE_DISABLE_FIND_PACKAGE_GMock=ON "$@"
 }
 
-# The same, but prints only how far it is; build.log has the rest.
+# make_with_progress TARGET [CMake arguments]: the same, but prints only how far it is; build.log has
+# the rest. Compiler runs count, since other steps take no time.
 make_with_progress() {
-  local line percent shown=0 first=
+  local line percent begun=0 total=0 shown=0
   make_workspace "$@" 2>&1 | tee "$workspace/build.log" | while IFS= read -r line; do
-    [[ $line =~ ^\[\ *([0-9]+)%\]\ (Building CXX)? ]] || continue
-    percent=${BASH_REMATCH[1]}
-    # Before the first compiler run are many steps that take no time.
-    [[ -n $first || -z ${BASH_REMATCH[2]} ]] || { first=$percent; SECONDS=0; }
-    (( percent >= shown + 5 && percent > ${first:-100} )) || continue
+    [[ $line = *'Building CXX object'* ]] || continue
+    if (( total == 0 )); then
+      total=$(make -C "$workspace/build" -n "$1" 2>&1 | grep -c 'Building CXX object') || total=1
+      SECONDS=0
+    fi
+    percent=$(( 100 * begun / total ))
+    begun=$(( begun + 1 ))
+    (( percent >= shown + 5 && percent < 100 )) || continue
     shown=$percent
-    say "  $percent %, about $(( SECONDS * (100 - percent) / (percent - first) / 60 + 1 )) min left"
+    say "  $percent %, about $(( SECONDS * (100 - percent) / percent / 60 + 1 )) min left"
   done
 }
 

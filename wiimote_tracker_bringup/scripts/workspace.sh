@@ -161,7 +161,7 @@ make_with_progress() {
   make_workspace "$@" 2>&1 | tee "$workspace/build.log" | while IFS= read -r line; do
     [[ $line = *'Building CXX object'* ]] || continue
     if (( total == 0 )); then
-      total=$(make -C "$workspace/build" -n "$1" 2>&1 | grep -c 'Building CXX object') || total=1
+      total=$(python3 "$bringup/scripts/compiler_runs.py" "$workspace/build" "$1")
       SECONDS=0
     fi
     percent=$(( 100 * begun / total ))

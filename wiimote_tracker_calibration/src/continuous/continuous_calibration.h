@@ -24,7 +24,7 @@ struct Options {
 };
 
 /// Gain of a proposal about drift for which a person is asked [px]. Clocks that wander by 1 ms
-/// within a minute make smaller ones, which leave points as they are.
+/// within a minute cause smaller ones, and such changes do not make points more accurate.
 constexpr double kWorthAsking = 0.3;
 
 enum class Cause { kKnock, kReconnect, kDrift };

@@ -53,7 +53,7 @@ class Measured:
         return self.trace.between(self.laps[0], self.laps[-1])
 
     def parts(self):
-        """Times of the chosen outputs by parts [ms], with their sum, and all but Bluetooth."""
+        """Times of the chosen outputs [ms]: each part, their sum, and the sum without the radio."""
         parts = {key: 1e3 * values for key, values in self.trace.parts(self.chosen()).items()}
         return dict(parts, own=parts['total'] - parts['bluetooth'])
 

@@ -182,6 +182,15 @@ def test_table_needs_its_marks(text):
         results_table.written(text, content_of(1.0, None))
 
 
+def test_a_document_without_marks_is_left_as_it_is(tmp_path, capsys):
+    readme, figures_file = tmp_path / 'README.md', tmp_path / 'figures.json'
+    readme.write_text('no marks', encoding='utf-8')
+    figures_file.write_text(json.dumps(content_of(1.0, None)), encoding='utf-8')
+    assert results_table.main([str(figures_file), str(readme)]) == 1
+    assert 'once each' in capsys.readouterr().err
+    assert readme.read_text(encoding='utf-8') == 'no marks'
+
+
 # --- Rigs made from another one
 
 def test_more_cameras_see_the_same_space(tmp_path):

@@ -139,8 +139,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
             print('\n'.join(in_process) or (
                 'All others agree.' if full_stack else 'The table agrees with these figures.'))
             return 1 if in_process else 0
+        text = written(text, content)  # before the document is emptied: it may refuse
         with open(options.document, 'w', encoding='utf-8') as file:
-            file.write(written(text, content))
+            file.write(text)
     except (OSError, ValueError, TableError) as error:
         print(error, file=sys.stderr)
         return 1

@@ -209,6 +209,27 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
     assert 'there is no section' in said and 'describes no simulated rig' in said
 
 
+def test_a_section_that_cannot_be_measured_live_is_refused(evaluate, tmp_path, capsys):
+    live, simulated = a_section('live', a_good_run), a_section('simulated', a_good_run)
+    live.live = a_good_run
+    with pytest.raises(SystemExit):
+        evaluate([live, simulated], '--live', '--sections', 'simulated')
+    assert 'simulated cannot be measured live; choose from live' in capsys.readouterr().err
+    assert evaluate([live, simulated], '--live') == 0
+    assert {each['section'] for each in figures(tmp_path)['figures']} == {'live'}
+
+
+def test_results_do_not_replace_what_the_user_gives(evaluate, tmp_path, capsys):
+    recording = tmp_path / 'out' / 'recordings' / 'flight' / 'bearings.csv.gz'
+    recording.parent.mkdir(parents=True)
+    recording.write_bytes(b'')
+    for given in (tmp_path / 'out' / 'recordings', recording.parent):
+        with pytest.raises(SystemExit):
+            evaluate([a_section('recordings', a_good_run)], '--recordings', str(given))
+        assert 'choose another folder with --output' in capsys.readouterr().err
+    assert recording.exists()
+
+
 def test_the_users_files_reach_the_sections(evaluate, tmp_path):
     for person in ('anna', 'ben'):
         (tmp_path / 'people' / person).mkdir(parents=True)

@@ -58,6 +58,20 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
         if name not in names:
             parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")
     options.sections = [name for name in names if name in chosen]
+    if options.live:
+        measured = [name for name in names if hasattr(sections.load(name), 'live')]
+        options.sections = [name for name in measured if name in chosen]
+        if not options.sections:
+            parser.error('%s cannot be measured live; choose from %s'
+                         % (', '.join(chosen), ', '.join(measured)))
+    check_files(parser, options)
+    if not 0 <= options.seed < 2 ** 31:
+        parser.error('--seed must be between 0 and 2^31 - 1')
+    return options
+
+
+def check_files(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+    """Refuses what cannot be used; makes the paths of rig and output absolute."""
     if not os.path.isfile(options.rig):
         parser.error(f'there is no rig description {options.rig}')
     if not options.live and not rigs.is_description(options.rig):
@@ -68,16 +82,23 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     if options.gestures and len(folders_in(options.gestures)) < 2:
         parser.error(f'{options.gestures} needs folders of at least two people: each person is '
                      "recognised by the others' drawings")
-    if 'recordings' in chosen and not options.recordings:
+    if 'recordings' in options.sections and not options.recordings:
         parser.error('the section recordings needs --recordings DIR')
-    if 'faults' in chosen and not options.faults:
+    if 'faults' in options.sections and not options.faults:
         parser.error('the section faults needs --faults FILE')
     if options.recordings and not os.path.isdir(options.recordings):
         parser.error(f'there is no folder {options.recordings}')
-    if not 0 <= options.seed < 2 ** 31:
-        parser.error('--seed must be between 0 and 2^31 - 1')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
-    return options
+    for given in (options.rig, options.led, options.gestures, options.recordings, options.faults):
+        if given and is_replaced(given, options):
+            parser.error(f'the results in {options.output} would replace {given}; choose another '
+                         'folder with --output')
+
+
+def is_replaced(path: str, options: argparse.Namespace) -> bool:
+    """Whether a file or folder of the user is where a section's results go."""
+    folders = [os.path.realpath(os.path.join(options.output, name)) for name in options.sections]
+    return any(os.path.commonpath([folder, os.path.realpath(path)]) == folder for folder in folders)
 
 
 def folders_in(folder: str) -> List[str]:
@@ -115,8 +136,6 @@ def carry_out(module, run, live):
 def evaluate(options: argparse.Namespace) -> int:
     """Runs the sections. Returns 0 if all succeeded."""
     modules = [sections.load(name) for name in options.sections]
-    if options.live:
-        modules = [module for module in modules if hasattr(module, 'live')]
     prepare(options.output, [module.NAME for module in modules])
     progress = Progress([(module.NAME, sections.seconds(module.NAME, options.quick))
                          for module in modules])

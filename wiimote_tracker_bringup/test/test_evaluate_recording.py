@@ -327,3 +327,8 @@ def test_refusals_say_which_file(tmp_path):
     save(str(tmp_path / 'bearings.csv.gz'), 'a,b', np.ones((4, 2)))
     with pytest.raises(ExperimentError, match='has 2 columns, but must have 5'):
         lighthouse.read(str(tmp_path))
+    whole = gzip.compress(b'a,b\n')
+    for damaged in (whole[:-10], whole[:10] + bytes(10 * [255])):  # half a download, a bad disk
+        (tmp_path / 'bearings.csv.gz').write_bytes(damaged)
+        with pytest.raises(ExperimentError, match='bearings.csv.gz cannot be read'):
+            lighthouse.read(str(tmp_path))

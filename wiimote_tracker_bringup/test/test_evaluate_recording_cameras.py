@@ -93,6 +93,11 @@ def test_refusals_say_which_file(tmp_path):
     (tmp_path / 'detections.csv').write_text('camera,frame,u\nc0,1,2\nc0,2,3\n')
     with pytest.raises(ExperimentError, match='its columns are camera,frame,u,v'):
         cameras.read(str(tmp_path))
+    lens = dict.fromkeys(cameras.KEYS, 1.0)
+    for distortion in ([0.1, 0.0, 0.0, 0.0], 0.1):
+        (tmp_path / 'cameras.yaml').write_text(yaml.safe_dump({'c0': dict(lens, distortion=distortion)}))
+        with pytest.raises(ExperimentError, match='cameras.yaml cannot be read.*each camera needs'):
+            cameras.read(str(tmp_path))
 
 
 if __name__ == '__main__':

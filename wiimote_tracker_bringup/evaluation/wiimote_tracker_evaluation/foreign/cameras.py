@@ -27,22 +27,25 @@ def read(folder: str) -> Views:
     try:
         with open(path) as file:
             lenses = yaml.safe_load(file)
-        lists = {name: [lens[key] for key in KEYS] for name, lens in lenses.items()}
-    except (OSError, yaml.YAMLError, KeyError, TypeError, AttributeError) as error:
+        for lens in lenses.values():
+            *_, distortion, _ = [lens[key] for key in KEYS]
+            if len(distortion) != 5:
+                raise ValueError(f'distortion is {distortion}, but must have 5 numbers')
+    except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
         raise ExperimentError(f'{path} cannot be read: {error}; each camera needs '
                               + ', '.join(KEYS))
     path = os.path.join(folder, 'detections.csv')
     try:
         table = np.genfromtxt(path, dtype=None, delimiter=',', names=True, encoding='utf-8')
         seen = {name: np.stack([table[column][table['camera'] == name].astype(float)
-                                for column in ('frame', 'u', 'v')], axis=1) for name in lists}
+                                for column in ('frame', 'u', 'v')], axis=1) for name in lenses}
     except (OSError, ValueError, IndexError) as error:
         raise ExperimentError(f'{path} cannot be read: {error}; its columns are camera,frame,u,v')
     for name, rows in seen.items():
         if len(rows) < 3:
             raise ExperimentError(f'{path} has hardly any detection of {name}')
     truth = read_table(os.path.join(folder, 'truth.csv'), 4)
-    return Views([camera_of(name, lenses[name], seen[name]) for name in lists], np.zeros((1, 3)),
+    return Views([camera_of(name, lenses[name], seen[name]) for name in lenses], np.zeros((1, 3)),
                  0.0, Truth(truth[:, 0], truth[:, 1:], 1.0, -BEGIN, START))
 
 

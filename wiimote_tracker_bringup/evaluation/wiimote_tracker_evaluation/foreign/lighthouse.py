@@ -11,6 +11,7 @@ import functools
 import gzip
 import itertools
 import os
+import zlib
 
 import numpy as np
 
@@ -60,7 +61,7 @@ def read_table(path, columns):
     try:
         with (gzip.open if path.endswith('.gz') else open)(path, 'rt') as file:
             table = np.atleast_2d(np.genfromtxt(file, delimiter=',', skip_header=1))
-    except (OSError, ValueError) as error:
+    except (OSError, EOFError, zlib.error, ValueError) as error:
         raise ExperimentError(f'{path} cannot be read: {error}')
     table = table.reshape(-1, columns) if columns == 1 or not table.size else table
     if table.shape[1] != columns:

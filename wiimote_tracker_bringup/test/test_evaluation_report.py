@@ -18,7 +18,10 @@ sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
 
 from wiimote_tracker_evaluation import (charts, evaluation, results_table,  # noqa: E402
                                         section, sections)
+from wiimote_tracker_evaluation.foreign import formats  # noqa: E402
 from wiimote_tracker_evaluation.interruption import Interrupted  # noqa: E402
+from wiimote_tracker_evaluation.page import data  # noqa: E402
+from wiimote_tracker_evaluation.sections import recordings  # noqa: E402
 
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 
@@ -260,6 +263,15 @@ def test_recordings_by_others_are_marked_as_measured(tmp_path):
     # A folder without recordings is a failure that says so.
     assert evaluation.evaluate(evaluation.parse(run + [str(tmp_path)] + chosen)) == 1
     assert 'has no recording' in (tmp_path / 'out/report.md').read_text(encoding='utf-8')
+
+
+@pytest.mark.parametrize('title', ['2021-05-01', 'Flüge/über dem Tisch', 20 * 'long'])
+def test_a_recording_may_have_any_name(title, tmp_path):
+    run = section.Run('recordings', 'Recordings', PAPER_RIG, str(tmp_path))
+    recordings.tell(run, title, formats.Outcome('Measured', {'tracked': 0.9}, [], {}, 'time [s]',
+                                                np.arange(20.0), 'mm', np.ones(20)))
+    data.write_section(run)
+    assert [figure.value for figure in run.figures] == [1.0, 90.0]
 
 
 def test_the_fault_matrix_is_a_table_of_the_report(tmp_path):

@@ -50,8 +50,14 @@ def run(run):
                     f'{min(means):.1f} to {max(means):.1f} mm.')
 
 
+def name_of(title):
+    """As figures may be named, and short enough for MATLAB with an ending."""
+    name = re.sub(r'[^A-Za-z0-9_]+', '_', title)[-45:]
+    return name if name[0].isalpha() else 'recording_' + name
+
+
 def tell(run, title, outcome):
-    name = re.sub(r'\W+', '_', title)
+    name = name_of(title)
     run.say(f'### {title}\n\n{outcome.method}.\n\n' + '\n'.join(
         f'- {row}: {value}' for row, value in outcome.rows))
     run.plot('errors_of_' + name, program.drawing(outcome), f'Errors of {title}.')

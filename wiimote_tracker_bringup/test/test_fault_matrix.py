@@ -4,12 +4,34 @@ import json
 import os
 import subprocess
 import sys
+import types
+
+import pytest
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PROGRAM = os.path.join(HERE, '../evaluation/fault_matrix')
 sys.path.insert(0, os.path.join(HERE, '../evaluation'))
 
+from wiimote_tracker_evaluation.faults import matrix, row  # noqa: E402
+
 LIMIT = 600.0  # on a busy computer [s]
+
+
+def test_a_fault_that_cannot_be_caused_does_not_end_the_others():
+    def cannot_be_tracked():
+        raise subprocess.CalledProcessError(32, 'mount')
+    tried = object.__new__(matrix.Matrix)
+    tried._log, tried._kind = None, {}
+    tried._room = types.SimpleNamespace(wait_until_tracked=cannot_be_tracked, stop=lambda: None)
+    result = tried.run(row.Fault('full_disk', 'The disk is full', None))
+    assert len(result.problems) == 1 and 'mount' in result.problems[0]
+
+
+@pytest.mark.parametrize('option', ['--json', '--log'])
+def test_a_file_that_cannot_be_written_is_named_at_once(option, tmp_path, capsys):
+    with pytest.raises(SystemExit):
+        matrix.parse([option, str(tmp_path / 'nowhere' / 'file')])
+    assert 'nowhere/file: No such file' in capsys.readouterr().err
 
 
 def test_quick_faults_are_survived(tmp_path):

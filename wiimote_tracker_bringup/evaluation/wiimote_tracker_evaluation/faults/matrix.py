@@ -3,6 +3,7 @@
 import argparse
 import dataclasses
 import json
+import subprocess
 import sys
 from typing import List, Optional
 
@@ -38,6 +39,12 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     for name in chosen:
         if name not in names:
             parser.error(f"there is no fault {name!r}; choose from {', '.join(names)}")
+    for path in filter(None, (options.json, options.log)):
+        try:
+            with open(path, 'a'):
+                pass
+        except OSError as error:  # better now than after some minutes
+            parser.error(f'cannot write to {path}: {error.strerror}')
     options.chosen = [fault for fault in FAULTS if fault.name in chosen]
     # Faults of one kind of room run one after the other, and those that spend it last.
     options.chosen.sort(key=lambda fault: (str(fault.room), fault.spends_room))
@@ -59,7 +66,8 @@ class Matrix:
                 self._kind, self._room = fault.room, Room(self._processes, **fault.room)
             self._room.wait_until_tracked()
             result = carry_out(fault, self._room)
-        except (ExperimentError, ProcessEnded, TimeoutError, EOFError) as error:
+        except (ExperimentError, ProcessEnded, OSError, subprocess.SubprocessError,
+                EOFError) as error:
             result = Result(fault.name, fault.what, problems=[str(error) or type(error).__name__])
         if result.problems or fault.spends_room:
             self._close()

@@ -4,6 +4,7 @@ import contextlib
 import os
 import random
 import subprocess
+import tempfile
 
 from wiimote_tracker_evaluation.faults.helper import Helper
 from wiimote_tracker_evaluation.faults.row import fault
@@ -118,12 +119,24 @@ def two_saves_at_once(room):
 
 @contextlib.contextmanager
 def small_disk(folder):
-    os.mkdir(folder)
-    subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=256k', 'tmpfs', folder], check=True)
+    subprocess.run(['mount', '-t', 'tmpfs', '-o', 'size=256k', 'tmpfs', folder], check=True,
+                   stderr=subprocess.PIPE)
     try:
         yield
     finally:
         subprocess.run(['umount', folder], check=True)
+
+
+def missing_disk():
+    """Why there can be no small disk here; empty: there can."""
+    if os.geteuid() != 0:
+        return 'only root can make a small disk'
+    with tempfile.TemporaryDirectory() as folder:
+        try:
+            with small_disk(folder):
+                return ''
+        except (OSError, subprocess.CalledProcessError) as error:
+            return f'no small disk can be made: {error}'
 
 
 def fill(path):
@@ -132,11 +145,12 @@ def fill(path):
             file.write(bytes(1024))
 
 
-@fault(missing=lambda: '' if os.geteuid() == 0 else 'only root can make a small disk')
+@fault(missing=missing_disk)
 def full_disk(room):
     """The rig is saved to a full disk, over an older file."""
     yield 0.0
     folder = room.file('disk')
+    os.mkdir(folder)
     path, filler = folder + '/rig.yaml', folder + '/filler'
     problems = []
     with small_disk(folder), Helper(answer_calls, 'save') as helper:

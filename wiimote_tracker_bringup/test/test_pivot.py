@@ -116,6 +116,17 @@ def test_probe_saves_points(tmp_path):
     assert file.read_text().startswith('time [s],x [m]')
 
 
+def test_a_hidden_probe_tells_no_point(tmp_path):
+    random, file, now = np.random.default_rng(8), tmp_path / 'points.csv', [50.0]
+    measuring = probe.Probe(TIP, 10.0, str(file), lambda: now[0])
+    for message in messages(*noisy(random, tilt=0.001, number=20)):
+        measuring.add(message)
+    now[0] += 3.0
+    with pytest.raises(ExperimentError, match='last seen 3.0 s ago'):
+        measuring.save_point()
+    assert not file.exists()
+
+
 def test_points_are_taken_at_rest_once_a_place(tmp_path):
     random, file = np.random.default_rng(7), tmp_path / 'points.csv'
     measuring = probe.Probe(TIP, 10.0, str(file))

@@ -5,6 +5,7 @@ import copy
 import os
 import sys
 import threading
+import time
 
 import numpy as np
 import rosgraph
@@ -20,6 +21,7 @@ from wiimote_tracker_evaluation.motion import pivot
 
 INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
 REST = 0.5  # of which a saved point is the mean [s]
+HIDDEN = 0.5  # without poses, after which the last ones tell nothing of the present [s]
 BUTTON = 2  # index in joy: A of a Wii Remote
 AWAY = 0.05  # from the last point, where a tip at rest is another one [m]
 HEADER = 'time [s],x [m],y [m],z [m],stddev_x [m],stddev_y [m],stddev_z [m]\n'
@@ -36,12 +38,14 @@ def arrays(messages):
 
 
 class Probe:
-    """The tip, and where it was. tip: position in the body's frame [m] and its covariance."""
+    """The tip, and where it was. tip: position in the body's frame [m] and its covariance. now: gives
+    the time [s]."""
 
-    def __init__(self, tip, duration, file):
+    def __init__(self, tip, duration, file, now=time.monotonic):
         self.tip, self.tip_covariance = np.array(tip, dtype=float), np.zeros((3, 3))
         self.duration, self.file = duration, os.path.expanduser(file)
         self.messages = collections.deque()  # of the newest `duration`
+        self.now, self.seen = now, now()  # the time, and that of the last message
         self.saved = np.full(3, np.inf)  # the last point [m]
         self.saving = threading.Lock()  # button, service and timer are threads of their own
 
@@ -49,6 +53,7 @@ class Probe:
         if self.messages and message.header.stamp < self.messages[-1].header.stamp:
             self.messages.clear()  # time jumped back, as when a bag starts again
         self.messages.append(message)
+        self.seen = self.now()
         while message.header.stamp - self.messages[0].header.stamp > rospy.Duration(self.duration):
             self.messages.popleft()
 
@@ -96,6 +101,9 @@ class Probe:
     def save_point(self):
         """Appends where the tip is to the file. @returns a sentence."""
         messages = self.newest(REST)
+        if self.now() - self.seen > HIDDEN:
+            raise ExperimentError(f'the probe was last seen {self.now() - self.seen:.1f} s ago: turn '
+                                  'it towards the cameras')
         points, covariances = self.points(messages)
         spread = np.sqrt(points.var(axis=0).sum())
         stddevs = np.sqrt(np.diagonal(covariances.mean(axis=0)))
@@ -153,7 +161,7 @@ class Node:
     def __init__(self):
         body = read_body()
         self.probe = Probe(read_tip(), rospy.get_param('~duration', 10.0),
-                           rospy.get_param('~file', '~/probe_points.csv'))
+                           rospy.get_param('~file', '~/probe_points.csv'), rospy.get_time)
         self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)
         self.pose = rospy.Publisher(f'{body}/tip_pose', PoseWithCovarianceStamped, queue_size=10)
         rospy.Subscriber(f'{body}/odometry', Odometry, self.on_odometry, queue_size=100,

@@ -1,26 +1,15 @@
 #!/usr/bin/env python3
 """A simulated person switches blinking LEDs as `evaluate --live` prompts, on a terminal."""
 
-import json
-import os
-import pty
-import shutil
-import subprocess
-import tempfile
 import threading
-import unittest
 
 import rospy
 import rostest
-import yaml
-from evaluate_live_rostest import DEADLINE, Person
-from wiimote_tracker_evaluation import scene, true_rig
+from evaluate_live_rostest import LiveEvaluation, Person
+from wiimote_tracker_evaluation import rigs
 from wiimote_tracker_evaluation.live.identification import LABEL_TIMEOUT, QUICK_TRIES
-from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLedRequest
 
-EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections',
-            'identification', '--output']
 DARK = 0.6  # time without points after which the LEDs count as off [s]
 
 
@@ -50,36 +39,14 @@ class Switcher(Person):
             assert answer.success, answer.message
 
 
-class EvaluateLiveBlinking(unittest.TestCase):
-
+class EvaluateLiveBlinking(LiveEvaluation):
     def test_blinking_leds_are_switched_and_get_their_names(self):
-        rospy.init_node('evaluate_live_rostest')
-        path = rospy.get_param('~description')
-        with open(path) as file:
-            description = yaml.safe_load(file)
-        rig = true_rig.true_rig(scene.read_scene(path), {
-            name: camera['identity'] for name, camera in description['cameras'].items()})
-        publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
-        publisher.publish(rig)
-        rospy.wait_for_message('points', TrackedPointArray, DEADLINE)
-
-        output = tempfile.mkdtemp()
-        self.addCleanup(shutil.rmtree, output)
-        terminal, other_end = pty.openpty()
-        process = subprocess.Popen(EVALUATE + [output], stdin=other_end, stdout=other_end,
-                                   stderr=other_end)
-        os.close(other_end)
-        self.addCleanup(process.kill)
-        said = Switcher(terminal, list(description['leds'])).obey(process)
-        self.assertEqual(process.returncode, 0, said[-2000:])
-
-        with open(os.path.join(output, 'figures.json')) as file:
-            figures = {figure['name']: figure for figure in json.load(file)['figures']}
-        self.assertTrue(all(figure['simulated'] for figure in figures.values()))
-        self.assertEqual((figures['live_success']['value'], figures['live_success']['samples']),
-                         (100.0, QUICK_TRIES))
-        self.assertGreater(figures['live_time']['value'], 0.0)
-        self.assertLess(figures['live_time']['value'], LABEL_TIMEOUT)
+        leds = list(rigs.read(self.path)['leds'])
+        _, figures = self.evaluate('identification', lambda terminal: Switcher(terminal, leds))
+        success, time = (figures['identification', name] for name in ('live_success', 'live_time'))
+        self.assertEqual((success['value'], success['samples']), (100.0, QUICK_TRIES))
+        self.assertGreater(time['value'], 0.0)
+        self.assertLess(time['value'], LABEL_TIMEOUT)
 
 
 if __name__ == '__main__':

@@ -17,15 +17,14 @@ import numpy as np
 import rosgraph
 import rospy
 import rostest
-import yaml
 from std_msgs.msg import Header
-from wiimote_tracker_evaluation import experiment, scene, true_rig
+from wiimote_tracker_evaluation import experiment, scene
 from wiimote_tracker_evaluation.ours.cameras import point_bound
+from wiimote_tracker_evaluation.true_rig import true_rig
 from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
-EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections',
-            'distance,latency,identification,positions,circles', '--output']
+EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections']
 DEADLINE = 150.0                   # [s]
 SPEED = 4.0                        # of the hand [m/s]
 CHOSEN = (1, 10)                   # of the ten points; the others are skipped
@@ -153,43 +152,47 @@ class Person:
         self.type(f'{DISTANCE:g}')
 
 
-class EvaluateLive(unittest.TestCase):
+class LiveEvaluation(unittest.TestCase):
+    """The tracker has the true rig of the file ~description."""
 
-    def test_a_person_is_guided_to_a_report(self):
+    def setUp(self):
         rospy.init_node('evaluate_live_rostest')
-        path = rospy.get_param('~description')
-        with open(path) as file:
-            description = yaml.safe_load(file)
-        described = scene.read_scene(path)
-        rig = true_rig.true_rig(described, {name: camera['identity'] for name, camera in
-                                            description['cameras'].items()})
+        self.path = rospy.get_param('~description')
+        rig = true_rig(self.path)
         rig.square_sides = [experiment.SIDE, experiment.SIDE]
-        publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
-        publisher.publish(rig)
+        self.publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
+        self.publisher.publish(rig)
         rospy.wait_for_message('points', TrackedPointArray, DEADLINE)
 
+    def evaluate(self, sections, person_at):
+        """The person, and the figures by section and name. person_at: makes one for a terminal."""
         output = tempfile.mkdtemp()
         self.addCleanup(shutil.rmtree, output)
         terminal, other_end = pty.openpty()
-        process = subprocess.Popen(EVALUATE + [output], stdin=other_end, stdout=other_end,
-                                   stderr=other_end)
+        process = subprocess.Popen(EVALUATE + [sections, '--output', output], stdin=other_end,
+                                   stdout=other_end, stderr=other_end)
         os.close(other_end)
         self.addCleanup(process.kill)
-        person = Person(terminal)
+        person = person_at(terminal)
         said = person.obey(process)
         self.assertEqual(process.returncode, 0, said[-2000:])
-        self.assertEqual(person.readers, set(), 'neither the tracker nor the evaluation knows the truth')
-
         with open(os.path.join(output, 'figures.json')) as file:
             content = json.load(file)
-        figures = {(figure['section'], figure['name']): figure for figure in content['figures']}
-        for each in [content] + list(figures.values()):
+        for each in [content] + content['figures']:
             self.assertTrue(each['simulated'], 'the remotes are virtual, and the report must say so')
+        return person, {(figure['section'], figure['name']): figure for figure in content['figures']}
+
+
+class EvaluateLive(LiveEvaluation):
+    def test_a_person_is_guided_to_a_report(self):
+        person, figures = self.evaluate('distance,latency,identification,positions,circles', Person)
+        self.assertEqual(person.readers, set(), 'neither the tracker nor the evaluation knows the truth')
 
         def value(section, name):
             return figures[section, name]['value']
         # The mean over a place is better than one image's point, to which the bound applies.
         places = experiment.TEST_POINTS[[number - 1 for number in CHOSEN]]
+        described = scene.read_scene(self.path)
         bound = 1e3 * point_bound(described.cameras, described.effective_noise(), places)
         self.assertEqual(figures['positions', 'live_rms']['samples'], len(CHOSEN))
         self.assertLess(value('positions', 'live_largest'), SIGMAS * bound)

@@ -6,9 +6,9 @@ import unittest
 
 import numpy as np
 import rospy
-import yaml
 from geometry_msgs.msg import PointStamped
-from wiimote_tracker_evaluation import scene, true_rig
+from wiimote_tracker_evaluation import rigs, scene
+from wiimote_tracker_evaluation.true_rig import true_rig
 from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
 
 DEADLINE = 90.0  # [s]
@@ -21,8 +21,7 @@ class LiveRigTest(unittest.TestCase):
     def setUpClass(cls):
         rospy.init_node(cls.__name__.lower() + '_rostest')
         cls.path = rospy.get_param('~description')
-        with open(cls.path) as file:
-            cls.description = yaml.safe_load(file)
+        cls.description = rigs.read(cls.path)
         cls.scene = scene.read_scene(cls.path)
         cls.leds = sorted(cls.description['leds'])
         cls.images = collections.Counter()
@@ -48,8 +47,7 @@ class LiveRigTest(unittest.TestCase):
         """Waits until all cameras deliver images and gives the tracker the true rig.
         @param masks: pairs of a camera's name and an IrMask."""
         self.wait(lambda: len(self.images) == len(self.scene.cameras), 'images of all cameras')
-        rig = true_rig.true_rig(self.scene, {
-            name: camera['identity'] for name, camera in self.description['cameras'].items()})
+        rig = true_rig(self.path)
         for camera in rig.cameras:
             camera.masks.extend(mask for name, mask in masks if name == camera.name)
         self.rig_publisher.publish(rig)

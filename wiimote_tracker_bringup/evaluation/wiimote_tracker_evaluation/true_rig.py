@@ -3,14 +3,17 @@
 from scipy.spatial.transform import Rotation
 from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
 
+from wiimote_tracker_evaluation import rigs, scene
 
-def true_rig(scene, identities):
-    """RigCalibration of a scene's exact cameras; identities: by camera name."""
+
+def true_rig(path):
+    """RigCalibration of the exact cameras of a rig description's file."""
+    identities = rigs.identities(rigs.read(path))
     rig = RigCalibration(format_version=RigCalibration.FORMAT_VERSION, id='', method='true',
                          ray_model=RigCalibration.RAY_MODEL_CALIBRATED,
                          virtual_hfov=float('nan'), led_height=float('nan'))
     rig.header.frame_id = 'world'
-    for camera in scene.cameras:
+    for camera in scene.read_scene(path).cameras:
         fx, fy, cx, cy, k1 = camera.parameters
         message = CameraCalibration(
             name=camera.name, identity=identities[camera.name],

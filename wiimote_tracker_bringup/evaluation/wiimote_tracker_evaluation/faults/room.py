@@ -7,7 +7,7 @@ import signal
 import tempfile
 import time
 
-from wiimote_tracker_evaluation import rigs, scene, true_rig
+from wiimote_tracker_evaluation import rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.faults import figures
 from wiimote_tracker_evaluation.faults.far_computer import FarComputer
@@ -16,6 +16,7 @@ from wiimote_tracker_evaluation.faults.relay import Relay
 from wiimote_tracker_evaluation.faults.rig_file import write_rig
 from wiimote_tracker_evaluation.processes import descendants, free_port
 from wiimote_tracker_evaluation.programs import find_program, package_file
+from wiimote_tracker_evaluation.true_rig import true_rig
 
 START = 90.0      # longest time until all LEDs are tracked, on a busy computer [s]
 SETTLED = 2.0     # that the LEDs must be tracked at the start [s]
@@ -59,10 +60,9 @@ class Room:
         self.cameras = list(description['cameras'])
         rigs.write(self.file('room.yaml'), description)
         rigs.write(self.file('cameras.yaml'), {'cameras': {
-            name: camera['identity'] for name, camera in description['cameras'].items()
+            name: identity for name, identity in rigs.identities(description).items()
             if name not in relayed and name not in far}})
-        write_rig(self.file('rig.yaml'), true_rig.true_rig(
-            scene.read_scene(self.file('room.yaml')), rigs.identities(description)))
+        write_rig(self.file('rig.yaml'), true_rig(self.file('room.yaml')))
         self._port = free_port()
         self.far = FarComputer() if far else None
         os.environ['ROS_HOSTNAME'] = self.far.here if far else 'localhost'

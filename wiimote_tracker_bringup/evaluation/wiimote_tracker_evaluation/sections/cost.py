@@ -8,7 +8,7 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, load, rigs, scene, stack, statistics
+from wiimote_tracker_evaluation import charts, load, rigs, stack, statistics
 from wiimote_tracker_evaluation.trace import Recorder
 
 NAME = 'cost'
@@ -85,13 +85,13 @@ class FullStack:
 
         # Imported late: rospy reads the master's address at import.
         import rospy
-        from wiimote_tracker_evaluation import true_rig
         from wiimote_tracker_evaluation.conductor import Conductor
+        from wiimote_tracker_evaluation.true_rig import true_rig
         from wiimote_tracker_msgs.msg import RigCalibration
         self._conductor = Conductor('led', None, stack.check)
         self._conductor.wait_for_cameras(self._cameras)
         self._rig = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
-        self._rig.publish(true_rig.true_rig(scene.read_scene(path), rigs.identities(description)))
+        self._rig.publish(true_rig(path))
         self._processes = {node: load.process_of(node) for node in [
             '/triangulation', '/calibration'] + [f'/{camera}/driver' for camera in self._cameras]}
 

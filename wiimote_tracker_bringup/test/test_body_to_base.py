@@ -2,7 +2,6 @@
 
 import os
 import re
-import sys
 
 import numpy as np
 import pytest
@@ -12,16 +11,13 @@ from geometry_msgs.msg import Vector3
 from sensor_msgs.msg import Imu
 from std_msgs.msg import Header
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.motion import (  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import (
     body_to_base, hand_eye, inertial, mount)
 
-import mount_scene  # noqa: E402
-from mount_scene import ARM, OFFSET, TURN, error_of  # noqa: E402
-from test_evaluate_trajectory import write  # noqa: E402
+import mount_scene
+from mount_scene import ARM, OFFSET, TURN, error_of
+from test_evaluate_trajectory import write
 
 
 def simulate(random, duration=30.0, **motion):

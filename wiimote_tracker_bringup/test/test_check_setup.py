@@ -1,18 +1,12 @@
 """check_setup, with fakes of the driver's programs and of the ROS master."""
 
-import importlib.machinery
-import importlib.util
 import os
 import sys
 
+import program_module
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-loader = importlib.machinery.SourceFileLoader(
-    'check_setup', os.path.join(HERE, '../launch/check_setup'))
-check_setup = importlib.util.module_from_spec(importlib.util.spec_from_loader(
-    'check_setup', loader))
-loader.exec_module(check_setup)
+check_setup = program_module.load('launch/check_setup')
 
 A, B = '00:1f:32:00:00:01', '00:1f:32:00:00:02'
 BLUETOOTH = 'Uses the Bluetooth adapter 00:1A:7D:DA:71:13.\nPaired remotes: %s.\n' % A.upper()

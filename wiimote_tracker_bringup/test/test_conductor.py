@@ -1,15 +1,9 @@
 """The conductor measures an LED that is at rest, also where stamps are late."""
 
-import os
-import sys
-
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation.conductor import SETTLE, Conductor  # noqa: E402
-from wiimote_tracker_evaluation.recording import LiveRecorder  # noqa: E402
+from wiimote_tracker_evaluation.conductor import SETTLE, Conductor
+from wiimote_tracker_evaluation.recording import LiveRecorder
 
 ARRIVAL, SPEED = 100.0, 1.0  # [s], [m/s]
 

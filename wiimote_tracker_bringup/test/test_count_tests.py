@@ -1,13 +1,8 @@
 """The counter of tests, with hand-written result files."""
 
-import importlib.util
 import os
 
-SCRIPT = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'scripts',
-                      'count_tests.py')
-spec = importlib.util.spec_from_file_location('count_tests', SCRIPT)
-count_tests = importlib.util.module_from_spec(spec)
-spec.loader.exec_module(count_tests)
+import count_tests
 
 GOOD = ('<testsuites><testsuite name="A"><testcase name="one" classname="A" status="run"/>'
         '<testcase name="two" classname="A" status="run"/></testsuite></testsuites>')

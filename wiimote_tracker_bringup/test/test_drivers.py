@@ -1,16 +1,12 @@
 """The list of cameras, as read by the drivers script."""
 
-import importlib.machinery
-import importlib.util
 import os
 
+import program_module
 import pytest
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-loader = importlib.machinery.SourceFileLoader('drivers', os.path.join(HERE, '../launch/drivers'))
-spec = importlib.util.spec_from_loader('drivers', loader)
-drivers = importlib.util.module_from_spec(spec)
-loader.exec_module(drivers)
+drivers = program_module.load('launch/drivers')
 
 
 def read(tmp_path, text, socket_directory=''):

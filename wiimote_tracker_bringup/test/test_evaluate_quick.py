@@ -1,16 +1,12 @@
 """The sections of the quick evaluation that only compute: errors are compared with bounds of Cramér
 and Rao that are computed here."""
 
-import sys
-
 import numpy as np
 import pytest
 
-from quick_evaluation import COMPUTED, EVALUATION, PAPER_RIG, TIMED, check, evaluate
+from quick_evaluation import COMPUTED, PAPER_RIG, TIMED, check, evaluate
 
-sys.path.insert(0, EVALUATION)
-
-from wiimote_tracker_evaluation import bound, experiment, scene, sections  # noqa: E402
+from wiimote_tracker_evaluation import bound, experiment, scene, sections
 
 
 @pytest.fixture(scope='module')

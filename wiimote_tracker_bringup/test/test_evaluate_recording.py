@@ -12,16 +12,14 @@ import pytest
 import rosbag
 from scipy.spatial.transform import Rotation
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation import reprojection  # noqa: E402
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.foreign import (accuracy, body, disturbed,  # noqa: E402
+from wiimote_tracker_evaluation import reprojection
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.foreign import (accuracy, body, disturbed,
                                                 flight as flights, lighthouse, multicamselfcal,
                                                 ordinary, program)
-from wiimote_tracker_evaluation.foreign.views import Camera, Truth, Views  # noqa: E402
+from wiimote_tracker_evaluation.foreign.views import Camera, Truth, Views
 
+HERE = os.path.dirname(os.path.realpath(__file__))
 NOISE = 1e-4  # [rad]
 DELAYS = (0.0007, 0.0172)  # of the stations' logs beyond the end of both sweeps [s]
 RATE, START = 1.011, 3.0  # of the truth's clock, and the cameras' time of its zero

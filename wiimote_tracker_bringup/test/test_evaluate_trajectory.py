@@ -2,8 +2,6 @@
 
 import dataclasses
 import json
-import os
-import sys
 
 import numpy as np
 import pytest
@@ -12,12 +10,9 @@ import rospy
 from nav_msgs.msg import Odometry
 from scipy.spatial.transform import Rotation
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.motion import comparison, evaluate_trajectory, mount  # noqa: E402
-from wiimote_tracker_evaluation.motion.poses import Poses  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import comparison, evaluate_trajectory, mount
+from wiimote_tracker_evaluation.motion.poses import Poses
 
 RADIUS, SPEED = 2.0, 0.5  # of the circle [m, m/s]
 

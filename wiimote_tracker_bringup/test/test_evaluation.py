@@ -3,18 +3,15 @@
 import json
 import os
 import subprocess
-import sys
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation import (alignment, animation, bound, experiment,  # noqa: E402
+from wiimote_tracker_evaluation import (alignment, animation, bound, experiment,
                                         report, scene, scoring)
 
+HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 
 

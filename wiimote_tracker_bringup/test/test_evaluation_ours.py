@@ -5,21 +5,18 @@ import io
 import json
 import os
 import subprocess
-import sys
 
 import numpy as np
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation import (evaluation, light, programs, scene, section,  # noqa: E402
+from wiimote_tracker_evaluation import (evaluation, light, programs, scene, section,
                                         statistics)
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.live import circles, dialogue, latency, listener  # noqa: E402
-from wiimote_tracker_evaluation.ours import cameras, gestures  # noqa: E402
-from wiimote_tracker_evaluation.sections import identification  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.live import circles, dialogue, latency, listener
+from wiimote_tracker_evaluation.ours import cameras, gestures
+from wiimote_tracker_evaluation.sections import identification
 
+HERE = os.path.dirname(os.path.realpath(__file__))
 RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 LED = os.path.join(HERE, '..', 'evaluation', 'led.yaml')
 SIGMAS = 4.0

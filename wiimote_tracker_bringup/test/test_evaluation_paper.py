@@ -4,20 +4,16 @@ figures, and larger errors in larger figures."""
 import csv
 import functools
 import os
-import sys
 
 import numpy as np
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation import position_claims as claims, statistics  # noqa: E402
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.position_results import (  # noqa: E402
+from wiimote_tracker_evaluation import position_claims as claims, statistics
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.position_results import (
     CASES, FACING, FOUR, OURS, TWO, Results)
-from wiimote_tracker_evaluation.section import Run, Table  # noqa: E402
-from wiimote_tracker_evaluation.sections import circles, positions  # noqa: E402
+from wiimote_tracker_evaluation.section import Run, Table
+from wiimote_tracker_evaluation.sections import circles, positions
 
 SESSIONS = 10
 PLACED = 0.01       # error of the LED's placement, along x [m]

@@ -4,18 +4,15 @@ results, rigs, programs and load."""
 import io
 import json
 import os
-import sys
 
 import numpy as np
 import pytest
 import scipy.stats
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation import (load, programs, progress, results_table,  # noqa: E402
+from wiimote_tracker_evaluation import (load, programs, progress, results_table,
                                         rigs, scene, statistics)
 
+HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 
 

@@ -6,23 +6,20 @@ import html.parser
 import json
 import os
 import re
-import sys
 import types
 
 import numpy as np
 import pytest
 import scipy.io
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation import (charts, evaluation, results_table,  # noqa: E402
+from wiimote_tracker_evaluation import (charts, evaluation, results_table,
                                         section, sections)
-from wiimote_tracker_evaluation.foreign import formats  # noqa: E402
-from wiimote_tracker_evaluation.interruption import Interrupted  # noqa: E402
-from wiimote_tracker_evaluation.page import data  # noqa: E402
-from wiimote_tracker_evaluation.sections import recordings  # noqa: E402
+from wiimote_tracker_evaluation.foreign import formats
+from wiimote_tracker_evaluation.interruption import Interrupted
+from wiimote_tracker_evaluation.page import data
+from wiimote_tracker_evaluation.sections import recordings
 
+HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 
 

@@ -1,6 +1,5 @@
 """The other computer of the fault matrix: packets are carried, delayed and lost."""
 
-import os
 import socket
 import subprocess
 import sys
@@ -8,10 +7,7 @@ import time
 
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '../evaluation'))
-
-from wiimote_tracker_evaluation.faults import far_computer  # noqa: E402
+from wiimote_tracker_evaluation.faults import far_computer
 
 PATIENCE = 60.0  # on a busy computer [s]
 ECHO = """

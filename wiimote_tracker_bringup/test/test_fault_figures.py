@@ -1,15 +1,9 @@
 """What the fault matrix calls wrong, and since when all is normal."""
 
-import os
-import sys
-
 import numpy as np
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '../evaluation'))
-
-from wiimote_tracker_evaluation.faults.figures import figures, is_tracked, normal_since  # noqa: E402
-from wiimote_tracker_evaluation.faults.listener import Window  # noqa: E402
+from wiimote_tracker_evaluation.faults.figures import figures, is_tracked, normal_since
+from wiimote_tracker_evaluation.faults.listener import Window
 
 RATE = 100.0  # of the points [Hz]
 

@@ -1,14 +1,8 @@
 """The fault that kills the master starts another one."""
 
-import os
-import sys
-
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '../evaluation'))
-
-from wiimote_tracker_evaluation.faults import of_master  # noqa: E402
-from wiimote_tracker_evaluation.faults.room import Room  # noqa: E402
-from wiimote_tracker_evaluation.processes import Processes, free_port  # noqa: E402
+from wiimote_tracker_evaluation.faults import of_master
+from wiimote_tracker_evaluation.faults.room import Room
+from wiimote_tracker_evaluation.processes import Processes, free_port
 
 
 class MasterAlone(Room):

@@ -8,12 +8,9 @@ import types
 
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-PROGRAM = os.path.join(HERE, '../evaluation/fault_matrix')
-sys.path.insert(0, os.path.join(HERE, '../evaluation'))
+from wiimote_tracker_evaluation.faults import matrix, row
 
-from wiimote_tracker_evaluation.faults import matrix, row  # noqa: E402
-
+PROGRAM = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../evaluation/fault_matrix')
 LIMIT = 600.0  # on a busy computer [s]
 
 

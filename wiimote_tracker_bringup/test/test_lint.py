@@ -1,16 +1,11 @@
 """The lint, in a small tree for each test."""
 
-import importlib.machinery
-import importlib.util
-import os
 import subprocess
 
+import program_module
 import pytest
 
-SCRIPT = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..', 'scripts', 'lint')
-loader = importlib.machinery.SourceFileLoader('lint', SCRIPT)
-lint = importlib.util.module_from_spec(importlib.util.spec_from_loader('lint', loader))
-loader.exec_module(lint)
+lint = program_module.load('scripts/lint')
 
 
 @pytest.fixture(name='package')

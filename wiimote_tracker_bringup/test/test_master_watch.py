@@ -9,11 +9,9 @@ import time
 import pytest
 import rosgraph
 
+from wiimote_tracker_evaluation.processes import free_port
+
 HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '../evaluation'))
-
-from wiimote_tracker_evaluation.processes import free_port  # noqa: E402
-
 PATIENCE = 60.0  # on a busy computer [s]
 
 

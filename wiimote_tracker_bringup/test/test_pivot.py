@@ -1,7 +1,5 @@
 """The tip of a probe from a pivot: errors against the Cramer-Rao bound."""
 
-import os
-import sys
 import types
 
 import numpy as np
@@ -11,11 +9,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '..', 'evaluation'))
-
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.motion import pivot, probe  # noqa: E402
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import pivot, probe
 
 TIP, PLACE = np.array([0.02, -0.01, -0.3]), np.array([1.0, 0.5, 0.0])  # [m]
 STDDEVS = np.array([0.001, 0.001, 0.002, 0.015, 0.015, 0.01])  # of a pose [m, rad]

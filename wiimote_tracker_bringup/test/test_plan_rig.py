@@ -3,21 +3,18 @@
 import dataclasses
 import os
 import re
-import sys
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '../evaluation'))
-
-from wiimote_tracker_evaluation import bound, rigs, scene  # noqa: E402
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.experiment import NOMINAL_LENS  # noqa: E402
-from wiimote_tracker_evaluation.planning import (  # noqa: E402
+from wiimote_tracker_evaluation import bound, rigs, scene
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
+from wiimote_tracker_evaluation.planning import (
     body, plan, plan_rig, prediction, search)
 
+HERE = os.path.dirname(os.path.realpath(__file__))
 EXAMPLE = os.path.join(HERE, '../config/plan.yaml')
 PAPER_RIG = os.path.join(HERE, '../simulation/paper_rig.yaml')
 ROOM_TEXT = 'cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]\n'

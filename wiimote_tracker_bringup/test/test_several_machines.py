@@ -1,19 +1,15 @@
 """The distribution of nodes when the tracker runs on several computers."""
 
-import importlib.machinery
-import importlib.util
 import os
 
+import program_module
 import roslaunch.config
 import roslaunch.core
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 LAUNCH_FILE = os.path.join(HERE, '../launch/several_machines.launch')
 CONFIG = os.path.join(HERE, '../config')
-loader = importlib.machinery.SourceFileLoader('drivers', os.path.join(HERE, '../launch/drivers'))
-spec = importlib.util.spec_from_loader('drivers', loader)
-drivers = importlib.util.module_from_spec(spec)
-loader.exec_module(drivers)
+drivers = program_module.load('launch/drivers')
 
 
 def load(*arguments):

@@ -1,12 +1,6 @@
 """Which reports of ThreadSanitizer count: those about code of the tracker."""
 
-import os
-import sys
-
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path.insert(0, os.path.join(HERE, '../scripts'))
-
-import thread_reports  # noqa: E402
+import thread_reports
 
 LOCK = '    #0 pthread_mutex_lock ../src/libsanitizer/tsan.cpp:13 (libtsan.so.2+0x5)\n'
 STANDARD = '    #1 std::mutex::lock() /usr/include/c++/12/bits/std_mutex.h:100 (node+0x2)\n'

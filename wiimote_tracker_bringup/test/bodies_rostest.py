@@ -12,6 +12,7 @@ from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseStamped
 from live_rig import DEADLINE, LiveRigTest
 from nav_msgs.msg import Odometry
+from scipy.spatial.transform import Rotation
 from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
@@ -27,21 +28,8 @@ def vector(v):
     return np.array([v.x, v.y, v.z])
 
 
-def quaternion(q):
-    return np.array([q.x, q.y, q.z, q.w])
-
-
-def rotation_vector(start, end):
-    """Rotation from one orientation to another about the world's axes, for small angles [rad]."""
-    x, y, z, w = start
-    left = np.array([[w, z, -y, -x], [-z, w, x, -y], [y, -x, w, -z], [x, y, z, w]])
-    difference = left @ end  # conjugate(start) * end, in the body's axes
-    if difference[3] < 0:
-        difference = -difference
-    rotation = np.array([[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-                         [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-                         [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]])
-    return 2.0 * rotation @ difference[:3]
+def rotation(q):
+    return Rotation.from_quat([q.x, q.y, q.z, q.w])
 
 
 class Bodies(LiveRigTest):
@@ -89,14 +77,15 @@ class Bodies(LiveRigTest):
             step = t - nearest.header.stamp.to_sec()
             position = vector(body.pose.pose.position) - vector(nearest.pose.position) - \
                 step * vector(body.twist.twist.linear)
-            rotation = rotation_vector(quaternion(nearest.pose.orientation),
-                                       quaternion(body.pose.pose.orientation)) - \
+            # About the world's axes.
+            turn = (rotation(body.pose.pose.orientation)
+                    * rotation(nearest.pose.orientation).inv()).as_rotvec() - \
                 step * vector(body.twist.twist.angular)
-            error = np.concatenate([position, rotation])
+            error = np.concatenate([position, turn])
             covariance = np.array(body.pose.covariance).reshape(6, 6)
             squared.append(error @ np.linalg.solve(covariance, error))
             positions.append(position @ position)
-            rotations.append(rotation @ rotation)
+            rotations.append(turn @ turn)
         print('%d poses: %.2f mm, %.2f deg, median of the normalised squared error %.2f '
               '(5.35 when consistent)' % (
                   len(tracked), 1e3 * np.sqrt(np.mean(positions)),

@@ -23,8 +23,9 @@ import rospy
 import rosservice
 import rostest
 from geometry_msgs.msg import Vector3
+from scipy.optimize import least_squares
 from sensor_msgs.msg import CameraInfo
-from wiimote_tracker_evaluation import experiment, scene
+from wiimote_tracker_evaluation import experiment, reprojection, scene
 from wiimote_tracker_msgs.msg import BoardStatus, CalibrationVerdict, RigCalibration
 from wiimote_tracker_msgs.srv import (SetLed, SetLedRequest, SolveBoard,
                                       SolveBoardRequest)
@@ -118,28 +119,11 @@ class Screen:
 
 
 def triangulated(cameras, pixels):
-    """The point with the least reprojection error. cameras: (parameters, rotation, position)."""
-    place = np.array([1.25, 1.25, 1.0])
-    for _ in range(20):
-        def residuals(at):
-            return np.concatenate([scene.project(*camera, points=at)[0] - pixel
-                                   for camera, pixel in zip(cameras, pixels)])
-        step = 1e-6
-        jacobian = np.stack([(residuals(place + step * axis) - residuals(place - step * axis)) /
-                             (2 * step) for axis in np.eye(3)], axis=1)
-        place = place - np.linalg.lstsq(jacobian, residuals(place), rcond=None)[0]
-    return place
-
-
-def solved_camera(camera):
-    q, p = camera.world_from_camera.orientation, camera.world_from_camera.position
-    x, y, z, w = q.x, q.y, q.z, q.w
-    rotation = np.array([
-        [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-        [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-        [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)]])
-    return ([camera.fx, camera.fy, camera.cx, camera.cy, camera.distortion[0]], rotation,
-            np.array([p.x, p.y, p.z]))
+    """The point with the least reprojection error [m]. cameras: CameraCalibration."""
+    def residuals(place):
+        return np.concatenate([reprojection.project(camera, place) - pixel
+                               for camera, pixel in zip(cameras, pixels)])
+    return least_squares(residuals, [1.25, 1.25, 1.0], method='lm').x
 
 
 class GuidedCalibration(unittest.TestCase):
@@ -240,7 +224,7 @@ class GuidedCalibration(unittest.TestCase):
         self.lens_by_the_board_on_the_screen()
 
     def compare_with_truth(self, rig, verdict):
-        by_name = {camera.name.strip('/'): solved_camera(camera) for camera in rig.cameras}
+        by_name = {camera.name.strip('/'): camera for camera in rig.cameras}
         self.assertEqual(set(by_name), {camera.name for camera in self.scene.cameras})
         self.assertEqual(len(verdict.predicted_at), 8)
         ratios = []

@@ -42,6 +42,13 @@ def fit(source: np.ndarray, target: np.ndarray, with_scale: bool, line: bool = F
     return Alignment(rotation, target_mean - scale * rotation @ source_mean, scale)
 
 
+def fit_circle(points: np.ndarray):
+    """Centre and radius of the circle through N x 2 points (least squares, algebraic)."""
+    matrix = np.column_stack([2.0 * points, np.ones(len(points))])
+    a, b, c = np.linalg.lstsq(matrix, (points ** 2).sum(axis=1), rcond=None)[0]
+    return np.array([a, b]), float(np.sqrt(c + a * a + b * b))
+
+
 def rms(difference: np.ndarray) -> float:
     """Root of the mean squared length of N x 3 vectors."""
     return float(np.sqrt((np.asarray(difference) ** 2).sum(axis=1).mean()))

@@ -4,8 +4,6 @@ Brightness is the irradiance at the camera, in units of the Wii's sensor bar at 
 virtual Wii Remote, whose sensor decides what is seen.
 """
 
-from typing import Optional
-
 import numpy as np
 import yaml
 
@@ -35,16 +33,6 @@ class Led:
         pair gives a k, and their geometric mean is the least-squares fit of log d."""
         return float(np.exp(np.mean([np.log(threshold * distance ** 2 / current)
                                      for current, distance in self.measured])))
-
-    def misfit(self, threshold: float) -> Optional[float]:
-        """Ratio between measured and fitted distances (standard deviation of the logarithm); None
-        for fewer than two."""
-        if len(self.measured) < 2:
-            return None
-        fitted = self.brightness_per_ampere(threshold)
-        logs = [np.log(distance / np.sqrt(fitted * current / threshold))
-                for current, distance in self.measured]
-        return float(np.sqrt(np.sum(np.square(logs)) / (len(logs) - 1)))
 
 
 def detection_distance(brightness: float, threshold: float) -> float:

@@ -11,6 +11,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation import alignment, statistics
 from wiimote_tracker_evaluation.position_results import FOUR, TWO
+from wiimote_tracker_evaluation.sessions import by_session
 
 DRAWS = 4000
 PER_CASE = 2  # sessions of the paper
@@ -86,9 +87,8 @@ def farthest_principal_point(results, ray_model):
     number of cameras and corrections."""
     rows = results.last_round(['C3', 'C4', 'C5'], ray_model)
     off = np.maximum(np.abs(rows['center_u'] - 512.0), np.abs(rows['center_v'] - 384.0))
-    units = [off[rows['session'] == session] for session in np.unique(rows['session'])]
     return (float(np.quantile(off, 0.95)),
-            statistics.bootstrap(units, statistics.quantile(0.95)), len(off))
+            statistics.bootstrap(by_session(rows, off), statistics.quantile(0.95)), len(off))
 
 
 def board_error(results):
@@ -96,8 +96,7 @@ def board_error(results):
     error limits of the paper's toolbox; interval; number."""
     rows = results.last_round(['C2'], 'calibrated')
     error = np.stack([rows['center_u'] - rows['true_u'], rows['center_v'] - rows['true_v']], axis=1)
-    units = [error[rows['session'] == session] for session in np.unique(rows['session'])]
 
     def limit(values):
         return 3.0 * statistics.rms(values)
-    return limit(error), statistics.bootstrap(units, limit), error.size
+    return limit(error), statistics.bootstrap(by_session(rows, error), limit), error.size

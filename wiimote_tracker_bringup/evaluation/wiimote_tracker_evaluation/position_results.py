@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from wiimote_tracker_evaluation.programs import read_csv
+from wiimote_tracker_evaluation.sessions import joined, where
 
 CASES = ('C1', 'C2', 'C3', 'C4', 'C5')
 OURS = ('square', 'wave', 'wand')
@@ -54,20 +55,16 @@ class Results:
     """sessions: their number."""
 
     def __init__(self, folders):
-        points = [read_csv(os.path.join(folder, 'points.csv')) for folder in folders]
-        traces = [read_csv(os.path.join(folder, 'traces.csv')) for folder in folders]
-        self.points = {name: np.concatenate([part[name] for part in points])
-                       for name in points[0]}
-        self.traces = {name: np.concatenate([part[name] for part in traces])
-                       for name in traces[0]}
+        self.points, self.traces = (
+            joined([read_csv(os.path.join(folder, name)) for folder in folders])
+            for name in ('points.csv', 'traces.csv'))
         self.sessions = len(np.unique(self.points['session']))
 
     def has(self, cameras):
         return bool((self.points['cameras'] == cameras).any())
 
     def group(self, cameras, method, ray_model='calibrated'):
-        chosen = ((self.points['cameras'] == cameras) & (self.points['method'] == method)
-                  & (self.points['ray_model'] == ray_model))
+        chosen = where(self.points, cameras=cameras, method=method, ray_model=ray_model)
 
         def triple(name):
             return np.stack([self.points[f'{name}_{axis}'][chosen] for axis in 'xyz'],
@@ -81,8 +78,8 @@ class Results:
 
     def trace(self, cameras, case, ray_model, session):
         """Rounds of one correction, by camera: arrays by column name."""
-        chosen = ((self.traces['cameras'] == cameras) & (self.traces['case'] == case)
-                  & (self.traces['ray_model'] == ray_model) & (self.traces['session'] == session))
+        chosen = where(self.traces, cameras=cameras, case=case, ray_model=ray_model,
+                       session=session)
         numbers = np.unique(self.traces['camera'][chosen])
         return [{name: values[chosen & (self.traces['camera'] == number)]
                  for name, values in self.traces.items()} for number in numbers]
@@ -91,10 +88,6 @@ class Results:
         """Rows of the traces after the last round of each correction, as arrays by column name."""
         traces = self.traces
         chosen = np.isin(traces['case'], cases) & (traces['ray_model'] == ray_model)
-        last = np.zeros(len(chosen), dtype=bool)
         keys = list(zip(traces['session'], traces['cameras'], traces['case'], traces['camera']))
-        latest = {}
-        for row in np.flatnonzero(chosen):  # rounds are sorted
-            latest[keys[row]] = row
-        last[list(latest.values())] = True
-        return {name: values[last] for name, values in traces.items()}
+        last = {keys[row]: row for row in np.flatnonzero(chosen)}  # rounds are sorted
+        return {name: values[sorted(last.values())] for name, values in traces.items()}

@@ -30,6 +30,11 @@ def read_shared(run, program):
     tables = [programs.read_csv(path) for path in paths]
     for path in paths:  # repeated in a table of the section
         os.remove(path)
+    return joined(tables)
+
+
+def joined(tables):
+    """Tables of the same columns, one below the other."""
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
@@ -56,8 +61,12 @@ def where(columns, **values):
     return chosen
 
 
+def by_session(columns, values):
+    """A value of each row, one array per session: the independent units."""
+    return [values[columns['session'] == session] for session in np.unique(columns['session'])]
+
+
 def per_session(columns, name, chosen):
-    """Finite values of a column, one array per session: the independent units."""
-    units = [columns[name][chosen & (columns['session'] == session)]
-             for session in np.unique(columns['session'])]
-    return [unit[np.isfinite(unit)] for unit in units if np.isfinite(unit).any()]
+    """Finite values of a column in the chosen rows, one array per session that has any."""
+    chosen = chosen & np.isfinite(columns[name])
+    return by_session({'session': columns['session'][chosen]}, columns[name][chosen])

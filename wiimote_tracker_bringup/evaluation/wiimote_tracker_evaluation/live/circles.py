@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_evaluation import alignment, charts, statistics
 from wiimote_tracker_evaluation.live.listener import with_listener
 
 DURATION, QUICK = 15.0, 3.0  # of the measurement [s]
@@ -42,8 +42,7 @@ def errors_of(positions, radius):
     middle = positions.mean(axis=0)
     _, _, axes = np.linalg.svd(positions - middle, full_matrices=False)
     plane = (positions - middle) @ axes[:2].T
-    matrix = np.column_stack([2.0 * plane, np.ones(len(plane))])
-    centre = np.linalg.lstsq(matrix, (plane ** 2).sum(axis=1), rcond=None)[0][:2]
+    centre, _ = alignment.fit_circle(plane)
     radial = np.linalg.norm(plane - centre, axis=1) - radius
     return middle + centre @ axes[:2], radial, (positions - middle) @ axes[2]
 

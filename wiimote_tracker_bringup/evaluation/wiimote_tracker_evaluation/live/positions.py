@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, experiment, statistics
-from wiimote_tracker_evaluation.live.listener import with_listener
+from wiimote_tracker_evaluation.live.listener import STILL_TIME, with_listener
 
 FLOOR, AIR = 0.01, 0.03  # the paper's largest placement errors [m]
 PAPER_LIMIT = 3.0         # its accuracy [cm]
@@ -40,7 +40,7 @@ def tell(run, rows, of):
     run.say('A person has put the LED at %d of the %d points and held it still; the measurement is '
             'the mean over %.1f s. The errors include those of placing the LED, which the paper '
             'states as at most %.0f cm on the floor and %.0f cm above.'
-            % (len(rows), of, 1.5, 100 * FLOOR, 100 * AIR))
+            % (len(rows), of, STILL_TIME, 100 * FLOOR, 100 * AIR))
     run.table('places', [('point', ''), ('x', 'm'), ('y', 'm'), ('z', 'm'), ('error_x', 'mm'),
                          ('error_y', 'mm'), ('error_z', 'mm'), ('error', 'mm'),
                          ('scatter', 'mm'), ('points', '')], rows)

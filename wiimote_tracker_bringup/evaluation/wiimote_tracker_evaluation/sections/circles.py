@@ -46,8 +46,7 @@ def tell(run, laps):
     for cameras, words in SETS:
         for method, explained, _ in METHODS:
             for speed in speeds:
-                chosen = ((laps['cameras'] == cameras) & (laps['method'] == method)
-                          & (laps['speed'] == speed))
+                chosen = sessions.where(laps, cameras=cameras, method=method, speed=speed)
                 if chosen.any():
                     rows.append(row_of(run, laps, chosen, words, method, explained, speed))
     run.table('errors', [('wiimotes', ''), ('method', ''), ('speed', 'm/s'), ('sessions', ''),
@@ -62,9 +61,7 @@ def tell(run, laps):
 
 def errors_of(laps, chosen, which):
     """Errors by session [mm]."""
-    chosen = chosen & ~np.isnan(laps['measured_x'])
-    return [1e3 * laps[which][chosen & (laps['session'] == session)]
-            for session in np.unique(laps['session'][chosen])]
+    return [1e3 * unit for unit in sessions.per_session(laps, which, chosen)]
 
 
 def row_of(run, laps, chosen, words, method, explained, speed):
@@ -89,8 +86,8 @@ def compare(run, laps):
     sentences = []
     for cameras, words in SETS:
         for method, explained, _ in METHODS[:2]:
-            chosen = ((laps['cameras'] == cameras) & (laps['method'] == method)
-                      & ~np.isnan(laps['measured_x']))
+            chosen = sessions.where(laps, cameras=cameras, method=method) & ~np.isnan(
+                laps['measured_x'])
             error = np.hypot(laps['radial_error'][chosen], laps['height_error'][chosen])
             sentences.append(f'{explained}, {words} Wiimotes: '
                              f'{100.0 * np.mean(error <= PAPER_LIMIT):.0f} %')
@@ -98,8 +95,7 @@ def compare(run, laps):
             'with the static tests", and claims 3 cm for both, without numbers by case. Our points '
             'within 3 cm of the circle:\n\n'
             + '\n'.join(f'- {sentence}' for sentence in sentences))
-    chosen = ((laps['cameras'] == 4) & (laps['method'] == 'wand_tracks')
-              & (laps['speed'] == 1.0))
+    chosen = sessions.where(laps, cameras=4, method='wand_tracks', speed=1.0)
     run.summary('**Circles**, simulated: at 1 m/s four Wiimotes follow a circle of 75 cm radius with '
                 '%.1f mm RMS radial and %.1f mm RMS height error after square and wand.' % tuple(
                     statistics.rms(np.concatenate(errors_of(laps, chosen, which)))
@@ -114,9 +110,8 @@ def plot(run, laps, speeds):
             for number, (method, explained, color) in enumerate(METHODS):
                 values, low, high, places = [], [], [], []
                 for place, speed in enumerate(speeds):
-                    units = errors_of(laps, (laps['cameras'] == cameras)
-                                      & (laps['method'] == method)
-                                      & (laps['speed'] == speed), which + '_error')
+                    units = errors_of(laps, sessions.where(
+                        laps, cameras=cameras, method=method, speed=speed), which + '_error')
                     if len(units) < 2:
                         continue
                     values.append(statistics.rms(np.concatenate(units)))

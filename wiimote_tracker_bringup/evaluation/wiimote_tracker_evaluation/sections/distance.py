@@ -6,6 +6,7 @@ from wiimote_tracker_evaluation import charts, experiment, programs
 from wiimote_tracker_evaluation.light import SENSITIVITIES, detection_distance, read_led
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.scene import read_scene
+from wiimote_tracker_evaluation.sessions import by_session, where
 from wiimote_tracker_evaluation.live import distance as with_a_person
 
 NAME = 'distance'
@@ -72,14 +73,13 @@ def tell_law(run, carried):
     slopes = []
     for session in np.unique(carried['session']):
         for level in SENSITIVITIES:
-            chosen = (carried['session'] == session) & (carried['sensitivity'] == level)
+            chosen = where(carried, session=session, sensitivity=level)
             slopes.append(np.polyfit(np.log(carried['brightness'][chosen]),
                                      np.log(carried['last_seen_m'][chosen]), 1)[0])
     run.estimate('power_of_current', slopes, np.mean, '',
                  'Power of the current with which the distance grows (1/2 by the inverse square law)')
     late = carried['stopped_at_m'] - carried['last_seen_m']
-    units = [late[carried['session'] == session] for session in np.unique(carried['session'])]
-    run.estimate('added_by_time_limit', units, np.mean, 'm',
+    run.estimate('added_by_time_limit', by_session(carried, late), np.mean, 'm',
                  f'What the time limit of 0.5 s adds to the distance at {SPEED:.2f} m/s')
 
 

@@ -14,7 +14,6 @@ QUICK, FULL = 6, 100                             # tries with each scheme, lengt
 LEDS = 4
 DURATION = 4.0                                   # of one try of evaluate_identification [s]
 SCHEMES = (('paper', 'period', 'the paper\'s scheme'), ('cyclic', 'chip', 'cyclic codes'))
-UNITS = {'length_ms': ('length', 'ms'), 'period_ms': ('period', 'ms'), 'seconds': ('time', 's')}
 ENOUGH = 0.95                                    # share of successful tries that counts as reliable
 SHOWN_PERIOD, SHOWN_CHIP = 150.0, 23.0           # of the figures [ms]
 
@@ -24,8 +23,8 @@ def run(run):
                 'letting LEDs blink', 0.0, 0.95)
     tries = sessions.read_shared(run, PROGRAM)
     tell(run, tries)
-    run.table('tries', [UNITS.get(name, (name, '')) for name in tries], programs.table_rows(tries),
-              'Every try.', shown=False)
+    run.table('tries', [('time', 's') if name == 'seconds' else sessions.name_and_unit(name)
+                        for name in tries], programs.table_rows(tries), 'Every try.', shown=False)
 
 
 def succeeded(tries):
@@ -37,7 +36,7 @@ class Line:
     """One scheme and number of cameras, by the length of its period or chip [ms]."""
 
     def __init__(self, tries, scheme, cameras):
-        chosen = (tries['scheme'] == scheme) & (tries['cameras'] == cameras)
+        chosen = sessions.where(tries, scheme=scheme, cameras=cameras)
         self.lengths = np.unique(tries['length_ms'][chosen])
         good = succeeded(tries)
         self.right, self.tries, self.seconds = [], [], []

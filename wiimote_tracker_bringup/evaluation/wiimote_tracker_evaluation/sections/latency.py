@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, experiment, rigs, stack, statistics
+from wiimote_tracker_evaluation import alignment, charts, experiment, rigs, stack, statistics
 from wiimote_tracker_evaluation.trace import Recorder
 from wiimote_tracker_evaluation.live import latency as with_a_person
 
@@ -26,7 +26,7 @@ class Measured:
     """laps: crossings of the positive x axis [s since 1970]; angle: of the newest published
     position at each, about the circle's centre [rad]; answer: the same of the trigger's answer."""
 
-    def __init__(self, trace, laps, error):
+    def __init__(self, trace, laps):
         self.trace = trace
         self.laps = np.array(laps)
         newest = np.searchsorted(trace.published, self.laps, side='right') - 1
@@ -37,7 +37,6 @@ class Measured:
         self.answer = np.array([
             angle_of(np.array([trace.triggered[nanoseconds(lap)]]))[0]
             if nanoseconds(lap) in trace.triggered else np.nan for lap in self.laps])
-        self.error = error
 
     def by_counter(self):
         """For each lap: age of the newest position [s], from its angle."""
@@ -102,13 +101,13 @@ def measure(run, name, cameras, laps, done):
     for corner, place in enumerate(experiment.placed_corners(run.seed)):
         progress(0.15 + 0.1 * corner, 'calibrating')
         conductor.capture(SIDE / experiment.SIDE * (place - rigs.MIDDLE), CARRY_SPEED)
-    error = conductor.solve()
+    conductor.solve()
     recorder = Recorder(run, list(description['cameras']), name)
     crossings = count_laps(conductor, laps, lambda lap: progress(
         0.5 + 0.4 * lap / laps, 'lap %d of %d' % (lap, laps)))
     trace = recorder.read()
     stack.stop()
-    return Measured(trace, crossings, error)
+    return Measured(trace, crossings)
 
 
 def count_laps(conductor, laps, progress):
@@ -202,7 +201,7 @@ def fig6(run, results):
 
 def draw_fig6(axes, measured, title):
     chosen = measured.chosen()
-    centre, radius = fitted_circle(measured.trace.position[chosen][:, :2])
+    centre, radius = alignment.fit_circle(measured.trace.position[chosen][:, :2])
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
     axes.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
               color=charts.RED, linewidth=1.2)
@@ -233,13 +232,6 @@ def draw_fig6(axes, measured, title):
     axes.set_aspect('equal')
     axes.set_xlabel('x [m]')
     axes.set_ylabel('y [m]')
-
-
-def fitted_circle(points):
-    """Centre and radius of the circle through N x 2 points (least squares, algebraic)."""
-    matrix = np.column_stack([2.0 * points, np.ones(len(points))])
-    a, b, c = np.linalg.lstsq(matrix, (points ** 2).sum(axis=1), rcond=None)[0]
-    return np.array([a, b]), float(np.sqrt(c + a * a + b * b))
 
 
 def direct(run, results):

@@ -3,6 +3,7 @@
 import argparse
 import json
 import sys
+import types
 from typing import Dict, List, Optional, Tuple
 
 import numpy as np
@@ -19,16 +20,10 @@ class TableError(Exception):
     """The table cannot be made; the text says why and what to do."""
 
 
-def interval_of(entry: Dict) -> str:
-    return '–' if entry['interval'] is None else '%s … %s' % tuple(
-        words.number(limit) for limit in entry['interval'])
-
-
 def cells(entry: Dict) -> List[str]:
     """A figure's row: description, value with unit, interval, origin."""
-    return [(entry['note'] or words.plain(entry['name'])).replace('|', '/'),
-            f"{words.number(entry['value'])} {entry['unit']}".strip(), interval_of(entry),
-            words.kind(entry['simulated'], entry['end_to_end'])]
+    description, value, interval, _, kind = words.cells(types.SimpleNamespace(**entry))
+    return [description.replace('|', '/'), value, interval or '–', kind]
 
 
 def headlines(content: Dict) -> List[Dict]:

@@ -41,16 +41,13 @@ def joined(windows) -> Window:
         sorted(sentence for window in windows for sentence in window.said))
 
 
-class Listener:
+class Listener(Helper):
     def __init__(self, leds, points='points'):
         """points: topic of the tracker."""
-        self._helper = Helper(_record, leds, points)
+        super().__init__(_record, leds, points)
 
     def window(self, start, end) -> Window:
-        return self._helper.ask((start, end), 120.0)
-
-    def stop(self):
-        self._helper.stop()
+        return self.ask((start, end), 120.0)
 
 
 def _record(pipe, leds, points):

@@ -14,7 +14,6 @@ FLIPS = 2000     # files with a few changed bytes
 SEED = 1
 LARGE = 100 << 20  # of a file [bytes]
 SAVES = 20
-PATIENCE = 30.0  # for the answer about one file [s]
 
 
 def answer_calls(pipe, verb):
@@ -39,13 +38,13 @@ def load_all(room, contents):
         for name, content in contents:
             with open(path, 'wb') as file:
                 file.write(content)
-            success, sentence = helper.ask(path, PATIENCE)
+            success, sentence = helper.ask(path)
             if success:
                 loaded.append(name)
-                helper.ask(room.file('rig.yaml'), PATIENCE)
+                helper.ask(room.file('rig.yaml'))
             elif not sentence:
                 problems.append(f'{name}: refused without a reason')
-        if not helper.ask(room.file('rig.yaml'), PATIENCE)[0]:
+        if not helper.ask(room.file('rig.yaml'))[0]:
             problems.append('the whole file is refused afterwards')
     return loaded, problems
 
@@ -91,7 +90,7 @@ def files_that_are_no_rig(room):
         with open(paths[-1], 'wb') as file:
             file.write(whole.replace(b'solved_at: 0.0', b'solved_at: ' + time))
     with Helper(answer_calls, 'load') as helper:
-        answers = {path: helper.ask(path, PATIENCE) for path in paths}
+        answers = {path: helper.ask(path) for path in paths}
     return [f'{path}: {sentence!r}' for path, (success, sentence) in answers.items()
             if success or not sentence]
 
@@ -107,13 +106,13 @@ def two_saves_at_once(room):
             for helper in (one, other):
                 helper.pipe.send(path)
             for helper in (one, other):
-                success, sentence = helper.answer(PATIENCE)
+                success, sentence = helper.answer()
                 if not success:
                     problems.append(sentence)
     with Helper(answer_calls, 'load') as helper:
         problems += [f'{name} cannot be loaded' for name in sorted(os.listdir(room.folder))
-                     if name.startswith('saved') and not helper.ask(room.file(name), PATIENCE)[0]]
-        helper.ask(room.file('rig.yaml'), PATIENCE)
+                     if name.startswith('saved') and not helper.ask(room.file(name))[0]]
+        helper.ask(room.file('rig.yaml'))
     return problems
 
 
@@ -154,12 +153,12 @@ def full_disk(room):
     path, filler = folder + '/rig.yaml', folder + '/filler'
     problems = []
     with small_disk(folder), Helper(answer_calls, 'save') as helper:
-        if not helper.ask(path, PATIENCE)[0]:
+        if not helper.ask(path)[0]:
             problems.append('not saved before')
         with open(path, 'rb') as file:
             before = file.read()
         fill(filler)
-        success, sentence = helper.ask(path, PATIENCE)
+        success, sentence = helper.ask(path)
         if success or 'space' not in sentence:
             problems.append(f'on a full disk: {sentence!r}')
         with open(path, 'rb') as file:
@@ -167,6 +166,6 @@ def full_disk(room):
                 problems.append('the older file was lost')
         problems += [f'left behind: {name}' for name in os.listdir(folder) if '.new' in name]
         os.remove(filler)
-        if not helper.ask(path, PATIENCE)[0]:
+        if not helper.ask(path)[0]:
             problems.append('not saved afterwards')
     return problems

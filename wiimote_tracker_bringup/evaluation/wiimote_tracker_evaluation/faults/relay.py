@@ -5,20 +5,17 @@ import random
 from wiimote_tracker_evaluation.faults.helper import Helper
 
 
-class Relay:
+class Relay(Helper):
     """Starts the camera's driver and the relay."""
 
     def __init__(self, room, camera):
         room.start_driver(camera, 'ir_blobs:=ir_blobs_true')
-        self._helper = Helper(_pass_on, camera)
+        super().__init__(_pass_on, camera)
 
     def change(self, clock_ahead=0.0, ghosts=0, drift=0.0):
         """clock_ahead: error of the camera's clock from now on [s]; drift: by how much it grows
         [s/s]. ghosts: spots at random places that each image gets."""
-        self._helper.pipe.send((clock_ahead, ghosts, drift))
-
-    def stop(self):
-        self._helper.stop()
+        self.pipe.send((clock_ahead, ghosts, drift))
 
 
 def _pass_on(pipe, camera):

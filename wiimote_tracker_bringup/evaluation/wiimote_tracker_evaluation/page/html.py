@@ -133,11 +133,9 @@ def content_table(run, content):
 
 
 def figures_table(run):
+    numeric = (False, True, True, True, False)
     return table(['', 'value', '95 %', 'samples', ''], [
-        [(inline(figure.note or words.plain(figure.name)), False),
-         (escaping.escape((words.number(figure.value) + ' ' + figure.unit).strip()), True),
-         (words.interval(figure), True), ('%d' % figure.samples, True),
-         (words.kind(figure.simulated, figure.end_to_end), False)] for figure in run.figures])
+        list(zip(map(inline, words.cells(figure)), numeric)) for figure in run.figures])
 
 
 # --- The subset of Markdown that sections use

@@ -52,7 +52,4 @@ def content_table(run, table):
 
 def figures_table(run):
     return [row(['', 'value', '95 %', 'samples', '']), '|---|---|---|---|---|'] + [
-        row([figure.note or words.plain(figure.name),
-             (words.number(figure.value) + ' ' + figure.unit).strip(), words.interval(figure),
-             '%d' % figure.samples, words.kind(figure.simulated, figure.end_to_end)])
-        for figure in run.figures]
+        row(words.cells(figure)) for figure in run.figures]

@@ -33,17 +33,18 @@ def with_unit(name: str, unit: str) -> str:
     return f'{plain(name)} [{unit}]' if unit else plain(name)
 
 
-def interval(figure):
-    if figure.interval is None:
-        return ''
-    return '%s … %s' % tuple(number(limit) for limit in figure.interval)
-
-
 def kind(simulated: bool, end_to_end: bool) -> str:
     """Origin of a number."""
     if not simulated:
         return 'measured'
     return 'simulated, full stack' if end_to_end else 'simulated, in process'
+
+
+def cells(figure):
+    """Description, value with unit, interval (empty: none), number of samples, and origin."""
+    return [figure.note or plain(figure.name), f'{number(figure.value)} {figure.unit}'.strip(),
+            '' if figure.interval is None else ' … '.join(map(number, figure.interval)),
+            str(figure.samples), kind(figure.simulated, figure.end_to_end)]
 
 
 def kinds(run):

@@ -55,19 +55,28 @@ class DescriptionFile : public testing::Test {
     return readDescription(path_);
   }
 
-  /// The error for the good file with `from` replaced by `to`.
-  std::string complaint(const std::string& from, const std::string& to) {
+  /// The good file with `from` replaced by `to`.
+  static std::string with(const std::string& from, const std::string& to) {
     std::string text = kGood;
     const auto place = text.find(from);
     EXPECT_NE(place, std::string::npos) << from;
-    text.replace(place, from.size(), to);
+    return text.replace(place, from.size(), to);
+  }
+
+  /// The error for that file.
+  std::string complaint(const std::string& from, const std::string& to) {
     try {
-      read(text);
+      read(with(from, to));
     } catch (const FileError& error) {
       EXPECT_NE(std::string(error.what()).find(path_), std::string::npos) << error.what();
       return error.what();
     }
     return "accepted";
+  }
+
+  void expectRefused(const std::string& from, const std::string& to, const std::string& reason) {
+    const std::string said = complaint(from, to);
+    EXPECT_NE(said.find(reason), std::string::npos) << said;
   }
 
   std::string path_;
@@ -116,9 +125,7 @@ TEST_F(DescriptionFile, keeps_all_entries_in_the_order_of_the_file) {
 }
 
 TEST_F(DescriptionFile, an_led_without_size_is_dimmed_by_distance) {
-  std::string text = kGood;
-  text.replace(text.find("size: 5"), 7, "brightness: 0");
-  const Description d = read(text);
+  const Description d = read(with("size: 5", "brightness: 0"));
   EXPECT_FALSE(d.leds[0].size);
   EXPECT_EQ(d.leds[0].brightness, 0.0);
 }
@@ -126,9 +133,7 @@ TEST_F(DescriptionFile, an_led_without_size_is_dimmed_by_distance) {
 TEST_F(DescriptionFile, an_led_may_turn_about_one_that_does_not_turn) {
   const std::string end =
       "lit: false}\n  end: {turns: {around: led, distance: 0.5, rate: 1.5}, brightness: 1}";
-  std::string text = kGood;
-  text.replace(text.find("lit: false}"), 11, end);
-  const Description d = read(text);
+  const Description d = read(with("lit: false}", end));
   ASSERT_EQ(d.leds.size(), 2u);
   ASSERT_TRUE(d.leds[1].turns);
   EXPECT_EQ(d.leds[1].turns->around, "led");
@@ -136,16 +141,14 @@ TEST_F(DescriptionFile, an_led_may_turn_about_one_that_does_not_turn) {
   EXPECT_EQ(d.leds[1].turns->rate, 1.5);
 
   const std::string reason = "leds/end/turns/around must be the name of an LED that does not turn";
-  std::string missing = end;
-  missing.replace(missing.find("around: led"), 11, "around: lamp");
-  EXPECT_NE(complaint("lit: false}", missing).find(reason), std::string::npos);
-  std::string itself = end;
-  itself.replace(itself.find("around: led"), 11, "around: end");
-  EXPECT_NE(complaint("lit: false}", itself).find(reason), std::string::npos);
-  std::string nowhere = end;
-  nowhere.replace(nowhere.find("distance: 0.5"), 13, "distance: 0");
-  EXPECT_NE(complaint("lit: false}", nowhere).find("leds/end/turns/distance is 0"),
-            std::string::npos);
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    std::string text = end;
+    return text.replace(text.find(from), from.size(), to);
+  };
+  expectRefused("lit: false}", changed("around: led", "around: lamp"), reason);
+  expectRefused("lit: false}", changed("around: led", "around: end"), reason);
+  expectRefused("lit: false}", changed("distance: 0.5", "distance: 0"),
+                "leds/end/turns/distance is 0");
 }
 
 TEST_F(DescriptionFile, drawings_are_read_from_the_same_folder) {
@@ -154,14 +157,10 @@ TEST_F(DescriptionFile, drawings_are_read_from_the_same_folder) {
   const std::string key = "leds:\n  led";
   const std::string drawing =
       "drawings: {roof: {file: " + name + ", size: 0.5, rest: 0.3}}\n" + key;
-  std::string text = kGood;
-  text.replace(text.find(key), key.size(), drawing);
-  const std::string missing = complaint(key, drawing);
-  EXPECT_NE(missing.find("drawings/roof/file cannot be used: " + csv), std::string::npos)
-      << missing;
+  expectRefused(key, drawing, "drawings/roof/file cannot be used: " + csv);
 
   std::ofstream(csv) << "x y z t_ms\n0 0 0 100\n2 0 1 1100\n4 0 0 4100\n";
-  const Description d = read(text);
+  const Description d = read(with(key, drawing));
   ASSERT_EQ(d.drawings.count("roof"), 1u);
   EXPECT_EQ(d.drawings.at("roof").rest(), 0.3);
   EXPECT_EQ(d.drawings.at("roof").duration(), 4.0);
@@ -174,9 +173,8 @@ TEST_F(DescriptionFile, drawings_are_read_from_the_same_folder) {
                                                         {"0 0 0 0\nnan 1 1 5\n", "not finite"}};
   for (const auto& [rows, reason] : faults) {
     std::ofstream(csv) << rows;
-    const std::string refusal = complaint(key, drawing);
-    EXPECT_NE(refusal.find("drawings/roof/file"), std::string::npos) << refusal;
-    EXPECT_NE(refusal.find(reason), std::string::npos) << refusal;
+    expectRefused(key, drawing, "drawings/roof/file");
+    expectRefused(key, drawing, reason);
   }
   std::remove(csv.c_str());
 }
@@ -189,32 +187,26 @@ TEST_F(DescriptionFile, a_board_needs_an_existing_camera) {
   EXPECT_EQ(d.board->before, "first");
   EXPECT_EQ(d.board->column_spacing, 0.08);
   EXPECT_EQ(d.board->row_spacing, 0.1);
-  EXPECT_NE(complaint("leds:", "board: {before: third}\nleds:")
-                .find("board/before must be the name of a camera"),
-            std::string::npos);
+  expectRefused(
+      "leds:", "board: {before: third}\nleds:", "board/before must be the name of a camera");
 }
 
 TEST_F(DescriptionFile, motions_may_start_with_the_simulation) {
-  std::string text = kGood;
-  text.replace(text.find("size: 5"), 7,
-               "wave: {middle: [1, 2, 1], box: [1, 1, 0], speed: 0.5, path: 3}");
+  Description d =
+      read(with("size: 5", "wave: {middle: [1, 2, 1], box: [1, 1, 0], speed: 0.5, path: 3}"));
   LedMotion wave(Eigen::Vector3d(1, 1, 0));
   wave.wave(0.0, Eigen::Vector3d(1, 2, 1), Eigen::Vector3d(1, 1, 0), 0.5, 3);
-  EXPECT_EQ(read(text).leds[0].motion.position(7.0), wave.position(7.0));
-  text = kGood;
-  text.replace(text.find("size: 5"), 7, "circle: {middle: [1, 2, 1], radius: 0.5, speed: 0.25}");
+  EXPECT_EQ(d.leds[0].motion.position(7.0), wave.position(7.0));
+  d = read(with("size: 5", "circle: {middle: [1, 2, 1], radius: 0.5, speed: 0.25}"));
   LedMotion circle(Eigen::Vector3d(1, 1, 0));
   circle.circle(0.0, Eigen::Vector3d(1, 2, 1), 0.5, 0.25);
-  EXPECT_EQ(read(text).leds[0].motion.position(20.0), circle.position(20.0));
+  EXPECT_EQ(d.leds[0].motion.position(20.0), circle.position(20.0));
 
-  EXPECT_NE(complaint("size: 5", "wave: {middle: [1, 2, 1], box: [0, 0, 0], speed: 1, path: 3}")
-                .find("leds/led/wave/box must have sides of 0 or more"),
-            std::string::npos);
-  EXPECT_NE(complaint("size: 5", "circle: {middle: [1, 2, 1], radius: 0, speed: 1}")
-                .find("leds/led/circle/radius is 0"),
-            std::string::npos);
-  EXPECT_NE(complaint("size: 5", "circle: {}, wave: {}").find("leds/led/circle and wave exclude"),
-            std::string::npos);
+  expectRefused("size: 5", "wave: {middle: [1, 2, 1], box: [0, 0, 0], speed: 1, path: 3}",
+                "leds/led/wave/box must have sides of 0 or more");
+  expectRefused("size: 5", "circle: {middle: [1, 2, 1], radius: 0, speed: 1}",
+                "leds/led/circle/radius is 0");
+  expectRefused("size: 5", "circle: {}, wave: {}", "leds/led/circle and wave exclude");
 }
 
 TEST_F(DescriptionFile, people_carry_leds_and_cameras_see_reflections) {
@@ -224,9 +216,7 @@ people:
 reflections:
   window: {camera: first, pixel: [10, 20], size: 4, brightness: 2, lit: false}
 )";
-  std::string text = kGood + more;
-  text.replace(text.find("size: 5"), 7, "carried_by: anna");
-  const Description d = read(text);
+  const Description d = read(with("size: 5", "carried_by: anna") + more);
   ASSERT_EQ(d.people.size(), 1u);
   EXPECT_EQ(d.people[0].name, "anna");
   EXPECT_EQ(d.people[0].motion.position(0.0), Eigen::Vector3d(1, 2, 0));
@@ -242,26 +232,20 @@ reflections:
   EXPECT_EQ(d.reflections[0].brightness, 2.0);
   EXPECT_FALSE(d.reflections[0].lit);
 
-  EXPECT_NE(complaint("size: 5", "carried_by: ben")
-                .find("leds/led/carried_by must be the name of one of the people"),
-            std::string::npos);
-  EXPECT_NE(complaint("leds:", "reflections: {window: {camera: third, pixel: [1, 2]}}\nleds:")
-                .find("reflections/window/camera must be the name of a camera"),
-            std::string::npos);
-  EXPECT_NE(complaint("leds:", "reflections: {window: {camera: first, pixel: [1]}}\nleds:")
-                .find("reflections/window/pixel must have two numbers"),
-            std::string::npos);
-  EXPECT_NE(complaint("leds:", "people: {led: {position: [1, 2, 0]}}\nleds:")
-                .find("people/led is also the name of something else"),
-            std::string::npos);
+  expectRefused("size: 5", "carried_by: ben",
+                "leds/led/carried_by must be the name of one of the people");
+  expectRefused("leds:", "reflections: {window: {camera: third, pixel: [1, 2]}}\nleds:",
+                "reflections/window/camera must be the name of a camera");
+  expectRefused("leds:", "reflections: {window: {camera: first, pixel: [1]}}\nleds:",
+                "reflections/window/pixel must have two numbers");
+  expectRefused("leds:", "people: {led: {position: [1, 2, 0]}}\nleds:",
+                "people/led is also the name of something else");
 }
 
 TEST_F(DescriptionFile, leds_blink_by_a_code_or_a_word) {
   const std::string led = "led: {position: [1, 1, 0], size: 5, lit: false}";
   const auto withBlink = [&](const std::string& blink) {
-    std::string text = kGood;
-    text.replace(text.find(led), led.size(), "led: {position: [1, 1, 0], blink: {" + blink + "}}");
-    return text;
+    return with(led, "led: {position: [1, 1, 0], blink: {" + blink + "}}");
   };
   const Blink word = *read(withBlink("word: '0111', chip: 0.02, begin: 0.5")).leds[0].blink;
   EXPECT_DOUBLE_EQ(word.period, 0.08);
@@ -299,42 +283,30 @@ TEST_F(DescriptionFile, leds_blink_by_a_code_or_a_word) {
 }
 
 TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
-  const auto has = [](const std::string& text, const std::string& part) {
-    return text.find(part) != std::string::npos;
-  };
-  std::string said = complaint("period: 0.02", "period: 0");
-  EXPECT_TRUE(has(said, "cameras/second/clock/period is 0, but must be within")) << said;
-  said = complaint("phase: 0.001", "phase: soon");
-  EXPECT_TRUE(has(said, "cameras/second/clock/phase has the wrong type")) << said;
-  said = complaint("phase: 0.001", "phase: .nan");
-  EXPECT_TRUE(has(said, "cameras/second/clock/phase is nan")) << said;
-  said = complaint("shape: bell", "shape: ball");
-  EXPECT_TRUE(has(said, "cameras/second/delay/shape is ball, but must be hard_edge or bell"))
+  expectRefused("period: 0.02", "period: 0",
+                "cameras/second/clock/period is 0, but must be within");
+  expectRefused("phase: 0.001", "phase: soon", "cameras/second/clock/phase has the wrong type");
+  expectRefused("phase: 0.001", "phase: .nan", "cameras/second/clock/phase is nan");
+  expectRefused("shape: bell", "shape: ball",
+                "cameras/second/delay/shape is ball, but must be hard_edge or bell");
+  expectRefused("drops: 0.04", "drops: 4", "cameras/second/delay/drops is 4, but must be within");
+  expectRefused("stalls:", "stall:", "cameras/second/delay/stall is an unknown key");
+  expectRefused("wander: 0.001", "wonder: 0.001", "cameras/second/clock/wonder is an unknown key");
+  expectRefused("pixel_noise: 0.25", "", "pixel_noise is missing");
+  expectRefused("pixel_noise", "pixel_nosie: 1\npixel_noise", "pixel_nosie is an unknown key");
+  expectRefused("lit: false", "lti: false", "leds/led/lti is an unknown key");
+  expectRefused("position: [1, 1, 0]", "position: [1, 1]",
+                "leds/led/position must have three numbers");
+  expectRefused("fx: 600", "fx: -600", "cameras/second/intrinsics cannot be used");
+  expectRefused("[0.1, 0, 0, 0, 0]", "[0.1, 0]",
+                "cameras/second/intrinsics/distortion must have five");
+  expectRefused("look_at: [1, 7, 3]", "look_at: [1, 2, 9]",
+                "cameras/second/look_at cannot be used");  // straight up
+  expectRefused("leds:", "leds: {}\nlets:", "leds is empty");
+  const std::string said = complaint("  first:", "  second:");
+  EXPECT_TRUE(said.find("second is there twice") != std::string::npos ||
+              said.find("not valid YAML") != std::string::npos)
       << said;
-  said = complaint("drops: 0.04", "drops: 4");
-  EXPECT_TRUE(has(said, "cameras/second/delay/drops is 4, but must be within")) << said;
-  said = complaint("stalls:", "stall:");
-  EXPECT_TRUE(has(said, "cameras/second/delay/stall is an unknown key")) << said;
-  said = complaint("wander: 0.001", "wonder: 0.001");
-  EXPECT_TRUE(has(said, "cameras/second/clock/wonder is an unknown key")) << said;
-  said = complaint("pixel_noise: 0.25", "");
-  EXPECT_TRUE(has(said, "pixel_noise is missing")) << said;
-  said = complaint("pixel_noise", "pixel_nosie: 1\npixel_noise");
-  EXPECT_TRUE(has(said, "pixel_nosie is an unknown key")) << said;
-  said = complaint("lit: false", "lti: false");
-  EXPECT_TRUE(has(said, "leds/led/lti is an unknown key")) << said;
-  said = complaint("position: [1, 1, 0]", "position: [1, 1]");
-  EXPECT_TRUE(has(said, "leds/led/position must have three numbers")) << said;
-  said = complaint("fx: 600", "fx: -600");
-  EXPECT_TRUE(has(said, "cameras/second/intrinsics cannot be used")) << said;
-  said = complaint("[0.1, 0, 0, 0, 0]", "[0.1, 0]");
-  EXPECT_TRUE(has(said, "cameras/second/intrinsics/distortion must have five")) << said;
-  said = complaint("look_at: [1, 7, 3]", "look_at: [1, 2, 9]");  // straight up
-  EXPECT_TRUE(has(said, "cameras/second/look_at cannot be used")) << said;
-  said = complaint("leds:", "leds: {}\nlets:");
-  EXPECT_TRUE(has(said, "leds is empty")) << said;
-  said = complaint("  first:", "  second:");
-  EXPECT_TRUE(has(said, "second is there twice") || has(said, "not valid YAML")) << said;
 }
 
 TEST_F(DescriptionFile, a_missing_foreign_or_damaged_file_is_refused) {

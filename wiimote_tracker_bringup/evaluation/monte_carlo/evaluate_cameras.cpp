@@ -4,7 +4,6 @@
 #include "room.h"
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <cmath>
 #include <random>
@@ -87,22 +86,16 @@ void measureTrack(const simulation::Description& description,
     return onCircle(kUpperCircle, phase + time / kCircleRadius);
   };
   Room room(description, {path}, {}, seed);
-  const std::vector<RoomImage> images = record(&room, kDuration);
-  const double lateness = medianLateness(images);
-  const auto estimator = tracking::makeEstimator(trueRig(description), {});
   double squared = 0.0, predicted = 0.0;
   int count = 0;
-  for (const RoomImage& image : images) {
-    estimator->add(image.camera, image.image);
-    while (const tracking::Snapshot* snapshot = estimator->next()) {
-      const double time = snapshot->time - lateness;
-      if (time < kSettled || snapshot->leds.empty())
-        continue;
-      squared += (snapshot->leds[0].position - path(time)).squaredNorm();
-      predicted += snapshot->leds[0].position_covariance.trace();
-      ++count;
-    }
-  }
+  const auto take = [&](double time, const tracking::Snapshot& snapshot) {
+    if (time < kSettled || snapshot.leds.empty())
+      return;
+    squared += (snapshot.leds[0].position - path(time)).squaredNorm();
+    predicted += snapshot.leds[0].position_covariance.trace();
+    ++count;
+  };
+  trackImages(trueRig(description), {}, record(&room, kDuration), take);
   *table << session << static_cast<int>(description.cameras.size()) << "tracks_1_m_per_s"
          << std::nan("") << std::nan("") << std::nan("")
          << static_cast<int>(description.cameras.size()) << 1e3 * std::sqrt(squared / count)

@@ -3,8 +3,6 @@
 #include "program.h"
 #include "room.h"
 
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
-
 #include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
@@ -193,20 +191,15 @@ void writeTracked(const simulation::Description& description,
                   const std::string& file) {
   const Path path = [&](double time) { return drawing(time - kRest); };
   Room room(description, {path}, {}, seed);
-  const std::vector<RoomImage> images = record(&room, duration + 2.0 * kRest);
-  const double lateness = medianLateness(images);
-  const auto estimator = tracking::makeEstimator(trueRig(description), {});
   Table table(file, {"x", "y", "z", "t_ms"});
-  for (const RoomImage& image : images) {
-    estimator->add(image.camera, image.image);
-    while (const tracking::Snapshot* snapshot = estimator->next()) {
-      const double time = snapshot->time - lateness - kRest;
-      if (time < 0.0 || time > duration - kMargin || snapshot->leds.empty())
-        continue;
-      const Vector3d position = 1e3 * snapshot->leds[0].position;
-      table << position.x() << position.y() << position.z() << 1e3 * time;
-    }
-  }
+  const auto take = [&](double at, const tracking::Snapshot& snapshot) {
+    const double time = at - kRest;
+    if (time < 0.0 || time > duration - kMargin || snapshot.leds.empty())
+      return;
+    const Vector3d position = 1e3 * snapshot.leds[0].position;
+    table << position.x() << position.y() << position.z() << 1e3 * time;
+  };
+  trackImages(trueRig(description), {}, record(&room, duration + 2.0 * kRest), take);
   table.close();
 }
 

@@ -3,8 +3,6 @@
 #include "program.h"
 #include "room.h"
 
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -70,40 +68,34 @@ struct Score {
 Score follow(const geometry::Rig& rig,
              const std::vector<RoomImage>& images,
              const Path& path,
-             double lateness,
              const Method& method) {
   constexpr double kFresh = 0.025;  // greatest age of a fresh point [s]
   tracking::EstimatorOptions options;
   options.mode = method.mode;
-  const auto estimator = tracking::makeEstimator(rig, options);
   Score score;
   double last = kSettled;
-  for (const RoomImage& image : images) {
-    estimator->add(image.camera, image.image);
-    while (const tracking::Snapshot* snapshot = estimator->next()) {
-      const double time = snapshot->time - lateness;
-      if (time < kSettled || time > kDuration)
+  trackImages(rig, options, images, [&](double time, const tracking::Snapshot& snapshot) {
+    if (time < kSettled || time > kDuration)
+      return;
+    for (const tracking::TrackedLed& led : snapshot.leds) {
+      if (led.state != tracking::TrackState::kTracked &&
+          !(method.takes_predicted && led.state == tracking::TrackState::kPredicted))
         continue;
-      for (const tracking::TrackedLed& led : snapshot->leds) {
-        if (led.state != tracking::TrackState::kTracked &&
-            !(method.takes_predicted && led.state == tracking::TrackState::kPredicted))
-          continue;
-        const Eigen::Vector3d offset = led.position - path(time);
-        score.inside += offset.dot(led.position_covariance.inverse() * offset) < kInside;
-        const double error = offset.norm();
-        if (error > kNear) {
-          ++score.astray;
-          continue;
-        }
-        score.squared += error * error;
-        ++score.published;
-        score.covered += std::min(time - last, kFresh);
-        score.longest_gap = std::max(score.longest_gap, time - last);
-        score.ids.insert(led.id);
-        last = time;
+      const Eigen::Vector3d offset = led.position - path(time);
+      score.inside += offset.dot(led.position_covariance.inverse() * offset) < kInside;
+      const double error = offset.norm();
+      if (error > kNear) {
+        ++score.astray;
+        continue;
       }
+      score.squared += error * error;
+      ++score.published;
+      score.covered += std::min(time - last, kFresh);
+      score.longest_gap = std::max(score.longest_gap, time - last);
+      score.ids.insert(led.id);
+      last = time;
     }
-  }
+  });
   score.longest_gap = std::max(score.longest_gap, kDuration - last);
   return score;
 }
@@ -140,9 +132,8 @@ void measure(const simulation::Description& all, const Session& session, Table* 
       };
       Room room(description, {path}, options, session.seed);
       const std::vector<RoomImage> images = record(&room, kDuration);
-      const double lateness = medianLateness(images);
       for (const Method& method : kMethods) {
-        const Score score = follow(rig, images, path, lateness, method);
+        const Score score = follow(rig, images, path, method);
         const double points = score.astray + score.published;
         *table << session.number << static_cast<int>(description.cameras.size()) << hidden_share
                << method.name << score.covered / (kDuration - kSettled)

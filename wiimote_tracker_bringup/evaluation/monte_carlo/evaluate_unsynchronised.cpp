@@ -4,7 +4,6 @@
 #include "room.h"
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <cmath>
 #include <string>
@@ -33,28 +32,20 @@ struct Score {
   }
 };
 
-/// By tracks. @param lateness of the stamps [s].
-Score follow(const geometry::Rig& rig,
-             const std::vector<RoomImage>& images,
-             const Path& path,
-             double lateness) {
-  const auto estimator = tracking::makeEstimator(rig, {});
+/// By tracks.
+Score follow(const geometry::Rig& rig, const std::vector<RoomImage>& images, const Path& path) {
   Score score;
-  for (const RoomImage& image : images) {
-    estimator->add(image.camera, image.image);
-    while (const tracking::Snapshot* snapshot = estimator->next()) {
-      const double time = snapshot->time - lateness;
-      if (time < kSettled)
-        continue;
-      const Eigen::Vector3d truth = path(time);
-      const Eigen::Vector3d* nearest = nullptr;
-      for (const tracking::TrackedLed& led : snapshot->leds) {
-        if (!nearest || (led.position - truth).norm() < (*nearest - truth).norm())
-          nearest = &led.position;
-      }
-      score.add(nearest, truth);
+  trackImages(rig, {}, images, [&](double time, const tracking::Snapshot& snapshot) {
+    if (time < kSettled)
+      return;
+    const Eigen::Vector3d truth = path(time);
+    const Eigen::Vector3d* nearest = nullptr;
+    for (const tracking::TrackedLed& led : snapshot.leds) {
+      if (!nearest || (led.position - truth).norm() < (*nearest - truth).norm())
+        nearest = &led.position;
     }
-  }
+    score.add(nearest, truth);
+  });
   return score;
 }
 
@@ -114,7 +105,7 @@ void measure(const simulation::Description& description, const Session& session,
                  << static_cast<double>(score.seen) / score.instants << 1e3 * lateness
                  << score.instants;
         };
-        write("tracks", follow(rig, images, path, lateness));
+        write("tracks", follow(rig, images, path));
         if (stamping == Stamping::kExact)  // it does not use stamps
           write("latest", intersectLatest(rig, images, path));
       }

@@ -126,6 +126,19 @@ double medianLateness(const std::vector<RoomImage>& images) {
   return medianOf(&lateness);
 }
 
+void trackImages(const geometry::Rig& rig,
+                 const tracking::EstimatorOptions& options,
+                 const std::vector<RoomImage>& images,
+                 const std::function<void(double time, const tracking::Snapshot& snapshot)>& take) {
+  const double lateness = medianLateness(images);
+  const auto estimator = tracking::makeEstimator(rig, options);
+  for (const RoomImage& image : images) {
+    estimator->add(image.camera, image.image);
+    while (const tracking::Snapshot* snapshot = estimator->next())
+      take(snapshot->time - lateness, *snapshot);
+  }
+}
+
 simulation::Description withCameras(const simulation::Description& description, std::size_t count) {
   simulation::Description fewer = description;
   while (fewer.cameras.size() > count)

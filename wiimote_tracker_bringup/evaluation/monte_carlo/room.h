@@ -8,7 +8,7 @@
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <Eigen/Core>
 
@@ -82,6 +82,13 @@ std::vector<RoomImage> record(Room* room, double duration);
 /// Median lateness of the images' stamps [s]. A common part for all cameras cannot be estimated
 /// from the arrivals; it only shifts the times of points.
 double medianLateness(const std::vector<RoomImage>& images);
+
+/// Tracks the images. `take` gets each snapshot, with its time without the median lateness of the
+/// images' stamps [s].
+void trackImages(const geometry::Rig& rig,
+                 const tracking::EstimatorOptions& options,
+                 const std::vector<RoomImage>& images,
+                 const std::function<void(double time, const tracking::Snapshot& snapshot)>& take);
 
 /// A description with only its first `count` cameras.
 simulation::Description withCameras(const simulation::Description& description, std::size_t count);

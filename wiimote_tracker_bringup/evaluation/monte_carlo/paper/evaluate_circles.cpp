@@ -7,7 +7,6 @@
 #include "session.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <cmath>
 #include <numeric>
@@ -97,19 +96,14 @@ class LapWriter {
   }
 
   void follow(const Method& method, const std::vector<RoomImage>& images) const {
-    const double lateness = medianLateness(images);
-    const auto estimator = tracking::makeEstimator(method.rig, method.options);
     double due = kSettling;
-    for (const RoomImage& image : images) {
-      estimator->add(image.camera, image.image);
-      while (const tracking::Snapshot* snapshot = estimator->next()) {
-        const double time = snapshot->time - lateness;
-        if (time < due || time > kSettling + duration())
-          continue;
-        due += kInterval * (1.0 + std::floor((time - due) / kInterval));
-        write(method, time, *snapshot);
-      }
-    }
+    trackImages(method.rig, method.options, images,
+                [&](double time, const tracking::Snapshot& snapshot) {
+                  if (time < due || time > kSettling + duration())
+                    return;
+                  due += kInterval * (1.0 + std::floor((time - due) / kInterval));
+                  write(method, time, snapshot);
+                });
   }
 
  private:

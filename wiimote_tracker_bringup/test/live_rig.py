@@ -14,7 +14,17 @@ from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointAr
 DEADLINE = 90.0  # [s]
 
 
-class LiveRigTest(unittest.TestCase):
+class NodeTest(unittest.TestCase):
+    """Waits for what nodes do."""
+
+    def wait(self, condition, what):
+        deadline = rospy.get_time() + DEADLINE
+        while not condition():
+            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
+            rospy.sleep(0.01)
+
+
+class LiveRigTest(NodeTest):
     """Listens to the nodes on the simulated rig of the file ~description."""
 
     @classmethod
@@ -36,12 +46,6 @@ class LiveRigTest(unittest.TestCase):
                          tcp_nodelay=True)
         cls.rig_publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
                                             latch=True)
-
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.01)
 
     def calibrate(self, masks=()):
         """Waits until all cameras deliver images and gives the tracker the true rig.

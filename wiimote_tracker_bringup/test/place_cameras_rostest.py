@@ -4,13 +4,13 @@
 import os
 import subprocess
 import sys
-import unittest
 
 import numpy as np
 import rospy
 import rostest
 import yaml
 from geometry_msgs.msg import Point, Pose, Quaternion
+from live_rig import DEADLINE, NodeTest
 from sensor_msgs import point_cloud2
 from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
@@ -19,10 +19,8 @@ from visualization_msgs.msg import (
 from wiimote_tracker_evaluation import scene
 from wiimote_tracker_evaluation.programs import package_file
 
-DEADLINE = 30.0  # [s]
 
-
-class PlaceCameras(unittest.TestCase):
+class PlaceCameras(NodeTest):
     def setUp(self):
         self.clouds, self.summaries, handles = [], [], []
         rospy.Subscriber('coverage/cells', PointCloud2, self.clouds.append)
@@ -37,12 +35,6 @@ class PlaceCameras(unittest.TestCase):
         texts = {marker.text: marker.pose.position for marker in message.markers}
         if message.markers[0].ns == 'summary':  # otherwise it comes later
             self.summaries.append(texts)
-
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.01)
 
     def drag(self, name, pose):
         clouds, summaries = len(self.clouds), len(self.summaries)

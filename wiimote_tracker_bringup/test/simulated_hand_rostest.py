@@ -3,30 +3,22 @@
 Bodies are dark meanwhile, and move on."""
 
 import sys
-import unittest
 
 import numpy as np
 import rospy
 import rostest
 from geometry_msgs.msg import PointStamped, PoseStamped
+from live_rig import DEADLINE, NodeTest
 from std_srvs.srv import Trigger
 from wiimote_tracker_msgs.msg import CalibrationStatus, IrBlobArray
 from wiimote_tracker_msgs.srv import SolveCalibration, StartCalibration
-
-DEADLINE = 60.0  # [s]
 
 
 def position(message):
     return np.array([message.point.x, message.point.y, message.point.z])
 
 
-class SimulatedHand(unittest.TestCase):
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.01)
-
+class SimulatedHand(NodeTest):
     def test_points_come_by_themselves_and_the_hand_follows_a_calibration(self):
         truths = []
         rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)

@@ -4,25 +4,24 @@
 import collections
 import os
 import sys
-import unittest
 
 import numpy as np
 import rospkg
 import rospy
 import rostest
 from geometry_msgs.msg import PointStamped, Vector3
+from live_rig import DEADLINE, NodeTest
 from sensor_msgs.msg import Imu
 from wiimote_tracker_evaluation import scene
 from wiimote_tracker_msgs.msg import IrBlobArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
-DEADLINE = 60.0  # [s]
 IMAGES = 100
 # Rotation of the remote's own axes (left, rear, up) into the optical frame (right, down, forward).
 OPTICAL_FROM_IMU = np.array([[-1, 0, 0], [0, 0, -1], [0, -1, 0]])
 
 
-class SimulatedRig(unittest.TestCase):
+class SimulatedRig(NodeTest):
     @classmethod
     def setUpClass(cls):
         rospy.init_node('simulated_rig_rostest')
@@ -39,12 +38,6 @@ class SimulatedRig(unittest.TestCase):
         rospy.Subscriber('simulation/truth/led', PointStamped, cls.truth.append)
         rospy.wait_for_service('simulation/set_led', DEADLINE)
         cls.set_led = staticmethod(rospy.ServiceProxy('simulation/set_led', SetLed))
-
-    def wait(self, condition, what):
-        deadline = rospy.get_time() + DEADLINE
-        while not condition():
-            self.assertLess(rospy.get_time(), deadline, 'waited too long for ' + what)
-            rospy.sleep(0.01)
 
     def move(self, target, **more):
         request = SetLedRequest(led='led', on=True, motion=SetLedRequest.LINE, **more)

@@ -248,12 +248,8 @@ class HandMade:
 
     def __init__(self):
         from wiimote_tracker_evaluation import recording
+        from wiimote_tracker_evaluation.conductor import Segment
         points, truths, self.segments = [], [], []
-
-        class Segment:
-            def __init__(self, kind, name, target, start, end):
-                self.kind, self.name, self.target = kind, name, target
-                self.start, self.end = start, end
         now = 1000.0
         places = ([('test', p) for p in experiment.TEST_POINTS]
                   + [('alignment', p) for p in experiment.alignment_points(2)])

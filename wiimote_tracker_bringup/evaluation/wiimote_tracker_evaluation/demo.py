@@ -1,6 +1,7 @@
 """The demonstration: the paper's experiment with the whole system on the simulated rig."""
 
 import argparse
+import math
 import os
 import sys
 import time
@@ -92,10 +93,7 @@ class Demo:
                      camera_info_directory='{folder}/cameras', rig_file=self.file('rig.yaml'),
                      side_length=experiment.SIDE, labels=LED, mode=self._mode, hand='false',
                      rviz=str(has_display()).lower())
-        # Not "rosbag record", a wrapper that can end before the bag is closed.
-        self._recorder = stack.start(self, [
-            'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0', '--regex', RECORDED,
-            '--output-name=' + self.file('demo.bag')])
+        self._recorder = stack.record(self, self.file('demo.bag'), '--regex', RECORDED)
 
     def _experiment(self):
         """The LED's tour. Returns the measured segments, and the number of images used per
@@ -145,7 +143,7 @@ class Demo:
             segments.append(conductor.dwell('alignment', f'A{number}', place, CARRY_SPEED,
                                             ALIGNMENT_DWELL))
         progress.step(f'Tracking: three circles of 0.75 m radius at {CIRCLE_SPEED:.1f} m/s')
-        lap = 2.0 * 3.14159265 * experiment.CIRCLE_RADIUS / CIRCLE_SPEED
+        lap = 2.0 * math.pi * experiment.CIRCLE_RADIUS / CIRCLE_SPEED
         for number, center in enumerate(experiment.CIRCLE_CENTERS, 1):
             progress.passing(f'circle {number} of {len(experiment.CIRCLE_CENTERS)}')
             segments.append(conductor.circle(

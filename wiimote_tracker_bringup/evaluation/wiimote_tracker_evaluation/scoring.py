@@ -5,7 +5,7 @@ from typing import Dict, List
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment, experiment
+from wiimote_tracker_evaluation import alignment, experiment, statistics
 
 
 @dataclasses.dataclass(eq=False)
@@ -69,8 +69,8 @@ def measured_circle(recording, segment) -> MeasuredCircle:
         raise ValueError(f'no point was published during the {segment.name}')
     offset = recording.position[inside] - np.asarray(segment.target)
     radial = np.hypot(offset[:, 0], offset[:, 1]) - experiment.CIRCLE_RADIUS
-    return MeasuredCircle(segment.name, float(np.sqrt((radial ** 2).mean())),
-                          float(np.sqrt((offset[:, 2] ** 2).mean())), int(inside.sum()))
+    return MeasuredCircle(segment.name, statistics.rms(radial), statistics.rms(offset[:, 2]),
+                          int(inside.sum()))
 
 
 def score(recording, segments) -> Score:
@@ -94,6 +94,5 @@ def score(recording, segments) -> Score:
     if not len(recording.latency):
         raise ValueError('no message on the topic points was recorded')
     p50, p99 = np.percentile(recording.latency, [50, 99])
-    scatter = float(np.sqrt(np.mean([place.scatter ** 2 for place in places])))
-    return Score(places, position_rms, scatter, circles, frames / duration, float(p50), float(p99),
-                 float(np.median(recording.age)))
+    return Score(places, position_rms, statistics.rms([place.scatter for place in places]), circles,
+                 frames / duration, float(p50), float(p99), float(np.median(recording.age)))

@@ -54,6 +54,13 @@ def start(run, command):
     return process
 
 
+def record(run, path, *what):
+    """Starts rosbag as start() does. what: topics or options that choose them."""
+    # Not "rosbag record", a wrapper that can end before the bag is closed.
+    return start(run, ['rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
+                       '--output-name=' + path, *what])
+
+
 def end(process):
     """Ends a process of start() in good order."""
     _launched.remove(process)

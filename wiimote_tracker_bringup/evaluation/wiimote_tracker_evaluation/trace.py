@@ -61,12 +61,10 @@ class Recorder:
 
     def __init__(self, run, cameras, name):
         self._path = run.file(name + '.bag')
-        topics = ['/points', '/triggered_points', EXPOSURES]
         self._cameras = cameras
-        topics += [f'/{camera}/ir_blobs' for camera in cameras]
-        self._process = stack.start(run, [
-            'rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
-            '--output-name=' + self._path] + topics)
+        topics = ['/points', '/triggered_points', EXPOSURES] + [
+            f'/{camera}/ir_blobs' for camera in cameras]
+        self._process = stack.record(run, self._path, *topics)
         wait_until_connected('/record', topics)
 
     def read(self):

@@ -5,6 +5,7 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.foreign import accuracy, body, ordinary
+from wiimote_tracker_evaluation.foreign.views import to_nearest
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
@@ -50,9 +51,7 @@ def sight_of(views, rig, tracked):
     for own in times:
         last = np.searchsorted(own, images, side='right') - 1
         images = images[(last >= 0) & (images - own[last] <= SIGHT)]
-    after = np.clip(np.searchsorted(tracked, images), 1, len(tracked) - 1)
-    nearest = np.minimum(np.abs(tracked[after - 1] - images), np.abs(tracked[after] - images))
-    return images, nearest < SAME_TIME
+    return images, to_nearest(images, tracked) < SAME_TIME
 
 
 def gaps_of(times, tracked):

@@ -16,7 +16,8 @@ import zlib
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign.views import Camera, LONGEST_GAP, Truth, Views
+from wiimote_tracker_evaluation.foreign.views import (
+    LONGEST_GAP, Camera, Truth, Views, to_nearest)
 
 # Of the sensors on the deck: x forward, y to the left [m].
 SHAPE = np.array([[-0.015, 0.0075, 0.0], [-0.015, -0.0075, 0.0],
@@ -112,9 +113,7 @@ def turns_of(logged):
 def nearest_sweeps(stations):
     """The sweep of each station at which its images are taken: those nearest in time."""
     def distance(sweeps):
-        one, other = (times[:, sweep] for (times, _), sweep in zip(stations, sweeps))
-        after = np.clip(np.searchsorted(other, one), 1, len(other) - 1)
-        nearest = np.minimum(np.abs(one - other[after - 1]), np.abs(other[after] - one))
+        nearest = to_nearest(*(times[:, sweep] for (times, _), sweep in zip(stations, sweeps)))
         return np.median(nearest[nearest < LONGEST_GAP]) if nearest.min() < LONGEST_GAP else np.inf
     return min(itertools.product((0, 1), repeat=2), key=distance)
 

@@ -9,6 +9,12 @@ import numpy as np
 LONGEST_GAP = 0.05
 
 
+def to_nearest(times, others):
+    """From each of the times to the nearest of others, two or more that increase [s]."""
+    after = np.clip(np.searchsorted(others, times), 1, len(others) - 1)
+    return np.minimum(np.abs(times - others[after - 1]), np.abs(others[after] - times))
+
+
 @dataclasses.dataclass(eq=False)
 class Camera:
     """A pinhole whose principal point is the middle of its square image.

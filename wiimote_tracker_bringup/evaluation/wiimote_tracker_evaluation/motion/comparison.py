@@ -10,11 +10,11 @@ import dataclasses
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import alignment
+from wiimote_tracker_evaluation import alignment, statistics
 from wiimote_tracker_evaluation.errors import ExperimentError
 
-STATISTICS = (('rmse', lambda e: np.sqrt((e ** 2).mean())), ('mean', np.mean),
-              ('median', np.median), ('p95', lambda e: np.quantile(e, 0.95)), ('max', np.max))
+STATISTICS = (('rmse', statistics.rms), ('mean', np.mean), ('median', np.median),
+              ('p95', statistics.quantile(0.95)), ('max', np.max))
 
 
 @dataclasses.dataclass

@@ -36,8 +36,8 @@ class Samples:
         count = max(1, int(np.ceil(0.99 * SHORTEST_STEP / np.median(np.diff(self.times)))))
         use = len(self.times) // count * count
         return dataclasses.replace(self, **{
-            name: getattr(self, name)[:use].reshape(use // count, count, -1).mean(axis=1).squeeze()
-            for name in ('times', 'rates', 'forces')})
+            name: values[:use].reshape(-1, count, *values.shape[1:]).mean(axis=1)
+            for name, values in vars(self).items() if name != 'child'})
 
     def rotations(self):
         """Poses at the samples: the rates added up, positions zero."""

@@ -5,6 +5,7 @@ import dataclasses
 import numpy as np
 from scipy.optimize import least_squares
 
+from wiimote_tracker_evaluation import alignment
 from wiimote_tracker_evaluation.errors import ExperimentError
 
 LEAST_POSES = 30
@@ -68,6 +69,5 @@ def solve(positions, rotations, covariances):
         raise ExperimentError(f'the tip is told to {1e3 * stddev:.0f} mm only: tilt the probe '
                               'further, in all directions')
     place = found.x[3:]
-    points = rotations.apply(found.x[:3]) + positions
     return Tip(found.x[:3], covariance * max(normalised, 1.0) ** 2, place,
-               float(np.sqrt(((points - place) ** 2).sum(axis=1).mean())))
+               alignment.rms(rotations.apply(found.x[:3]) + positions - place))

@@ -1,5 +1,7 @@
 """The paper's three circles (section V.B) at constant speed, with unsynchronised cameras."""
 
+import itertools
+
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, programs, sessions, statistics
@@ -41,14 +43,21 @@ def tell(run, laps):
         'radius. *Height*: above the circle\'s plane. The circle itself is exact: the paper\'s '
         'placement error of 3 cm is not included.'
         % (len(np.unique(laps['session'])), ', '.join(f'{speed:g}' for speed in speeds)))
-    plot(run, laps, speeds)
-    rows = []
-    for cameras, words in SETS:
-        for method, explained, _ in METHODS:
-            for speed in speeds:
-                chosen = sessions.where(laps, cameras=cameras, method=method, speed=speed)
-                if chosen.any():
-                    rows.append(row_of(run, laps, chosen, words, method, explained, speed))
+    rows, estimates = [], {}
+    for (cameras, words), (method, explained, _), speed in itertools.product(SETS, METHODS, speeds):
+        chosen = sessions.where(laps, cameras=cameras, method=method, speed=speed)
+        if not chosen.any():
+            continue
+        row = [words, explained, speed, len(np.unique(laps['session'][chosen]))]
+        for which in ('radial', 'height'):
+            value, interval = estimates[words, which, method, speed] = run.estimate(
+                f"{words}_{method}_{which}_{('%g' % speed).replace('.', '_')}",
+                errors_of(laps, chosen, which + '_error'), statistics.rms, 'mm',
+                f'RMS {which} error on the circles at {speed:g} m/s, {explained}, {words} Wiimotes',
+                headline=method == 'wand_tracks' and speed == 1.0)
+            row += [value, '%.3g to %.3g' % interval]
+        rows.append(row + [100.0 * np.isnan(laps['measured_x'][chosen]).mean()])
+    plot(run, speeds, estimates)
     run.table('errors', [('wiimotes', ''), ('method', ''), ('speed', 'm/s'), ('sessions', ''),
                          ('radial_rms', 'mm'), ('radial_95', 'mm'), ('height_rms', 'mm'),
                          ('height_95', 'mm'), ('not_seen', '%')], rows,
@@ -62,18 +71,6 @@ def tell(run, laps):
 def errors_of(laps, chosen, which):
     """Errors by session [mm]."""
     return [1e3 * unit for unit in sessions.per_session(laps, which, chosen)]
-
-
-def row_of(run, laps, chosen, words, method, explained, speed):
-    row = [words, explained, speed, len(np.unique(laps['session'][chosen]))]
-    for which in ('radial', 'height'):
-        value, interval = run.estimate(
-            f"{words}_{method}_{which}_{('%g' % speed).replace('.', '_')}",
-            errors_of(laps, chosen, which + '_error'), statistics.rms, 'mm',
-            f'RMS {which} error on the circles at {speed:g} m/s, {explained}, {words} Wiimotes',
-            headline=method == 'wand_tracks' and speed == 1.0)
-        row += [value, '%.3g to %.3g' % interval]
-    return row + [100.0 * np.isnan(laps['measured_x'][chosen]).mean()]
 
 
 def unit_of(name):
@@ -102,24 +99,19 @@ def compare(run, laps):
                     for which in ('radial_error', 'height_error')))
 
 
-def plot(run, laps, speeds):
+def plot(run, speeds, estimates):
+    """estimates: value and interval [mm] by number of Wiimotes, radial or height, method, speed."""
     figure, axes = charts.figure(2, 2, height=5.2, sharex=True, sharey='row')
-    for column, (cameras, words) in enumerate(SETS):
+    for column, (_, words) in enumerate(SETS):
         for row, which in enumerate(('radial', 'height')):
             axis = axes[row, column]
             for number, (method, explained, color) in enumerate(METHODS):
-                values, low, high, places = [], [], [], []
-                for place, speed in enumerate(speeds):
-                    units = errors_of(laps, sessions.where(
-                        laps, cameras=cameras, method=method, speed=speed), which + '_error')
-                    if len(units) < 2:
-                        continue
-                    values.append(statistics.rms(np.concatenate(units)))
-                    interval = statistics.bootstrap(units, statistics.rms, run.seed)
-                    low.append(values[-1] - interval[0])
-                    high.append(interval[1] - values[-1])
-                    places.append(place + 0.06 * (number - 2.5))
-                axis.errorbar(places, values, np.maximum([low, high], 0.0), color=color, marker='o',
+                found = [estimates.get((words, which, method, speed)) for speed in speeds]
+                places, values, low, high = np.array(
+                    [(place, each[0], *each[1]) for place, each in enumerate(found) if each]
+                    ).reshape(-1, 4).T
+                axis.errorbar(places + 0.06 * (number - 2.5), values,
+                              np.maximum([values - low, high - values], 0.0), color=color, marker='o',
                               markersize=4, linewidth=1.0, capsize=2, label=explained)
             axis.set_yscale('log')
             axis.set_yticks([0.5, 1, 2, 5, 10, 20, 50, 100])

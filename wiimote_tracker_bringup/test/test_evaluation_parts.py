@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from wiimote_tracker_evaluation import (load, programs, progress, results_table,
+from wiimote_tracker_evaluation import (load, processes, programs, progress, results_table,
                                         rigs, scene, statistics)
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -223,6 +223,16 @@ def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path
     assert ended[-1] == (3, 3)
     with pytest.raises(programs.ExperimentError, match='no such luck'):
         programs.run_programs([['sh', '-c', 'echo no such luck; exit 3']], log)
+
+
+def test_processes_are_found_beside_one_with_half_a_letter_in_its_name():
+    with open('/proc/self/comm', 'rb+', buffering=0) as name:
+        before = name.read().strip()
+        name.write('Übersicht––'.encode()[:15])
+        try:
+            assert os.getpid() not in processes.descendants()
+        finally:
+            name.write(before)
 
 
 def test_columns_of_numbers_are_read_as_numbers(tmp_path):

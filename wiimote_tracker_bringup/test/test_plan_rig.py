@@ -140,6 +140,14 @@ def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
     assert 'since door does not see all corners' in capsys.readouterr().out
 
 
+@pytest.mark.parametrize('text', ['cameras: [', 'cameras: {a: {}}', '[]'])
+def test_what_is_no_rig_description_is_refused(text, tmp_path):
+    path = tmp_path / 'rig.yaml'
+    path.write_text(text)
+    with pytest.raises(SystemExit, match='rig.yaml is no rig description'):
+        plan_rig.main([EXAMPLE, '--score', str(path)])
+
+
 def test_the_papers_rig_sees_the_whole_cube(capsys):
     plan_rig.main([EXAMPLE, '--score', PAPER_RIG])
     told = capsys.readouterr().out

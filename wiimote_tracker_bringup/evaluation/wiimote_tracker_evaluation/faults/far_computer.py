@@ -43,7 +43,8 @@ class FarComputer:
         ends = []
         _ip('netns', 'add', self._name)
         try:
-            ends = [_tunnel(near), _tunnel(far)]
+            for name in (near, far):
+                ends.append(_tunnel(name))
             _ip('link', 'set', far, 'netns', self._name)
             _ip('address', 'add', self.here, 'peer', self.there, 'dev', near)
             _ip('link', 'set', near, 'up')

@@ -136,9 +136,9 @@ class Room:
         found = {}
         for process in sorted(descendants()):
             try:
-                with open(f'/proc/{process}/cmdline') as file:
+                with open(f'/proc/{process}/cmdline', errors='replace') as file:
                     words = file.read().split('\0')
-                with open(f'/proc/{process}/environ') as file:
+                with open(f'/proc/{process}/environ', errors='replace') as file:
                     space = dict(word.partition('=')[::2] for word in file.read().split('\0'))
             except OSError:
                 continue  # it has ended

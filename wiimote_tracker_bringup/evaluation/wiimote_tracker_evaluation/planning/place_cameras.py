@@ -10,7 +10,6 @@ import threading
 
 import numpy as np
 import rospy
-import yaml
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import ColorRGBA
@@ -119,7 +118,7 @@ def main():
     except KeyError as error:
         rospy.logfatal('the parameter %s is missing: use plan.launch', error)
         return 1
-    except (ExperimentError, OSError, ValueError, yaml.YAMLError) as error:
+    except (ExperimentError, OSError, ValueError) as error:
         rospy.logfatal('%s', error)
         return 1
     rospy.spin()

@@ -5,6 +5,7 @@ import os
 import sys
 
 import numpy as np
+import yaml
 
 from wiimote_tracker_evaluation import bound, rigs, scene
 from wiimote_tracker_evaluation.errors import ExperimentError
@@ -108,7 +109,7 @@ def read_rig(path):
         rig = rigs.with_absolute_files(rigs.read(path), os.path.dirname(path))
         places_of(rig)
         return rig
-    except (AttributeError, KeyError, TypeError) as error:
+    except (AttributeError, KeyError, TypeError, yaml.YAMLError) as error:
         raise ExperimentError(f'{path} is no rig description with position and look_at of each '
                               'camera, such as simulation/paper_rig.yaml') from error
 

@@ -1,11 +1,193 @@
-#include "latency_probe.h"
+// For benchmark_latency: nodelets that take the time, and that send a message back.
 
+#include <geometry_msgs/PointStamped.h>
 #include <nodelet/nodelet.h>
+#include <ros/ros.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+#include <boost/make_shared.hpp>
 #include <pluginlib/class_list_macros.hpp>
 
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <cstdio>
+#include <fstream>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
 
 namespace wiimote_tracker {
+namespace {
+
+constexpr std::size_t kWarmUp = 1000;   // points before the measurement
+constexpr double kPingPeriod = 0.0025;  // [s]; the mean interval of four cameras' images
+constexpr double kPongTimeout = 1.0;    // [s]
+
+/// Quantiles of latencies in seconds, as a line of YAML in milliseconds.
+std::string summary(const std::string& name, std::vector<double> seconds) {
+  if (seconds.empty())
+    return name + ": {count: 0}\n";
+  std::sort(seconds.begin(), seconds.end());
+  const auto at = [&](double share) {
+    return std::to_string(
+        1e3 * seconds[static_cast<std::size_t>(share * static_cast<double>(seconds.size() - 1))]);
+  };
+  return name + ": {count: " + std::to_string(seconds.size()) + ", p50: " + at(0.5) +
+         ", p95: " + at(0.95) + ", p99: " + at(0.99) + ", max: " + at(1.0) + "}\n";
+}
+
+}  // namespace
+
+/// Measures the latency from the arrival of a camera's report to that of the resulting
+/// PointStamped: in this process, and in a callback. In one nodelet manager the former is the time
+/// of publication. Then measures the round trip of a message to LatencyEcho and back. Both are two
+/// hops. Callbacks must come from one thread.
+class LatencyProbe {
+ public:
+  /// Private parameters: file (YAML results), label of the LED (default led), seconds (of each
+  /// measurement, default 10). @throws std::runtime_error if one is missing.
+  LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
+  ~LatencyProbe();
+
+ private:
+  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points);
+  void onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event);
+  void onPong(const geometry_msgs::PointStampedConstPtr& pong);
+  void run();
+  bool wait(double seconds);
+  std::string measurePoints();
+  std::vector<double> measureRoundTrips();
+
+  std::string file_;
+  double seconds_;
+  std::mutex mutex_;  // protects the members below
+  struct Arrival {
+    ros::Time in_process, in_callback;
+  };
+  std::map<ros::Time, Arrival> arrivals_;    // arrival of the point with this stamp
+  std::map<ros::Time, ros::Time> reported_;  // latest arrival of the images for this stamp
+  bool is_back_ = false;
+  std::condition_variable change_;
+
+  std::atomic<bool> ended_{false};
+  ros::Publisher ping_;
+  ros::Subscriber pong_, points_, point_;
+  std::thread thread_;
+};
+
+LatencyProbe::LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
+    : file_(private_nh.param<std::string>("file", "")),
+      seconds_(private_nh.param("seconds", 10.0)) {
+  if (file_.empty())
+    throw std::runtime_error("set " + private_nh.resolveName("file") +
+                             " to the file for the results");
+  const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
+  ros::NodeHandle handle(nh);
+  ping_ = handle.advertise<geometry_msgs::PointStamped>("latency/ping", 10);
+  pong_ = handle.subscribe("latency/pong", 10, &LatencyProbe::onPong, this, no_delay);
+  points_ = handle.subscribe("points", 1000, &LatencyProbe::onPoints, this, no_delay);
+  using PointEvent = ros::MessageEvent<const geometry_msgs::PointStamped>;
+  point_ = handle.subscribe<geometry_msgs::PointStamped, const PointEvent&>(
+      private_nh.param<std::string>("label", "led") + "/point", 1000,
+      [this](const PointEvent& event) { onPoint(event); }, ros::VoidConstPtr(), no_delay);
+  thread_ = std::thread([this] { run(); });
+}
+
+LatencyProbe::~LatencyProbe() {
+  ended_ = true;
+  change_.notify_all();
+  thread_.join();
+}
+
+void LatencyProbe::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  reported_[points->header.stamp] = points->latest_arrival;
+}
+
+void LatencyProbe::onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event) {
+  const Arrival arrival{event.getReceiptTime(), ros::Time::now()};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  arrivals_[event.getConstMessage()->header.stamp] = arrival;
+}
+
+void LatencyProbe::onPong(const geometry_msgs::PointStampedConstPtr&) {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    is_back_ = true;
+  }
+  change_.notify_all();
+}
+
+/// @returns whether to go on.
+bool LatencyProbe::wait(double seconds) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  change_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return ended_.load(); });
+  return !ended_;
+}
+
+void LatencyProbe::run() {
+  const auto count = [this] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return arrivals_.size();
+  };
+  while (count() < kWarmUp || ping_.getNumSubscribers() == 0 || pong_.getNumPublishers() == 0) {
+    if (!wait(0.1))
+      return;
+  }
+  const std::string points = measurePoints();
+  const std::string round_trips = summary("round_trips", measureRoundTrips());
+  if (ended_)
+    return;
+  std::ofstream(file_ + ".part") << points << round_trips;
+  std::rename((file_ + ".part").c_str(), file_.c_str());  // atomic
+}
+
+std::string LatencyProbe::measurePoints() {
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    arrivals_.clear();
+    reported_.clear();
+  }
+  if (!wait(seconds_))
+    return "";
+  std::vector<double> in_process, in_callback;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const auto& [stamp, arrival] : arrivals_) {
+    const auto reported = reported_.find(stamp);
+    if (reported == reported_.end())
+      continue;
+    in_process.push_back((arrival.in_process - reported->second).toSec());
+    in_callback.push_back((arrival.in_callback - reported->second).toSec());
+  }
+  return summary("in_process", in_process) + summary("points", in_callback);
+}
+
+std::vector<double> LatencyProbe::measureRoundTrips() {
+  using Clock = std::chrono::steady_clock;
+  using Seconds = std::chrono::duration<double>;
+  std::vector<double> latencies;
+  const Clock::time_point end =
+      Clock::now() + std::chrono::duration_cast<Clock::duration>(Seconds(seconds_));
+  for (auto due = Clock::now(); due < end && !ended_;
+       due += std::chrono::duration_cast<Clock::duration>(Seconds(kPingPeriod))) {
+    std::this_thread::sleep_until(due);
+    std::unique_lock<std::mutex> lock(mutex_);
+    is_back_ = false;
+    lock.unlock();
+    const auto ping = boost::make_shared<geometry_msgs::PointStamped>();
+    const Clock::time_point begin = Clock::now();
+    ping_.publish(ping);
+    lock.lock();
+    if (change_.wait_for(lock, Seconds(kPongTimeout), [this] { return is_back_; }))
+      latencies.push_back(Seconds(Clock::now() - begin).count());
+  }
+  return latencies;
+}
 
 class LatencyProbeNodelet : public nodelet::Nodelet {
   void onInit() override {

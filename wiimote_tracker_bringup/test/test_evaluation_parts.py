@@ -79,8 +79,8 @@ class Clock:
 
 def test_remaining_time_goes_from_expected_to_measured():
     clock = Clock()
-    shown = progress.Progress([('a', 100), ('b', 50)], io.StringIO(), clock)
-    shown.begin('a', 'A')
+    shown = progress.Progress([100, 50], io.StringIO(), clock)
+    shown.begin('A')
     assert shown.remaining() == pytest.approx(150.0)
     clock.time = 30.0
     shown.within(9, 10)   # three times as fast as expected
@@ -92,8 +92,8 @@ def test_remaining_time_goes_from_expected_to_measured():
 
 def test_without_a_terminal_lines_are_few_and_plain():
     clock, output = Clock(), io.StringIO()
-    shown = progress.Progress([('a', 100)], output, clock)
-    shown.begin('a', 'A')
+    shown = progress.Progress([100], output, clock)
+    shown.begin('A')
     for second in range(61):
         clock.time = second
         shown.within(second, 60, 'at it')

@@ -120,9 +120,10 @@ def prepare(folder: str, names: List[str]) -> None:
 
 
 def carry_out(module, run, live):
-    """Runs a section and records its failure, if any."""
+    """Runs a section and records its failure; empty: none."""
     try:
         (module.live if live else module.run)(run)
+        run.failure = ''
     except Exception as error:  # other sections continue
         told = isinstance(error, (ExperimentError, ProcessEnded))
         run.failure = (str(error) if told else f'{type(error).__name__}: {error}') \
@@ -137,8 +138,7 @@ def evaluate(options: argparse.Namespace) -> int:
     """Runs the sections. Returns 0 if all succeeded."""
     modules = [sections.load(name) for name in options.sections]
     prepare(options.output, [module.NAME for module in modules])
-    progress = Progress([(module.NAME, sections.seconds(module.NAME, options.quick))
-                         for module in modules])
+    progress = Progress([sections.seconds(module.NAME, options.quick) for module in modules])
     begin, runs = time.time(), []
     try:
         for module in modules:
@@ -147,15 +147,11 @@ def evaluate(options: argparse.Namespace) -> int:
                       not options.live, progress.within, options.led, options.gestures,
                       options.recordings, options.faults)
             runs.append(run)
-            run.failure = 'It was interrupted.'
-            progress.begin(module.NAME, module.TITLE)
+            run.failure = 'It was interrupted.'  # unless it comes to an end
+            progress.begin(module.TITLE)
             started = time.monotonic()
             try:
-                run.failure = ''
                 carry_out(module, run, options.live)
-            except Interrupted:
-                run.failure = 'It was interrupted.'
-                raise
             finally:
                 run.duration = time.monotonic() - started
                 write_report(options, runs, time.time() - begin)

@@ -11,7 +11,7 @@ class Progress(Terminal):
     """One line per section, with a status below."""
 
     def __init__(self, expected, output=None, now=time.monotonic):
-        """expected: name and approximate duration [s] of every section."""
+        """expected: approximate duration of every section [s]."""
         super().__init__(output)
         self._expected = list(expected)
         self._now = now
@@ -19,7 +19,7 @@ class Progress(Terminal):
         self._begin = self._said = now()
         self._share = 0.0
 
-    def begin(self, name: str, title: str) -> None:
+    def begin(self, title: str) -> None:
         self._number += 1
         self._share = 0.0
         self._begin = self._said = self._now()
@@ -40,13 +40,12 @@ class Progress(Terminal):
 
     def remaining(self) -> float:
         """Of all sections [s]: at first as expected, increasingly as observed."""
-        expected = self._expected[max(self._number, 0)][1]
         elapsed = self._now() - self._begin
-        total = max(expected, elapsed)
+        total = max(self._expected[max(self._number, 0)], elapsed)
         if self._share > 0.0:
             total = (1.0 - self._share) * total + self._share * (elapsed / self._share)
         here = max(total * (1.0 - self._share), 0.0)
-        return here + sum(seconds for _, seconds in self._expected[self._number + 1:])
+        return here + sum(self._expected[self._number + 1:])
 
 
 def remaining_text(seconds: float) -> str:

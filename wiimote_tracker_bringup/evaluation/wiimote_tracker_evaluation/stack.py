@@ -9,6 +9,7 @@ import re
 import shutil
 import tempfile
 
+from wiimote_tracker_evaluation import rigs
 from wiimote_tracker_evaluation.processes import Processes, free_port
 from wiimote_tracker_evaluation.programs import package_file
 
@@ -45,6 +46,19 @@ def launch(run, file, **arguments):
              for name, value in sorted(arguments.items())]
     _launched.append(_processes.start('roslaunch', ['roslaunch', path] + words, log))
     return folder
+
+
+def launch_rig(run, name, description, **arguments):
+    """Starts the whole system on a rig, with the section's seed. Returns the description's path and
+    a Conductor, once all cameras send images."""
+    path = run.file(name + '_rig.yaml')
+    rigs.write(path, dict(description, seed=run.seed))
+    launch(run, 'evaluation/full_stack.launch', description=path, folder='{folder}', **arguments)
+    # Imported late: rospy reads the master's address at import.
+    from wiimote_tracker_evaluation.conductor import Conductor
+    conductor = Conductor('led', None, check)
+    conductor.wait_for_cameras(description['cameras'])
+    return path, conductor
 
 
 def start(run, command):

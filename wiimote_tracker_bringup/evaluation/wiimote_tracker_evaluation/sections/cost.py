@@ -76,20 +76,14 @@ class FullStack:
     def __init__(self, run, cameras):
         self._run, self._number = run, cameras
         description = rigs.with_leds(rigs.with_cameras(rigs.read(run.rig), cameras), PLACES, False)
-        description['seed'] = run.seed
-        path = run.file('%d_cameras_rig.yaml' % cameras)
-        rigs.write(path, description)
         self._cameras, self._leds = list(description['cameras']), list(description['leds'])
-        stack.launch(run, 'evaluation/full_stack.launch', description=path, folder='{folder}',
-                     labels=','.join(self._leds))
+        path, self._conductor = stack.launch_rig(run, '%d_cameras' % cameras, description,
+                                                 labels=','.join(self._leds))
 
         # Imported late: rospy reads the master's address at import.
         import rospy
-        from wiimote_tracker_evaluation.conductor import Conductor
         from wiimote_tracker_evaluation.true_rig import true_rig
         from wiimote_tracker_msgs.msg import RigCalibration
-        self._conductor = Conductor('led', None, stack.check)
-        self._conductor.wait_for_cameras(self._cameras)
         self._rig = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
         self._rig.publish(true_rig(path))
         self._processes = {node: load.process_of(node) for node in [

@@ -85,16 +85,8 @@ def measure(run, name, cameras, laps, done):
     def progress(part, what):
         run.progress(done + share * part, 1.0, what)
     description = rigs.with_cameras(rigs.centred(rigs.read(run.rig), SIDE / experiment.SIDE), cameras)
-    description['seed'] = run.seed
-    rigs.write(run.file(name + '_rig.yaml'), description)
     progress(0.0, 'starting %d virtual Wii Remotes' % cameras)
-    stack.launch(run, 'evaluation/full_stack.launch', description=run.file(name + '_rig.yaml'),
-                 folder='{folder}', side_length=SIDE, origin=SIDE / 2.0)
-
-    # Imported late: rospy reads the master's address at import.
-    from wiimote_tracker_evaluation.conductor import Conductor
-    conductor = Conductor('led', None, stack.check)
-    conductor.wait_for_cameras(description['cameras'])
+    _, conductor = stack.launch_rig(run, name, description, side_length=SIDE, origin=SIDE / 2.0)
     conductor.move(CENTRE, CARRY_SPEED)
     conductor.wait_until_seen(description['cameras'])
     conductor.start(SIDE)

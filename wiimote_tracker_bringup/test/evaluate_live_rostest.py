@@ -160,7 +160,8 @@ class LiveEvaluation(unittest.TestCase):
         self.path = rospy.get_param('~description')
         rig = true_rig(self.path)
         rig.square_sides = [experiment.SIDE, experiment.SIDE]
-        self.publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
+        self.publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
+                                         latch=True)
         self.publisher.publish(rig)
         rospy.wait_for_message('points', TrackedPointArray, DEADLINE)
 
@@ -180,7 +181,7 @@ class LiveEvaluation(unittest.TestCase):
             content = json.load(file)
         for each in [content] + content['figures']:
             self.assertTrue(each['simulated'], 'the remotes are virtual, and the report must say so')
-        return person, {(figure['section'], figure['name']): figure for figure in content['figures']}
+        return person, {(each['section'], each['name']): each for each in content['figures']}
 
 
 class EvaluateLive(LiveEvaluation):

@@ -95,7 +95,8 @@ def test_refusals_say_which_file(tmp_path):
         cameras.read(str(tmp_path))
     lens = dict.fromkeys(cameras.KEYS, 1.0)
     for distortion in ([0.1, 0.0, 0.0, 0.0], 0.1):
-        (tmp_path / 'cameras.yaml').write_text(yaml.safe_dump({'c0': dict(lens, distortion=distortion)}))
+        lens['distortion'] = distortion
+        (tmp_path / 'cameras.yaml').write_text(yaml.safe_dump({'c0': lens}))
         with pytest.raises(ExperimentError, match='cameras.yaml cannot be read.*each camera needs'):
             cameras.read(str(tmp_path))
 

@@ -45,8 +45,8 @@ def descendants() -> List[int]:
             continue
         try:
             with open(f'/proc/{entry}/stat', errors='replace') as file:
-                # The name in parentheses may contain spaces and parentheses, and half a letter: it is
-                # cut off after 15 bytes.
+                # The name in parentheses may contain spaces and parentheses, and half a letter: it
+                # is cut off after 15 bytes.
                 state, parent = file.read().rpartition(')')[2].split()[:2]
         except OSError:
             continue  # it has ended

@@ -38,8 +38,8 @@ def arrays(messages):
 
 
 class Probe:
-    """The tip, and where it was. tip: position in the body's frame [m] and its covariance. now: gives
-    the time [s]."""
+    """The tip, and where it was. tip: position in the body's frame [m] and its covariance. now:
+    gives the time [s]."""
 
     def __init__(self, tip, duration, file, now=time.monotonic):
         self.tip, self.tip_covariance = np.array(tip, dtype=float), np.zeros((3, 3))
@@ -102,8 +102,8 @@ class Probe:
         """Appends where the tip is to the file. @returns a sentence."""
         messages = self.newest(REST)
         if self.now() - self.seen > HIDDEN:
-            raise ExperimentError(f'the probe was last seen {self.now() - self.seen:.1f} s ago: turn '
-                                  'it towards the cameras')
+            raise ExperimentError(f'the probe was last seen {self.now() - self.seen:.1f} s ago: '
+                                  'turn it towards the cameras')
         points, covariances = self.points(messages)
         spread = np.sqrt(points.var(axis=0).sum())
         stddevs = np.sqrt(np.diagonal(covariances.mean(axis=0)))

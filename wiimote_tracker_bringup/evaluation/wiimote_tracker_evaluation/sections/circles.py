@@ -111,8 +111,8 @@ def plot(run, speeds, estimates):
                     [(place, each[0], *each[1]) for place, each in enumerate(found) if each]
                     ).reshape(-1, 4).T
                 axis.errorbar(places + 0.06 * (number - 2.5), values,
-                              np.maximum([values - low, high - values], 0.0), color=color, marker='o',
-                              markersize=4, linewidth=1.0, capsize=2, label=explained)
+                              np.maximum([values - low, high - values], 0.0), color=color,
+                              marker='o', markersize=4, linewidth=1.0, capsize=2, label=explained)
             axis.set_yscale('log')
             axis.set_yticks([0.5, 1, 2, 5, 10, 20, 50, 100])
             axis.set_yticklabels(['0.5', '1', '2', '5', '10', '20', '50', '100'])

@@ -53,6 +53,17 @@ def name_and_unit(name):
     return name[:-len(ending)], UNITS[ending]
 
 
+def unit_of(name):
+    """Of a column that does not name it."""
+    if name.startswith('var_'):
+        return 'm^2'
+    if name[-2:] in ('_u', '_v'):
+        return 'px'
+    if name[-2:] in ('_x', '_y', '_z') or name.endswith('_error'):
+        return 'm'
+    return {'speed': 'm/s', 'time': 's'}.get(name, '')
+
+
 def where(columns, **values):
     """Mask of the rows with these values."""
     chosen = np.ones(len(next(iter(columns.values()))), dtype=bool)

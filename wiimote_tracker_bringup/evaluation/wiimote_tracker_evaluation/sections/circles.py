@@ -63,7 +63,7 @@ def tell(run, laps):
                          ('height_95', 'mm'), ('not_seen', '%')], rows,
               'RMS over all circles and all solved sessions, with its interval; and the share of '
               'times without a point within 0.5 m of the LED.')
-    run.table('laps', [(name, unit_of(name)) for name in laps], programs.table_rows(laps),
+    run.table('laps', [(name, sessions.unit_of(name)) for name in laps], programs.table_rows(laps),
               'Every point.', shown=False)
     compare(run, laps)
 
@@ -71,12 +71,6 @@ def tell(run, laps):
 def errors_of(laps, chosen, which):
     """Errors by session [mm]."""
     return [1e3 * unit for unit in sessions.per_session(laps, which, chosen)]
-
-
-def unit_of(name):
-    if name.endswith('_error') or name[-2:] in ('_x', '_y', '_z'):
-        return 'm'
-    return {'speed': 'm/s', 'time': 's'}.get(name, '')
 
 
 def compare(run, laps):

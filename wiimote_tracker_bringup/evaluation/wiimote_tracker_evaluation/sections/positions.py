@@ -10,7 +10,7 @@ from wiimote_tracker_evaluation import position_plots as plots
 from wiimote_tracker_evaluation import programs, statistics
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
-from wiimote_tracker_evaluation.sessions import parts_of
+from wiimote_tracker_evaluation.sessions import parts_of, unit_of
 from wiimote_tracker_evaluation.live import positions as with_a_person
 
 NAME = 'positions'
@@ -286,14 +286,6 @@ def remap(run, results):
             'changes C1 with rays from the image centre %s; the paper expects that it can correct '
             'such errors. For our square alone with four Wiimotes the fit finds no improvement in '
             '%d of %d sessions, and says so.' % (' and '.join(sentences), kept.sum(), len(kept)))
-
-
-def unit_of(name):
-    if name.startswith('var_'):
-        return 'm^2'
-    if name[-2:] in ('_u', '_v'):
-        return 'px'
-    return 'm' if name[-2:] in ('_x', '_y', '_z') or name == 'origin_error' else ''
 
 
 # --- Fig. 8 and 2

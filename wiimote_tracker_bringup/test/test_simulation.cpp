@@ -95,6 +95,13 @@ TEST(VirtualCamera, feels_gravity_as_it_is_mounted) {
 
 // --- The whole
 
+const Rig::Truth kNoTruth = [](std::size_t, double, const Vector3d&) {};
+
+/// Appends the horizontal pixel of the first light of each image.
+Rig::Deliver pixelsTo(std::vector<double>* x) {
+  return [x](std::size_t, const Image& image) { x->push_back(image.lights[0].x); };
+}
+
 Description twoCameras() {
   Description description;
   description.seed = 5;
@@ -125,7 +132,7 @@ std::vector<Delivered> deliveries(const Description& description, double step) {
       [&](std::size_t camera, const virtual_wiimote::Senses& senses) {
         all.push_back({camera, senses.lights.at(0).x, senses.lights.at(0).y});
       },
-      [](std::size_t, double, const Vector3d&) {});
+      kNoTruth);
   for (double time = 0.0; time < 0.5; time += step)
     rig.runUntil(time);
   rig.runUntil(0.5);
@@ -157,10 +164,7 @@ TEST(Rig, a_moving_led_is_seen_where_it_was_at_the_exposure_not_at_the_delivery)
   description.cameras.resize(1);
   description.cameras[0].timing = {0.01, 0.0, 0.2, 0.0};  // in transit for 0.2 s
   std::vector<double> x;
-  Rig rig(
-      description,
-      [&](std::size_t, const virtual_wiimote::Senses& senses) { x.push_back(senses.lights[0].x); },
-      [](std::size_t, double, const Vector3d&) {});
+  Rig rig(description, pixelsTo(&x), kNoTruth);
   rig.findLed("led")->motion.line(0.0, Vector3d(0.0, -10.0, 1.0), 1.0);
   rig.runUntil(0.3001);
   ASSERT_EQ(x.size(), 11u);  // exposures 0.00 .. 0.10
@@ -173,21 +177,13 @@ TEST(Rig, lost_frames_are_not_delivered_and_do_not_affect_others) {
   description.cameras.resize(1);
   description.cameras[0].timing.drops = 0.2;
   std::vector<double> x;
-  Rig rig(
-      description,
-      [&](std::size_t, const virtual_wiimote::Senses& senses) { x.push_back(senses.lights[0].x); },
-      [](std::size_t, double, const Vector3d&) {});
+  Rig rig(description, pixelsTo(&x), kNoTruth);
   rig.runUntil(10.0);
   EXPECT_NEAR(static_cast<double>(x.size()), 800.0, 60.0);
   // The same noise on the same images as without losses.
   std::vector<double> all;
   description.cameras[0].timing.drops = 0.0;
-  Rig complete(
-      description,
-      [&](std::size_t, const virtual_wiimote::Senses& senses) {
-        all.push_back(senses.lights[0].x);
-      },
-      [](std::size_t, double, const Vector3d&) {});
+  Rig complete(description, pixelsTo(&all), kNoTruth);
   complete.runUntil(10.0);
   std::size_t at = 0;
   for (double pixel : x) {
@@ -318,7 +314,7 @@ TEST(Rig, a_dark_led_is_not_seen_but_images_go_on) {
         ++images;
         lights += static_cast<int>(senses.lights.size());
       },
-      [](std::size_t, double, const Vector3d&) {});
+      kNoTruth);
   rig.findLed("led")->lit = false;
   rig.runUntil(1.0);
   EXPECT_GT(images, 190);

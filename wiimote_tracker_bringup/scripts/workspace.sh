@@ -1,4 +1,4 @@
-# Shared by demo and test: their packages and their workspace.
+# Shared by demo, test, test_threads and package: their packages and their workspace.
 # To be sourced; sets strict mode and ends all children when the script ends.
 # shellcheck shell=bash
 

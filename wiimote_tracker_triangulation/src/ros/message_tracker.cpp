@@ -385,11 +385,11 @@ void MessageTracker::publish(const CorrectedSnapshot& corrected) {
 }
 
 TrackedPointArray MessageTracker::messageOf(const CorrectedSnapshot& corrected) const {
-  PointContext context;
-  context.method = methodWord(parameters_.estimator);
-  context.rig_id = rig_id_;
-  context.late_frames = estimator_->counters().late;
-  return pointMessage(corrected, rig_, labels_, context);
+  TrackedPointArray message = pointMessage(corrected, rig_, labels_);
+  message.method = methodWord(parameters_.estimator);
+  message.rig_id = rig_id_;
+  message.late_frames = estimator_->counters().late;
+  return message;
 }
 
 }  // namespace wiimote_tracker

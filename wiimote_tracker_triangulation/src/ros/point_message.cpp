@@ -49,17 +49,13 @@ TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
 
 TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
                                const geometry::Rig& rig,
-                               const LedLabels& labels,
-                               const PointContext& context) {
+                               const LedLabels& labels) {
   const tracking::Snapshot& snapshot = corrected.snapshot;
   TrackedPointArray message;
   message.header.stamp = timeOf(snapshot.time);
   message.header.frame_id = rig.world_frame;
-  message.rig_id = context.rig_id;
-  message.method = context.method;
   message.latest_arrival = timeOf(snapshot.latest_arrival);
   message.skew = snapshot.skew;
-  message.late_frames = context.late_frames;
   message.points.reserve(snapshot.leds.size());
   for (std::size_t i = 0; i < snapshot.leds.size(); ++i)
     message.points.push_back(trackedPoint(corrected, i, rig, labels));

@@ -10,23 +10,15 @@
 #include <geometry_msgs/TransformStamped.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
-#include <cstdint>
-#include <string>
+#include <cstddef>
 
 namespace wiimote_tracker {
 
-/// Fields of the message that are not in the snapshot.
-struct PointContext {
-  std::string method;             ///< How the points were computed.
-  std::string rig_id;             ///< Id of the rig, as published.
-  std::uint64_t late_frames = 0;  ///< As in TrackedPointArray.msg.
-};
-
-/// The message of a snapshot with all of its LEDs.
+/// The message of a snapshot with all of its LEDs, without method, rig_id and late_frames, which
+/// the snapshot does not tell.
 wiimote_tracker_msgs::TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
                                                      const geometry::Rig& rig,
-                                                     const LedLabels& labels,
-                                                     const PointContext& context);
+                                                     const LedLabels& labels);
 
 /// The LED at `index` in the snapshot.
 wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,

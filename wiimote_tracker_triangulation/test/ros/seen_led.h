@@ -57,11 +57,7 @@ inline wiimote_tracker_msgs::TrackedPointArray messageOf(const CorrectedSnapshot
                                                          const geometry::Rig& rig) {
   LedLabels labels({"led"});
   labels.update(corrected.snapshot.time, corrected.snapshot.leds);
-  PointContext context;
-  context.method = "track";
-  context.rig_id = "0123";
-  context.late_frames = 7;
-  return pointMessage(corrected, rig, labels, context);
+  return pointMessage(corrected, rig, labels);
 }
 
 }  // namespace wiimote_tracker

@@ -42,6 +42,11 @@ TEST_P(InBothModes, SeveralLedsHaveTheirLabelsAndPlaces) {
   EXPECT_EQ(2u, last.points.size());
   EXPECT_EQ(3u, studio.heard.view_count);
   EXPECT_TRUE(studio.heard.problems.empty());
+
+  EXPECT_EQ(0u, last.late_frames);
+  studio.tracker.takeImage("camera_0", studio.image(0, studio.now - 0.045, {onCircle}));
+  studio.film(0.1, {onCircle});
+  EXPECT_EQ(1u, studio.heard.arrays.back()->late_frames);
 }
 
 TEST_P(InBothModes, ALostLedIsReportedOnceAndItsLabelReused) {

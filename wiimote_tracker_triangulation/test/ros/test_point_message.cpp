@@ -20,11 +20,8 @@ TEST(PointMessage, HoldsOnlyKnownValues) {
   const auto message = messageOf(someSnapshot(rig), rig);
   EXPECT_EQ(ros::Time(100.0), message.header.stamp);
   EXPECT_EQ("world", message.header.frame_id);
-  EXPECT_EQ("0123", message.rig_id);
-  EXPECT_EQ("track", message.method);
   EXPECT_EQ(ros::Time(100.03), message.latest_arrival);
   EXPECT_EQ(0.004, message.skew);
-  EXPECT_EQ(7u, message.late_frames);
   ASSERT_EQ(1u, message.points.size());
   const TrackedPoint& point = message.points[0];
   EXPECT_EQ("led", point.label);

@@ -153,7 +153,8 @@ void MessageTracker::takeImage(const std::string& camera,
   const std::size_t index = found->second;
   const ImageFault fault = readImage(message, rig_.cameras[index].camera, &image_);
   if (fault != ImageFault::kNone)
-    reportFault(index, fault, message);
+    reportProblem(index, describe(fault, message, rig_.cameras[index].camera),
+                  reported_faults_.emplace(index, fault).second);
   if (!isUsable(fault))
     return;
   statistics_.addImage(index, image_, message.frame);
@@ -162,7 +163,9 @@ void MessageTracker::takeImage(const std::string& camera,
   publishBodies();
   publishTicksUntil(image_.arrival);
   estimator_->add(index, image_);
-  reportCamera(index);
+  if (const auto camera_fault = estimator_->cameraFault(index))
+    reportProblem(index, describe(*camera_fault, camera),
+                  reported_cameras_.emplace(index, camera_fault->kind).second);
   if (estimator_->counters().resets != resets_)
     restart();
   while (const tracking::Snapshot* snapshot = estimator_->next())
@@ -189,9 +192,8 @@ void MessageTracker::takeInertial(const std::string& body, const sensor_msgs::Im
 }
 
 void MessageTracker::reportTilt() {
-  if (tilt_reported_)
+  if (std::exchange(tilt_reported_, true))
     return;
-  tilt_reported_ = true;
   sink_->onProblem(
       format("the world's z axis is %.0f degrees from up by the cameras' accelerometers, so the "
              "IMUs of bodies are not used: calibrate with a level square, its corners taken "
@@ -235,22 +237,9 @@ void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
     bodies_.startFromLabels(labelled_);
 }
 
-void MessageTracker::reportFault(std::size_t camera,
-                                 ImageFault fault,
-                                 const wiimote_tracker_msgs::IrBlobArray& message) {
-  const std::string sentence = describe(fault, message, rig_.cameras[camera].camera);
+void MessageTracker::reportProblem(std::size_t camera, const std::string& sentence, bool is_new) {
   statistics_.addProblem(camera, sentence);
-  if (reported_faults_.emplace(camera, fault).second)
-    sink_->onProblem(sentence);
-}
-
-void MessageTracker::reportCamera(std::size_t camera) {
-  const std::optional<tracking::CameraFault> fault = estimator_->cameraFault(camera);
-  if (!fault)
-    return;
-  const std::string sentence = describe(*fault, rig_.cameras[camera].camera.name);
-  statistics_.addProblem(camera, sentence);
-  if (reported_cameras_.emplace(camera, fault->kind).second)
+  if (is_new)
     sink_->onProblem(sentence);
 }
 

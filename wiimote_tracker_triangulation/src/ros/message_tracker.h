@@ -117,10 +117,7 @@ class MessageTracker {
   LedLabels& labels() { return labels_; }
 
  private:
-  void reportFault(std::size_t camera,
-                   ImageFault fault,
-                   const wiimote_tracker_msgs::IrBlobArray& message);
-  void reportCamera(std::size_t camera);
+  void reportProblem(std::size_t camera, const std::string& sentence, bool is_new);
   void restart();
   void reportTilt();
   void publishBodies();

@@ -65,6 +65,9 @@ class Trigger {
   /// Snapshots in strictly increasing time. When time goes back, earlier ones are forgotten.
   void add(const tracking::Snapshot& snapshot);
 
+  /// Forgets all snapshots; requests wait for the next one.
+  void forget() { kept_.clear(); }
+
   /// The next answer; null when there is none. Every request is answered once. Valid until the next
   /// call. Call after each ask() and each add(), until it is null.
   const TriggerAnswer* next();

@@ -130,9 +130,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
     tilt_reported_ = false;
     computed_id_ = id;
     rig_id_ = idOf(message, rig);
-    camera_index_.clear();
-    for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-      camera_index_[rig.cameras[i].camera.name] = i;
+    useCameras(rig);
     reported_faults_.clear();
     reported_cameras_.clear();
     statistics_.setRig(rig);
@@ -143,6 +141,18 @@ MessageTracker::RigChange MessageTracker::takeRig(
   change.correction = correction_.take(rig_);
   sink_->onRig(rig_);
   return change;
+}
+
+/// Snapshots name cameras by their places in the rig: those from before would name others.
+void MessageTracker::useCameras(const geometry::Rig& rig) {
+  std::map<std::string, std::size_t> index;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    index[rig.cameras[i].camera.name] = i;
+  if (index == camera_index_)
+    return;
+  camera_index_ = std::move(index);
+  newest_.snapshot.time = kNever;
+  trigger_.forget();
 }
 
 void MessageTracker::takeImage(const std::string& camera,

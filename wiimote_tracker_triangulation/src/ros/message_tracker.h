@@ -118,6 +118,7 @@ class MessageTracker {
 
  private:
   void reportProblem(std::size_t camera, const std::string& sentence, bool is_new);
+  void useCameras(const geometry::Rig& rig);
   void restart();
   void reportTilt();
   void publishBodies();

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 #include <ros/serialization.h>
 
+#include <algorithm>
 #include <limits>
 #include <string>
 #include <vector>
@@ -99,6 +100,35 @@ TEST_P(InBothModes, ANewRigTakesEffectWithTheNextImage) {
   ASSERT_EQ(1u, last.points.size());
   const auto& p = last.points[0].position;
   EXPECT_LT((Vector3d(p.x, p.y, p.z) - onCircle(last.header.stamp.toSec()) - shift).norm(), kNear);
+}
+
+/// Camera 2 sees nothing. The rig names the cameras in another order from the middle on.
+TEST_P(InBothModes, PointsNameTheCamerasOfTheirOwnRig) {
+  TrackingParameters parameters = parametersOf(GetParam());
+  parameters.output.on_update = false;
+  parameters.output.rate = 20.0;
+  Studio studio(parameters);
+  studio.spoil = [](std::size_t camera, IrBlobArray* image) {
+    if (camera == 2)
+      image->blobs.clear();
+  };
+  studio.film(1.0, {onCircle});
+  Rig turned = studio.rig;
+  std::reverse(turned.cameras.begin(), turned.cameras.end());
+  studio.tracker.takeRig(toMessage(turned));
+  std_msgs::Header trigger;
+  trigger.stamp.fromSec(studio.now - 0.5);
+  studio.tracker.takeTrigger(trigger);
+  studio.film(1.0, {onCircle});
+  std::size_t seen = 0;
+  for (const auto& [time, point] : studio.pointsOf("led", 1000.3)) {
+    for (const std::string& camera : point.cameras)
+      EXPECT_NE("camera_2", camera) << time;
+    seen += point.cameras.size();
+  }
+  EXPECT_GT(seen, 40u);
+  EXPECT_TRUE(studio.heard.triggered.empty()) << "its snapshots are of the rig before";
+  EXPECT_EQ(1, studio.heard.problemsWith("no points for the trigger"));
 }
 
 TEST_P(InBothModes, ABadRigIsRefusedAndTheOneBeforeStays) {

@@ -220,16 +220,14 @@ void MessageTracker::publishBodies() {
   for (std::size_t b = 0; b < snapshot->bodies.size(); ++b) {
     const body::Constellation& constellation = bodies_.constellations()[b];
     const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
+    if (!body || body->inertial)
+      without_samples_.erase(constellation.name);
+    else if (body->tracked && constellation.imu)
+      without_samples_.insert(constellation.name);
     if (!body)
       continue;
     tracked += body->tracked ? 1 : 0;
     bridged_.push_back(body->inertial && !body->tracked);
-    if (!constellation.imu)
-      continue;
-    if (body->inertial)
-      without_samples_.erase(constellation.name);
-    else if (body->tracked)
-      without_samples_.insert(constellation.name);
   }
   statistics_.setBodies(tracked);
   sink_->onBodies(bodyMessage(*snapshot, bodies_.constellations(), rig_, rig_id_), bridged_);

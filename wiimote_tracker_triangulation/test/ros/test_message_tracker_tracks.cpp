@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -166,6 +167,20 @@ TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
     tracker.takeInertial("wand", sample);
     EXPECT_EQ(up > 0.0 ? 0 : 1, heard.problemsWith("177 degrees from up"));
   }
+}
+
+TEST(ImuOfABody, IsMissedOnlyUntilTheBodyIsLost) {
+  Studio studio(parametersOf(Mode::kTracks));
+  body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};
+  wand.imu = body::ImuMount{"/imu"};
+  studio.tracker.setBodies({wand});
+  Paths leds;
+  for (const Vector3d& led : wand.leds)
+    leds.push_back([led](double) { return led; });
+  studio.film(1.0, leds);
+  EXPECT_EQ(std::set<std::string>{"wand"}, studio.tracker.bodiesWithoutSamples());
+  studio.film(2.0, {});
+  EXPECT_TRUE(studio.tracker.bodiesWithoutSamples().empty());
 }
 
 }  // namespace

@@ -8,13 +8,14 @@ namespace {
 
 using XmlRpc::XmlRpcValue;
 
-/// Quoted scalars, and those that are neither booleans nor numbers, are strings.
+/// Quoted scalars, and those that are neither booleans nor numbers, are strings; so are y and n, as
+/// rosparam reads them.
 XmlRpcValue scalarOf(const YAML::Node& node) {
   const bool is_quoted = node.Tag() == "!";
   bool truth = false;
   int whole = 0;
   double number = 0.0;
-  if (!is_quoted && YAML::convert<bool>::decode(node, truth))
+  if (!is_quoted && node.Scalar().size() > 1 && YAML::convert<bool>::decode(node, truth))
     return XmlRpcValue(truth);
   if (!is_quoted && YAML::convert<int>::decode(node, whole))
     return XmlRpcValue(whole);

@@ -9,6 +9,10 @@
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -84,6 +88,16 @@ TEST(Parameters, SetValuesAreRead) {
   EXPECT_TRUE(p.output.publish_predicted);
   EXPECT_TRUE(p.output.led_odometry);
   EXPECT_FALSE(p.output.body_transforms);
+}
+
+TEST(Parameters, OfAFileAreTypedAsByRosparam) {
+  const std::string path = testing::TempDir() + "typed_" + std::to_string(::getpid()) + ".yaml";
+  std::ofstream(path) << "labels: [x, y, n]\noutput: {led_odometry: yes, rate: 30}\n";
+  const TrackingParameters p = TrackingParameters::read(ParameterReader(readParameterTree(path)));
+  std::remove(path.c_str());
+  EXPECT_EQ((std::vector<std::string>{"x", "y", "n"}), p.labels);
+  EXPECT_TRUE(p.output.led_odometry);
+  EXPECT_EQ(30.0, p.output.rate);
 }
 
 TEST(Parameters, BlinkCodesSetTheTrackersOptions) {

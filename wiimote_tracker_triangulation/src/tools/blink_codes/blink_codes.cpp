@@ -13,8 +13,6 @@ namespace {
 
 using namespace wiimote_tracker;
 
-constexpr double kLeast = 1e-9;  // of a number that must be above 0
-
 struct Arguments {
   std::string command;
   std::vector<std::string> words;
@@ -61,12 +59,11 @@ int main(int argc, char** argv) {
       "choose LABEL...  prints a file of cyclic codes, one for each label");
   parser.positional("table|sketch|check|choose", &arguments.command);
   parser.positional("FILE|LABEL...", &arguments.words);
-  parser.option("--period S", &arguments.period, kLeast, 100.0,
+  parser.option("--period S", &arguments.period, 0.02, 5.0,
                 "period of table and sketch [s]; default: the shortest one of the file if its LEDs "
                 "blink together, else the nominal one");
-  parser.option("--chip S", &arguments.chip, kLeast, 100.0,
-                "duration of one character of a word [s]");
-  parser.option("--tolerance T", &arguments.tolerance, kLeast, 100.0,
+  parser.option("--chip S", &arguments.chip, 0.001, 1.0, "duration of one character of a word [s]");
+  parser.option("--tolerance T", &arguments.tolerance, 0.0, 0.05,
                 "relative error of the LED drivers' clocks");
   return parser.run(argc, argv, [&] {
     std::fputs(run(arguments).c_str(), stdout);

@@ -1,0 +1,24 @@
+"""The numbers that blink_codes takes are those that a file of codes may hold."""
+
+import os
+import subprocess
+
+
+def run(*arguments):
+    """(exit status, standard output in one line)"""
+    process = subprocess.run([os.environ['BLINK_CODES']] + list(arguments), stdout=subprocess.PIPE,
+                             universal_newlines=True)
+    return process.returncode, ' '.join(process.stdout.split())
+
+
+def test_takes_every_tolerance_of_a_file():
+    for chip, tolerance in (('0.01', '0'), ('0.5', '0.05')):
+        status, text = run('choose', 'left', 'right', '--chip', chip, '--tolerance', tolerance)
+        assert status == 0
+        assert 'chip: %s #' % chip in text and 'tolerance: %s #' % tolerance in text
+
+
+def test_help_says_the_ranges():
+    _, text = run('--help')
+    for words in ('(0.02 to 5)', '(0.001 to 1, default 0.023)', '(0 to 0.05, default 0.01)'):
+        assert words in text

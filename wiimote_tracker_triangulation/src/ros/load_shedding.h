@@ -16,7 +16,7 @@ class LoadShedding {
       "fewer cameras, or a build with optimisation";
 
   /// @param wait from the image's receipt to now [s]
-  /// @param now any clock [s]
+  /// @param now by a clock that is never set [s]
   /// @returns whether to drop the image.
   bool drops(double wait, double now);
 

@@ -104,7 +104,7 @@ void TrackingDiagnostics::report(Status& status) {
   const VolumeCorrection& correction = tracker_->correction();
   if (!correction.problem().empty())
     status.mergeSummary(DiagnosticStatus::WARN, correction.problem());
-  if (shedding_->overloaded(ros::Time::now().toSec()))
+  if (shedding_->overloaded(ros::SteadyTime::now().toSec()))
     status.mergeSummary(DiagnosticStatus::WARN, LoadShedding::kAdvice);
   status.add("rig", tracker_->rigId());
   status.add("correction of the volume", correction.state());

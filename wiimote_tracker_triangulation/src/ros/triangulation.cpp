@@ -117,8 +117,7 @@ void Triangulation::onImage(const std::string& camera,
 bool Triangulation::isShed(const ros::Time& receipt) {
   if (ros::Time::isSimTime())
     return false;
-  const ros::Time now = ros::Time::now();
-  if (!shedding_.drops((now - receipt).toSec(), now.toSec()))
+  if (!shedding_.drops((ros::Time::now() - receipt).toSec(), ros::SteadyTime::now().toSec()))
     return false;
   ROS_WARN_THROTTLE(10.0, "%s.", LoadShedding::kAdvice);
   return true;

@@ -1,5 +1,3 @@
-#include "pose_from_labels.h"
-
 #include "body/align.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
@@ -8,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -17,8 +16,8 @@ namespace {
 constexpr double kWorst = 9.0;
 constexpr double kMotion = 0.002;
 
-}  // namespace
-
+/// The pose of a body from labelled points. Nothing when fewer than three of its LEDs are among
+/// them, or they lie on a line or do not agree with the constellation.
 std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
                                        const std::vector<LabelledPoint>& points) {
   std::array<PointPair, kMaximumLeds> pairs;
@@ -55,6 +54,8 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
     return std::nullopt;
   return BodyPose{alignment.world_from_body, factor.solve(PoseCovariance::Identity())};
 }
+
+}  // namespace
 
 void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
   for (std::size_t b = 0; b < bodies_.size(); ++b) {

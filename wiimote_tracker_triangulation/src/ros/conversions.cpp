@@ -29,8 +29,7 @@ static_assert(static_cast<int>(geometry::RayModel::kCalibrated) ==
               "enumerations of core and messages must agree");
 
 Eigen::Isometry3d poseOf(const geometry_msgs::Pose& pose, const std::string& camera) {
-  const geometry_msgs::Quaternion& o = pose.orientation;
-  const Eigen::Quaterniond q(o.w, o.x, o.y, o.z);
+  const Eigen::Quaterniond q = rotationOf(pose.orientation);
   if (!(std::abs(q.norm() - 1.0) < 1e-3))
     throw geometry::InvalidRigError("camera '" + camera +
                                     "': its orientation is not a quaternion of unit length; "

@@ -278,9 +278,7 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   array_.markers.push_back(point);
 
   Marker ellipsoid = marker("covariance", led.id, Marker::SPHERE);
-  using RowMajor = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
-      Eigen::Map<const RowMajor>(led.position_covariance.data()));
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrixOf<3>(led.position_covariance));
   Eigen::Matrix3d rotation = axes.eigenvectors();
   if (rotation.determinant() < 0.0)
     rotation.col(0) = -rotation.col(0);

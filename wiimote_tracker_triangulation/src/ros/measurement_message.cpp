@@ -27,11 +27,6 @@ std::int64_t nanoseconds(const ros::Time& time) {
   return static_cast<std::int64_t>(time.toNSec());
 }
 
-template <typename Array>
-Eigen::Matrix3d matrix(const Array& row_major) {
-  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(row_major.data());
-}
-
 }  // namespace
 
 void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
@@ -50,9 +45,9 @@ void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points,
     m.label_since = nanoseconds(point.label_since);
     m.state = wordOf(point.state);
     m.position = vectorOf(point.position);
-    m.position_covariance = matrix(point.position_covariance);
+    m.position_covariance = matrixOf<3>(point.position_covariance);
     m.velocity = vectorOf(point.velocity);
-    m.velocity_covariance = matrix(point.velocity_covariance);
+    m.velocity_covariance = matrixOf<3>(point.velocity_covariance);
     m.rays_used = point.rays_used;
     m.rays_possible = point.rays_possible;
     m.residual = point.residual;

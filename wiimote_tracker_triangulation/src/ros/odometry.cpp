@@ -12,21 +12,12 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-template <int kSize, typename Array>
-auto square(const Array& row_major) {
-  return Eigen::Map<const Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor>>(row_major.data());
-}
-
-/// Rotation of the body: world from body.
-Eigen::Matrix3d rotationOf(const geometry_msgs::Quaternion& q) {
-  return Eigen::Quaterniond(q.w, q.x, q.y, q.z).toRotationMatrix();
-}
-
 /// A twist along the world's axes to one along the body's. For small rotation errors w about the
 /// world's axes, R^T v of the truth is R^T (v + [v]x w).
 geometry_msgs::TwistWithCovariance inBody(const geometry_msgs::PoseWithCovariance& pose,
                                           const geometry_msgs::TwistWithCovariance& in_world) {
-  const Eigen::Matrix3d body_from_world = rotationOf(pose.pose.orientation).transpose();
+  const Eigen::Matrix3d body_from_world =
+      rotationOf(pose.pose.orientation).toRotationMatrix().transpose();
   const Eigen::Vector3d linear = vectorOf(in_world.twist.linear);
   const Eigen::Vector3d angular = vectorOf(in_world.twist.angular);
   Eigen::Matrix<double, 6, 3> by_rotation;
@@ -35,8 +26,8 @@ geometry_msgs::TwistWithCovariance inBody(const geometry_msgs::PoseWithCovarianc
   Matrix6 by_twist = Matrix6::Zero();
   by_twist.topLeftCorner<3, 3>() = body_from_world;
   by_twist.bottomRightCorner<3, 3>() = body_from_world;
-  const Eigen::Matrix3d rotation = square<6>(pose.covariance).bottomRightCorner<3, 3>();
-  const Matrix6 covariance = by_twist * square<6>(in_world.covariance) * by_twist.transpose() +
+  const Eigen::Matrix3d rotation = matrixOf<6>(pose.covariance).bottomRightCorner<3, 3>();
+  const Matrix6 covariance = by_twist * matrixOf<6>(in_world.covariance) * by_twist.transpose() +
                              by_rotation * rotation * by_rotation.transpose();
   geometry_msgs::TwistWithCovariance twist;
   setVector(body_from_world * linear, &twist.twist.linear);
@@ -75,13 +66,13 @@ nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedPointArray& array
   message.pose.pose.position = point.position;
   message.pose.pose.orientation.w = 1.0;
   Matrix6 covariance = kUnknownVariance * Matrix6::Identity();
-  covariance.topLeftCorner<3, 3>() = square<3>(point.position_covariance);
+  covariance.topLeftCorner<3, 3>() = matrixOf<3>(point.position_covariance);
   setMatrix(covariance, &message.pose.covariance);
   const bool has_velocity = !std::isnan(point.velocity.x);
   if (has_velocity)
     message.twist.twist.linear = point.velocity;
   covariance.topLeftCorner<3, 3>() =
-      has_velocity ? Eigen::Matrix3d(square<3>(point.velocity_covariance))
+      has_velocity ? matrixOf<3>(point.velocity_covariance)
                    : Eigen::Matrix3d(kUnknownVariance * Eigen::Matrix3d::Identity());
   setMatrix(covariance, &message.twist.covariance);
   return message;

@@ -5,6 +5,7 @@
 #include "geometry/random_rigs.h"
 #include "ros/message_tracker.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -139,8 +140,7 @@ class Studio {
     const auto points = pointsOf(label, after);
     EXPECT_FALSE(points.empty()) << label;
     for (const auto& [time, point] : points) {
-      const Vector3d position(point.position.x, point.position.y, point.position.z);
-      ASSERT_LT((position - path(time)).norm(), kNear) << label << " at " << time;
+      ASSERT_LT((vectorOf(point.position) - path(time)).norm(), kNear) << label << " at " << time;
     }
   }
 

@@ -4,6 +4,7 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <camera_calibration_parsers/parse_yml.h>
 #include <gtest/gtest.h>
@@ -220,8 +221,7 @@ TEST(Conversions, StaticTransformsAreThePoses) {
     const geometry_msgs::TransformStamped& t = transforms[i];
     EXPECT_EQ("world", t.header.frame_id);
     EXPECT_EQ("camera_" + std::to_string(i) + "_optical_frame", t.child_frame_id);
-    const Eigen::Quaterniond q(t.transform.rotation.w, t.transform.rotation.x,
-                               t.transform.rotation.y, t.transform.rotation.z);
+    const Eigen::Quaterniond q = rotationOf(t.transform.rotation);
     const Eigen::Isometry3d& pose = rig.cameras[i].camera.world_from_camera;
     EXPECT_TRUE(q.toRotationMatrix().isApprox(pose.linear(), 1e-12));
     EXPECT_EQ(pose.translation().y(), t.transform.translation.y);

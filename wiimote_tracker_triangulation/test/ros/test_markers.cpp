@@ -88,8 +88,7 @@ TEST(Markers, ShowWhereTheCamerasLook) {
     const Marker housing = find(array, "housing", i);
     const Vector3d in_camera = camera.world_from_camera.inverse() * vectorOf(housing.pose.position);
     EXPECT_LT((in_camera - Vector3d(0.0, 0.0, -0.5 * housing.scale.z)).norm(), 1e-12);
-    const auto& q = housing.pose.orientation;
-    EXPECT_TRUE((Eigen::Quaterniond(q.w, q.x, q.y, q.z) * Vector3d::UnitZ())
+    EXPECT_TRUE((rotationOf(housing.pose.orientation) * Vector3d::UnitZ())
                     .isApprox(camera.world_from_camera.linear().col(2), 1e-12));
   }
 }

@@ -98,8 +98,8 @@ TEST_P(InBothModes, ANewRigTakesEffectWithTheNextImage) {
   }
   const TrackedPointArray& last = *studio.heard.arrays.back();
   ASSERT_EQ(1u, last.points.size());
-  const auto& p = last.points[0].position;
-  EXPECT_LT((Vector3d(p.x, p.y, p.z) - onCircle(last.header.stamp.toSec()) - shift).norm(), kNear);
+  const Vector3d found = vectorOf(last.points[0].position);
+  EXPECT_LT((found - onCircle(last.header.stamp.toSec()) - shift).norm(), kNear);
 }
 
 /// Camera 2 sees nothing. The rig names the cameras in another order from the middle on.
@@ -223,8 +223,7 @@ TEST_P(InBothModes, ZonesAreEnteredAndLeft) {
     EXPECT_EQ("led", event.label);
     EXPECT_EQ("world", event.header.frame_id);
     (event.event == ZoneEvent::ENTERED ? entered : left).push_back(event.header.stamp.toSec());
-    const Vector3d there(event.position.x, event.position.y, event.position.z);
-    EXPECT_LT((there - onCircle(event.header.stamp.toSec())).norm(), kNear);
+    EXPECT_LT((vectorOf(event.position) - onCircle(event.header.stamp.toSec())).norm(), kNear);
   }
   ASSERT_FALSE(left.empty());
   for (const double time : left)
@@ -248,8 +247,8 @@ TEST_P(InBothModes, ATriggerGetsThePointsOfItsTime) {
     EXPECT_EQ(studio.rig.id(), answer.rig_id);
     ASSERT_EQ(1u, answer.points.size());
     EXPECT_EQ("led", answer.points[0].label);
-    const auto& p = answer.points[0].position;
-    EXPECT_LT((Vector3d(p.x, p.y, p.z) - onCircle(answer.header.stamp.toSec())).norm(), kNear);
+    const Vector3d found = vectorOf(answer.points[0].position);
+    EXPECT_LT((found - onCircle(answer.header.stamp.toSec())).norm(), kNear);
   }
   trigger.stamp = ros::Time(500);
   studio.tracker.takeTrigger(trigger);

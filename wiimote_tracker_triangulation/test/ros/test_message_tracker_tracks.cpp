@@ -93,8 +93,7 @@ TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
     double longest_unseen = 0.0;
     std::size_t inside = 0;
     for (const auto& [time, point] : points) {
-      const Vector3d position(point.position.x, point.position.y, point.position.z);
-      const Vector3d error = position - paths[led](time);
+      const Vector3d error = vectorOf(point.position) - paths[led](time);
       ASSERT_LT(error.norm(), 10.0 * kNear) << names[led] << " at " << time;
       inside += isInEllipsoid(error, point.position_covariance);
       EXPECT_EQ(first.id, point.id);

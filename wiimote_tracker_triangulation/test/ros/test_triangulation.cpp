@@ -98,8 +98,8 @@ TEST(Triangulation, PublishesTheTransform) {
     return g_bench->film(kBatch, {0, 1, 2}) && buffer.canTransform("world", "led", ros::Time(0));
   }));
   const auto transform = buffer.lookupTransform("world", "led", ros::Time(0));
-  const auto& t = transform.transform.translation;
-  EXPECT_LT((Vector3d(t.x, t.y, t.z) - ledAt(transform.header.stamp.toSec())).norm(), kNear);
+  const Vector3d place = vectorOf(transform.transform.translation);
+  EXPECT_LT((place - ledAt(transform.header.stamp.toSec())).norm(), kNear);
 }
 
 /// tf2 warns about a stamp that it has had before.
@@ -384,10 +384,9 @@ void expectCorrected(const std::optional<remap::Remap>& remap, double height, bo
     ASSERT_EQ(1u, array.points.size());
     EXPECT_EQ(rig.id(), array.rig_id);
     EXPECT_EQ(remapped, array.points[0].remapped);
-    const auto& p = array.points[0].position;
     Vector3d expected = ledAt(array.header.stamp.toSec());
     expected.z() = height;
-    EXPECT_LT((Vector3d(p.x, p.y, p.z) - expected).norm(), kNear);
+    EXPECT_LT((vectorOf(array.points[0].position) - expected).norm(), kNear);
   }
 }
 

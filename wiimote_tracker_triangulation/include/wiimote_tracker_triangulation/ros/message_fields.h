@@ -8,7 +8,6 @@
 #include <Eigen/Geometry>
 
 #include <algorithm>
-#include <cstddef>
 
 namespace wiimote_tracker {
 
@@ -37,6 +36,10 @@ Eigen::Vector3d vectorOf(const Message& message) {
   return {message.x, message.y, message.z};
 }
 
+inline Eigen::Quaterniond rotationOf(const geometry_msgs::Quaternion& message) {
+  return {message.w, message.x, message.y, message.z};
+}
+
 inline void setRotation(const Eigen::Quaterniond& q, geometry_msgs::Quaternion* message) {
   message->w = q.w();
   message->x = q.x();
@@ -52,14 +55,19 @@ bool isPublished(const Message& message, bool publish_predicted) {
          (publish_predicted && message.state == Message::PREDICTED);
 }
 
-/// @param row_major of as many elements as the matrix has.
+template <int kSize>
+using RowMajor = Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor>;
+
+/// @param m square, of fixed size. @param row_major of as many elements.
 template <typename Matrix, typename Array>
 void setMatrix(const Matrix& m, Array* row_major) {
-  std::size_t i = 0;
-  for (Eigen::Index r = 0; r < m.rows(); ++r) {
-    for (Eigen::Index c = 0; c < m.cols(); ++c)
-      (*row_major)[i++] = m(r, c);
-  }
+  Eigen::Map<RowMajor<Matrix::RowsAtCompileTime>>(row_major->data()) = m;
+}
+
+/// @param row_major of kSize x kSize elements.
+template <int kSize, typename Array>
+Eigen::Matrix<double, kSize, kSize> matrixOf(const Array& row_major) {
+  return Eigen::Map<const RowMajor<kSize>>(row_major.data());
 }
 
 }  // namespace wiimote_tracker

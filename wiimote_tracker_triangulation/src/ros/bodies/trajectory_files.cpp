@@ -16,9 +16,8 @@ void TrajectoryFiles::add(const wiimote_tracker_msgs::TrackedBodyArray& bodies) 
       continue;
     measurements::TumWriter& file =
         files_.try_emplace(body.name, folder_ + "/" + body.name + ".tum").first->second;
-    const auto& q = body.pose.pose.orientation;
     file.add(static_cast<std::int64_t>(bodies.header.stamp.toNSec()),
-             vectorOf(body.pose.pose.position), Eigen::Quaterniond(q.w, q.x, q.y, q.z));
+             vectorOf(body.pose.pose.position), rotationOf(body.pose.pose.orientation));
   }
 }
 

@@ -3,7 +3,6 @@
 
 #include <xmlrpcpp/XmlRpcValue.h>
 
-#include <algorithm>
 #include <climits>
 #include <cmath>
 #include <cstddef>
@@ -54,17 +53,14 @@ class ParameterTree {
   using Value = XmlRpc::XmlRpcValue;
 
   bool find(const std::string& key, Value* found) const {
-    Value value = values_;
-    for (std::size_t begin = 0; begin <= key.size();) {
-      const std::size_t end = std::min(key.find('/', begin), key.size());
-      const std::string member = key.substr(begin, end - begin);
-      if (value.getType() != Value::TypeStruct || !value.hasMember(member))
+    *found = values_;
+    std::istringstream levels(key);
+    for (std::string level; std::getline(levels, level, '/');) {
+      if (found->getType() != Value::TypeStruct || !found->hasMember(level))
         return false;
-      const Value inner = value[member];
-      value = inner;
-      begin = end + 1;
+      const Value inner = (*found)[level];
+      *found = inner;
     }
-    *found = value;
     return true;
   }
 

@@ -19,16 +19,11 @@
 
 namespace wiimote_tracker {
 
-/// Whether roslaunch starts this process again when it ends: launch files that respawn set the
-/// environment variable WIIMOTE_TRACKER_RESPAWNS.
-inline bool isRespawned() {
-  return std::getenv("WIIMOTE_TRACKER_RESPAWNS") != nullptr;
-}
-
 /// Says why a parameter was refused. Started again, this process would refuse it again, once a
-/// second: a respawned one therefore has to stay. @returns whether it has to.
+/// second: one that roslaunch starts again, as launch files tell it by WIIMOTE_TRACKER_RESPAWNS,
+/// therefore has to stay. @returns whether it has to.
 inline bool staysRefused(const ParameterError& error) {
-  if (!isRespawned()) {
+  if (std::getenv("WIIMOTE_TRACKER_RESPAWNS") == nullptr) {
     ROS_FATAL("%s", error.what());
     return false;
   }

@@ -13,8 +13,10 @@
 #include <cstdint>
 #include <cstdlib>
 #include <exception>
+#include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -34,21 +36,30 @@ inline bool staysRefused(const ParameterError& error) {
   return true;
 }
 
+/// Where the master says that a node answers: host and port. Nothing when it knows no such node.
+inline std::optional<std::pair<std::string, std::uint32_t>> serverOf(const std::string& node) {
+  XmlRpc::XmlRpcValue request, answer, uri;
+  request[0] = ros::this_node::getName();
+  request[1] = node;
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::master::execute("lookupNode", request, answer, uri, false) ||
+      !ros::network::splitURI(uri, host, port))
+    return std::nullopt;
+  return std::make_pair(host, port);
+}
+
 /// The process of a node that runs, such as "process 4711 on lab"; empty: it does not run, or does
 /// not answer within a second. The master alone cannot tell: it remembers those that were killed.
 /// @param node its full name
 inline std::string runningProcess(const std::string& node) {
   using XmlRpc::XmlRpcDispatch;
   using XmlRpc::XmlRpcValue;
-  XmlRpcValue request, answer, uri;
-  request[0] = request[1] = node;  // who asks, and for whom
-  std::string host;
-  std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", request, answer, uri, false) ||
-      !ros::network::splitURI(uri, host, port))
+  const auto server = serverOf(node);
+  if (!server)
     return "";
-  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
-  XmlRpcValue caller;
+  XmlRpc::XmlRpcClient client(server->first.c_str(), static_cast<int>(server->second), "/");
+  XmlRpcValue caller, answer;
   caller[0] = node;
   if (!client.executeNonBlock("getPid", caller))
     return "";
@@ -59,7 +70,7 @@ inline std::string runningProcess(const std::string& node) {
   if (!client.executeCheckDone(answer) || answer.getType() != XmlRpcValue::TypeArray ||
       answer.size() != 3 || answer[2].getType() != XmlRpcValue::TypeInt)
     return "";
-  return "process " + std::to_string(static_cast<int>(answer[2])) + " on " + host;
+  return "process " + std::to_string(static_cast<int>(answer[2])) + " on " + server->first;
 }
 
 /// Handles callbacks until the node ends, as ros::spin() does, but logs what they throw. Ours catch

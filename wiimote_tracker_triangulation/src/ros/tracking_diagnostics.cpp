@@ -1,9 +1,7 @@
 #include "tracking_diagnostics.h"
 
-#include <ros/master.h>
-#include <ros/network.h>
+#include <wiimote_tracker_msgs/run_node.h>
 #include <wiimote_tracker_msgs/text.h>
-#include <xmlrpcpp/XmlRpcValue.h>
 
 #include <algorithm>
 #include <cmath>
@@ -13,18 +11,6 @@ namespace {
 
 using diagnostic_msgs::DiagnosticStatus;
 using tracking::TrackState;
-
-/// Name of the computer that a node runs on; empty when the master does not know.
-std::string hostOf(const std::string& node) {
-  XmlRpc::XmlRpcValue arguments, result, uri;
-  arguments[0] = ros::this_node::getName();
-  arguments[1] = node;
-  if (!ros::master::execute("lookupNode", arguments, result, uri, false))
-    return "";
-  std::string host;
-  std::uint32_t port = 0;
-  return ros::network::splitURI(uri, host, port) ? host : "";
-}
 
 std::string doubtfulLabels(const LedLabels& labels) {
   std::string names;
@@ -147,9 +133,9 @@ std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
   const auto ahead = reported_clocks_.ahead(camera);
   if (!ahead)
     return "";
-  const std::string host = hostOf(nodes_[camera]);
+  const auto server = serverOf(nodes_[camera]);
   return format("the clock %sof the driver of %s (%s) is %.3f s %s: run chrony on all computers",
-                host.empty() ? "" : ("of " + host + " ").c_str(), cameras_[camera].c_str(),
+                server ? ("of " + server->first + " ").c_str() : "", cameras_[camera].c_str(),
                 nodes_[camera].c_str(), std::abs(*ahead),
                 *ahead > 0.0 ? "ahead" : "behind, or its network is slow");
 }

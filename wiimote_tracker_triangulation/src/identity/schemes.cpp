@@ -3,6 +3,7 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
+#include <bitset>
 #include <cstdint>
 
 namespace wiimote_tracker::identity {
@@ -34,18 +35,15 @@ Bits rotated(Bits word, std::size_t length) {
   return (word >> 1) | ((word & 1u) << (length - 1));
 }
 
-int ones(Bits word) {
-  int count = 0;
-  for (; word; word &= word - 1)
-    ++count;
-  return count;
+std::size_t ones(Bits word) {
+  return std::bitset<kLongestWord>(word).count();
 }
 
 std::size_t distanceOf(Bits one, Bits other, std::size_t length) {
-  int least = static_cast<int>(length);
+  std::size_t least = length;
   for (std::size_t i = 0; i < length; ++i, other = rotated(other, length))
     least = std::min(least, ones(one ^ other));
-  return static_cast<std::size_t>(least);
+  return least;
 }
 
 /// Picks one representative of the rotations of a word.
@@ -94,10 +92,7 @@ std::vector<Bits> takeInTurn(const std::vector<Bits>& candidates,
 }
 
 std::string text(Bits word, std::size_t length) {
-  std::string chips;
-  for (std::size_t i = length; i-- > 0;)
-    chips += (word >> i) & 1u ? '1' : '0';
-  return chips;
+  return std::bitset<kLongestWord>(word).to_string().substr(kLongestWord - length);
 }
 
 }  // namespace
@@ -154,15 +149,13 @@ std::vector<std::string> chooseWords(std::size_t count, const WordRules& rules) 
 }
 
 std::vector<std::string> chooseWords(std::size_t count) {
-  WordRules rules;
-  rules.longest_dark = 1;
-  rules.longest_word = 8;
-  std::vector<std::string> words = chooseWords(count, rules);
-  if (words.empty()) {
-    rules.longest_dark = 2;
-    rules.longest_word = kLongestWord;
-    words = chooseWords(count, rules);
-  }
+  WordRules single_dark;
+  single_dark.longest_word = 8;
+  WordRules two_dark;
+  two_dark.longest_dark = 2;
+  std::vector<std::string> words = chooseWords(count, single_dark);
+  if (words.empty())
+    words = chooseWords(count, two_dark);
   if (words.empty())
     throw Error("no words were found for " + std::to_string(count) +
                 " LEDs; ask for at least 1 and at most a few hundred");

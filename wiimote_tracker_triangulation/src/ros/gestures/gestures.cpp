@@ -31,8 +31,10 @@ constexpr std::size_t kMostHands = 64;
 
 }  // namespace
 
-Gestures::Hand::Hand(const GestureParameters& parameters, const ButtonTimes& button)
-    : segmenter(parameters.segmenter), spotter(parameters.spotter) {
+Gestures::Hand::Hand(std::uint32_t led,
+                     const GestureParameters& parameters,
+                     const ButtonTimes& button)
+    : id(led), segmenter(parameters.segmenter), spotter(parameters.spotter) {
   if (button.pressed)
     segmenter.button(*button.pressed, true);
   if (button.released)
@@ -89,21 +91,20 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) 
     onPoint(point, time);
 
   // Remove LEDs that are gone.
-  for (auto hand = hands_.begin(); hand != hands_.end();) {
-    if (const auto spotted = hand->second.spotter.advance(time))
-      publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand->first,
-              hand->second.label);
-    const auto path = hand->second.segmenter.advance(time);
+  for (auto place = hands_.begin(); place != hands_.end();) {
+    Hand& hand = place->second;
+    if (const auto spotted = hand.spotter.advance(time))
+      publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand);
+    const auto path = hand.segmenter.advance(time);
     if (path && (!parameters_.continuous || wanted_))
-      onGesture(*path, hand->first, hand->second.label);
-    const bool gone =
-        std::none_of(message.points.begin(), message.points.end(), [&](const TrackedPoint& p) {
-          return p.id == hand->first && p.state != TrackedPoint::LOST;
-        });
+      onGesture(*path, hand);
+    const bool gone = std::none_of(
+        message.points.begin(), message.points.end(),
+        [&](const TrackedPoint& p) { return p.id == hand.id && p.state != TrackedPoint::LOST; });
     // The segmenter needs some time to end a gesture.
-    hand = gone && time > hand->second.last_seen + 2.0 * parameters_.segmenter.dark_time
-               ? hands_.erase(hand)
-               : std::next(hand);
+    place = gone && time > hand.last_seen + 2.0 * parameters_.segmenter.dark_time
+                ? hands_.erase(place)
+                : std::next(place);
   }
 }
 
@@ -125,18 +126,18 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
     return;
   if (hands_.size() >= kMostHands && hands_.count(point.id) == 0)
     return;
-  Hand& hand = hands_.try_emplace(point.id, parameters_, button_).first->second;
+  Hand& hand = hands_.try_emplace(point.id, point.id, parameters_, button_).first->second;
   hand.label = point.label;
   hand.last_seen = time;
   const gesture::PathPoint here{time, vectorOf(point.position)};
   // An example needs a start and an end.
   if (parameters_.continuous && !wanted_) {
     if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))
-      publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, point.id, point.label);
+      publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand);
   }
   const auto path = hand.segmenter.add(here, point.last_observed.toSec());
   if (path && (!parameters_.continuous || wanted_))
-    onGesture(*path, point.id, point.label);
+    onGesture(*path, hand);
 }
 
 void Gestures::onJoy(const sensor_msgs::Joy& message) {
@@ -158,22 +159,22 @@ void Gestures::onJoy(const sensor_msgs::Joy& message) {
     button_.released = time;
   for (auto& [id, hand] : hands_) {
     if (const auto path = hand.segmenter.button(time, pressed))
-      onGesture(*path, id, hand.label);
+      onGesture(*path, hand);
   }
 }
 
-void Gestures::onGesture(const gesture::Path& path, std::uint32_t id, const std::string& label) {
+void Gestures::onGesture(const gesture::Path& path, const Hand& hand) {
   if (wanted_) {
-    keepExample(path, id, label);
+    keepExample(path, hand);
     return;
   }
   const auto recognition = recognizer_.recognize(path, zoneOf(path));
   if (recognition)
     publish(recognition->accepted() ? GestureEvent::RECOGNISED : GestureEvent::REJECTED,
-            *recognition, path, id, label);
+            *recognition, path, hand);
 }
 
-void Gestures::keepExample(const gesture::Path& path, std::uint32_t id, const std::string& label) {
+void Gestures::keepExample(const gesture::Path& path, const Hand& hand) {
   gesture::Recognizer with_it = recognizer_;
   gesture::Example example = *wanted_;
   example.path = path;
@@ -190,14 +191,13 @@ void Gestures::keepExample(const gesture::Path& path, std::uint32_t id, const st
   recognizer_ = with_it;
   wanted_.reset();
   ROS_INFO("An example of '%s' is kept in %s.", example.gesture.c_str(), parameters_.file.c_str());
-  publish(GestureEvent::RECORDED, {example.gesture, 1.0, "", 0.0}, path, id, label);
+  publish(GestureEvent::RECORDED, {example.gesture, 1.0, "", 0.0}, path, hand);
 }
 
 void Gestures::publish(std::uint8_t event,
                        const gesture::Recognition& recognition,
                        const gesture::Path& path,
-                       std::uint32_t id,
-                       const std::string& label) {
+                       const Hand& hand) {
   GestureEvent message;
   message.header.stamp.fromSec(path.back().time);
   message.header.frame_id = world_frame_;
@@ -206,8 +206,8 @@ void Gestures::publish(std::uint8_t event,
   message.score = static_cast<float>(recognition.score);
   message.runner_up = recognition.runner_up;
   message.runner_up_score = static_cast<float>(recognition.runner_up_score);
-  message.id = id;
-  message.label = label;
+  message.id = hand.id;
+  message.label = hand.label;
   message.zone = zoneOf(path);
   message.begin.fromSec(path.front().time);
   message.end.fromSec(path.back().time);
@@ -219,7 +219,7 @@ void Gestures::publish(std::uint8_t event,
   events_publisher_.publish(message);
   if (markers_publisher_.getNumSubscribers() > 0) {
     static const char* const kWords[] = {"", " (rejected)", " (recorded)"};
-    draw(recognition.gesture + kWords[event], path, id);
+    draw(recognition.gesture + kWords[event], path, hand.id);
   }
 }
 

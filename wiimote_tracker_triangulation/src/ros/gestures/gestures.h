@@ -38,7 +38,8 @@ class Gestures {
 
   /// One LED that may draw.
   struct Hand {
-    Hand(const GestureParameters& parameters, const ButtonTimes& button);
+    Hand(std::uint32_t led, const GestureParameters& parameters, const ButtonTimes& button);
+    std::uint32_t id;
     std::string label;
     double last_seen = 0.0;  // [s]
     gesture::Segmenter segmenter;
@@ -50,13 +51,12 @@ class Gestures {
   bool isStray(double time);
   void onPoint(const wiimote_tracker_msgs::TrackedPoint& point, double time);
   void onJoy(const sensor_msgs::Joy& message);
-  void onGesture(const gesture::Path& path, std::uint32_t id, const std::string& label);
-  void keepExample(const gesture::Path& path, std::uint32_t id, const std::string& label);
+  void onGesture(const gesture::Path& path, const Hand& hand);
+  void keepExample(const gesture::Path& path, const Hand& hand);
   void publish(std::uint8_t event,
                const gesture::Recognition& recognition,
                const gesture::Path& path,
-               std::uint32_t id,
-               const std::string& label);
+               const Hand& hand);
   void draw(const std::string& text, const gesture::Path& path, std::uint32_t id);
 
   bool record(wiimote_tracker_msgs::RecordGesture::Request& request,

@@ -3,6 +3,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_STUDIO_H
 
 #include "geometry/random_rigs.h"
+#include "ros/blob_image.h"
 #include "ros/message_tracker.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
@@ -12,7 +13,6 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,7 +29,6 @@ using wiimote_tracker_msgs::TrackedPointArrayConstPtr;
 using wiimote_tracker_msgs::ZoneEvent;
 
 constexpr double kPeriod = 0.01;
-constexpr double kDelay = 0.002;  // from exposure to arrival [s]
 
 // Bound on errors with exact pixels, which come from interpolation or the motion model on a circle
 // of 0.5 m at 0.5 m/s [m].
@@ -85,27 +84,13 @@ class Studio {
   }
 
   IrBlobArray image(std::size_t camera, double time, const Paths& leds) const {
-    const geometry::Camera& c = rig.cameras[camera].camera;
-    IrBlobArray image;
-    image.header.stamp.fromSec(time);
-    image.camera = c.name;
-    image.identity = c.identity;
-    image.arrival.fromSec(time + kDelay);
-    image.stamp_stddev = 1e-6;
-    image.width = static_cast<std::uint32_t>(c.intrinsics.width);
-    image.height = static_cast<std::uint32_t>(c.intrinsics.height);
-    image.max_blobs = 4;
+    std::vector<Vector3d> lit;
     for (std::size_t i = 0; i < leds.size(); ++i) {
-      if (is_dark && is_dark(i, time))
-        continue;
-      if (const auto pixel = c.project(leds[i](time))) {
-        wiimote_tracker_msgs::IrBlob blob;
-        blob.x = pixel->x();
-        blob.y = pixel->y();
-        blob.size = std::numeric_limits<float>::quiet_NaN();
-        image.blobs.push_back(blob);
-      }
+      if (!is_dark || !is_dark(i, time))
+        lit.push_back(leds[i](time));
     }
+    IrBlobArray image = blobImage(rig.cameras[camera].camera, time, lit);
+    image.stamp_stddev = 1e-6;
     return image;
   }
 

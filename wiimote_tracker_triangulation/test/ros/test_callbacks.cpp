@@ -1,6 +1,7 @@
 // Image callbacks: in order and bounded; neither an exception in one nor the end of a tracker stops
 // the process.
 #include "geometry/random_rigs.h"
+#include "ros/blob_image.h"
 #include "ros/callbacks.h"
 #include "ros/triangulation.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
@@ -101,24 +102,13 @@ TEST_F(Callbacks, GoOnAfterAnException) {
 /// An image of LEDs that move, whose tracks come and go.
 IrBlobArray image(const geometry::Camera& camera, std::uint64_t frame) {
   const double time = 1000.0 + 0.01 * static_cast<double>(frame);
-  IrBlobArray image;
-  image.header.stamp.fromSec(time);
-  image.arrival.fromSec(time + 0.002);
-  image.camera = camera.name;
-  image.identity = camera.identity;
-  image.frame = frame;
-  image.width = static_cast<std::uint32_t>(camera.intrinsics.width);
-  image.height = static_cast<std::uint32_t>(camera.intrinsics.height);
-  image.max_blobs = 4;
-  for (const double height : {0.1, 0.5}) {
-    const Eigen::Vector3d led(0.3 * std::cos(time), 0.3 * std::sin(time), height);
-    const auto pixel = camera.project(led);
-    if (!pixel || frame % 400 > 200)
-      continue;
-    image.blobs.emplace_back();
-    image.blobs.back().x = pixel->x();
-    image.blobs.back().y = pixel->y();
+  std::vector<Eigen::Vector3d> leds;
+  if (frame % 400 <= 200) {
+    for (const double height : {0.1, 0.5})
+      leds.emplace_back(0.3 * std::cos(time), 0.3 * std::sin(time), height);
   }
+  IrBlobArray image = blobImage(camera, time, leds);
+  image.frame = frame;
   return image;
 }
 

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_TRIANGULATION_BENCH_H
 
 #include "geometry/random_rigs.h"
+#include "ros/blob_image.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
@@ -13,7 +14,6 @@
 #include <std_msgs/Header.h>
 #include <tf2_msgs/TFMessage.h>
 #include <visualization_msgs/MarkerArray.h>
-#include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/ZoneEvent.h>
 
@@ -107,25 +107,12 @@ class Bench {
   }
 
   wiimote_tracker_msgs::IrBlobArray image(std::size_t camera, double time) const {
-    const geometry::Camera& c = rig_.cameras[camera].camera;
-    wiimote_tracker_msgs::IrBlobArray blobs;
-    blobs.header.stamp.fromSec(time);
-    blobs.header.frame_id = opticalFrame(c.name);
-    blobs.camera = c.name;
-    blobs.identity = c.identity;
-    blobs.arrival.fromSec(time + 0.002 + (camera == 1 ? arrival_error_ : 0.0));
-    blobs.width = static_cast<std::uint32_t>(c.intrinsics.width);
-    blobs.height = static_cast<std::uint32_t>(c.intrinsics.height);
-    blobs.max_blobs = 4;
-    for (const auto& led : leds_) {
-      if (const auto pixel = c.project(led(time))) {
-        wiimote_tracker_msgs::IrBlob blob;
-        blob.x = pixel->x();
-        blob.y = pixel->y();
-        blobs.blobs.push_back(blob);
-      }
-    }
-    return blobs;
+    std::vector<Eigen::Vector3d> places;
+    for (const auto& led : leds_)
+      places.push_back(led(time));
+    wiimote_tracker_msgs::IrBlobArray image = blobImage(rig_.cameras[camera].camera, time, places);
+    image.arrival.fromSec(time + kDelay + (camera == 1 ? arrival_error_ : 0.0));
+    return image;
   }
 
   /// Publishes images of these cameras for a while in batches, and waits for the output of each.

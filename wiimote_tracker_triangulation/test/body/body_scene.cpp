@@ -134,11 +134,16 @@ FollowedBody::FollowedBody(const geometry::Rig& rig,
       scene_(rig, pathsOf(body, motion), options, seed),
       tracker_(rig, {body}, BodyTrackerOptions()) {}
 
+std::vector<Eigen::Vector2d> pixelsOf(const tracking::test::SceneImage& image) {
+  std::vector<Eigen::Vector2d> pixels;
+  for (const tracking::Spot& spot : image.image.spots)
+    pixels.push_back(spot.pixel);
+  return pixels;
+}
+
 void FollowedBody::show() {
   image_ = &scene_.next();
-  pixels_.clear();
-  for (const tracking::Spot& spot : image_->image.spots)
-    pixels_.push_back(spot.pixel);
+  pixels_ = pixelsOf(*image_);
 }
 
 void FollowedBody::track() {

@@ -41,6 +41,9 @@ Eigen::Isometry3d tumbling(double time);
 /// Of a body's LEDs.
 std::vector<tracking::test::Path> pathsOf(const Constellation& body, const Motion& motion);
 
+/// Of an image's spots [px].
+std::vector<Eigen::Vector2d> pixelsOf(const tracking::test::SceneImage& image);
+
 /// Small rotation from one orientation to another, about the world's axes [rad].
 Eigen::Vector3d rotationError(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
 

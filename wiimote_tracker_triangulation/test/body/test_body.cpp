@@ -20,6 +20,7 @@ using test::FollowedBody;
 using test::fourLeds;
 using test::handheld;
 using test::pathsOf;
+using test::pixelsOf;
 using test::randomPose;
 using test::rotationError;
 using test::tumbling;
@@ -43,6 +44,12 @@ BodyScore score(FollowedBody* follow, double seconds) {
   return score;
 }
 
+void record(const BodyScore& score) {
+  testing::Test::RecordProperty("position_ratio", std::to_string(score.positionRatio()));
+  testing::Test::RecordProperty("rotation_ratio", std::to_string(score.rotationRatio()));
+  testing::Test::RecordProperty("nees", std::to_string(score.nees()));
+}
+
 TEST(BodyTracker, FollowsAHandWithinTheBoundOfASingleView) {
   FollowedBody follow(paperRig(), fourLeds(), handheld, halfAPixel(), 21);
   const BodyScore result = score(&follow, 8.0);
@@ -52,9 +59,7 @@ TEST(BodyTracker, FollowsAHandWithinTheBoundOfASingleView) {
   EXPECT_LT(result.rotationRatio(), 1.1);
   EXPECT_GT(result.nees(), 0.3);
   EXPECT_LT(result.nees(), 1.5);
-  RecordProperty("position_ratio", std::to_string(result.positionRatio()));
-  RecordProperty("rotation_ratio", std::to_string(result.rotationRatio()));
-  RecordProperty("nees", std::to_string(result.nees()));
+  record(result);
 }
 
 TEST(BodyTracker, FollowsOneTurnPerSecond) {
@@ -64,9 +69,7 @@ TEST(BodyTracker, FollowsOneTurnPerSecond) {
   EXPECT_LT(result.wrong(), 0.001);
   EXPECT_LT(result.positionRatio(), 1.1);
   EXPECT_LT(result.rotationRatio(), 1.1);
-  RecordProperty("position_ratio", std::to_string(result.positionRatio()));
-  RecordProperty("rotation_ratio", std::to_string(result.rotationRatio()));
-  RecordProperty("nees", std::to_string(result.nees()));
+  record(result);
 }
 
 TEST(BodyTracker, IsNotLostWhenItIsShaken) {
@@ -83,9 +86,7 @@ TEST(BodyTracker, IsNotLostWhenItIsShaken) {
   EXPECT_EQ(result.known(), 1.0);
   EXPECT_EQ(result.wrong(), 0.0);
   EXPECT_LT(result.nees(), 3.0);
-  RecordProperty("position_ratio", std::to_string(result.positionRatio()));
-  RecordProperty("rotation_ratio", std::to_string(result.rotationRatio()));
-  RecordProperty("nees", std::to_string(result.nees()));
+  record(result);
 }
 
 TEST(BodyTracker, MergedSpotsDoNotBiasThePose) {
@@ -99,9 +100,7 @@ TEST(BodyTracker, MergedSpotsDoNotBiasThePose) {
   EXPECT_LT(result.positionRatio(), 1.3);
   EXPECT_LT(result.rotationRatio(), 1.3);
   EXPECT_LT(result.nees(), 1.5);
-  RecordProperty("position_ratio", std::to_string(result.positionRatio()));
-  RecordProperty("rotation_ratio", std::to_string(result.rotationRatio()));
-  RecordProperty("nees", std::to_string(result.nees()));
+  record(result);
 }
 
 TEST(BodyTracker, OneLedOfFourMayBeHidden) {
@@ -176,10 +175,7 @@ TEST(BodyTracker, TwoBodiesAndAFreeLed) {
   int good = 0;
   while (tracker.time() < 1006.0 || std::isinf(tracker.time())) {
     const tracking::test::SceneImage& image = scene.next();
-    std::vector<Eigen::Vector2d> pixels;
-    for (const tracking::Spot& spot : image.image.spots)
-      pixels.push_back(spot.pixel);
-    tracker.add(image.camera, image.image.stamp, pixels);
+    tracker.add(image.camera, image.image.stamp, pixelsOf(image));
     if (tracker.time() < 1001.0 || !tracker.bodies()[0] || !tracker.bodies()[1])
       continue;
     ++known;
@@ -205,9 +201,7 @@ TEST(BodyTracker, TheOrderOfArrivalDoesNotMatter) {
   std::vector<Image> images;
   for (int i = 0; i < 800; ++i) {
     const tracking::test::SceneImage& image = scene.next();
-    images.push_back({image.camera, image.image.stamp, {}});
-    for (const tracking::Spot& spot : image.image.spots)
-      images.back().pixels.push_back(spot.pixel);
+    images.push_back({image.camera, image.image.stamp, pixelsOf(image)});
   }
   BodyTracker as_arrived(paperRig(), {fourLeds()}, BodyTrackerOptions());
   for (const Image& image : images)
@@ -239,8 +233,7 @@ TEST(BodyTracker, TwoImagesOfOneTimeMayComeInEitherOrder) {
     for (int i = 0; i < 4; ++i) {
       const tracking::test::SceneImage& image = scene.next();
       time = image.image.stamp;
-      for (const tracking::Spot& spot : image.image.spots)
-        pixels[image.camera].push_back(spot.pixel);
+      pixels[image.camera] = pixelsOf(image);
     }
     for (std::size_t i = 0; i < 4; ++i) {
       forth.add(i, time, pixels[i]);
@@ -362,13 +355,10 @@ TEST(BodyTracker, DoesNotAllocateOnceWarm) {
   options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 2.0) > 1.2; };
   tracking::test::Scene scene(paperRig(), pathsOf(fourLeds(), handheld), options, 44);
   BodyTracker tracker(paperRig(), {fourLeds()}, BodyTrackerOptions());
-  std::vector<Eigen::Vector2d> pixels;
   int allocations = 0;
   for (int i = 0; i < 4 * 100 * 8; ++i) {
     const tracking::test::SceneImage& image = scene.next();
-    pixels.clear();
-    for (const tracking::Spot& spot : image.image.spots)
-      pixels.push_back(spot.pixel);
+    const std::vector<Eigen::Vector2d> pixels = pixelsOf(image);
     const int before = g_allocations;
     tracker.add(image.camera, image.image.stamp, pixels);
     // Finding it again after a loss may allocate.

@@ -96,12 +96,9 @@ class Carried {
 
   void step() {
     const tracking::test::SceneImage& image = scene_.next();
-    pixels_.clear();
-    for (const tracking::Spot& spot : image.image.spots)
-      pixels_.push_back(spot.pixel);
     while (imu_.time() + delay_ < image.image.arrival && imu_.time() < end_)
       tracker_.addInertial(0, imu_.next());
-    tracker_.add(image.camera, image.image.stamp, pixels_);
+    tracker_.add(image.camera, image.image.stamp, test::pixelsOf(image));
   }
 
   void catchUp() { delay_ = 0.0; }  ///< From the next image on no sample is late.
@@ -126,7 +123,6 @@ class Carried {
   BodyTracker tracker_;
   Imu imu_;
   double delay_, end_;
-  std::vector<Eigen::Vector2d> pixels_;
 };
 
 /// Errors at the ends of the times hidden, and while in view.

@@ -96,10 +96,7 @@ TEST(CalibrationCovariance, MakesTheTrackedPoseConsistent) {
     BodyTracker tracker(rig, {fourLeds()}, BodyTrackerOptions());
     for (int i = 0; i < 160; ++i) {
       const tracking::test::SceneImage& image = scene.next();
-      std::vector<Eigen::Vector2d> pixels;
-      for (const tracking::Spot& spot : image.image.spots)
-        pixels.push_back(spot.pixel);
-      tracker.add(image.camera, image.image.stamp, pixels);
+      tracker.add(image.camera, image.image.stamp, test::pixelsOf(image));
     }
     ASSERT_TRUE(tracker.bodies()[0]) << draw;
     const PoseCovariance covariance = tracker.bodies()[0]->covariance.topLeftCorner<6, 6>();

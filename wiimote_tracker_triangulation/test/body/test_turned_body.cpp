@@ -53,13 +53,9 @@ TEST(TurnedBody, IsFoundAgain) {
     });
     tracking::test::Scene scene(tracking::test::paperRig(), paths, options, seed);
     BodyTracker tracker(tracking::test::paperRig(), {test::fourLeds()}, BodyTrackerOptions());
-    std::vector<Eigen::Vector2d> pixels;
     while (!(tracker.time() > kBegin + 0.5)) {
       const tracking::test::SceneImage& image = scene.next();
-      pixels.clear();
-      for (const tracking::Spot& spot : image.image.spots)
-        pixels.push_back(spot.pixel);
-      tracker.add(image.camera, image.image.stamp, pixels);
+      tracker.add(image.camera, image.image.stamp, test::pixelsOf(image));
       if (tracker.time() < kBegin || !tracker.bodies()[0])
         continue;
       ++images;

@@ -21,9 +21,24 @@ using visualization_msgs::Marker;
 using visualization_msgs::MarkerArray;
 using wiimote_tracker_msgs::TrackedPoint;
 
-MarkerArray draw(MarkerBuilder* builder, const CorrectedSnapshot& corrected, const Rig& rig) {
-  return builder->build(messageOf(corrected, rig), corrected.snapshot.views);
-}
+/// Three cameras, of which two see an LED.
+class Markers : public testing::Test {
+ protected:
+  Markers() { use({}); }
+
+  void use(const MarkerOptions& options) {
+    builder_ = MarkerBuilder(options);
+    builder_.setRig(rig_);
+  }
+
+  MarkerArray draw(const CorrectedSnapshot& corrected) {
+    return builder_.build(messageOf(corrected, rig_), corrected.snapshot.views);
+  }
+
+  Rig rig_ = threeCameras();
+  CorrectedSnapshot seen_ = someSnapshot(rig_);
+  MarkerBuilder builder_{MarkerOptions()};
+};
 
 const Marker& find(const MarkerArray& array, const std::string& ns, int id) {
   for (const Marker& marker : array.markers) {
@@ -39,11 +54,8 @@ std::size_t numberOfRays(const MarkerArray& array, int action = Marker::ADD) {
       [&](const Marker& marker) { return marker.ns == "ray" && marker.action == action; }));
 }
 
-TEST(Markers, HaveUniqueNamesAndTheWorldFrame) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
+TEST_F(Markers, HaveUniqueNamesAndTheWorldFrame) {
+  const MarkerArray array = draw(seen_);
   ASSERT_FALSE(array.markers.empty());
   EXPECT_EQ(Marker::DELETEALL, array.markers[0].action) << "a new rig clears the old one";
   std::set<std::pair<std::string, int>> names;
@@ -58,19 +70,17 @@ TEST(Markers, HaveUniqueNamesAndTheWorldFrame) {
       EXPECT_GT(std::min({marker.scale.x, marker.scale.y, marker.scale.z}), 0.0);
     }
   }
-  const MarkerArray next = draw(&builder, someSnapshot(rig, 100.1), rig);
+  const MarkerArray next = draw(someSnapshot(rig_, 100.1));
   EXPECT_NE(Marker::DELETEALL, next.markers[0].action);
 }
 
-TEST(Markers, ShowWhereTheCamerasLook) {
-  const Rig rig = threeCameras();
+TEST_F(Markers, ShowWhereTheCamerasLook) {
   MarkerOptions options;
   options.image_plane_distance = 0.7;
-  MarkerBuilder builder(options);
-  builder.setRig(rig);
-  const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
+  use(options);
+  const MarkerArray array = draw(seen_);
   for (int i = 0; i < 3; ++i) {
-    const geometry::Camera& camera = rig.cameras[i].camera;
+    const geometry::Camera& camera = rig_.cameras[i].camera;
     const Marker plane = find(array, "image_plane", i);
     EXPECT_EQ(6u, plane.points.size());
     for (const auto& p : plane.points) {
@@ -93,17 +103,14 @@ TEST(Markers, ShowWhereTheCamerasLook) {
   }
 }
 
-TEST(Markers, RaysGoFromTheCameraThroughItsBlobToThePoint) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
+TEST_F(Markers, RaysGoFromTheCameraThroughItsBlobToThePoint) {
+  const MarkerArray array = draw(seen_);
   for (int i = 0; i < 2; ++i) {
     const Marker ray = find(array, "ray", i);
     ASSERT_EQ(2u, ray.points.size());
     const Vector3d from = vectorOf(ray.points[0]);
     const Vector3d to = vectorOf(ray.points[1]);
-    EXPECT_LT((from - rig.cameras[i].camera.center()).norm(), 1e-12);
+    EXPECT_LT((from - rig_.cameras[i].camera.center()).norm(), 1e-12);
     EXPECT_LT((to - kLed).norm(), 1e-9);
     const Vector3d blob = vectorOf(find(array, "blob", i).points.at(0));
     EXPECT_LT((blob - from).cross(to - from).norm(), 1e-9);
@@ -113,16 +120,12 @@ TEST(Markers, RaysGoFromTheCameraThroughItsBlobToThePoint) {
   EXPECT_LT((vectorOf(find(array, "point", 0).pose.position) - kLed).norm(), 1e-12);
 }
 
-TEST(Markers, RaysArePalerAndThinnerTheLessIsKnownOfTheirLed) {
-  const Rig rig = threeCameras();
-  CorrectedSnapshot corrected = someSnapshot(rig);
+TEST_F(Markers, RaysArePalerAndThinnerTheLessIsKnownOfTheirLed) {
   std::vector<Marker> rays;
   for (const double stddev : {0.001, 0.004, 0.02, 0.1, std::nan("")}) {
-    corrected.snapshot.leds[0].position_covariance =
+    seen_.snapshot.leds[0].position_covariance =
         stddev * stddev / 3.0 * Eigen::Matrix3d::Identity();
-    MarkerBuilder builder({});
-    builder.setRig(rig);
-    rays.push_back(find(draw(&builder, corrected, rig), "ray", 0));
+    rays.push_back(find(draw(seen_), "ray", 0));
   }
   for (const std::size_t same : {0, 3}) {
     EXPECT_EQ(rays[same].color.a, rays[same + 1].color.a);
@@ -134,18 +137,13 @@ TEST(Markers, RaysArePalerAndThinnerTheLessIsKnownOfTheirLed) {
   }
 }
 
-TEST(Markers, EllipsoidHolds95Percent) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  const CorrectedSnapshot corrected = someSnapshot(rig);
-  const Marker ellipsoid = find(draw(&builder, corrected, rig), "covariance", 0);
-  const Eigen::Quaterniond q(ellipsoid.pose.orientation.w, ellipsoid.pose.orientation.x,
-                             ellipsoid.pose.orientation.y, ellipsoid.pose.orientation.z);
+TEST_F(Markers, EllipsoidHolds95Percent) {
+  const Marker ellipsoid = find(draw(seen_), "covariance", 0);
+  const Eigen::Quaterniond q = rotationOf(ellipsoid.pose.orientation);
   EXPECT_NEAR(1.0, q.norm(), 1e-12);
   // Draw errors with that covariance; count how many fall into the drawn body.
   geometry::test::Random random(72);
-  const Eigen::Matrix3d L = corrected.snapshot.leds[0].position_covariance.llt().matrixL();
+  const Eigen::Matrix3d L = seen_.snapshot.leds[0].position_covariance.llt().matrixL();
   constexpr int kDraws = 100000;
   int inside = 0;
   for (int i = 0; i < kDraws; ++i) {
@@ -158,22 +156,20 @@ TEST(Markers, EllipsoidHolds95Percent) {
   EXPECT_NEAR(0.95, static_cast<double>(inside) / kDraws, 0.003);
 }
 
-TEST(Markers, ALostPointIsRemovedAndItsTrailFadesWithinHalfASecond) {
-  const Rig rig = threeCameras();
+TEST_F(Markers, ALostPointIsRemovedAndItsTrailFadesWithinHalfASecond) {
   MarkerOptions options;
   options.trail_duration = 1.0;
-  MarkerBuilder builder(options);
-  builder.setRig(rig);
+  use(options);
   MarkerArray array;
   for (int i = 0; i < 40; ++i)
-    array = draw(&builder, someSnapshot(rig, 100.0 + 0.05 * i), rig);
+    array = draw(someSnapshot(rig_, 100.0 + 0.05 * i));
   const Marker trail = find(array, "trail", 0);
   EXPECT_NEAR(21.0, static_cast<double>(trail.points.size()), 1.0);
-  CorrectedSnapshot lost = someSnapshot(rig, 102.0);
+  CorrectedSnapshot lost = someSnapshot(rig_, 102.0);
   lost.snapshot.leds[0].state = TrackState::kLost;
   for (tracking::CameraView& view : lost.snapshot.views)
     view.spots.clear();
-  array = draw(&builder, lost, rig);
+  array = draw(lost);
   for (const std::string ns : {"point", "covariance", "height", "shadow", "label"})
     EXPECT_EQ(Marker::DELETE, find(array, ns, 0).action) << ns;
   EXPECT_EQ(2u, numberOfRays(array, Marker::DELETE));
@@ -181,21 +177,17 @@ TEST(Markers, ALostPointIsRemovedAndItsTrailFadesWithinHalfASecond) {
   EXPECT_EQ(Marker::ADD, find(array, "trail", 0).action);
   lost.snapshot.leds.clear();
   lost.snapshot.time = 102.2;
-  EXPECT_LT(find(draw(&builder, lost, rig), "trail", 0).color.a, 0.6f * trail.color.a);
+  EXPECT_LT(find(draw(lost), "trail", 0).color.a, 0.6f * trail.color.a);
   lost.snapshot.time = 102.45;
-  array = draw(&builder, lost, rig);
+  array = draw(lost);
   EXPECT_EQ(Marker::DELETE, find(array, "trail", 0).action);
 }
 
-TEST(Markers, EveryLedIsDrawnWithItsName) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  CorrectedSnapshot corrected = someSnapshot(rig);
-  corrected.snapshot.leds.push_back(someLed(3, 100.0, {1.0, 0.0, 0.5}));
-  corrected.snapshot.leds[1].state = TrackState::kPredicted;
-  corrected.remapped.push_back(false);
-  MarkerArray array = draw(&builder, corrected, rig);
+TEST_F(Markers, EveryLedIsDrawnWithItsName) {
+  seen_.snapshot.leds.push_back(someLed(3, 100.0, {1.0, 0.0, 0.5}));
+  seen_.snapshot.leds[1].state = TrackState::kPredicted;
+  seen_.remapped.push_back(false);
+  MarkerArray array = draw(seen_);
   EXPECT_EQ("led", find(array, "label", 0).text);
   EXPECT_EQ("led_3", find(array, "label", 3).text);
   EXPECT_EQ(1.0, find(array, "point", 3).pose.position.x);
@@ -203,27 +195,23 @@ TEST(Markers, EveryLedIsDrawnWithItsName) {
       << "what is not seen is pale";
   EXPECT_EQ(Marker::ADD, find(array, "covariance", 3).action);
   // A point that vanishes without being reported lost is removed too.
-  corrected.snapshot.leds.pop_back();
-  corrected.snapshot.time = 100.1;
-  array = draw(&builder, corrected, rig);
+  seen_.snapshot.leds.pop_back();
+  seen_.snapshot.time = 100.1;
+  array = draw(seen_);
   EXPECT_EQ(Marker::DELETE, find(array, "point", 3).action);
   EXPECT_EQ(Marker::ADD, find(array, "point", 0).action);
 }
 
-TEST(Markers, ShowMaskedAndUnassignedSpots) {
-  Rig rig = threeCameras();
-  rig.cameras[0].masks = {{{300.0, 200.0}, 25.0}};
-  MarkerOptions options;
-  MarkerBuilder builder(options);
-  builder.setRig(rig);
-  CorrectedSnapshot corrected = someSnapshot(rig);
-  corrected.snapshot.views[0].spots.push_back({{310.0, 200.0}, tracking::SpotUse::kMasked, 0});
-  corrected.snapshot.views[0].spots.push_back({{500.0, 300.0}, tracking::SpotUse::kUnassigned, 0});
-  const MarkerArray array = draw(&builder, corrected, rig);
+TEST_F(Markers, ShowMaskedAndUnassignedSpots) {
+  rig_.cameras[0].masks = {{{300.0, 200.0}, 25.0}};
+  builder_.setRig(rig_);
+  seen_.snapshot.views[0].spots.push_back({{310.0, 200.0}, tracking::SpotUse::kMasked, 0});
+  seen_.snapshot.views[0].spots.push_back({{500.0, 300.0}, tracking::SpotUse::kUnassigned, 0});
+  const MarkerArray array = draw(seen_);
   const Marker mask = find(array, "mask", 0);
   ASSERT_FALSE(mask.points.empty());
   for (const auto& p : mask.points) {
-    const auto pixel = rig.cameras[0].camera.project(vectorOf(p));
+    const auto pixel = rig_.cameras[0].camera.project(vectorOf(p));
     ASSERT_TRUE(pixel);
     EXPECT_LT((*pixel - Eigen::Vector2d(300.0, 200.0)).norm(), 25.0 + 1e-6);
   }
@@ -235,88 +223,70 @@ TEST(Markers, ShowMaskedAndUnassignedSpots) {
   EXPECT_NE(blobs.colors[1], blobs.colors[2]);
   EXPECT_NE(blobs.colors[0], blobs.colors[2]);
   EXPECT_EQ(3u, numberOfRays(array)) << "none of the masked spot";
-  corrected.snapshot.views[0].spots.clear();
-  EXPECT_EQ(2u, numberOfRays(draw(&builder, corrected, rig), Marker::DELETE));
+  seen_.snapshot.views[0].spots.clear();
+  EXPECT_EQ(2u, numberOfRays(draw(seen_), Marker::DELETE));
 }
 
-TEST(Markers, OldSpotsAreNotDrawn) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  CorrectedSnapshot corrected = someSnapshot(rig);
-  corrected.snapshot.views[1].time = 98.0;
-  const MarkerArray array = draw(&builder, corrected, rig);
+TEST_F(Markers, OldSpotsAreNotDrawn) {
+  seen_.snapshot.views[1].time = 98.0;
+  const MarkerArray array = draw(seen_);
   EXPECT_EQ(Marker::ADD, find(array, "ray", 0).action);
   EXPECT_EQ(1u, numberOfRays(array));
 }
 
-TEST(Markers, ACameraWithoutImagesIsGreyAndSaysSo) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  CorrectedSnapshot corrected = someSnapshot(rig);
-  corrected.snapshot.views[1].time = 99.2;
-  corrected.snapshot.views[2].time.reset();
-  const MarkerArray array = draw(&builder, corrected, rig);
+TEST_F(Markers, ACameraWithoutImagesIsGreyAndSaysSo) {
+  seen_.snapshot.views[1].time = 99.2;
+  seen_.snapshot.views[2].time.reset();
+  const MarkerArray array = draw(seen_);
   EXPECT_EQ("camera_0", find(array, "camera", 0).text);
   for (int i = 1; i < 3; ++i) {
-    EXPECT_EQ(rig.cameras[i].camera.name + ": no images", find(array, "camera", i).text);
+    EXPECT_EQ(rig_.cameras[i].camera.name + ": no images", find(array, "camera", i).text);
     const auto& color = find(array, "frustum", i).color;
     EXPECT_EQ(color.r, color.b) << "grey";
   }
 }
 
-TEST(Markers, ALabelKeepsItsColourOnAnotherTrack) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  auto points = messageOf(someSnapshot(rig), rig);
-  const MarkerArray before = builder.build(points, {});
+TEST_F(Markers, ALabelKeepsItsColourOnAnotherTrack) {
+  auto points = messageOf(seen_, rig_);
+  const MarkerArray before = builder_.build(points, {});
   points.points[0].id = 7;
-  const MarkerArray after = builder.build(points, {});
+  const MarkerArray after = builder_.build(points, {});
   EXPECT_EQ(find(before, "point", 0).color, find(after, "point", 7).color);
 }
 
-TEST(Markers, TentativeLedsUseUpNoColours) {
-  const Rig rig = threeCameras();
-  MarkerBuilder fresh({}), builder({});
-  fresh.setRig(rig);
-  builder.setRig(rig);
-  auto points = messageOf(someSnapshot(rig), rig);
+TEST_F(Markers, TentativeLedsUseUpNoColours) {
+  MarkerBuilder fresh({});
+  fresh.setRig(rig_);
+  auto points = messageOf(seen_, rig_);
   points.points.resize(2, points.points[0]);
   TrackedPoint& other = points.points[1];
   other.id = 3;
   other.label = "led_3";
   other.state = TrackedPoint::TENTATIVE;
-  const auto grey = find(builder.build(points, {}), "point", 3).color;
+  const auto grey = find(builder_.build(points, {}), "point", 3).color;
   EXPECT_EQ(grey.r, grey.b);
   other.label = "other";
   other.state = TrackedPoint::TRACKED;
   EXPECT_EQ(find(fresh.build(points, {}), "point", 3).color,
-            find(builder.build(points, {}), "point", 3).color);
+            find(builder_.build(points, {}), "point", 3).color);
 }
 
-TEST(Markers, AskWhetherADoubtfulLabelIsRight) {
-  const Rig rig = threeCameras();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
-  auto points = messageOf(someSnapshot(rig), rig);
+TEST_F(Markers, AskWhetherADoubtfulLabelIsRight) {
+  auto points = messageOf(seen_, rig_);
   points.points[0].label_confidence = 0.9f;
-  EXPECT_EQ("led", find(builder.build(points, {}), "label", 0).text);
+  EXPECT_EQ("led", find(builder_.build(points, {}), "label", 0).text);
   points.points[0].label_confidence = 0.7f;
-  EXPECT_EQ("led?", find(builder.build(points, {}), "label", 0).text);
+  EXPECT_EQ("led?", find(builder_.build(points, {}), "label", 0).text);
 }
 
-TEST(Markers, DrawTheHeightAboveTheSquareAndAShadowOnIt) {
-  Rig rig = threeCameras();
-  rig.square_sides.clear();
-  MarkerBuilder builder({});
-  builder.setRig(rig);
+TEST_F(Markers, DrawTheHeightAboveTheSquareAndAShadowOnIt) {
+  rig_.square_sides.clear();
+  builder_.setRig(rig_);
   for (const char* ns : {"height", "shadow"})
-    EXPECT_EQ(Marker::DELETE, find(draw(&builder, someSnapshot(rig), rig), ns, 0).action);
-  rig.square_sides = {2.0, 3.0};
-  builder.setRig(rig);
-  const MarkerArray array = draw(&builder, someSnapshot(rig), rig);
+    EXPECT_EQ(Marker::DELETE, find(draw(seen_), ns, 0).action);
+  rig_.square_sides = {2.0, 3.0};
+  builder_.setRig(rig_);
+  const MarkerArray array = draw(seen_);
   const Vector3d below(kLed.x(), kLed.y(), 0.0);
   const Marker height = find(array, "height", 0);
   EXPECT_EQ(kLed, vectorOf(height.points.at(0)));
@@ -324,17 +294,15 @@ TEST(Markers, DrawTheHeightAboveTheSquareAndAShadowOnIt) {
   EXPECT_EQ(below, vectorOf(find(array, "shadow", 0).points.at(0)));
 }
 
-TEST(Markers, ComeAtTheirRateAndStartOverWithTime) {
-  const Rig rig = threeCameras();
+TEST_F(Markers, ComeAtTheirRateAndStartOverWithTime) {
   MarkerOptions options;
   options.rate = 10.0;
-  MarkerBuilder builder(options);
-  builder.setRig(rig);
-  EXPECT_TRUE(builder.isDue(100.0));
-  draw(&builder, someSnapshot(rig, 100.0), rig);
-  EXPECT_FALSE(builder.isDue(100.05));
-  EXPECT_TRUE(builder.isDue(100.101));
-  EXPECT_TRUE(builder.isDue(50.0));
+  use(options);
+  EXPECT_TRUE(builder_.isDue(100.0));
+  draw(someSnapshot(rig_, 100.0));
+  EXPECT_FALSE(builder_.isDue(100.05));
+  EXPECT_TRUE(builder_.isDue(100.101));
+  EXPECT_TRUE(builder_.isDue(50.0));
 }
 
 }  // namespace

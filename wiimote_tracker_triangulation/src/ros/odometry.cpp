@@ -3,8 +3,6 @@
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 
 namespace wiimote_tracker {

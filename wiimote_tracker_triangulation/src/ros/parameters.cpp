@@ -205,10 +205,6 @@ std::string describeIdentity(const TrackingParameters& parameters) {
       tracks.detection_probability);
 }
 
-TrackingParameters TrackingParameters::read(ParameterReader reader) {
-  return read(&reader);
-}
-
 TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   TrackingParameters p;
   reader->read("labels", &p.labels);

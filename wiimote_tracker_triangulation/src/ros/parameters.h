@@ -48,7 +48,7 @@ struct TrackingParameters {
 
   /// @throws ParameterError naming the key that is wrong or unknown.
   static TrackingParameters read(ParameterReader* reader);
-  static TrackingParameters read(ParameterReader reader);
+  static TrackingParameters read(ParameterReader reader) { return read(&reader); }
 
   std::vector<std::string> blinkingLabels() const;  ///< Of the blink codes.
   std::vector<std::string> allLabels() const;       ///< `labels`, and those of the blink codes.

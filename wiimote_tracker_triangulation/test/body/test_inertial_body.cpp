@@ -8,8 +8,6 @@
 #include <cmath>
 #include <optional>
 #include <string>
-#include <utility>
-#include <vector>
 
 namespace wiimote_tracker::body {
 namespace {

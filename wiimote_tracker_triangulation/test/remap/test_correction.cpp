@@ -3,7 +3,6 @@
 #include "wiimote_tracker_triangulation/remap/correction.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/LU>
 
 #include <cmath>
 #include <random>

@@ -3,8 +3,6 @@
 
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <vector>
 

@@ -3,8 +3,6 @@
 #include "../marker_parts.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 
 namespace wiimote_tracker {

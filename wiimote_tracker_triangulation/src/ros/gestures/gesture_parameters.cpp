@@ -4,10 +4,6 @@
 
 namespace wiimote_tracker {
 
-GestureParameters GestureParameters::read(ParameterReader reader) {
-  return read(&reader);
-}
-
 GestureParameters GestureParameters::read(ParameterReader* reader) {
   GestureParameters p;
   reader->read("file", &p.file);

@@ -24,7 +24,7 @@ struct GestureParameters {
 
   /// @throws ParameterError naming the key that is wrong or unknown.
   static GestureParameters read(ParameterReader* reader);
-  static GestureParameters read(ParameterReader reader);
+  static GestureParameters read(ParameterReader reader) { return read(&reader); }
 };
 
 }  // namespace wiimote_tracker

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker {
 
@@ -47,6 +48,7 @@ void LedLabels::update(double time,
                        const std::vector<tracking::TrackedLed>& leds,
                        const identity::Identifier* identifier) {
   agePlaces(time);
+  is_updated_ = true;
   doubtful_.clear();
   for (const std::uint32_t id : forgotten_)
     given_.erase(id);
@@ -172,6 +174,10 @@ LedLabel LedLabels::of(std::uint32_t id) const {
   LedLabel label;
   label.name = "led_" + std::to_string(id);
   return label;
+}
+
+const LedLabels::Places* LedLabels::placesToKeep() {
+  return std::exchange(is_updated_, false) && !places_.empty() ? &places_ : nullptr;
 }
 
 void LedLabels::clear() {

@@ -62,6 +62,10 @@ class LedLabels {
   using Places = std::map<std::string, Place>;
   const Places& places() const { return places_; }
 
+  /// The places, to be kept for another process; null if no update came since the last call, so
+  /// that their ages would be those of old.
+  const Places* placesToKeep();
+
   /// Places from another process, before the first update.
   void setFormerPlaces(const Places& places) { places_ = places; }
 
@@ -85,6 +89,7 @@ class LedLabels {
   Places places_;
   Places former_;                 // of labels that were given again: where they were before
   std::optional<double> newest_;  // snapshot [s]
+  bool is_updated_ = false;       // since the places were kept
   std::vector<std::string> doubtful_;
 };
 

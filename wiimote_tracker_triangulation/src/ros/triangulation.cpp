@@ -47,7 +47,6 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   useBodies(parameters_.bodies.known);
-  tracker_.labels().setFormerPlaces(readPlaces(parameters_.label_places, kLongestRestart));
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
@@ -106,6 +105,8 @@ void Triangulation::onImage(const std::string& camera,
                             const ros::MessageEvent<const IrBlobArray>& event) {
   if (const auto bodies = learning_.change())
     useBodies(*bodies);
+  if (!std::exchange(has_former_places_, true))  // now, since their ages count from here
+    tracker_.labels().setFormerPlaces(readPlaces(parameters_.label_places, kLongestRestart));
   if (isShed(event.getReceiptTime()))
     return;
   const IrBlobArray& image = *event.getConstMessage();
@@ -205,8 +206,8 @@ void Triangulation::onTimer() {
 
 void Triangulation::keepPlaces() {
   const std::string& file = parameters_.label_places;
-  const LedLabels::Places& places = tracker_.labels().places();
-  if (!file.empty() && !places.empty() && !writePlaces(file, places))
+  const LedLabels::Places* places = tracker_.labels().placesToKeep();
+  if (!file.empty() && places && !writePlaces(file, *places))
     ROS_WARN_ONCE(
         "Cannot write %s, so LEDs may change their labels if this node is killed: name "
         "another file in label_places.",

@@ -61,6 +61,7 @@ class Triangulation : private MessageSink {
   LoadShedding shedding_;
   TrackingDiagnostics diagnostics_;
   std::set<std::string> warned_of_;  // sentences about shapes of bodies
+  bool has_former_places_ = false;   // of labels, from a process before
 
   ros::Publisher points_publisher_;
   ros::Publisher markers_publisher_;

@@ -186,6 +186,19 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   std::remove(file.c_str());
 }
 
+/// A tracker without images would give old places the age of its file, which is none.
+TEST(LedLabels, KeepTheirPlacesOnlyAfterASnapshot) {
+  LedLabels labels({"a"});
+  labels.setFormerPlaces({{"a", {}}});
+  EXPECT_FALSE(labels.placesToKeep());
+  labels.update(kTime, {at(0, 1.0)});
+  ASSERT_TRUE(labels.placesToKeep());
+  EXPECT_FALSE(labels.placesToKeep());
+  labels.update(kTime + 1.0, {});
+  ASSERT_TRUE(labels.placesToKeep());
+  EXPECT_EQ(1.0, labels.places().at("a").age);
+}
+
 /// All LEDs are lost for a while; then they return, each 0.1 m beside its place.
 std::vector<LedLabel> afterLoss(const std::vector<double>& places, double pause) {
   LedLabels labels({"a", "b", "c"});

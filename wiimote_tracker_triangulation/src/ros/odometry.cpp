@@ -36,16 +36,6 @@ geometry_msgs::TwistWithCovariance inBody(const geometry_msgs::PoseWithCovarianc
 
 }  // namespace
 
-geometry_msgs::TwistWithCovarianceStamped twistStamped(
-    const wiimote_tracker_msgs::TrackedBodyArray& array,
-    const wiimote_tracker_msgs::TrackedBody& body) {
-  geometry_msgs::TwistWithCovarianceStamped message;
-  message.header = array.header;
-  message.header.frame_id = body.name;
-  message.twist = inBody(body.pose, body.twist);
-  return message;
-}
-
 nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedBodyArray& array,
                             const wiimote_tracker_msgs::TrackedBody& body) {
   nav_msgs::Odometry message;
@@ -53,6 +43,14 @@ nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedBodyArray& array,
   message.child_frame_id = body.name;
   message.pose = body.pose;
   message.twist = inBody(body.pose, body.twist);
+  return message;
+}
+
+geometry_msgs::TwistWithCovarianceStamped twistOf(const nav_msgs::Odometry& odometry) {
+  geometry_msgs::TwistWithCovarianceStamped message;
+  message.header = odometry.header;
+  message.header.frame_id = odometry.child_frame_id;
+  message.twist = odometry.twist;
   return message;
 }
 

@@ -8,15 +8,13 @@
 
 namespace wiimote_tracker {
 
-/// Twist of a body along its own axes, in its frame. The covariance includes that of the
-/// orientation, taken as independent of the velocities.
-geometry_msgs::TwistWithCovarianceStamped twistStamped(
-    const wiimote_tracker_msgs::TrackedBodyArray& array,
-    const wiimote_tracker_msgs::TrackedBody& body);
-
-/// Pose in the world frame; child frame and twist: the body's.
+/// Pose in the world frame; child frame and twist: the body's. The covariance of the twist includes
+/// that of the orientation, taken as independent of the velocities.
 nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedBodyArray& array,
                             const wiimote_tracker_msgs::TrackedBody& body);
+
+/// The twist alone, in its frame.
+geometry_msgs::TwistWithCovarianceStamped twistOf(const nav_msgs::Odometry& odometry);
 
 /// Of one LED; its frame has the world's axes. What is unknown is 0 with the variance
 /// kUnknownVariance: orientation, angular velocity, and with mode instant the velocity.

@@ -65,7 +65,7 @@ TEST(BodyOdometry, TheTwistIsAlongTheBodysAxes) {
   EXPECT_EQ(body.pose, found.pose);
   EXPECT_LT((vectorOf(found.twist.twist.linear) - Vector3d(2.0, -1.0, 3.0)).norm(), 1e-12);
   EXPECT_LT((vectorOf(found.twist.twist.angular) - Vector3d(0.2, -0.1, 0.3)).norm(), 1e-12);
-  const geometry_msgs::TwistWithCovarianceStamped twist = twistStamped(array, body);
+  const geometry_msgs::TwistWithCovarianceStamped twist = twistOf(found);
   EXPECT_EQ("wand", twist.header.frame_id);
   EXPECT_EQ(found.twist, twist.twist);
 }

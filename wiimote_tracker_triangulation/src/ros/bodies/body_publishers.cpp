@@ -40,9 +40,10 @@ void BodyPublishers::publish(const wiimote_tracker_msgs::TrackedBodyArray& bodie
       continue;
     topics->second.pose.publish(
         boost::make_shared<geometry_msgs::PoseWithCovarianceStamped>(poseStamped(bodies, body)));
+    const auto motion = boost::make_shared<nav_msgs::Odometry>(odometry(bodies, body));
     topics->second.twist.publish(
-        boost::make_shared<geometry_msgs::TwistWithCovarianceStamped>(twistStamped(bodies, body)));
-    topics->second.odometry.publish(boost::make_shared<nav_msgs::Odometry>(odometry(bodies, body)));
+        boost::make_shared<geometry_msgs::TwistWithCovarianceStamped>(twistOf(*motion)));
+    topics->second.odometry.publish(motion);
     if (options_.body_transforms)
       transforms_.push_back(transform(bodies, body));
   }

@@ -63,7 +63,7 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
       nh_, "calibration/rig", 5, [this](const auto& event) { onRig(*event.getConstMessage()); });
   points_subscriber_ = subscribe<wiimote_tracker_msgs::TrackedPointArray>(
       nh_, "points", 200, [this](const auto& event) { onPoints(*event.getConstMessage()); });
-  if (!parameters_.continuous && parameters_.segmenter.boundary == gesture::Boundary::kButton)
+  if (parameters_.segmenter.boundary == gesture::Boundary::kButton)
     joy_subscriber_ = subscribe<sensor_msgs::Joy>(
         nh_, "joy", 50, [this](const auto& event) { onJoy(*event.getConstMessage()); });
 }

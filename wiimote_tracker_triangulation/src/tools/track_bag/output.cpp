@@ -127,8 +127,9 @@ void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
     if (!isPublished(body, options_.publish_predicted || bridged[i]))
       continue;
     write(topics_.pose(body.name), now_, poseStamped(bodies, body));
-    write(topics_.twist(body.name), now_, twistStamped(bodies, body));
-    write(topics_.odometry(body.name), now_, odometry(bodies, body));
+    const nav_msgs::Odometry motion = odometry(bodies, body);
+    write(topics_.twist(body.name), now_, twistOf(motion));
+    write(topics_.odometry(body.name), now_, motion);
     if (options_.body_transforms)
       transforms.transforms.push_back(transform(bodies, body));
   }

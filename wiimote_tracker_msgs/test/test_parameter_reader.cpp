@@ -97,6 +97,18 @@ TEST(ParameterReaderOfAFile, ReadsWhatTheServerWouldGive) {
   EXPECT_NO_THROW(reader.refuseUnknown());
 }
 
+TEST(ParameterReaderOfAFile, AValueIsNoGroup) {
+  ParameterTree changed = tree();
+  changed.set("group/text", "words");
+  EXPECT_EQ("words", ParameterReader(changed).optional<std::string>("group/text", ""));
+  try {
+    changed.set("side/file", "words");
+    ADD_FAILURE() << "side is a number";
+  } catch (const Error& e) {
+    EXPECT_TRUE(contains(e.what(), "file.yaml/side/file cannot be set")) << e.what();
+  }
+}
+
 // roscpp would round it.
 TEST(ParameterReader, AFractionIsNoWholeNumber) {
   ros::NodeHandle nh("~fraction");

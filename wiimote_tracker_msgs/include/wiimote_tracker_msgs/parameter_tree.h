@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H
 #define WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H
 
+#include "wiimote_tracker_msgs/error.h"
+
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <climits>
@@ -34,11 +36,15 @@ class ParameterTree {
     return find(key, &found) && convert(found, value);
   }
 
+  /// @throws Error: what ought to be a group of the key is a value.
   void set(const std::string& key, const std::string& value) {
     Value* place = &values_;
     std::istringstream levels(key);
-    for (std::string level; std::getline(levels, level, '/');)
+    for (std::string level; std::getline(levels, level, '/');) {
+      if (place->valid() && place->getType() != Value::TypeStruct)
+        throw Error(fullName(key) + " cannot be set, since a group of it is a value: remove that");
       place = &(*place)[level];
+    }
     *place = value;
   }
 

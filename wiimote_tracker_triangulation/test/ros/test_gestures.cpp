@@ -3,6 +3,7 @@
 #include "gesture/examples_file.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
@@ -79,9 +80,7 @@ class Bench {
       point.label = "led";
       point.state = TrackedPoint::TRACKED;
       point.last_observed = array.header.stamp;
-      point.position.x = position->x();
-      point.position.y = position->y();
-      point.position.z = position->z();
+      point.position = pointOf(*position);
       array.points.push_back(point);
     }
     points_.publish(array);
@@ -189,6 +188,13 @@ class GesturesTest : public testing::Test {
     delete bench_;
     bench_ = nullptr;
   }
+
+  static void recordCircle() {
+    ASSERT_EQ(bench_->record("circle"), "");
+    bench_->draw(circle, {0.0, 0.0, 1.0});
+    ASSERT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  }
+
   static Bench* bench_;
 };
 
@@ -262,9 +268,7 @@ TEST_F(GesturesTest, ZonesHaveTheirOwn) {
 }
 
 TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
-  ASSERT_EQ(bench_->record("circle"), "");
-  bench_->draw(circle, {0.0, 0.0, 1.0});
-  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  ASSERT_NO_FATAL_FAILURE(recordCircle());
   bench_->time_ = 500.0;
   bench_->draw(circle, {0.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
@@ -272,9 +276,7 @@ TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
 }
 
 TEST_F(GesturesTest, GoOnWhileAnotherProgramPublishesPoints) {
-  ASSERT_EQ(bench_->record("circle"), "");
-  bench_->draw(circle, {0.0, 0.0, 1.0});
-  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  ASSERT_NO_FATAL_FAILURE(recordCircle());
   int drawn = 0;
   bench_->draw(
       [&](double s) {
@@ -290,9 +292,7 @@ TEST_F(GesturesTest, GoOnWhileAnotherProgramPublishesPoints) {
 class ContinuousGesturesTest : public GesturesTest {};
 
 TEST_F(ContinuousGesturesTest, AreFoundInContinuousMotion) {
-  ASSERT_EQ(bench_->record("circle"), "");
-  bench_->draw(circle, {0.0, 0.0, 1.0});
-  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  ASSERT_NO_FATAL_FAILURE(recordCircle());
   const auto straight = [](double s) { return Vector3d(0.5 * s, 0.3 * s, -0.2 * s); };
   const auto on = [&](const std::function<Vector3d(double)>& curve, const Vector3d& place) {
     for (int i = 0; i < 100; ++i) {

@@ -123,6 +123,15 @@ int runNode(int argc, char** argv, const std::string& name, const Node& node) {
   }
 }
 
+/// The same for an object that is made of both handles and needs one thread for its callbacks.
+template <typename Object>
+int runNode(int argc, char** argv, const std::string& name) {
+  return runNode(argc, argv, name, [](const auto& nh, const auto& private_nh) {
+    const Object object(nh, private_nh);
+    spin();
+  });
+}
+
 }  // namespace wiimote_tracker
 
 #endif  // WIIMOTE_TRACKER_MSGS_RUN_NODE_H

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace wiimote_tracker::wave {
@@ -118,8 +119,6 @@ void checkInput(const Recording& recording, const WaveOptions& options) {
   if (recording.wand)
     recording.wand->check();
   std::set<std::string> names;
-  double start = std::numeric_limits<double>::infinity();
-  double end = -start;
   for (const CameraRecording& camera : recording.cameras) {
     if (!names.insert(camera.sightings.name).second)
       throw WaveError("two cameras are called " + camera.sightings.name + ": rename one");
@@ -129,16 +128,15 @@ void checkInput(const Recording& recording, const WaveOptions& options) {
       throw WaveError(camera.sightings.name + ": " + error.what());
     }
     checkFrames(camera, recording.wand.has_value());
-    start = std::min(start, camera.frames.front().stamp);
-    end = std::max(end, camera.frames.back().stamp);
   }
+  const auto [start, end] = recording.span();
   if (end - start > kLongest)
-    throw WaveError("the images are of times " + format("%.0f s", end - start) +
-                    " apart: check that all cameras use the same clock, and wave for less than " +
-                    format("%.0f s", kLongest));
+    throw WaveError(
+        format("the images are of times %.0f s apart: check that all cameras use the same clock, "
+               "and wave for less than %.0f s",
+               end - start, kLongest));
   if (end - start < kShortest)
-    throw WaveError("the recording is " + format("%.1f s", end - start) +
-                    " long: wave for 15 s or more");
+    throw WaveError(format("the recording is %.1f s long: wave for 15 s or more", end - start));
 }
 
 void checkMatching(const Recording& recording, const Matching& matching) {
@@ -287,12 +285,11 @@ std::string verdictOf(const Recording& recording, const WaveSolution& solution) 
     worst_px = std::max(worst_px, solution.rig.cameras[i].residual_px);
     worst_offset = std::max(worst_offset, offsetStddev(solution.rig, i));
   }
-  std::string text = std::to_string(solution.rig.cameras.size()) + " cameras solved from " +
-                     format("%.0f s", solution.seconds_seen) + " of " +
-                     (recording.wand ? "a wand" : "a wave") +
-                     (recording.square ? " and the square" : "") + "; residuals at most " +
-                     format("%.2f px", worst_px) + ", time offsets known to " +
-                     format("%.2f ms", 1e3 * worst_offset);
+  std::string text = format(
+      "%zu cameras solved from %.0f s of %s%s; residuals at most %.2f px, time offsets known to "
+      "%.2f ms",
+      solution.rig.cameras.size(), solution.seconds_seen, recording.wand ? "a wand" : "a wave",
+      recording.square ? " and the square" : "", worst_px, 1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
     text += ", points expected within " + format("%.1f mm", 1e3 * solution.expected_error) +
             " (RMS) in " + worldOf(recording, solution.rig) + ", " +

@@ -78,9 +78,7 @@ class Reporter {
 /// The recording without lamps, and with stamps from its first image on: a time since 1970 has no
 /// digits left for the microseconds that an adjustment moves a clock by.
 Recording prepared(Recording recording) {
-  double start = kInfinity;
-  for (const CameraRecording& camera : recording.cameras)
-    start = std::min(start, camera.frames.front().stamp);
+  const double start = recording.span().first;
   for (CameraRecording& camera : recording.cameras) {
     camera.frames = movingSpots(camera.frames);
     for (Frame& frame : camera.frames)

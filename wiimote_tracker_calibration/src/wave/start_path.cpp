@@ -285,12 +285,7 @@ void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* 
 }  // namespace
 
 Trajectory startPath(const Recording& recording, const WaveOptions& options, StartPoses* poses) {
-  double start = std::numeric_limits<double>::infinity();
-  double end = -start;
-  for (const CameraRecording& camera : recording.cameras) {
-    start = std::min(start, camera.frames.front().stamp);
-    end = std::max(end, camera.frames.back().stamp);
-  }
+  const auto [start, end] = recording.span();
   const bool wand = recording.wand.has_value();
   double length =
       wand && poses->metric ? recording.wand->length : std::numeric_limits<double>::quiet_NaN();

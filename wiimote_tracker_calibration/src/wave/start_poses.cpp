@@ -1,7 +1,6 @@
 #include "start_poses.h"
 
-#include "../bundle/start.h"
-
+#include "bundle/start.h"
 #include "wave/error.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
@@ -58,15 +57,8 @@ std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double
 
 /// What the cameras saw at common times.
 std::vector<bundle::Observation> commonViews(const Recording& recording, int attempt) {
-  double start = recording.cameras.front().frames.front().stamp;
-  double end = start;
-  for (const CameraRecording& camera : recording.cameras) {
-    start = std::min(start, camera.frames.front().stamp);
-    end = std::max(end, camera.frames.back().stamp);
-  }
+  const auto [start, end] = recording.span();
   const std::size_t count = 4 * kInstants;
-  std::vector<bundle::Observation> observations;
-  std::size_t point = 0;
   std::vector<std::vector<bundle::Observation>> instants;
   for (std::size_t i = 0; i < count; ++i) {
     const double time =
@@ -81,6 +73,8 @@ std::vector<bundle::Observation> commonViews(const Recording& recording, int att
     if (instant.size() >= 2)
       instants.push_back(instant);
   }
+  std::vector<bundle::Observation> observations;
+  std::size_t point = 0;
   const std::size_t stride = std::max<std::size_t>(1, instants.size() / kInstants);
   for (std::size_t i = 0; i < instants.size(); i += stride) {
     for (bundle::Observation& observation : instants[i]) {

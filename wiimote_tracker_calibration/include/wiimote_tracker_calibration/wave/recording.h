@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <optional>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::wave {
@@ -52,6 +54,19 @@ struct Recording {
   bool hasFrames() const {
     return std::any_of(cameras.begin(), cameras.end(),
                        [](const CameraRecording& camera) { return !camera.frames.empty(); });
+  }
+
+  /// Stamps of the first image and of the last one, of any camera [s]; infinite without images.
+  std::pair<double, double> span() const {
+    double start = std::numeric_limits<double>::infinity();
+    double end = -start;
+    for (const CameraRecording& camera : cameras) {
+      if (camera.frames.empty())
+        continue;
+      start = std::min(start, camera.frames.front().stamp);
+      end = std::max(end, camera.frames.back().stamp);
+    }
+    return {start, end};
   }
 
   /// Of all cameras.

@@ -15,12 +15,12 @@
 
 #include <ceres/ceres.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <set>
 
 namespace wiimote_tracker::wave {
 
@@ -153,7 +153,7 @@ class WaveProblem {
     ceres::LossFunction* const loss =
         std::isfinite(loss_scale) ? new ceres::CauchyLoss(loss_scale) : nullptr;
     Trajectory& path = state_.trajectory;
-    std::vector<bool> fitted(static_cast<std::size_t>(path.controls().cols()), false);
+    std::set<Eigen::Index> fitted;  // control points
     for (const Match& match : matches) {
       adjust::CameraBlocks& camera = cameras_[match.camera];
       const adjust::PixelError pixel{match.pixel, match.whitening, camera.world_from_start,
@@ -166,11 +166,11 @@ class WaveProblem {
           path.control(match.interval + 1, match.led), path.control(match.interval + 2, match.led),
           path.control(match.interval + 3, match.led)));
       for (Eigen::Index k = 0; k < 4; ++k)
-        fitted[static_cast<std::size_t>(match.interval + k)] = true;
+        fitted.insert(match.interval + k);
     }
-    const auto controls = std::count(fitted.begin(), fitted.end(), true);
     const int per_camera = adjust::kRotationSize + adjust::kPositionSize + adjust::kLensSize + 1;
-    freedom_ = residuals() - static_cast<double>(3 * path.leds() * controls) -
+    freedom_ = residuals() -
+               3.0 * static_cast<double>(path.leds()) * static_cast<double>(fitted.size()) -
                static_cast<double>(per_camera) * static_cast<double>(cameras_.size());
   }
 
@@ -186,12 +186,7 @@ class WaveProblem {
 
   void addWand(const std::vector<Match>& matches) {
     Trajectory& path = state_.trajectory;
-    std::vector<bool> seen(static_cast<std::size_t>(path.intervals()), false);
-    for (const Match& match : matches)
-      seen[static_cast<std::size_t>(match.interval)] = true;
-    for (Eigen::Index k = 0; k < path.intervals(); ++k) {
-      if (!seen[static_cast<std::size_t>(k)])
-        continue;
+    for (const Eigen::Index k : seenIntervals(matches)) {
       problem_.AddResidualBlock(adjust::WandLengthError{kStickStddev}.cost(), nullptr,
                                 path.control(k, 0), path.control(k + 1, 0), path.control(k + 2, 0),
                                 path.control(k, 1), path.control(k + 1, 1), path.control(k + 2, 1),

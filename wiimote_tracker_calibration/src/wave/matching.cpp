@@ -92,10 +92,8 @@ std::array<int, 2> bestSpots(const Frame& frame,
 
 /// An LED that a camera could have seen in one frame.
 struct Sighting {
-  std::size_t camera;
-  Eigen::Index led;
-  Eigen::Index interval;
-  std::optional<Match> match;  // nothing: it did not see it
+  Match match;  // its pixel is a prediction where the camera did not see the LED
+  bool is_seen;
 };
 
 /// What one camera could have seen, and what of it it saw.
@@ -120,18 +118,13 @@ void addSightings(const CameraRecording& recording,
       const std::optional<Prediction>& prediction = predictions[static_cast<std::size_t>(led)];
       if (!prediction)
         continue;
-      Sighting sighting{camera, led, place->first, std::nullopt};
       const int spot = chosen[static_cast<std::size_t>(led)];
-      if (spot >= 0)
-        sighting.match = Match{camera,
-                               led,
-                               place->first,
-                               frame.stamp,
-                               frame.spots[static_cast<std::size_t>(spot)],
-                               prediction->whitening};
-      else if (!inImage(state.cameras[camera].intrinsics, prediction->pixel))
-        continue;
-      sightings->push_back(sighting);
+      const bool is_seen = spot >= 0;
+      const Eigen::Vector2d& pixel =
+          is_seen ? frame.spots[static_cast<std::size_t>(spot)] : prediction->pixel;
+      if (is_seen || inImage(state.cameras[camera].intrinsics, pixel))
+        sightings->push_back(
+            {{camera, led, place->first, frame.stamp, pixel, prediction->whitening}, is_seen});
     }
   }
 }
@@ -141,12 +134,12 @@ std::vector<bool> seenBySeveral(const std::vector<Sighting>& sightings,
                                 Eigen::Index led,
                                 Eigen::Index intervals) {
   std::vector<std::set<std::size_t>> cameras(static_cast<std::size_t>(intervals));
-  for (const Sighting& sighting : sightings) {
-    if (!sighting.match || sighting.led != led)
+  for (const auto& [match, is_seen] : sightings) {
+    if (!is_seen || match.led != led)
       continue;
-    const Eigen::Index last = std::min(sighting.interval + 1, intervals - 1);
-    for (Eigen::Index i = std::max<Eigen::Index>(sighting.interval - 1, 0); i <= last; ++i)
-      cameras[static_cast<std::size_t>(i)].insert(sighting.camera);
+    const Eigen::Index last = std::min(match.interval + 1, intervals - 1);
+    for (Eigen::Index i = std::max<Eigen::Index>(match.interval - 1, 0); i <= last; ++i)
+      cameras[static_cast<std::size_t>(i)].insert(match.camera);
   }
   std::vector<bool> several;
   for (const std::set<std::size_t>& in_interval : cameras)
@@ -168,14 +161,13 @@ Matching matchSpots(const Recording& recording, const State& state, const Gate& 
   Matching result;
   result.expected.assign(cameras, 0);
   result.found.assign(cameras, 0);
-  for (const Sighting& sighting : sightings) {
-    if (!several[static_cast<std::size_t>(sighting.led)]
-                [static_cast<std::size_t>(sighting.interval)])
+  for (const auto& [match, is_seen] : sightings) {
+    if (!several[static_cast<std::size_t>(match.led)][static_cast<std::size_t>(match.interval)])
       continue;
-    ++result.expected[sighting.camera];
-    if (sighting.match) {
-      ++result.found[sighting.camera];
-      result.matches.push_back(*sighting.match);
+    ++result.expected[match.camera];
+    if (is_seen) {
+      ++result.found[match.camera];
+      result.matches.push_back(match);
     }
   }
   return result;

@@ -95,13 +95,8 @@ void describeSquare(const Recording& recording,
 /// Duration, speeds and extent of the path where it was seen.
 void describePath(const State& state, const Matching& matching, WaveSolution* solution) {
   const Trajectory& trajectory = state.trajectory;
-  std::vector<bool> seen(static_cast<std::size_t>(trajectory.intervals()), false);
-  for (const Match& match : matching.matches)
-    seen[static_cast<std::size_t>(match.interval)] = true;
   std::vector<double> speeds;
-  for (Eigen::Index i = 0; i < trajectory.intervals(); ++i) {
-    if (!seen[static_cast<std::size_t>(i)])
-      continue;
+  for (const Eigen::Index i : seenIntervals(matching.matches)) {
     solution->seconds_seen += trajectory.spacing();
     const Trajectory::Place place =
         trajectory.in(i, trajectory.timeOf(i) + 0.5 * trajectory.spacing());
@@ -111,7 +106,6 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
     }
   }
   solution->median_speed = medianOf(&speeds);
-
   solution->extent = geometry::spreadOf(solution->path);
 }
 

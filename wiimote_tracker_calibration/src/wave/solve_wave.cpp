@@ -94,12 +94,7 @@ void standInFirstCamera(const Recording& recording, std::vector<geometry::Camera
   if (gravity)
     world_from_first.linear() =
         Eigen::Quaterniond::FromTwoVectors(*gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-  const Eigen::Isometry3d moved = world_from_first * cameras->front().world_from_camera.inverse();
-  for (geometry::Camera& camera : *cameras) {
-    camera.world_from_camera = moved * camera.world_from_camera;
-    camera.world_from_camera.linear() =
-        Eigen::Quaterniond(camera.world_from_camera.linear()).normalized().toRotationMatrix();
-  }
+  moveCameras(world_from_first * cameras->front().world_from_camera.inverse(), cameras);
 }
 
 bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
@@ -257,10 +252,10 @@ WaveSolution solveWave(const Recording& input,
   std::exception_ptr refusal;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     reporter.report("finding where the cameras stand", 0.0);
-    bool final = attempt + 1 == kAttempts;
+    bool is_only_start = false;
     try {
       StartPoses poses = startPoses(recording, options, attempt);
-      final = final || poses.from_square;
+      is_only_start = poses.from_square;
       WaveSolution solution = solveFrom(std::move(poses), recording, options, floor, &reporter);
       reporter.report("done", 1.0);
       return solution;
@@ -272,8 +267,8 @@ WaveSolution solveWave(const Recording& input,
       // The refusal of the first attempt names the most likely cause.
       if (!refusal)
         refusal = std::current_exception();
-      if (final)
-        std::rethrow_exception(refusal);
+      if (is_only_start)
+        break;
     }
   }
   std::rethrow_exception(refusal);

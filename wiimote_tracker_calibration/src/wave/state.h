@@ -6,11 +6,12 @@
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <set>
 #include <vector>
 
 namespace wiimote_tracker::wave {
@@ -44,6 +45,23 @@ struct Match {
   Eigen::Vector2d pixel;
   Eigen::Matrix2d whitening;  ///< Of the pixel error [1/px].
 };
+
+/// The intervals of the path in which an LED was seen.
+inline std::set<Eigen::Index> seenIntervals(const std::vector<Match>& matches) {
+  std::set<Eigen::Index> intervals;
+  for (const Match& match : matches)
+    intervals.insert(match.interval);
+  return intervals;
+}
+
+/// Moves cameras together; their rotations stay orthonormal.
+inline void moveCameras(const Eigen::Isometry3d& to_from, std::vector<geometry::Camera>* cameras) {
+  for (geometry::Camera& camera : *cameras) {
+    Eigen::Isometry3d& pose = camera.world_from_camera;
+    pose = to_from * pose;
+    pose.linear() = Eigen::Quaterniond(pose.linear()).normalized().toRotationMatrix();
+  }
+}
 
 }  // namespace wiimote_tracker::wave
 

@@ -6,14 +6,11 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
-#include <tuple>
 #include <utility>
 
 namespace wiimote_tracker::wave {
@@ -170,20 +167,16 @@ Found findWand(const Recording& recording,
         std::swap((*pair)[0], (*pair)[1]);
     }
   }
-  int accelerometers = 0;
-  std::tie(found.up, accelerometers) = meanUp(recording, state);
+  const auto [up, accelerometers] = meanUp(recording, state);
+  found.up = up;
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
   found.mislaid =
-      whyNotLevel(recording, options.uncertainty, along.dot(found.up), accelerometers, limits);
+      whyNotLevel(recording, options.uncertainty, along.dot(up), accelerometers, limits);
   return found;
 }
 
 void moveState(const Eigen::Isometry3d& to_from, State* state) {
-  for (geometry::Camera& camera : state->cameras) {
-    camera.world_from_camera = to_from * camera.world_from_camera;
-    camera.world_from_camera.linear() =
-        Eigen::Quaterniond(camera.world_from_camera.linear()).normalized().toRotationMatrix();
-  }
+  moveCameras(to_from, &state->cameras);
   // The weights of a spline's control points add up to one: it moves as they do.
   Eigen::MatrixXd& controls = state->trajectory.controls();
   for (Eigen::Index led = 0; led < state->trajectory.leds(); ++led) {

@@ -58,18 +58,24 @@ geometry::RigCamera rigCamera(const CameraRecording& recording,
   const geometry::Intrinsics& lens = result.camera.intrinsics;
   double squared_px = 0.0;
   double squared_m = 0.0;
+  double count = 0.0;
   for (const Match& match : matching.matches) {
     if (match.camera != index)
       continue;
     const Trajectory::Place place =
         state.trajectory.in(match.interval, match.stamp + result.time_offset);
     const Eigen::Vector3d point = state.trajectory.position(place, match.led);
-    const double squared = (*result.camera.project(point) - match.pixel).squaredNorm();
+    const auto pixel = result.camera.project(point);
+    // The adjustment may move a point beyond the fold of the lens, where it has no pixel.
+    if (!pixel)
+      continue;
+    const double squared = (*pixel - match.pixel).squaredNorm();
     squared_px += squared;
     squared_m += squared * (point - result.camera.center()).squaredNorm() / (lens.fx * lens.fy);
+    count += 1.0;
   }
-  result.residual_px = std::sqrt(squared_px / result.inliers);
-  result.residual_m = std::sqrt(squared_m / result.inliers);
+  result.residual_px = std::sqrt(squared_px / count);
+  result.residual_m = std::sqrt(squared_m / count);
   return result;
 }
 

@@ -11,6 +11,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
+#include <string>
 
 namespace wiimote_tracker::principal_point {
 namespace {
@@ -233,6 +235,24 @@ TEST(PrincipalPoint, TheTableNamesTheCamerasAndHasALinePerRound) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
   EXPECT_NE(text.find("left cx, cy [px]"), std::string::npos);
   EXPECT_NE(text.find("535.0,  401.7"), std::string::npos);
+}
+
+TEST(PrincipalPoint, ACornerThatOneCameraSawIsNamed) {
+  // Where three corners and the accelerometer leave two places, solveSquare() refuses earlier.
+  std::size_t named = 0;
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    auto cameras = exactSightings({}, layout().corners(true));
+    cameras[1].corners[corner].reset();
+    try {
+      correctPrincipalPoints(layout(), cameras, {});
+      ADD_FAILURE() << "not refused";
+    } catch (const Error& error) {
+      const std::string text = error.what();
+      named += text.find("corner " + std::to_string(corner + 1) + " was seen by one camera only") !=
+               std::string::npos;
+    }
+  }
+  EXPECT_GE(named, 1U);
 }
 
 TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {

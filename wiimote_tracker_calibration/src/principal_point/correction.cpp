@@ -27,6 +27,19 @@ std::vector<square::CameraSightings> solvedOnes(const std::vector<square::Camera
   return solved;
 }
 
+/// @throws Error: a corner cannot be measured, since fewer than two of the cameras saw it.
+void checkCorners(const std::vector<square::CameraSightings>& cameras) {
+  for (std::size_t corner = 0; corner < 4; ++corner) {
+    const auto seeing = std::count_if(
+        cameras.begin(), cameras.end(),
+        [corner](const square::CameraSightings& s) { return s.corners[corner].has_value(); });
+    if (seeing < 2)
+      throw Error("corner " + std::to_string(corner + 1) +
+                  " was seen by one camera only, but the principal point correction measures all "
+                  "four: capture it again where two cameras see it, or do without the correction");
+  }
+}
+
 std::optional<Eigen::Vector3d> measure(const std::vector<geometry::Camera>& ray_cameras,
                                        const std::vector<square::CameraSightings>& sightings,
                                        std::size_t corner,
@@ -145,6 +158,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
   options.check();
   square::SquareSolution solution = solve(layout, cameras, options);
   std::vector<square::CameraSightings> sightings = solvedOnes(cameras, solution.rig);
+  checkCorners(sightings);
   const square::Corners ideal = layout.corners(solution.z_up);
 
   CorrectionResult result;

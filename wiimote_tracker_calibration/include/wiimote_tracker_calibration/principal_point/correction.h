@@ -102,7 +102,8 @@ using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
 ///
 /// The points are triangulated from the pixels that the cameras were solved from. A round takes
 /// some hundredths of a second.
-/// @throws Error: an option is out of range; the points cannot be measured at all.
+/// @throws Error: an option is out of range; the points cannot be measured at all, or one camera
+/// alone saw one of them.
 /// square::SquareError: as solveSquare(), before the first step; later that ends in
 /// Outcome::kLost.
 CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,

@@ -1,8 +1,12 @@
 // What a person is told while waving.
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
+#include "expect_says.h"
+
 #include "wave/coverage.h"
 #include "wave/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <gtest/gtest.h>
 
@@ -33,15 +37,9 @@ void feed(const Recording& recording, double seconds, Coverage* coverage) {
   }
 }
 
-std::string all(const CoverageReport& report) {
-  std::string text;
-  for (const std::string& sentence : report.missing)
-    text += sentence + "\n";
-  return text;
-}
-
-bool mentions(const CoverageReport& report, const std::string& text) {
-  return all(report).find(text) != std::string::npos;
+/// All that is said to be missing.
+std::string missing(const CoverageReport& report) {
+  return joined(report.missing, "\n");
 }
 
 TEST(Coverage, IsEmptyBeforeTheFirstFrame) {
@@ -50,7 +48,7 @@ TEST(Coverage, IsEmptyBeforeTheFirstFrame) {
   const CoverageReport report = coverage.report();
   EXPECT_FALSE(report.enough());
   ASSERT_EQ(report.cameras.size(), 4u);
-  EXPECT_TRUE(mentions(report, "camera_3 has not seen the LED move"));
+  EXPECT_SAYS(missing(report), "camera_3 has not seen the LED move");
   EXPECT_EQ(report.seconds, 0.0);
   EXPECT_FALSE(report.speed.has_value());
 }
@@ -65,7 +63,7 @@ TEST(Coverage, GrowsUntilComplete) {
     feed(wave.recording, 5.0, &half);
     const CoverageReport early = half.report();
     EXPECT_FALSE(early.enough());
-    EXPECT_TRUE(mentions(early, "wave on for")) << all(early);
+    EXPECT_SAYS(missing(early), "wave on for");
     EXPECT_NEAR(early.seconds, 5.0, 0.6);
     // True speed of the LED, or of the wand's middle.
     std::vector<double> speeds;
@@ -80,7 +78,7 @@ TEST(Coverage, GrowsUntilComplete) {
     Coverage coverage(wave.cameras, true, length > 0.0 ? 2 : 1, CoverageOptions());
     feed(wave.recording, scene.duration, &coverage);
     const CoverageReport report = coverage.report();
-    EXPECT_TRUE(report.enough()) << all(report);
+    EXPECT_TRUE(report.enough()) << missing(report);
     EXPECT_NEAR(*report.speed / speeds[speeds.size() / 2], 1.0, 0.1);
     EXPECT_GT(*report.volume, *early.volume);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -113,7 +111,7 @@ TEST(Coverage, SaysWhichPartOfTheImageIsEmpty) {
     coverage.add(1, frame);
   }
   const CoverageReport report = coverage.report();
-  EXPECT_TRUE(mentions(report, "wave it at the bottom")) << all(report);
+  EXPECT_SAYS(missing(report), "wave it at the bottom");
   EXPECT_NEAR(report.cameras[0].image_share, 4.0 / 6.0, 0.05);
   EXPECT_NEAR(report.seconds, 29.9, 0.25);
 }
@@ -131,9 +129,9 @@ TEST(Coverage, SlowWavesLampsAndBlindCamerasAreNamed) {
   Coverage coverage(wave.cameras, true, 1, CoverageOptions());
   feed(wave.recording, 100.0, &coverage);
   const CoverageReport report = coverage.report();
-  EXPECT_TRUE(mentions(report, "wave it faster")) << all(report);
-  EXPECT_TRUE(mentions(report, "camera_1 sees other lights")) << all(report);
-  EXPECT_TRUE(mentions(report, "camera_4 has not seen the LED move")) << all(report);
+  EXPECT_SAYS(missing(report), "wave it faster");
+  EXPECT_SAYS(missing(report), "camera_1 sees other lights");
+  EXPECT_SAYS(missing(report), "camera_4 has not seen the LED move");
   EXPECT_EQ(report.cameras[3].image_share, 0.0);
   EXPECT_GT(report.cameras[0].distraction, 0.5);
 }

@@ -33,12 +33,11 @@ constexpr double kLeastTogether = 3.0;
 
 void checkRange(const char* name, double value, double low, double high) {
   if (!(value >= low) || !(value <= high))
-    throw WaveError(std::string(name) + " is " + format("%g", value) + ", but must be " +
-                    format("%g", low) + " to " + format("%g", high) + ": correct it");
+    throw WaveError(format("%s is %g, but must be %g to %g: correct it", name, value, low, high));
 }
 
 int bounded(double value, int count) {
-  return std::min(std::max(static_cast<int>(value), 0), count - 1);
+  return std::clamp(static_cast<int>(value), 0, count - 1);
 }
 
 /// Where in the image most cells are still empty; of equals the one nearer to the middle.
@@ -99,16 +98,15 @@ std::vector<std::string> missing(const CoverageReport& report, const CoverageOpt
       result.push_back("the LED is slow in the image of " + camera.name + ": wave it faster");
   }
   if (report.volume && *report.volume < options.volume)
-    result.push_back("the LED has been in " + format("%.1f", *report.volume) + " of " +
-                     format("%.1f cubic metres", options.volume) +
-                     ": wave it high and low, near and far");
+    result.push_back(
+        format("the LED has been in %.1f of %.1f cubic metres: wave it high and low, near and far",
+               *report.volume, options.volume));
   if (report.speed && *report.speed < options.speed)
-    result.push_back("the LED moves at " + format("%.1f m/s", *report.speed) +
-                     ": wave it faster than " + format("%.1f m/s", options.speed));
+    result.push_back(format("the LED moves at %.1f m/s: wave it faster than %.1f m/s",
+                            *report.speed, options.speed));
   if (report.seconds < options.seconds - 0.5 * kTimeStep)
-    result.push_back("wave on for " +
-                     format("%.0f s", std::ceil(options.seconds - report.seconds)) +
-                     " where two cameras see the LED");
+    result.push_back(format("wave on for %.0f s where two cameras see the LED",
+                            std::ceil(options.seconds - report.seconds)));
   return result;
 }
 
@@ -143,11 +141,11 @@ Coverage::Coverage(std::vector<geometry::Camera> cameras,
   views_.resize(cameras_.size());
 }
 
-void Coverage::follow(View* view, const Frame& frame) const {
+void Coverage::follow(View* view, const Frame& frame) {
   std::vector<Track>& tracks = view->tracks;
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [&](const Track& track) {
-                                return frame.stamp - track.places.back().first > kLongestTrackGap;
+                                return frame.stamp - track.back().first > kLongestTrackGap;
                               }),
                tracks.end());
   std::vector<bool> taken(tracks.size(), false);
@@ -155,21 +153,21 @@ void Coverage::follow(View* view, const Frame& frame) const {
     std::size_t best = taken.size();
     double least = kLongestJump;
     for (std::size_t i = 0; i < taken.size(); ++i) {
-      const double distance = (tracks[i].places.back().second - spot).norm();
+      const double distance = (tracks[i].back().second - spot).norm();
       if (!taken[i] && distance < least) {
         least = distance;
         best = i;
       }
     }
     if (best == taken.size()) {
-      tracks.push_back({{{frame.stamp, spot}}});
+      tracks.push_back(Track{{frame.stamp, spot}});
       continue;
     }
     taken[best] = true;
     Track& track = tracks[best];
-    track.places.emplace_back(frame.stamp, spot);
-    while (track.places.size() > 2 && frame.stamp - track.places[1].first >= kSpan)
-      track.places.pop_front();
+    track.emplace_back(frame.stamp, spot);
+    while (track.size() > 2 && frame.stamp - track[1].first >= kSpan)
+      track.pop_front();
   }
 }
 
@@ -183,11 +181,11 @@ void Coverage::add(std::size_t camera, const Frame& frame) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   std::size_t moving = 0;
   for (const Track& track : view.tracks) {
-    const auto& [time, pixel] = track.places.back();
-    const double span = time - track.places.front().first;
+    const auto& [time, pixel] = track.back();
+    const double span = time - track.front().first;
     if (time != frame.stamp || span < kSpan)
       continue;
-    const double speed = (pixel - track.places.front().second).norm() / span;
+    const double speed = (pixel - track.front().second).norm() / span;
     if (speed < kStill)
       continue;
     view.speeds.add(speed, kImageSpeedStep);

@@ -15,6 +15,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::wave {
@@ -34,12 +35,13 @@ struct CoverageOptions {
 struct CameraCoverage {
   static constexpr int kColumns = 8;  ///< Cells of the image.
   static constexpr int kRows = 6;
+  using Cells = std::array<std::array<bool, kColumns>, kRows>;  ///< [row][column]
 
   std::string name;
-  std::array<std::array<bool, kColumns>, kRows> filled{};  ///< By a moving spot; [row][column].
-  double image_share = 0.0;                                ///< Filled cells [0 to 1].
-  double seconds = 0.0;                                    ///< In which it saw the LED move [s].
-  double together = 0.0;                                   ///< Of these, with another camera [s].
+  Cells filled{};            ///< By a moving spot.
+  double image_share = 0.0;  ///< Filled cells [0 to 1].
+  double seconds = 0.0;      ///< In which it saw the LED move [s].
+  double together = 0.0;     ///< Of these, with another camera [s].
   double image_speed = 0.0;  ///< Median of the spot's speed [px/s]; 0: never moved.
   double distraction = 0.0;  ///< Share of its images with more spots than LEDs [0 to 1].
 };
@@ -71,10 +73,8 @@ class Coverage {
   CoverageReport report() const;
 
  private:
-  /// Spots of successive images that are one light.
-  struct Track {
-    std::deque<std::pair<double, Eigen::Vector2d>> places;  // [s], [px]
-  };
+  /// Spots of successive images that are one light [s], [px].
+  using Track = std::deque<std::pair<double, Eigen::Vector2d>>;
   /// Counts of speeds in equal steps; the last step takes all beyond.
   struct Speeds {
     std::array<std::uint32_t, 256> counts{};
@@ -84,7 +84,7 @@ class Coverage {
   };
   struct View {
     std::vector<Track> tracks;
-    std::array<std::array<bool, CameraCoverage::kColumns>, CameraCoverage::kRows> filled{};
+    CameraCoverage::Cells filled{};
     Speeds speeds;
     std::size_t frames = 0;
     std::size_t distracted = 0;
@@ -92,7 +92,7 @@ class Coverage {
     std::optional<Eigen::Vector2d> middle;  // of the moving LED or LEDs
   };
 
-  void follow(View* view, const Frame& frame) const;
+  static void follow(View* view, const Frame& frame);
   void locate(std::size_t camera);
 
   std::vector<geometry::Camera> cameras_;

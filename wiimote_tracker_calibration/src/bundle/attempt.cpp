@@ -148,11 +148,10 @@ Attempt attemptPair(const Reconstruction& observed,
   if (!posed)
     return attempt;
   startFrom(*posed, &attempt.reconstruction, &attempt.placed);
-  const Options rough = roughly(options);
   try {
-    adjustPlaced(rough, kRough * options.maximum_error, &attempt);
+    adjustPlaced(roughly(options), kRough * options.maximum_error, &attempt);
   } catch (const BundleError&) {
-    attempt.cost = std::numeric_limits<double>::infinity();
+    // The cost stays infinite.
   }
   return attempt;
 }

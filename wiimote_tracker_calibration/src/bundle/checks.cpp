@@ -7,9 +7,6 @@
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
-#include <opencv2/calib3d.hpp>
-#include <opencv2/core.hpp>
-
 #include <algorithm>
 #include <utility>
 

@@ -5,7 +5,7 @@
 
 #include <Eigen/Geometry>
 
-#include <opencv2/core.hpp>
+#include <opencv2/core/types.hpp>
 
 #include <cstddef>
 #include <map>

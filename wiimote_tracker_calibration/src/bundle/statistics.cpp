@@ -18,31 +18,6 @@ double quantile(const std::vector<double>& sorted, double share) {
   return sorted[below] + (place - static_cast<double>(below)) * (sorted[above] - sorted[below]);
 }
 
-template <typename Wanted>
-Statistics over(const Reconstruction& reconstruction, const Wanted& wanted) {
-  std::vector<double> errors;
-  double squares_m = 0.0;
-  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
-    const Observation& observation = reconstruction.observations[i];
-    if (!wanted(observation))
-      continue;
-    const auto error = reprojectionError(reconstruction, observation);
-    errors.push_back(kOutlier);
-    if (!reconstruction.inliers[i] || !error)
-      continue;
-    errors.back() = *error;
-    const geometry::Camera& camera = reconstruction.cameras[observation.camera];
-    const double depth =
-        (camera.world_from_camera.inverse() * *reconstruction.points[observation.point]).z();
-    const double focal_length = 0.5 * (camera.intrinsics.fx + camera.intrinsics.fy);
-    squares_m += std::pow(*error * depth / focal_length, 2);
-  }
-  Statistics result = statisticsOf(errors);
-  if (result.inliers > 0)
-    result.rms_m = std::sqrt(squares_m / static_cast<double>(result.inliers));
-  return result;
-}
-
 }  // namespace
 
 Statistics statisticsOf(std::vector<double> errors) {
@@ -62,12 +37,28 @@ Statistics statisticsOf(std::vector<double> errors) {
   return result;
 }
 
-Statistics statistics(const Reconstruction& reconstruction) {
-  return over(reconstruction, [](const Observation&) { return true; });
-}
-
-Statistics statistics(const Reconstruction& reconstruction, std::size_t camera) {
-  return over(reconstruction, [camera](const Observation& o) { return o.camera == camera; });
+Statistics statistics(const Reconstruction& reconstruction, std::optional<std::size_t> camera) {
+  std::vector<double> errors;
+  double squares_m = 0.0;
+  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
+    const Observation& observation = reconstruction.observations[i];
+    if (camera && observation.camera != *camera)
+      continue;
+    const auto error = reprojectionError(reconstruction, observation);
+    errors.push_back(kOutlier);
+    if (!reconstruction.inliers[i] || !error)
+      continue;
+    errors.back() = *error;
+    const geometry::Camera& seeing = reconstruction.cameras[observation.camera];
+    const double depth =
+        (seeing.world_from_camera.inverse() * *reconstruction.points[observation.point]).z();
+    const double focal_length = 0.5 * (seeing.intrinsics.fx + seeing.intrinsics.fy);
+    squares_m += std::pow(*error * depth / focal_length, 2);
+  }
+  Statistics result = statisticsOf(errors);
+  if (result.inliers > 0)
+    result.rms_m = std::sqrt(squares_m / static_cast<double>(result.inliers));
+  return result;
 }
 
 }  // namespace wiimote_tracker::bundle

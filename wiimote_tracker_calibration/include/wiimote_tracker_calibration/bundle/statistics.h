@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::bundle {
@@ -26,11 +27,9 @@ struct Statistics {
 /// From single errors, in their unit and without rms_m; those that are not finite are outliers'.
 Statistics statisticsOf(std::vector<double> errors);
 
-/// Over all cameras.
-Statistics statistics(const Reconstruction& reconstruction);
-
-/// Of one camera.
-Statistics statistics(const Reconstruction& reconstruction, std::size_t camera);
+/// Of all cameras, or of one.
+Statistics statistics(const Reconstruction& reconstruction,
+                      std::optional<std::size_t> camera = std::nullopt);
 
 }  // namespace wiimote_tracker::bundle
 

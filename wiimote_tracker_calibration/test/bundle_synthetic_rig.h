@@ -17,7 +17,6 @@ struct SyntheticRig {
   std::vector<Observation> observations;
 
   SyntheticRig(std::size_t camera_count, std::size_t point_count, unsigned seed) : random(seed) {
-    const double kPi = 3.14159265358979323846;
     for (std::size_t i = 0; i < camera_count; ++i) {
       geometry::Camera camera;
       camera.name = "camera_" + std::to_string(i + 1);
@@ -29,7 +28,7 @@ struct SyntheticRig {
       camera.intrinsics.cy = uniform(230.0, 270.0);
       camera.intrinsics.distortion = {uniform(-0.29, -0.27), uniform(0.06, 0.08),
                                       uniform(-1e-3, 1e-3), uniform(-1e-3, 1e-3), 0.0};
-      const double angle = 2.0 * kPi * static_cast<double>(i) / static_cast<double>(camera_count) +
+      const double angle = 2.0 * M_PI * static_cast<double>(i) / static_cast<double>(camera_count) +
                            uniform(-0.2, 0.2);
       camera.world_from_camera =
           geometry::lookAt({4.0 * std::cos(angle), 4.0 * std::sin(angle), uniform(1.5, 2.5)},

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::bundle {
@@ -65,6 +66,19 @@ struct SyntheticRig {
     result.points.resize(points.size());
     for (geometry::Camera& camera : result.cameras)
       camera.world_from_camera = Eigen::Isometry3d::Identity();
+    return result;
+  }
+
+  /// The points that a solution determined, and their truth.
+  std::pair<std::vector<Eigen::Vector3d>, std::vector<Eigen::Vector3d>> paired(
+      const Reconstruction& solution) const {
+    std::pair<std::vector<Eigen::Vector3d>, std::vector<Eigen::Vector3d>> result;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (!solution.points[i])
+        continue;
+      result.first.push_back(*solution.points[i]);
+      result.second.push_back(points[i]);
+    }
     return result;
   }
 

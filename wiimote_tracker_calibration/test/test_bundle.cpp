@@ -22,24 +22,9 @@ std::vector<Eigen::Vector3d> centers(const std::vector<geometry::Camera>& camera
   return result;
 }
 
-/// Points that were determined, and their truth.
-void paired(const Reconstruction& solution,
-            const SyntheticRig& rig,
-            std::vector<Eigen::Vector3d>* solved,
-            std::vector<Eigen::Vector3d>* truth) {
-  for (std::size_t i = 0; i < rig.points.size(); ++i) {
-    if (solution.points[i]) {
-      solved->push_back(*solution.points[i]);
-      truth->push_back(rig.points[i]);
-    }
-  }
-}
-
 /// Brings the solution into the frame of the truth, over the points.
 void align(const SyntheticRig& rig, Reconstruction* solution) {
-  std::vector<Eigen::Vector3d> solved;
-  std::vector<Eigen::Vector3d> truth;
-  paired(*solution, rig, &solved, &truth);
+  const auto [solved, truth] = rig.paired(*solution);
   transform(fitSimilarity(solved, truth), solution);
 }
 
@@ -63,14 +48,10 @@ TEST(Bundle, RecoversARigFromExactPixels) {
         EXPECT_TRUE(
             solution.cameras[i].world_from_camera.isApprox(rig.cameras[i].world_from_camera, 1e-7));
       }
-      std::size_t determined = 0;
-      for (std::size_t i = 0; i < rig.points.size(); ++i) {
-        if (solution.points[i]) {
-          ++determined;
-          EXPECT_LT((*solution.points[i] - rig.points[i]).norm(), 1e-6);
-        }
-      }
-      EXPECT_GT(determined, 60u);
+      const auto [determined, truth] = rig.paired(solution);
+      for (std::size_t i = 0; i < determined.size(); ++i)
+        EXPECT_LT((determined[i] - truth[i]).norm(), 1e-6);
+      EXPECT_GT(determined.size(), 60u);
     }
   }
 }
@@ -197,9 +178,7 @@ TEST(Bundle, HeldCamerasStayAndPointsAreFound) {
     EXPECT_TRUE(
         start.cameras[i].world_from_camera.isApprox(rig.cameras[i].world_from_camera, 1e-14));
   }
-  std::vector<Eigen::Vector3d> found;
-  std::vector<Eigen::Vector3d> truth;
-  paired(start, rig, &found, &truth);
+  const auto [found, truth] = rig.paired(start);
   ASSERT_GT(found.size(), 25u);
   for (std::size_t i = 0; i < found.size(); ++i)
     EXPECT_LT((found[i] - truth[i]).norm(), 1e-8);

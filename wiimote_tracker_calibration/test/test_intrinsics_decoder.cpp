@@ -1,4 +1,5 @@
 #include "board_table.h"
+#include "expect_says.h"
 #include "intrinsics/board_decoder.h"
 #include "intrinsics/board_sequence.h"
 
@@ -174,7 +175,7 @@ TEST(BoardDecoder, RefusesABoardThatMoves) {
       scene.speed = {speed, 0.5 * speed};
       const BoardReading reading = scene.read(seed);
       EXPECT_FALSE(reading.view) << speed;
-      EXPECT_NE(reading.message.find("hold "), std::string::npos) << reading.message;
+      EXPECT_SAYS(reading.message, "hold ");
     }
   }
 }
@@ -196,27 +197,27 @@ TEST(BoardDecoder, DoesNotReadOtherLights) {
 
 TEST(BoardDecoder, SaysWhatItWaitsFor) {
   BoardDecoder decoder;
-  EXPECT_NE(decoder.read().message.find("no images"), std::string::npos);
+  EXPECT_SAYS(decoder.read().message, "no images");
   decoder.add(0.0, {});
   decoder.add(0.05, {});
-  EXPECT_NE(decoder.read().message.find("of 2.0 s"), std::string::npos);
+  EXPECT_SAYS(decoder.read().message, "of 2.0 s");
   for (double time = 0.1; time < 3.0; time += 0.01)
     decoder.add(time, {});
-  EXPECT_NE(decoder.read().message.find("no light"), std::string::npos);
+  EXPECT_SAYS(decoder.read().message, "no light");
   for (double time = 3.0; time < 6.0; time += 0.01)
     decoder.add(time, {{5.0, 5.0}, {std::numeric_limits<double>::quiet_NaN(), 1.0}});
-  EXPECT_NE(decoder.read().message.find("do not blink"), std::string::npos);
+  EXPECT_SAYS(decoder.read().message, "do not blink");
   decoder.add(6.5, {});
-  EXPECT_NE(decoder.read().message.find("no image came"), std::string::npos);
+  EXPECT_SAYS(decoder.read().message, "no image came");
   decoder.add(1.0, {});  // a recording that starts again
-  EXPECT_NE(decoder.read().message.find("of 2.0 s"), std::string::npos);
+  EXPECT_SAYS(decoder.read().message, "of 2.0 s");
 
   Scene far;
   far.spacing = 9.0;
-  EXPECT_NE(far.read(1).message.find("nearer"), std::string::npos) << far.read(1).message;
+  EXPECT_SAYS(far.read(1).message, "nearer");
   Scene edge;
   edge.center = {0.0, 384.0};
-  EXPECT_NE(edge.read(1, 12).message.find("of 16 LEDs"), std::string::npos);
+  EXPECT_SAYS(edge.read(1, 12).message, "of 16 LEDs");
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #include "board_lenses.h"
+#include "expect_says.h"
 
 #include "intrinsics/view_collector.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
@@ -39,13 +40,13 @@ TEST(ViewCollector, BarsAreThoseOfTheDefinition) {
 TEST(ViewCollector, KeepsWhatDiffersAndSaysWhyNot) {
   ViewCollector collector(Board(), 1024, 768, 12);
   EXPECT_EQ(collector.add(frontView(100.0, 100.0, 200.0)), "");
-  EXPECT_NE(collector.add(frontView(110.0, 105.0, 200.0)).find("too much like"), std::string::npos);
+  EXPECT_SAYS(collector.add(frontView(110.0, 105.0, 200.0)), "too much like");
   EXPECT_EQ(collector.samples().views.size(), 1u);
   collector.undo();
   EXPECT_EQ(collector.add(frontView(110.0, 105.0, 200.0)), "");
   BoardView few;
   few.pixels[0] = few.pixels[5] = Eigen::Vector2d(1.0, 2.0);
-  EXPECT_NE(collector.add(few).find("fewer than 6"), std::string::npos);
+  EXPECT_SAYS(collector.add(few), "fewer than 6");
 }
 
 TEST(ViewCollector, CompleteCoverageSufficesToSolve) {

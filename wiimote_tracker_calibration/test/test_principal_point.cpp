@@ -4,6 +4,7 @@
 
 #include "square/error.h"
 
+#include "expect_says.h"
 #include "paper_procedure.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
@@ -126,8 +127,7 @@ TEST(PrincipalPoint, TheOppositeSignDiverges) {
       EXPECT_GT(rounds[i].origin_error, rounds[i - 1].origin_error);
     EXPECT_GT(result.after, 2.0 * result.before);
     EXPECT_FALSE(result.correction.warnings.empty());
-    EXPECT_NE(result.correction.rig.verdict.find("made the measured corners worse"),
-              std::string::npos);
+    EXPECT_SAYS(result.correction.rig.verdict, "made the measured corners worse");
   }
 }
 
@@ -204,8 +204,8 @@ TEST(PrincipalPoint, ImageCenterWithDistortionIsWarnedOf) {
   options.rounds = 1;
   const CorrectionResult result = correctPrincipalPoints(layout(), cameras, options);
   ASSERT_FALSE(result.warnings.empty());
-  EXPECT_NE(result.warnings.back().find("know no distortion"), std::string::npos);
-  EXPECT_NE(result.rig.verdict.find("know no distortion"), std::string::npos);
+  EXPECT_SAYS(result.warnings.back(), "know no distortion");
+  EXPECT_SAYS(result.rig.verdict, "know no distortion");
 }
 
 TEST(PrincipalPoint, ProgressSeesEveryRoundAndCanStopIt) {
@@ -233,8 +233,8 @@ TEST(PrincipalPoint, TheTableNamesTheCamerasAndHasALinePerRound) {
   options.rounds = 2;
   const std::string text = table(correctPrincipalPoints(layout(), cameras, options).trace);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
-  EXPECT_NE(text.find("left cx, cy [px]"), std::string::npos);
-  EXPECT_NE(text.find("535.0,  401.7"), std::string::npos);
+  EXPECT_SAYS(text, "left cx, cy [px]");
+  EXPECT_SAYS(text, "535.0,  401.7");
 }
 
 TEST(PrincipalPoint, ACornerThatOneCameraSawIsNamed) {

@@ -27,7 +27,7 @@ constexpr int kFlashMs = 40;
 
 /// The LEDs that are lit at a time since the start of a cycle [s, >= 0].
 inline std::vector<int> litAt(double seconds) {
-  double ms = std::fmod(1e3 * seconds, kCycleMs);
+  const double ms = std::fmod(1e3 * seconds, kCycleMs);
   for (const TableLine& line : kTable) {
     if (ms >= line.start && ms < line.start + kFlashMs)
       return {line.leds.begin(), line.leds.end()};

@@ -1,7 +1,8 @@
 // The sketch of the board lights what the decoder expects: the table of doc/board.md.
+#include "board_table.h"
+
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <map>
 #include <set>
 #include <vector>
@@ -59,19 +60,13 @@ std::set<int> litAt(unsigned long time) {
 }
 
 TEST(BoardSketch, LightsTheTable) {
-  const std::map<int, std::set<int>> table = {
-      // by the beginning [ms]
-      {0, {0, 1, 2, 3}},    {60, {4, 5, 6, 7}},   {120, {8, 9, 10, 11}}, {180, {12, 13, 14, 15}},
-      {240, {0, 4, 8, 12}}, {480, {1, 5, 9, 13}}, {720, {2, 6, 10, 14}}, {960, {3, 7, 11, 15}}};
   arduino::setup();
   const unsigned long start = arduino::step_start;
   for (int step = 0; step < 2 * 33; ++step)
     arduino::loop();
-  for (int ms = 1; ms < 2 * 1980; ms += 2) {
-    const int in_cycle = ms % 1980;
-    const auto flash = table.find(in_cycle - in_cycle % 60);
-    const bool is_lit = flash != table.end() && in_cycle % 60 < 40;
-    EXPECT_EQ(is_lit ? flash->second : std::set<int>(), litAt(start + 1000ul * ms)) << ms << " ms";
+  for (int ms = 1; ms < 2 * wiimote_tracker::intrinsics::kCycleMs; ms += 2) {
+    const std::vector<int> lit = wiimote_tracker::intrinsics::litAt(1e-3 * ms);
+    EXPECT_EQ(std::set<int>(lit.begin(), lit.end()), litAt(start + 1000ul * ms)) << ms << " ms";
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <wiimote_tracker_msgs/error.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace wiimote_tracker::intrinsics {
@@ -18,10 +19,8 @@ void Board::check() const {
 }
 
 std::size_t BoardView::count() const {
-  std::size_t seen = 0;
-  for (const auto& pixel : pixels)
-    seen += pixel ? 1 : 0;
-  return seen;
+  return static_cast<std::size_t>(
+      std::count_if(pixels.begin(), pixels.end(), [](const auto& p) { return p.has_value(); }));
 }
 
 }  // namespace wiimote_tracker::intrinsics

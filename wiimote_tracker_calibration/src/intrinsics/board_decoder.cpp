@@ -109,7 +109,7 @@ Led ledFromLight(const Light& light, double phase, int* number) {
   return {flash(sequence::rowStep(row)), flash(sequence::columnStep(column))};
 }
 
-Leds ledsAtPhase(const std::vector<Light>& lights, double phase, double* weight) {
+Leds ledsAtPhase(const std::vector<Light>& lights, double phase) {
   Leds leds{};
   for (const Light& light : lights) {
     int number = 0;
@@ -118,9 +118,6 @@ Leds ledsAtPhase(const std::vector<Light>& lights, double phase, double* weight)
     if (led.weight() > best.weight())
       best = led;
   }
-  *weight = 0.0;
-  for (const Led& led : leds)
-    *weight += led.weight();
   return leds;
 }
 
@@ -129,7 +126,8 @@ double bestPhase(const std::vector<Light>& lights, double start) {
   double best_weight = 0.0;
   for (double phase = start; phase < start + sequence::kCycle; phase += kPhaseStep) {
     double weight = 0.0;
-    ledsAtPhase(lights, phase, &weight);
+    for (const Led& led : ledsAtPhase(lights, phase))
+      weight += led.weight();
     if (weight > best_weight) {
       best_weight = weight;
       best = phase;
@@ -244,8 +242,7 @@ BoardReading BoardDecoder::read() const {
   }
 
   const double phase = bestPhase(lights, frames_.front().time);
-  double weight = 0.0;
-  const Leds leds = ledsAtPhase(lights, phase, &weight);
+  const Leds leds = ledsAtPhase(lights, phase);
   BoardView view;
   for (std::size_t i = 0; i < leds.size(); ++i) {
     if (leds[i].seen())
@@ -264,17 +261,16 @@ BoardReading BoardDecoder::read() const {
                reading.motion, kMostMotion);
   else if (static_cast<int>(view.count()) < minimum_leds_)
     reading.message = format(
-        "%d of %d LEDs stayed in place, at least %d are needed: hold the board "
+        "%zu of %d LEDs stayed in place, at least %d are needed: hold the board "
         "still, and more of it in the image%s",
-        static_cast<int>(view.count()), kBoardLeds, minimum_leds_,
-        has_lamps ? "; cover other lights" : "");
+        view.count(), kBoardLeds, minimum_leds_, has_lamps ? "; cover other lights" : "");
   else if (smallestSeparation(view) < kLeastSeparation)
     reading.message = format(
         "LEDs are %.0f px from one another, at least %.0f px are needed: bring "
         "the board nearer or tilt it less",
         smallestSeparation(view), kLeastSeparation);
   else {
-    reading.message = format("%d of %d LEDs", static_cast<int>(view.count()), kBoardLeds);
+    reading.message = format("%zu of %d LEDs", view.count(), kBoardLeds);
     reading.view = view;
   }
   return reading;

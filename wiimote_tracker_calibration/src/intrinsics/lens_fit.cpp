@@ -130,11 +130,13 @@ Fit firstFit(const Points& points, bool equidistant, double focal_length) {
     if (fit.error < best.error)
       best = fit;
   }
+  if (best.ok())
+    best = fitFrom(best, LensModel::kNoDistortion, points, kPrecise);
   if (!best.ok())
     throw Error(
         "the views fit no camera: check the board's spacings, and show it again "
         "from at least 12 different sides");
-  return fitFrom(best, LensModel::kNoDistortion, points, kPrecise);
+  return best;
 }
 
 Fit refined(const Fit& start, LensModel model, const Points& points) {

@@ -28,7 +28,7 @@ struct Points {
 struct Fit {
   LensModel model = LensModel::kNoDistortion;
   cv::Mat camera_matrix;  // 3 x 3
-  cv::Mat distortion;     // 1 x 5, or 1 x 4 of kEquidistant
+  cv::Mat distortion;     // 5 coefficients, or the 4 of an equidistant lens
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
   double error = HUGE_VAL;  // reprojection error [px]; infinite: could not be fitted

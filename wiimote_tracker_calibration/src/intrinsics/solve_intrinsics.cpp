@@ -8,6 +8,7 @@
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -72,10 +73,9 @@ void checkInput(const Samples& samples, const SolverOptions& options) {
         options.maximum_focal_stddev > 0.0 && options.maximum_pixel_stddev > 0.0 &&
         options.maximum_aspect_error > 0.0))
     throw Error("an option of the intrinsics solver is out of range: see SolverOptions");
-  const std::size_t needed = static_cast<std::size_t>(options.minimum_views);
-  if (samples.views.size() < needed)
-    throw Error(std::to_string(samples.views.size()) + " views of the board, at least " +
-                std::to_string(needed) + " are needed: show it from more sides");
+  if (samples.views.size() < static_cast<std::size_t>(options.minimum_views))
+    throw Error(format("%zu views of the board, at least %d are needed: show it from more sides",
+                       samples.views.size(), options.minimum_views));
 }
 
 void checkPlaces(const Samples& samples) {
@@ -97,11 +97,11 @@ void checkPlaces(const Samples& samples) {
 
 /// Checks that the views have different tilts: otherwise the focal length is not determined.
 void checkTilts(const Fit& fit) {
-  double most = 0.0;
   std::vector<Eigen::Vector3d> normals;
   for (const cv::Mat& rotation : fit.rotations)
     normals.emplace_back(geometry::so3::exp(adjust::vectorFromCv(rotation)) *
                          Eigen::Vector3d::UnitZ());
+  double most = 0.0;
   for (const Eigen::Vector3d& a : normals) {
     for (const Eigen::Vector3d& b : normals)
       most = std::max(most, std::acos(std::clamp(a.dot(b), -1.0, 1.0)));
@@ -113,14 +113,12 @@ void checkTilts(const Fit& fit) {
 }
 
 std::string summaryOf(const IntrinsicsSolution& s) {
-  const std::string text = format(
-      "%d views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
+  const Eigen::Matrix<double, 9, 1> stddev = s.covariance.diagonal().cwiseSqrt();
+  return format(
+      "%zu views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
       "px; reprojection error %.2f px",
-      static_cast<int>(s.view_errors.size()), nameOf(s.model).c_str(), s.intrinsics.fx,
-      std::sqrt(s.covariance(0, 0)), s.intrinsics.fy, std::sqrt(s.covariance(1, 1)),
-      s.intrinsics.cx, std::sqrt(s.covariance(2, 2)), s.intrinsics.cy,
-      std::sqrt(s.covariance(3, 3)), s.reprojection_error);
-  return text;
+      s.view_errors.size(), nameOf(s.model).c_str(), s.intrinsics.fx, stddev(0), s.intrinsics.fy,
+      stddev(1), s.intrinsics.cx, stddev(2), s.intrinsics.cy, stddev(3), s.reprojection_error);
 }
 
 }  // namespace

@@ -86,15 +86,12 @@ ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::
   for (std::size_t i = 0; i < 4; ++i)
     geometry.corners[i] = mapped(homography, board.position(kCorners[i]));
   double sum = 0.0;
-  double turn = 0.0;
   for (int led = 0; led < kBoardLeds; ++led) {
-    const auto& pixel = view.pixels[static_cast<std::size_t>(led)];
-    if (pixel)
+    if (const auto& pixel = view.pixels[static_cast<std::size_t>(led)])
       sum += (mapped(homography, board.position(led)) - *pixel).squaredNorm();
   }
-  turn = area(geometry.corners);
   geometry.misfit = std::sqrt(sum / static_cast<double>(plane.size()));
-  geometry.mirrored = turn < 0.0;
+  geometry.mirrored = area(geometry.corners) < 0.0;
   return geometry;
 }
 

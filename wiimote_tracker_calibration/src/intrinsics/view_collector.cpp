@@ -79,22 +79,17 @@ Coverage ViewCollector::coverage() const {
   const int missing_views = minimum_views_ - static_cast<int>(samples_.views.size());
   if (missing_views > 0)
     result.missing.push_back(std::to_string(missing_views) + " more views of the board");
-  Parameters low{};
+  // A small board or one without tilt is not required.
+  Parameters low = {1.0, 1.0, 0.0, 0.0};
   Parameters high{};
-  if (!parameters_.empty()) {
-    low = high = parameters_.front();
-    for (const Parameters& kept : parameters_) {
-      for (std::size_t i = 0; i < kept.size(); ++i) {
-        low[i] = std::min(low[i], kept[i]);
-        high[i] = std::max(high[i], kept[i]);
-      }
-    }
-    // A small board or one without tilt is not required.
-    low[kSize] = low[kSkew] = 0.0;
-  }
   Parameters bars;
-  for (std::size_t i = 0; i < bars.size(); ++i)
+  for (std::size_t i = 0; i < bars.size(); ++i) {
+    for (const Parameters& kept : parameters_) {
+      low[i] = std::min(low[i], kept[i]);
+      high[i] = std::max(high[i], kept[i]);
+    }
     bars[i] = unit((high[i] - low[i]) / kFull[i]);
+  }
   result.x = bars[kX];
   result.y = bars[kY];
   result.size = bars[kSize];

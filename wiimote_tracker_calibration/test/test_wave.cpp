@@ -1,14 +1,9 @@
 // The wave and the wand against simulations whose truth is known, and against the Fisher bound of
 // the same model, computed another way.
-#include "wave_trial.h"
-#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
-#include "wiimote_tracker_calibration/simulation/wave_bound.h"
-
 #include "expect_says.h"
 #include "wave_scenes.h"
 
 #include "wave/error.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <gtest/gtest.h>
 
@@ -20,14 +15,6 @@
 
 namespace wiimote_tracker::wave {
 namespace {
-
-/// What the solution and the truth differ by in the volume.
-VolumeError errorOf(const WaveScene& scene,
-                    const SimulatedWave& wave,
-                    const WaveSolution& solution) {
-  const auto points = cubePoints(wave.cameras);
-  return volumeError(pointErrors(wave.cameras, inTrueWorld(scene, wave, solution), points), points);
-}
 
 void expectOffsets(const SimulatedWave& wave, const WaveSolution& solution, double tolerance) {
   for (std::size_t i = 0; i < wave.cameras.size(); ++i)

@@ -1,13 +1,9 @@
 // The world of a wand that lies on the floor before it is waved, against simulations whose truth is
 // known, and what is refused.
-#include "wave_trial.h"
-#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
-
 #include "expect_says.h"
 #include "wave_scenes.h"
 
 #include "wave/wand_on_floor.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -97,9 +93,7 @@ TEST(WandOnFloor, LampsThatAreMaskedAndWrongSpotsDoNotMatter) {
   scene.wrong_share = 0.1;
   const SimulatedWave wave = simulateWave(scene, 2);
   const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
-  const auto points = cubePoints(wave.cameras);
-  const VolumeError error =
-      volumeError(pointErrors(wave.cameras, inTrueWorld(scene, wave, solution), points), points);
+  const VolumeError error = errorOf(scene, wave, solution);
   EXPECT_LT(error.similarity, 0.004);
   EXPECT_LT(error.absolute, 0.04);
 }

@@ -1,7 +1,4 @@
 // What a wave is refused for, and the cause that the refusal names.
-#include "wave_trial.h"
-#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
-
 #include "expect_says.h"
 #include "wave_scenes.h"
 

@@ -1,8 +1,4 @@
 // What the residuals of a wave say about the noise and about errors that are not as stated.
-#include "wave_trial.h"
-#include "wiimote_tracker_calibration/simulation/simulated_wave.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
-
 #include "wave_scenes.h"
 
 #include <gtest/gtest.h>

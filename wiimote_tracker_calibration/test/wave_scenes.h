@@ -1,8 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
 
+#include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
-
+#include "wiimote_tracker_calibration/simulation/wave_bound.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
@@ -17,6 +18,14 @@ inline WaveScene shortScene() {
   scene.duration = 8.0;
   scene.rate = 60.0;
   return scene;
+}
+
+/// What the solution and the truth differ by in the volume.
+inline VolumeError errorOf(const WaveScene& scene,
+                           const SimulatedWave& wave,
+                           const WaveSolution& solution) {
+  const auto points = cubePoints(wave.cameras);
+  return volumeError(pointErrors(wave.cameras, inTrueWorld(scene, wave, solution), points), points);
 }
 
 /// What solving says when it refuses.

@@ -42,8 +42,7 @@ bool isOnFloor(const Recording& recording) {
 
 void require(bool good, const char* name, double value, const char* range) {
   if (!good)
-    throw WaveError(std::string(name) + " is " + format("%g", value) + ", but must be " + range +
-                    ": correct it");
+    throw WaveError(format("%s is %g, but must be %s: correct it", name, value, range));
 }
 
 void checkOptions(const WaveOptions& options) {
@@ -167,12 +166,12 @@ double offsetStddev(const geometry::Rig& rig, std::size_t camera) {
 }
 
 void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution) {
-  double farthest = 0.0;  // in standard deviations
-  for (std::size_t c = 0; c < solution->corner_offsets.size(); ++c)
-    farthest = std::max(farthest, solution->corner_offsets[c].norm() / uncertainty.placementOf(c));
   const std::optional<square::SuspectCorner>& suspect = solution->suspect;
   if (!suspect)
     return;
+  double farthest = 0.0;  // in standard deviations
+  for (std::size_t c = 0; c < solution->corner_offsets.size(); ++c)
+    farthest = std::max(farthest, solution->corner_offsets[c].norm() / uncertainty.placementOf(c));
   const std::string corner = "corner " + std::to_string(suspect->corner + 1);
   const std::string off = format("%.0f mm", 1e3 * suspect->distance) + " beside its place";
   if (farthest > kRefuseDeviation)
@@ -256,9 +255,9 @@ void checkSolution(const Recording& recording, const WaveOptions& options, WaveS
       solution->warnings.emplace_back(square::kZDown);
     checkCorners(options.uncertainty, solution);
   }
-  if (recording.wand) {
+  if (recording.square && recording.wand) {
     const double off = solution->wand_length - recording.wand->length;
-    if (recording.square && std::abs(off) > kWarnDeviation * recording.wand->stddev)
+    if (std::abs(off) > kWarnDeviation * recording.wand->stddev)
       solution->warnings.push_back("by the square the wand is " + format("%+.1f mm", 1e3 * off) +
                                    " longer than stated: measure the wand and the square again");
   }
@@ -291,9 +290,9 @@ std::string verdictOf(const Recording& recording, const WaveSolution& solution) 
       solution.rig.cameras.size(), solution.seconds_seen, recording.wand ? "a wand" : "a wave",
       recording.square ? " and the square" : "", worst_px, 1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
-    text += ", points expected within " + format("%.1f mm", 1e3 * solution.expected_error) +
-            " (RMS) in " + worldOf(recording, solution.rig) + ", " +
-            format("%.1f mm", 1e3 * solution.expected_shape_error) + " to one another";
+    text += format(", points expected within %.1f mm (RMS) in %s, %.1f mm to one another",
+                   1e3 * solution.expected_error, worldOf(recording, solution.rig).c_str(),
+                   1e3 * solution.expected_shape_error);
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;

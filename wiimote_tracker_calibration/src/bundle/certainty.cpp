@@ -1,5 +1,7 @@
 #include "certainty.h"
 
+#include "wiimote_tracker_calibration/bundle/similarity.h"
+
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
@@ -19,23 +21,6 @@ constexpr double kGiven = 1e12;  // information of a parameter that is held
 /// Weight of a squared residual by the Huber loss.
 double huberWeight(double error, double loss_scale) {
   return error > loss_scale ? loss_scale / error : 1.0;
-}
-
-/// Motions of points that a similarity makes: one orthonormal column for each of the seven.
-Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  for (const Eigen::Vector3d& point : points)
-    mean += point / static_cast<double>(points.size());
-  Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(points.size()), 7);
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const Eigen::Vector3d from_mean = points[i] - mean;
-    auto rows = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
-    rows.leftCols<3>().setIdentity();
-    for (int axis = 0; axis < 3; ++axis)
-      rows.col(3 + axis) = Eigen::Vector3d::Unit(axis).cross(from_mean);
-    rows.col(6) = from_mean;
-  }
-  return geometry::orthonormalBasis(motions);
 }
 
 }  // namespace
@@ -193,7 +178,7 @@ std::optional<double> Certainty::expectedShapeError() const {
   std::vector<Eigen::Vector3d> positions;
   for (const Point& point : points_)
     positions.push_back(point.position);
-  const Eigen::MatrixXd motions = similarityMotions(positions);
+  const Eigen::MatrixXd motions = geometry::orthonormalBasis(similarityMotions(positions));
   Eigen::MatrixXd along = Eigen::MatrixXd::Zero(7, covariance_->rows());  // Q^T D
   double sum = 0.0;
   for (std::size_t i = 0; i < points_.size(); ++i) {

@@ -3,10 +3,10 @@
 #include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
-
-#include <Eigen/Geometry>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <cmath>
+#include <cstddef>
 
 namespace wiimote_tracker::bundle {
 
@@ -36,6 +36,21 @@ Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
   similarity.rotation = transform.topLeftCorner<3, 3>() / similarity.scale;
   similarity.translation = transform.topRightCorner<3, 1>();
   return similarity;
+}
+
+Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points) {
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& point : points)
+    mean += point / static_cast<double>(points.size());
+  Eigen::MatrixXd motions(3 * static_cast<Eigen::Index>(points.size()), 7);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Eigen::Vector3d from_mean = points[i] - mean;
+    auto rows = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    rows.leftCols<3>().setIdentity();
+    rows.middleCols<3>(3) = geometry::so3::skew(from_mean);
+    rows.col(6) = from_mean;
+  }
+  return motions;
 }
 
 void transform(const Similarity& similarity, Reconstruction* reconstruction) {

@@ -1,9 +1,10 @@
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
 
+#include "wiimote_tracker_calibration/bundle/similarity.h"
+
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
-#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/LU>
 #include <Eigen/SparseCholesky>
@@ -205,21 +206,6 @@ class Information {
   std::vector<Eigen::Triplet<double>> entries_;
 };
 
-/// Small motions of the points, one per column: rigid, or with a scale too.
-Eigen::MatrixXd motionsOf(const std::vector<Eigen::Vector3d>& points, bool with_scale) {
-  Eigen::MatrixXd motions =
-      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(points.size()), with_scale ? 7 : 6);
-  for (std::size_t p = 0; p < points.size(); ++p) {
-    const Eigen::Index row = 3 * static_cast<Eigen::Index>(p);
-    const Eigen::Vector3d r = points[p] - Eigen::Vector3d::Constant(1.25);
-    motions.block<3, 3>(row, 0).setIdentity();
-    motions.block<3, 3>(row, 3) = geometry::so3::skew(r);
-    if (with_scale)
-      motions.block<3, 1>(row, 6) = r;
-  }
-  return motions;
-}
-
 /// RMS of the points' errors by causes of this covariance, before and after an alignment.
 VolumeError rmsOf(const Eigen::MatrixXd& by_causes,
                   const Eigen::MatrixXd& covariance,
@@ -227,11 +213,11 @@ VolumeError rmsOf(const Eigen::MatrixXd& by_causes,
   const auto rms = [&](const Eigen::MatrixXd& a) {
     return std::sqrt((a * covariance).cwiseProduct(a).sum() / static_cast<double>(points.size()));
   };
-  const auto aligned = [&](bool with_scale) {
-    const Eigen::MatrixXd motions = motionsOf(points, with_scale);
-    return rms(by_causes - motions * (geometry::pseudoInverse(motions) * by_causes));
+  const Eigen::MatrixXd motions = bundle::similarityMotions(points);
+  const auto aligned = [&](const Eigen::MatrixXd& along) {
+    return rms(by_causes - along * (geometry::pseudoInverse(along) * by_causes));
   };
-  return {rms(by_causes), aligned(false), aligned(true)};
+  return {rms(by_causes), aligned(motions.leftCols(6)), aligned(motions)};
 }
 
 /// How the points move with the parameters of the cameras that see them.

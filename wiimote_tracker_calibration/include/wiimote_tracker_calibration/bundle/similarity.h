@@ -26,6 +26,10 @@ struct Similarity {
 Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
                          const std::vector<Eigen::Vector3d>& to);
 
+/// Small motions of points that a similarity makes, three rows per point, one column for each of
+/// its seven parameters: translation, rotation about the points' mean, scale.
+Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points);
+
 /// Applies a similarity to cameras and points; reprojections stay the same.
 void transform(const Similarity& similarity, Reconstruction* reconstruction);
 

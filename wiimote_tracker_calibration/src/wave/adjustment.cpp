@@ -110,12 +110,7 @@ class WaveProblem {
   }
 
   double misfit() {
-    ceres::Problem::EvaluateOptions options;
-    options.residual_blocks = matches_;
-    options.apply_loss_function = false;
-    double half_sum = 0.0;
-    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return std::sqrt(2.0 * half_sum / residuals() / redundancy().value_or(1.0));
+    return std::sqrt(squaresOf(matches_) / residuals() / redundancy().value_or(1.0));
   }
 
   std::optional<double> redundancy() const {
@@ -124,12 +119,8 @@ class WaveProblem {
   }
 
   Agreement agreement() {
-    ceres::Problem::EvaluateOptions options;
-    options.residual_blocks = priors_;
-    double half_sum = 0.0;
-    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
     // Two directions differ by two angles, in three residuals.
-    return {2.0 * half_sum, adjust::degreesOfFreedom(&problem_, priors_) - accelerometers_};
+    return {squaresOf(priors_), adjust::degreesOfFreedom(&problem_, priors_) - accelerometers_};
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -147,6 +138,16 @@ class WaveProblem {
 
  private:
   double residuals() const { return 2.0 * static_cast<double>(matches_.size()); }
+
+  /// Sum of squared residuals.
+  double squaresOf(const std::vector<ceres::ResidualBlockId>& blocks) {
+    ceres::Problem::EvaluateOptions options;
+    options.residual_blocks = blocks;
+    options.apply_loss_function = false;
+    double half_sum = 0.0;
+    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
+    return 2.0 * half_sum;
+  }
 
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
     // The problem owns it.

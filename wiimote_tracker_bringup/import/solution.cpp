@@ -20,8 +20,7 @@ using bundle::Reconstruction;
 
 /// Triangulates points with the present cameras. @returns the number of inliers.
 std::size_t triangulate(const bundle::Options& options, Reconstruction* reconstruction) {
-  bundle::triangulatePoints(reconstruction, std::vector<bool>(reconstruction->cameras.size(), true),
-                            options.maximum_error, options.minimum_angle);
+  bundle::triangulatePoints(reconstruction, options.maximum_error);
   return static_cast<std::size_t>(
       std::count(reconstruction->inliers.begin(), reconstruction->inliers.end(), true));
 }

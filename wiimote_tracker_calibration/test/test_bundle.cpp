@@ -151,8 +151,7 @@ TEST(Bundle, HeldPositionsStayAndOrientationsAreFound) {
         Eigen::AngleAxisd(angle(random), Eigen::Vector3d(1.0, 2.0, -1.0).normalized()));
   Options options;
   options.maximum_error = 20.0;
-  triangulatePoints(&start, std::vector<bool>(4, true), options.maximum_error,
-                    options.minimum_angle);
+  triangulatePoints(&start, options.maximum_error);
   Held held;
   held.positions = true;
   adjust(&start, options, held);

@@ -167,7 +167,7 @@ void adjust(Reconstruction* reconstruction, const Options& options, const Held& 
       return;
     const std::vector<bool> before = reconstruction->inliers;
     const auto points = reconstruction->points;
-    triangulatePoints(reconstruction, usable, options.maximum_error, options.minimum_angle);
+    triangulatePoints(reconstruction, options.maximum_error, usable);
     if (reconstruction->inliers == before) {
       reconstruction->points = points;
       return;

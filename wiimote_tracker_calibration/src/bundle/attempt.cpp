@@ -131,8 +131,7 @@ void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt
   now.maximum_error = maximum_error;
   Held held;
   held.intrinsics = false;
-  triangulatePoints(&attempt->reconstruction, attempt->placed, maximum_error,
-                    options.minimum_angle);
+  triangulatePoints(&attempt->reconstruction, maximum_error, attempt->placed);
   adjust(&attempt->reconstruction, now, held);
   attempt->cost = costOf(attempt->reconstruction, attempt->placed, options.maximum_error);
 }

@@ -25,10 +25,8 @@ std::optional<double> errorOf(const geometry::Camera& camera,
 
 class PointSolver {
  public:
-  PointSolver(const Reconstruction& reconstruction, double maximum_error, double minimum_angle)
-      : reconstruction_(reconstruction), maximum_error_(maximum_error) {
-    options_.minimum_angle = minimum_angle;
-  }
+  PointSolver(const Reconstruction& reconstruction, double maximum_error)
+      : reconstruction_(reconstruction), maximum_error_(maximum_error) {}
 
   /// The point of all views if they agree, else of the largest group that agrees with a pair of
   /// views.
@@ -66,7 +64,7 @@ class PointSolver {
       const Observation& observation = reconstruction_.observations[view];
       rays.push_back({&reconstruction_.cameras[observation.camera], observation.pixel});
     }
-    const auto triangulated = geometry::triangulate(rays, options_);
+    const auto triangulated = geometry::triangulate(rays, geometry::TriangulationOptions());
     if (!triangulated)
       return std::nullopt;
     Consensus consensus;
@@ -85,7 +83,6 @@ class PointSolver {
 
   const Reconstruction& reconstruction_;
   double maximum_error_;
-  geometry::TriangulationOptions options_;
 };
 
 }  // namespace
@@ -99,16 +96,15 @@ std::optional<double> reprojectionError(const Reconstruction& reconstruction,
 }
 
 void triangulatePoints(Reconstruction* reconstruction,
-                       const std::vector<bool>& usable,
                        double maximum_error,
-                       double minimum_angle) {
+                       const std::vector<bool>& usable) {
   std::vector<Views> views(reconstruction->points.size());
   for (std::size_t i = 0; i < reconstruction->observations.size(); ++i) {
     const Observation& observation = reconstruction->observations[i];
-    if (usable[observation.camera])
+    if (usable.empty() || usable[observation.camera])
       views[observation.point].push_back(i);
   }
-  const PointSolver solver(*reconstruction, maximum_error, minimum_angle);
+  const PointSolver solver(*reconstruction, maximum_error);
   reconstruction->inliers.assign(reconstruction->observations.size(), false);
   for (std::size_t point = 0; point < views.size(); ++point) {
     const std::optional<Consensus> consensus = solver.solve(views[point]);

@@ -225,7 +225,7 @@ class Search {
     Options rough = options_.bundle;
     rough.rough = true;
     adjustPlaced(rough, maximumError(), &attempt);
-    triangulatePoints(&attempt.reconstruction, attempt.placed, maximumError(), rough.minimum_angle);
+    triangulatePoints(&attempt.reconstruction, maximumError(), attempt.placed);
     return attempt;
   }
 
@@ -268,10 +268,6 @@ void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCali
 void refine(const SelfCalibrationOptions& options, Reconstruction* reconstruction) {
   const int kRounds = 5;
   const double kMedians = 6.0;  // 5.2 sigma of the larger of two coordinates, roughly
-  const std::vector<bool> all(reconstruction->cameras.size(), true);
-  const auto triangulateWithin = [&](double limit) {
-    triangulatePoints(reconstruction, all, limit, options.bundle.minimum_angle);
-  };
   Options tight = options.bundle;
   Held held;
   held.intrinsics = options.fixed_lenses;
@@ -283,10 +279,10 @@ void refine(const SelfCalibrationOptions& options, Reconstruction* reconstructio
     tight.maximum_error = std::max(tight.maximum_error, 0.01 * options.bundle.maximum_error);
     tight.pixel_stddev = std::max(pixelStddev(*reconstruction, tight), 1e-3);
     tight.rough = round + 1 < kRounds;
-    triangulateWithin(tight.maximum_error);
+    triangulatePoints(reconstruction, tight.maximum_error);
     adjust(reconstruction, tight, held);
   }
-  triangulateWithin(options.bundle.maximum_error);
+  triangulatePoints(reconstruction, options.bundle.maximum_error);
 }
 
 SelfCalibration solveOnce(const Reconstruction& all,

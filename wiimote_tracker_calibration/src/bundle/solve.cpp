@@ -56,8 +56,7 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
   while (true) {
     // A camera that was just placed is off by more than its noise.
     const double kTolerance = 4.0;
-    triangulatePoints(&reconstruction, placed, kTolerance * options.maximum_error,
-                      options.minimum_angle);
+    triangulatePoints(&reconstruction, kTolerance * options.maximum_error, placed);
     const bool all_placed = std::find(placed.begin(), placed.end(), false) == placed.end();
     Options now = options;
     now.rough = options.rough || !all_placed;

@@ -157,8 +157,7 @@ std::optional<bundle::Reconstruction> withLenses(const Recording& recording,
     result.cameras[i].intrinsics = lens;
     result.cameras[i].world_from_camera = pinhole.world_from_camera;
   }
-  bundle::triangulatePoints(&result, std::vector<bool>(result.cameras.size(), true),
-                            options.maximum_error, options.minimum_angle);
+  bundle::triangulatePoints(&result, options.maximum_error);
   return result;
 }
 

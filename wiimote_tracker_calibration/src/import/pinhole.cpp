@@ -102,8 +102,7 @@ ShippedCameras shippedCameras(const Recording& recording, const bundle::Options&
           reconstruction.observations.push_back({camera, frame, *pixel});
       }
     }
-    bundle::triangulatePoints(&reconstruction, std::vector<bool>(recording.cameras.size(), true),
-                              options.maximum_error, options.minimum_angle);
+    bundle::triangulatePoints(&reconstruction, options.maximum_error);
     const auto inliers = static_cast<std::size_t>(
         std::count(reconstruction.inliers.begin(), reconstruction.inliers.end(), true));
     if (inliers > most) {

@@ -132,8 +132,7 @@ void placeRest(const bundle::Options& options,
                std::vector<bool>* placed) {
   const bundle::NormalizedViews views = bundle::normalize(*reconstruction);
   while (std::find(placed->begin(), placed->end(), false) != placed->end()) {
-    bundle::triangulatePoints(reconstruction, *placed, options.maximum_error,
-                              options.minimum_angle);
+    bundle::triangulatePoints(reconstruction, options.maximum_error, *placed);
     const std::size_t next = bundle::nextToPlace(views, options, *reconstruction, *placed);
     bundle::place(views, options, next, reconstruction, placed);
   }
@@ -153,8 +152,7 @@ void moveOnSquare(const Recording& recording,
         corners.observations.push_back({i, c, *pixel});
     }
   }
-  bundle::triangulatePoints(&corners, std::vector<bool>(corners.cameras.size(), true),
-                            options.maximum_error, options.minimum_angle);
+  bundle::triangulatePoints(&corners, options.maximum_error);
   for (const bool z_up : {true, false}) {
     const square::Corners nominal = recording.square->corners(z_up);
     std::vector<Eigen::Vector3d> from;

@@ -34,12 +34,12 @@ std::optional<double> reprojectionError(const Reconstruction& reconstruction,
 /// Triangulates all points from the present cameras and marks the inliers: observations within
 /// maximum_error [px] of a point that at least two cameras agree on. Of several such points it
 /// takes the one with the most inliers, then with the smallest error. The rays of a point must meet
-/// at an angle of at least minimum_angle [rad]. Observations of cameras without usable[camera] are
-/// outliers.
+/// at an angle of at least 0.02 rad.
+/// @param usable observations of cameras without usable[camera] are outliers; empty: all are
+/// usable.
 void triangulatePoints(Reconstruction* reconstruction,
-                       const std::vector<bool>& usable,
                        double maximum_error,
-                       double minimum_angle);
+                       const std::vector<bool>& usable = {});
 
 }  // namespace wiimote_tracker::bundle
 

@@ -22,7 +22,6 @@ struct LensPrior {
 struct Options {
   double maximum_error = 5.0;              ///< Of an inlier [px, > 0].
   double loss_scale = 1.0;                 ///< Of the Huber loss [px, > 0].
-  double minimum_angle = 0.02;             ///< Between the rays of a point [rad].
   std::size_t minimum_common_points = 10;  ///< Of a camera and the others [>= 8].
   double pixel_stddev = 1.0;               ///< Weight of observations against LensPrior [px, > 0].
   LensPrior lens;                          ///< Of intrinsics that are not held.

@@ -43,8 +43,7 @@ double leastSquaredError(const PaperSession& session,
                          const wave::SimulatedWave& wave) {
   const double pixel = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
   const Eigen::MatrixXd covariance =
-      wave::waveBound(scene, wave, 0.05, pixel, wave::Wand().stddev, {session.points[0].truth})
-          .covariance;
+      wave::waveBound(scene, wave, pixel, {session.points[0].truth}).covariance;
   double sum = 0.0;
   for (const StillLed& led : session.points)
     sum += wave::pointBound(wave.cameras, covariance, led.truth, stillPixelStddev(paperRig()))

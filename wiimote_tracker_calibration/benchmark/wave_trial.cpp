@@ -273,8 +273,7 @@ WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_pos
   }
 
   const double pixel = std::sqrt(scene.pixel * scene.pixel + (scene.quantized ? 1.0 / 12.0 : 0.0));
-  const WaveBound bound =
-      waveBound(scene, wave, options.knot_spacing, pixel, Wand().stddev, points);
+  const WaveBound bound = waveBound(scene, wave, pixel, points);
   const std::vector<geometry::Camera> estimate = inTrueWorld(scene, wave, solution);
   trial.error = volumeError(pointErrors(wave.cameras, estimate, points), points);
   trial.bound = bound.volume;

@@ -86,8 +86,7 @@ TEST(Wave, CovarianceIsTheInverseOfTheFisherInformation) {
     scene.length = length;
     const SimulatedWave wave = simulateWave(scene, 4);
     const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
-    const WaveBound bound =
-        waveBound(scene, wave, 0.05, solution.pixel_stddev, 0.0002, cubePoints(wave.cameras));
+    const WaveBound bound = waveBound(scene, wave, solution.pixel_stddev, cubePoints(wave.cameras));
     ASSERT_EQ(solution.rig.covariance.rows(), 32);
     for (Eigen::Index camera = 0; camera < 2; ++camera) {
       for (Eigen::Index k = 0; k < 12; ++k) {

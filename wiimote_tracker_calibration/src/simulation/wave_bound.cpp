@@ -1,6 +1,7 @@
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
 
 #include "wiimote_tracker_calibration/bundle/similarity.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -64,15 +65,15 @@ void append(Eigen::Index column, const Values& values, Row* row) {
 /// each), the wand's length, the control points.
 class Information {
  public:
-  Information(const WaveScene& scene, const SimulatedWave& wave, double knot_spacing)
-      : scene_(scene), wave_(wave), spacing_(knot_spacing), leds_(scene.length > 0.0 ? 2 : 1) {
+  Information(const WaveScene& scene, const SimulatedWave& wave)
+      : scene_(scene), wave_(wave), leds_(scene.length > 0.0 ? 2 : 1) {
     double end = -std::numeric_limits<double>::infinity();
     for (const SimulatedWave::View& view : wave.views) {
       start_ = std::min(start_, view.time);
       end = std::max(end, view.time);
     }
     if (!wave.views.empty())
-      intervals_ = static_cast<Eigen::Index>(std::ceil((end - start_) / knot_spacing)) + 1;
+      intervals_ = static_cast<Eigen::Index>(std::ceil((end - start_) / spacing_)) + 1;
   }
 
   void addViews(double pixel) {
@@ -134,8 +135,8 @@ class Information {
     return row;
   }
 
-  void addWand(double wand_stddev) {
-    add({{wandColumn(), 1.0}}, wand_stddev);
+  void addWand() {
+    add({{wandColumn(), 1.0}}, Wand().stddev);
     const double kStick = 0.0002;
     for (Eigen::Index i = 0; leds_ == 2 && i < intervals_; ++i) {
       const double time = start_ + spacing_ * static_cast<double>(i);
@@ -199,7 +200,7 @@ class Information {
 
   const WaveScene& scene_;
   const SimulatedWave& wave_;
-  double spacing_;
+  const double spacing_ = WaveOptions().knot_spacing;
   Eigen::Index leds_;
   double start_ = std::numeric_limits<double>::infinity();
   Eigen::Index intervals_ = 0;
@@ -251,14 +252,12 @@ VolumeError volumeError(const Eigen::Matrix3Xd& errors,
 
 WaveBound waveBound(const WaveScene& scene,
                     const SimulatedWave& wave,
-                    double knot_spacing,
                     double pixel,
-                    double wand_stddev,
                     const std::vector<Eigen::Vector3d>& points) {
-  Information information(scene, wave, knot_spacing);
+  Information information(scene, wave);
   information.addViews(pixel);
   information.addSquareAndLenses();
-  information.addWand(wand_stddev);
+  information.addWand();
   const Eigen::MatrixXd covariance = information.inverse();
   return {covariance, rmsOf(byCameras(wave.cameras, points), covariance, points)};
 }

@@ -187,9 +187,7 @@ class SessionWriter {
                   const wave::SimulatedWave& wave) {
     const double image_pixel = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
     const Eigen::MatrixXd covariance =
-        wave::waveBound(scene, wave, wave::WaveOptions().knot_spacing, image_pixel,
-                        wave::Wand().stddev, {session_.points.front().truth})
-            .covariance;
+        wave::waveBound(scene, wave, image_pixel, {session_.points.front().truth}).covariance;
     write(method, "calibrated", [&](const StillLed& led) {
       Measured bound;
       if (const auto least = wave::pointBound(wave.cameras, covariance, led.truth, pixel_))

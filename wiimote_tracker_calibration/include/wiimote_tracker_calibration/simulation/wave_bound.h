@@ -31,15 +31,13 @@ struct WaveBound {
   VolumeError volume;
 };
 
-/// Of a wave without views it is the bound of the square alone.
-/// @param points that two cameras or more see.
+/// With the default knots of WaveOptions and stddev of Wand. Of a wave without views it is the
+/// bound of the square alone.
 /// @param pixel standard deviation of what the cameras report, rounding included [px].
-/// @param wand_stddev of the wand's length [m].
+/// @param points that two cameras or more see.
 WaveBound waveBound(const WaveScene& scene,
                     const SimulatedWave& wave,
-                    double knot_spacing,
                     double pixel,
-                    double wand_stddev,
                     const std::vector<Eigen::Vector3d>& points);
 
 /// Cramér-Rao bound of a still point that these cameras see [m^2]: the information of its own

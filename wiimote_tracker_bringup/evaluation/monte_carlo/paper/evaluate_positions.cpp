@@ -5,7 +5,6 @@
 
 #include "wiimote_tracker_calibration/remap/fit.h"
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/remap/correction.h"

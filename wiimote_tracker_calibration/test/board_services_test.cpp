@@ -68,8 +68,7 @@ class Bench {
     image.height = 768;
     image.max_blobs = 4;
     for (const int led : intrinsics::litAt(stamp_)) {
-      const Eigen::Vector2d pixel =
-          intrinsics::projected(truth, camera_from_board, intrinsics::Board(), led);
+      const Eigen::Vector2d pixel = intrinsics::projected(truth, camera_from_board, led);
       wiimote_tracker_msgs::IrBlob blob;
       blob.x = std::round(pixel.x() + 0.3 * normal(random_));
       blob.y = std::round(pixel.y() + 0.3 * normal(random_));

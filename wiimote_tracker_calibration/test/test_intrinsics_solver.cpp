@@ -70,8 +70,7 @@ Eigen::MatrixXd cramerRaoBound(const geometry::Intrinsics& camera,
       const auto pixel = [&](int k, double step) {
         const int pose_parameter = k - lens - 6 * static_cast<int>(view);
         return projected(k < lens ? moved(camera, k, step) : camera,
-                         k < lens ? poses[view] : moved(poses[view], pose_parameter, step),
-                         samples.board, led);
+                         k < lens ? poses[view] : moved(poses[view], pose_parameter, step), led);
       };
       for (int k = 0; k < size; ++k) {
         const bool has_part = k < lens || (k - lens) / 6 == static_cast<int>(view);
@@ -156,9 +155,7 @@ TEST(SolveIntrinsics, ExactPixelsGiveTheExactCamera) {
     const auto& pixel = samples.views[view].pixels[5];
     if (pixel) {
       EXPECT_LT(
-          (projected(solution.intrinsics, solution.camera_from_board[view], samples.board, 5) -
-           *pixel)
-              .norm(),
+          (projected(solution.intrinsics, solution.camera_from_board[view], 5) - *pixel).norm(),
           1e-3);
     }
   }
@@ -266,9 +263,7 @@ TEST(SolveIntrinsics, ExactPixelsGiveTheExactFisheye) {
   for (std::size_t view = 0; view < samples.views.size(); ++view) {
     if (const auto& pixel = samples.views[view].pixels[5]) {
       EXPECT_LT(
-          (projected(solution.intrinsics, solution.camera_from_board[view], samples.board, 5) -
-           *pixel)
-              .norm(),
+          (projected(solution.intrinsics, solution.camera_from_board[view], 5) - *pixel).norm(),
           0.02);
     }
   }

@@ -10,12 +10,11 @@
 
 namespace wiimote_tracker::intrinsics {
 
-/// Pixel of an LED of a board at this pose, by the geometry core; NaN when it has none.
+/// Pixel of an LED of the default board at this pose, by the geometry core; NaN when it has none.
 inline Eigen::Vector2d projected(const geometry::Intrinsics& camera,
                                  const Eigen::Isometry3d& camera_from_board,
-                                 const Board& board,
                                  int led) {
-  const Eigen::Vector3d p = camera_from_board * board.position(led);
+  const Eigen::Vector3d p = camera_from_board * Board().position(led);
   return camera.pixelFromNormalized(p.hnormalized());
 }
 
@@ -26,12 +25,12 @@ inline bool isInImage(const geometry::Intrinsics& camera, const Eigen::Vector2d&
 
 /// The middle of a board of 0.3 m somewhere in the image, 0.55 to 1 m away, tilted by up to 45
 /// degrees to any side and turned by up to 30 degrees.
-inline Eigen::Isometry3d randomPose(std::mt19937& random, double largest_tilt = M_PI / 4.0) {
+inline Eigen::Isometry3d randomPose(std::mt19937& random) {
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   const double depth = 0.775 + 0.225 * uniform(random);
   const double side = 2.0 * M_PI * uniform(random);
   const Eigen::Vector3d tilt_axis(std::cos(side), std::sin(side), 0.0);
-  const double tilt = largest_tilt * (0.7 + 0.3 * uniform(random));
+  const double tilt = M_PI / 4.0 * (0.7 + 0.3 * uniform(random));
   const double turn = M_PI / 6.0 * uniform(random);
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   pose.linear() =
@@ -47,12 +46,11 @@ inline Eigen::Isometry3d randomPose(std::mt19937& random, double largest_tilt = 
 inline BoardView simulatedView(const geometry::Intrinsics& camera,
                                const Eigen::Isometry3d& camera_from_board,
                                double noise,
-                               std::mt19937& random,
-                               const Board& board = Board()) {
+                               std::mt19937& random) {
   std::normal_distribution<double> normal;
   BoardView view;
   for (int led = 0; led < kBoardLeds; ++led) {
-    const Eigen::Vector2d exact = projected(camera, camera_from_board, board, led);
+    const Eigen::Vector2d exact = projected(camera, camera_from_board, led);
     Eigen::Vector2d seen = exact;
     if (noise > 0.0) {
       seen.x() = std::round(exact.x() + noise * normal(random));
@@ -68,15 +66,13 @@ inline BoardView simulatedView(const geometry::Intrinsics& camera,
 inline Samples simulatedSamples(const geometry::Intrinsics& camera,
                                 std::size_t views,
                                 double noise,
-                                unsigned seed,
-                                const Board& board = Board()) {
+                                unsigned seed) {
   std::mt19937 random(seed);
   Samples samples;
-  samples.board = board;
   samples.width = camera.width;
   samples.height = camera.height;
   while (samples.views.size() < views) {
-    const BoardView view = simulatedView(camera, randomPose(random), noise, random, board);
+    const BoardView view = simulatedView(camera, randomPose(random), noise, random);
     if (view.count() >= 8)
       samples.views.push_back(view);
   }

@@ -1,9 +1,7 @@
 #include "start.h"
 
-#include "adjust/opencv_pose.h"
+#include "adjust/opencv.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
-
-#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <Eigen/Geometry>
 
@@ -21,16 +19,6 @@ namespace {
 
 // Factor on the error of an outlier before any adjustment.
 constexpr double kStartTolerance = 4.0;
-
-/// Whether the points of an image cover more than a line.
-bool fillsAnArea(const std::vector<cv::Point2d>& points) {
-  std::vector<Eigen::Vector3d> in_plane;
-  for (const cv::Point2d& point : points)
-    in_plane.emplace_back(point.x, point.y, 0.0);
-  const Eigen::Vector3d spread = geometry::spreadOf(in_plane);
-  const double kThinnest = 0.02;  // width over length
-  return spread(1) > kThinnest * spread(0);
-}
 
 double focalLength(const geometry::Camera& camera) {
   return 0.5 * (camera.intrinsics.fx + camera.intrinsics.fy);
@@ -52,7 +40,7 @@ bool fillsAnArea(const std::map<std::size_t, Eigen::Vector2d>& view) {
   std::vector<cv::Point2d> points;
   for (const auto& [index, pixel] : view)
     points.emplace_back(pixel.x(), pixel.y());
-  return fillsAnArea(points);
+  return adjust::fillAnArea(points);
 }
 
 CommonViews commonViews(const std::map<std::size_t, Eigen::Vector2d>& first,
@@ -90,7 +78,8 @@ std::optional<Pair> solvePair(const NormalizedViews& views,
                               std::size_t first_camera,
                               std::size_t second_camera) {
   const auto [first, second] = commonViews(views[first_camera], views[second_camera]);
-  if (first.size() < options.minimum_common_points || !fillsAnArea(first) || !fillsAnArea(second))
+  if (first.size() < options.minimum_common_points || !adjust::fillAnArea(first) ||
+      !adjust::fillAnArea(second))
     return std::nullopt;
   const double focal_length = 0.5 * (focalLength(reconstruction.cameras[first_camera]) +
                                      focalLength(reconstruction.cameras[second_camera]));
@@ -191,7 +180,7 @@ std::size_t place(const NormalizedViews& views,
                   std::vector<bool>* placed) {
   geometry::Camera& camera = reconstruction->cameras[index];
   const KnownViews known = knownViews(views, *reconstruction, index);
-  if (!fillsAnArea(known.views))
+  if (!adjust::fillAnArea(known.views))
     throw BundleError(camera.name +
                       " shares only points on one line with the cameras placed before it: " +
                       adviceFor(camera.name));

@@ -3,7 +3,7 @@
 #include "lens_fit.h"
 #include "view_geometry.h"
 
-#include "adjust/opencv_pose.h"
+#include "adjust/opencv.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>

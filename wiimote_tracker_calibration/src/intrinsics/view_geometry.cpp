@@ -1,7 +1,8 @@
 #include "view_geometry.h"
 
+#include "adjust/opencv.h"
+
 #include <wiimote_tracker_msgs/error.h>
-#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <Eigen/Core>
 #include <opencv2/calib3d.hpp>
@@ -29,16 +30,6 @@ double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
 
 double area(const std::array<Eigen::Vector2d, 4>& corners) {
   return 0.5 * cross(corners[2] - corners[0], corners[3] - corners[1]);
-}
-
-/// Whether the points lie nearly in a line: their smaller principal spread is below 2 % of the
-/// larger one.
-bool areInLine(const std::vector<cv::Point2d>& points) {
-  std::vector<Eigen::Vector3d> in_plane;
-  for (const cv::Point2d& p : points)
-    in_plane.emplace_back(p.x, p.y, 0.0);
-  const Eigen::Vector3d spread = geometry::spreadOf(in_plane);
-  return spread[1] < 0.02 * spread[0];
 }
 
 }  // namespace
@@ -74,7 +65,7 @@ ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::
   if (plane.size() < 6)
     throw Error(name + " shows fewer than 6 LEDs: bring more of the board into the image");
   cv::Mat homography;
-  if (!areInLine(plane) && !areInLine(image))
+  if (adjust::fillAnArea(plane) && adjust::fillAnArea(image))
     homography = cv::findHomography(plane, image);
   if (homography.empty())
     throw Error(name +

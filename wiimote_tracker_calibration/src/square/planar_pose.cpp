@@ -1,6 +1,6 @@
 #include "square/planar_pose.h"
 
-#include "adjust/opencv_pose.h"
+#include "adjust/opencv.h"
 #include "adjust/pixel.h"
 
 #include <ceres/ceres.h>

@@ -1,11 +1,14 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_POSE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_POSE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_H
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
 
 #include <opencv2/core.hpp>
+
+#include <vector>
 
 namespace wiimote_tracker::adjust {
 
@@ -22,6 +25,16 @@ inline Eigen::Isometry3d poseFromCv(const cv::Mat& rotation_vector, const cv::Ma
   return camera_from_world;
 }
 
+/// Whether points of a plane cover more than a line: they spread across it by more than 2 % of what
+/// they spread along it.
+inline bool fillAnArea(const std::vector<cv::Point2d>& points) {
+  std::vector<Eigen::Vector3d> in_plane;
+  for (const cv::Point2d& point : points)
+    in_plane.emplace_back(point.x, point.y, 0.0);
+  const Eigen::Vector3d spread = geometry::spreadOf(in_plane);
+  return spread(1) > 0.02 * spread(0);
+}
+
 }  // namespace wiimote_tracker::adjust
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_POSE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_H

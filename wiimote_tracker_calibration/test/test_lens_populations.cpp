@@ -7,11 +7,10 @@
 #include "session/solve_session.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 
 #include <gtest/gtest.h>
-
-#include <Eigen/LU>
 
 #include <cmath>
 #include <iostream>
@@ -56,7 +55,8 @@ double errorsOverPredicted(const Session& session,
   const Eigen::MatrixXd prior =
       Population{u.principal_point, u.shared_principal_point, Eigen::Vector2d::Zero()}.moments(
           cameras);
-  const Eigen::MatrixXd gain = by_principal_points * prior.inverse();
+  const Eigen::MatrixXd gain =
+      geometry::solveSymmetric(prior, by_principal_points.transpose()).transpose();
   const Eigen::MatrixXd covariance =
       rig.covariance + gain * (truth.moments(cameras) - prior) * gain.transpose();
   double squares = 0.0;
@@ -65,8 +65,8 @@ double errorsOverPredicted(const Session& session,
     const auto slope = geometry::pointByParameters(rig, place, geometry::camerasSeeing(rig, place));
     if (!slope)
       continue;
-    squares += (*slope * covariance * slope->transpose()).trace();
-    predicted += (*slope * rig.covariance * slope->transpose()).trace();
+    squares += geometry::propagated(*slope, covariance).trace();
+    predicted += geometry::propagated(*slope, rig.covariance).trace();
   }
   return std::sqrt(squares / predicted);
 }

@@ -7,8 +7,6 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>

@@ -7,8 +7,6 @@
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>

@@ -160,8 +160,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
   const Options rough = roughly(options.bundle);
   while (static_cast<std::size_t>(
              std::count(attempt->placed.begin(), attempt->placed.end(), true)) < camera_count) {
-    const std::size_t next =
-        nextToPlace(normalize(reconstruction), rough, reconstruction, attempt->placed);
+    const std::size_t next = nextToPlace(rough, reconstruction, attempt->placed);
     geometry::Camera best;
     double least = std::numeric_limits<double>::infinity();
     std::string reason;
@@ -170,7 +169,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
       reconstruction.cameras[next].intrinsics = lens;
       std::vector<bool> placed = attempt->placed;
       try {
-        place(normalize(reconstruction), rough, next, &reconstruction, &placed);
+        place(rough, next, &reconstruction, &placed);
         const double cost = refineAlone(rough, next, &reconstruction);
         if (cost < least) {
           least = cost;

@@ -25,10 +25,10 @@ std::string commonText(const NormalizedViews& views, const Reconstruction& recon
 }
 
 /// Starts from the pair of cameras with the most parallax.
-void startFromPair(const NormalizedViews& views,
-                   const Options& options,
+void startFromPair(const Options& options,
                    Reconstruction* reconstruction,
                    std::vector<bool>* placed) {
+  const NormalizedViews views = normalize(*reconstruction);
   Pair best;
   for (std::size_t i = 0; i < views.size(); ++i) {
     for (std::size_t j = i + 1; j < views.size(); ++j) {
@@ -49,10 +49,8 @@ void startFromPair(const NormalizedViews& views,
 
 Reconstruction solve(Reconstruction reconstruction, const Options& options) {
   checkObservations(reconstruction, options);
-
-  const NormalizedViews views = normalize(reconstruction);
   std::vector<bool> placed(reconstruction.cameras.size(), false);
-  startFromPair(views, options, &reconstruction, &placed);
+  startFromPair(options, &reconstruction, &placed);
   while (true) {
     // A camera that was just placed is off by more than its noise.
     const double kTolerance = 4.0;
@@ -63,8 +61,7 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
     adjust(&reconstruction, now, Held());
     if (all_placed)
       break;
-    const std::size_t next = nextToPlace(views, options, reconstruction, placed);
-    place(views, options, next, &reconstruction, &placed);
+    place(options, nextToPlace(options, reconstruction, placed), &reconstruction, &placed);
   }
   refuseUnexplained(reconstruction, options);
   return reconstruction;

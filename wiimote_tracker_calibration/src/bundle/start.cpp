@@ -122,22 +122,24 @@ void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<boo
 
 namespace {
 
-/// The known points that a camera saw, and where.
+/// The known points that a camera saw, and where on its normalised image plane.
 struct KnownViews {
   std::vector<cv::Point3d> points;
   std::vector<cv::Point2d> views;
 };
 
-KnownViews knownViews(const NormalizedViews& views,
-                      const Reconstruction& reconstruction,
-                      std::size_t camera) {
+KnownViews knownViews(const Reconstruction& reconstruction, std::size_t camera) {
   KnownViews known;
-  for (const auto& [index, view] : views[camera]) {
-    const auto& point = reconstruction.points[index];
-    if (!point)
+  for (const Observation& observation : reconstruction.observations) {
+    const auto& point = reconstruction.points[observation.point];
+    if (observation.camera != camera || !point)
+      continue;
+    const auto view =
+        reconstruction.cameras[camera].intrinsics.normalizedFromPixel(observation.pixel);
+    if (!view)
       continue;
     known.points.emplace_back(point->x(), point->y(), point->z());
-    known.views.emplace_back(view.x(), view.y());
+    known.views.emplace_back(view->x(), view->y());
   }
   return known;
 }
@@ -148,17 +150,16 @@ std::string adviceFor(const std::string& name) {
 
 }  // namespace
 
-std::size_t nextToPlace(const NormalizedViews& views,
-                        const Options& options,
+std::size_t nextToPlace(const Options& options,
                         const Reconstruction& reconstruction,
                         const std::vector<bool>& placed) {
   std::size_t next = 0;
   std::size_t most = 0;
   bool any = false;
-  for (std::size_t camera = 0; camera < views.size(); ++camera) {
+  for (std::size_t camera = 0; camera < placed.size(); ++camera) {
     if (placed[camera])
       continue;
-    const std::size_t count = knownViews(views, reconstruction, camera).points.size();
+    const std::size_t count = knownViews(reconstruction, camera).points.size();
     if (!any || count > most) {
       any = true;
       next = camera;
@@ -173,13 +174,12 @@ std::size_t nextToPlace(const NormalizedViews& views,
   return next;
 }
 
-std::size_t place(const NormalizedViews& views,
-                  const Options& options,
+std::size_t place(const Options& options,
                   std::size_t index,
                   Reconstruction* reconstruction,
                   std::vector<bool>* placed) {
   geometry::Camera& camera = reconstruction->cameras[index];
-  const KnownViews known = knownViews(views, *reconstruction, index);
+  const KnownViews known = knownViews(*reconstruction, index);
   if (!adjust::fillAnArea(known.views))
     throw BundleError(camera.name +
                       " shares only points on one line with the cameras placed before it: " +

@@ -73,7 +73,7 @@ std::optional<Pose> searchPose(const SeenPath& path,
   if (seen.points.size() < options.minimum_common_points)
     return std::nullopt;
   try {
-    const std::size_t support = bundle::place(bundle::normalize(seen), options, 0, &seen, &placed);
+    const std::size_t support = bundle::place(options, 0, &seen, &placed);
     return Pose{seen.cameras.front(), time_offset, support};
   } catch (const bundle::BundleError&) {
     return std::nullopt;

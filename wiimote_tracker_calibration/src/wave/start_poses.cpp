@@ -128,11 +128,10 @@ void refuseStrangers(const Recording& recording,
 void placeRest(const bundle::Options& options,
                bundle::Reconstruction* reconstruction,
                std::vector<bool>* placed) {
-  const bundle::NormalizedViews views = bundle::normalize(*reconstruction);
   while (std::find(placed->begin(), placed->end(), false) != placed->end()) {
     bundle::triangulatePoints(reconstruction, options.maximum_error, *placed);
-    const std::size_t next = bundle::nextToPlace(views, options, *reconstruction, *placed);
-    bundle::place(views, options, next, reconstruction, placed);
+    const std::size_t next = bundle::nextToPlace(options, *reconstruction, *placed);
+    bundle::place(options, next, reconstruction, placed);
   }
 }
 

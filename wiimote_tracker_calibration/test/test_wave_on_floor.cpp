@@ -175,6 +175,14 @@ TEST(WandOnFloor, AWandThatMovesHasNotBeenLaidDown) {
   EXPECT_SAYS(refusalOf(scene, wave), "at rest for 2 s");
 }
 
+TEST(WandOnFloor, ACameraThatSeesTwoLampsIsNamed) {
+  const WaveScene scene = floorScene();
+  SimulatedWave wave = simulateWave(scene, 9);
+  for (Frame& frame : wave.recording.cameras[3].frames)
+    frame.spots = {Eigen::Vector2d(100.0, 100.0), Eigen::Vector2d(300.0, 200.0)};
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_4 saw two lights at rest");
+}
+
 /// Lays the wand elsewhere: its LEDs in the world of the floor [m].
 void layAt(const WaveScene& scene,
            const std::array<Eigen::Vector3d, 2>& leds,

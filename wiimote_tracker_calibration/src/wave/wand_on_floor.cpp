@@ -197,6 +197,11 @@ FloorSpots takeFloor(Recording* recording) {
     WandRest rest;
     for (const Frame& frame : camera.frames)
       rest.add(frame);
+    if (rest.spots() && rest.end() == camera.frames.back().stamp)
+      throw WaveError(camera.sightings.name +
+                      " saw two lights at rest to the end: switch other lights off, and lift the "
+                      "wand to wave it" +
+                      kAgain);
     spots.push_back(rest.spots());
     end = rest.spots() ? std::max(end, rest.end()) : end;
     has_gravity = has_gravity || camera.sightings.gravity;

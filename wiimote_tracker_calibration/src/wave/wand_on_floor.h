@@ -10,7 +10,8 @@ namespace wiimote_tracker::wave {
 
 /// Where the cameras saw a wand that lay on the floor before it was waved. The images until it was
 /// lifted are removed from the recording. Empty if it did not lie there.
-/// @throws WaveError: fewer than two cameras saw it, or none has an accelerometer.
+/// @throws WaveError: fewer than two cameras saw it, none has an accelerometer, or a camera saw two
+/// lights at rest that are not it.
 FloorSpots takeFloor(Recording* recording);
 
 /// Whether the wand is far from how it must lie, by rough cameras in metres, before the adjustment.

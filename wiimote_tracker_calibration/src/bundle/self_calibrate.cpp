@@ -246,17 +246,14 @@ void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCali
   if (result->expected_shape_error)
     *result->expected_shape_error *= ratio;
   for (std::size_t i = 0; i < result->reconstruction.cameras.size(); ++i) {
-    LensCertainty lens;
-    const auto covariance = certainty.lensCovariance(i);
-    if (options.fixed_lenses) {
-      lens.focal_determined = true;
-    } else if (covariance) {
-      lens.focal_stddev = ratio * std::sqrt((*covariance)(0, 0));
+    LensCertainty lens{0.0, true};
+    if (!options.fixed_lenses) {
+      const auto covariance = certainty.lensCovariance(i);
+      lens.focal_stddev = covariance ? ratio * std::sqrt((*covariance)(0, 0))
+                                     : std::numeric_limits<double>::infinity();
       lens.focal_determined =
           !ambiguous && lens.focal_stddev <
                             kMostFocalUncertainty * result->reconstruction.cameras[i].intrinsics.fx;
-    } else {
-      lens.focal_stddev = std::numeric_limits<double>::infinity();
     }
     result->lenses.push_back(lens);
   }

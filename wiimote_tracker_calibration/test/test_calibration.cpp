@@ -231,6 +231,15 @@ TEST_F(Workflow, FramesOfAnOlderClockEpochAreDroppedAndReported) {
   EXPECT_SAYS(calibration_.missing().back(), names_[0] + " reconnected");
 }
 
+TEST_F(Workflow, ACameraThatReconnectsLeavesTheVolumeOfTheOthers) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(10.0, 6);
+  const double before = *calibration_.wave()->report().volume;
+  wave(0.05, 7);
+  EXPECT_GT(*calibration_.wave()->report().volume, 0.8 * before);
+}
+
 TEST_F(Workflow, WithoutASquareItTakesAWand) {
   ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
   EXPECT_TRUE(calibration_.sides().empty());

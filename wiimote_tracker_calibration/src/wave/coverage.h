@@ -67,7 +67,8 @@ class Coverage {
            std::size_t leds,
            const CoverageOptions& options);
 
-  /// Frames of one camera in the order of their stamps, cameras in any order.
+  /// Frames of one camera in the order of their stamps, those of all cameras about so: the LED is
+  /// located by what each camera saw last.
   void add(std::size_t camera, const Frame& frame);
 
   CoverageReport report() const;

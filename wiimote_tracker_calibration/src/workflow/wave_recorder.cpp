@@ -1,6 +1,8 @@
 #include "workflow/wave_recorder.h"
 
 #include <algorithm>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::workflow {
 
@@ -31,10 +33,15 @@ bool WaveRecorder::add(const capture::Image& image) {
   } else if (image.clock_epoch != track.clock_epoch) {
     track = Track{image.clock_epoch, {}, {}, true};
     coverage_ = wave::Coverage(cameras_, posed_, wand_ ? 2 : 1, options_);
+    std::vector<std::pair<std::size_t, const wave::Frame*>> frames;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       for (const wave::Frame& frame : tracks_[i].frames)
-        coverage_.add(i, frame);
+        frames.emplace_back(i, &frame);
     }
+    std::sort(frames.begin(), frames.end(),
+              [](const auto& a, const auto& b) { return a.second->stamp < b.second->stamp; });
+    for (const auto& [camera, frame] : frames)
+      coverage_.add(camera, *frame);
   } else if (image.stamp <= track.frames.back().stamp) {
     return false;
   }

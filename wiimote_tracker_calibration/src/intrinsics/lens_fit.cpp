@@ -4,6 +4,7 @@
 #include <wiimote_tracker_msgs/error.h>
 
 #include <opencv2/calib3d.hpp>
+#include <opencv2/core/eigen.hpp>
 
 namespace wiimote_tracker::intrinsics {
 
@@ -176,25 +177,14 @@ int parameterCount(LensModel model) {
 
 ViewDerivative differentiate(const Fit& fit, const Points& points, std::size_t view) {
   cv::Mat derivative;
-  const std::vector<cv::Point2f> projected = project(fit, points, view, &derivative);
+  project(fit, points, view, &derivative);
+  Eigen::MatrixXd by;
+  cv::cv2eigen(derivative, by);
   const int parameters = parameterCount(fit.model);
-  // OpenCV's columns: pose, then lens; for a fisheye lens, then pose.
-  const int pose = isEquidistant(fit) ? 8 : 0;
-  const int lens = isEquidistant(fit) ? 0 : kPoseParameters;
-  ViewDerivative result;
-  result.residuals.resize(derivative.rows);
-  result.pose.resize(derivative.rows, kPoseParameters);
-  result.lens.resize(derivative.rows, parameters);
-  for (int row = 0; row < derivative.rows; ++row) {
-    const cv::Point2f d = projected[static_cast<std::size_t>(row / 2)] -
-                          points.image[view][static_cast<std::size_t>(row / 2)];
-    result.residuals(row) = row % 2 == 0 ? d.x : d.y;
-    for (int k = 0; k < kPoseParameters; ++k)
-      result.pose(row, k) = derivative.at<double>(row, pose + k);
-    for (int k = 0; k < parameters; ++k)
-      result.lens(row, k) = derivative.at<double>(row, lens + k);
-  }
-  return result;
+  // OpenCV's columns: pose, then lens; for a fisheye lens its eight parameters, then pose.
+  if (isEquidistant(fit))
+    return {by.middleCols<kPoseParameters>(8), by.leftCols(parameters)};
+  return {by.leftCols<kPoseParameters>(), by.middleCols(kPoseParameters, parameters)};
 }
 
 }  // namespace wiimote_tracker::intrinsics

@@ -48,9 +48,8 @@ geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points);
 /// Parameters that a model estimates, in the order fx, fy, cx, cy, then the coefficients.
 int parameterCount(LensModel model);
 
-/// Residuals of one view [px] and their derivatives.
+/// Derivatives of one view's pixels: u, v, u, v, ...
 struct ViewDerivative {
-  Eigen::VectorXd residuals;                                    // u, v, u, v, ...
   Eigen::Matrix<double, Eigen::Dynamic, kPoseParameters> pose;  // of the board
   Eigen::MatrixXd lens;                                         // one column per parameter
 };

@@ -46,17 +46,12 @@ Candidate candidateOf(const Fit& fit, const Points& points) {
 }
 
 /// Inverse information of the intrinsics, poses eliminated (Schur complement), for unit noise.
-/// Nothing when it is singular. Also the error of each view.
-std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit,
-                                              const Points& points,
-                                              std::vector<double>* view_errors) {
+/// Nothing when it is singular.
+std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit, const Points& points) {
   const int size = parameterCount(fit.model);
   Eigen::MatrixXd information = Eigen::MatrixXd::Zero(size, size);
-  view_errors->clear();
   for (std::size_t view = 0; view < points.board.size(); ++view) {
     const ViewDerivative by = differentiate(fit, points, view);
-    view_errors->push_back(
-        std::sqrt(by.residuals.squaredNorm() / static_cast<double>(points.board[view].size())));
     const Eigen::MatrixXd cross = by.pose.transpose() * by.lens;
     const Eigen::MatrixXd poses = by.pose.transpose() * by.pose;
     information +=
@@ -117,8 +112,9 @@ std::string summaryOf(const IntrinsicsSolution& s) {
   return format(
       "%zu views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
       "px; reprojection error %.2f px",
-      s.view_errors.size(), nameOf(s.model).c_str(), s.intrinsics.fx, stddev(0), s.intrinsics.fy,
-      stddev(1), s.intrinsics.cx, stddev(2), s.intrinsics.cy, stddev(3), s.reprojection_error);
+      s.camera_from_board.size(), nameOf(s.model).c_str(), s.intrinsics.fx, stddev(0),
+      s.intrinsics.fy, stddev(1), s.intrinsics.cx, stddev(2), s.intrinsics.cy, stddev(3),
+      s.reprojection_error);
 }
 
 }  // namespace
@@ -221,7 +217,7 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
     throw Error("the views do not fit the board (" + std::to_string(solution.pixel_stddev) +
                 " px): check its spacings, that it is flat and that it was held still");
 
-  const auto covariance = unitCovariance(chosen, points, &solution.view_errors);
+  const auto covariance = unitCovariance(chosen, points);
   const double f = solution.intrinsics.fx;
   const double variance = solution.pixel_stddev * solution.pixel_stddev;
   if (!covariance ||

@@ -57,7 +57,6 @@ struct IntrinsicsSolution {
   std::vector<Candidate> candidates;                 ///< All that were tried, simple ones first.
   double reprojection_error = 0.0;                   ///< sqrt(mean(du^2 + dv^2)) [px].
   double pixel_stddev = 0.0;                         ///< Of a pixel coordinate, as estimated [px].
-  std::vector<double> view_errors;                   ///< Reprojection error of each view [px].
   std::vector<Eigen::Isometry3d> camera_from_board;  ///< Of each view [m].
   std::string summary;                               ///< In words.
 };

@@ -10,10 +10,16 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TimeWatch::TimeWatch(std::size_t cameras)
-    : cameras_(cameras), pairs_(cameras * cameras), votes_(cameras) {}
+TimeWatch::TimeWatch(std::size_t cameras, double newest_used)
+    : cameras_(cameras),
+      pairs_(cameras * cameras),
+      votes_(cameras),
+      newest_used_(newest_used),
+      awaited_(newest_used > -kInfinity ? 2 * cameras : 0) {}
 
 TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
+  if (awaited_ > 0)
+    --awaited_;
   if (comparePairs(camera, arrival))
     vote();
   const bool is_outlier = isOutlier(camera, arrival);
@@ -147,6 +153,8 @@ bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
 /// Whether all trusted cameras that are not silent are back behind the newest image that was used,
 /// or that image came from a camera that is not trusted any more.
 bool TimeWatch::hasJumpedBack(std::size_t camera) const {
+  if (awaited_ > 0)
+    return false;
   const double jump = cameras_[newest_camera_].trusted ? kJump : kTolerance;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const bool counts = i == camera || (cameras_[i].trusted && activePair(camera, i));

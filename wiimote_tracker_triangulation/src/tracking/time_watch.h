@@ -23,7 +23,10 @@ class TimeWatch {
   static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
   static constexpr double kJump = 0.1;        ///< Least jump back [s].
 
-  explicit TimeWatch(std::size_t cameras);
+  /// @param newest_used newestUsed() of a watch that this one follows, of other cameras. A jump
+  /// back behind it is recognised when each camera had time for two images.
+  explicit TimeWatch(std::size_t cameras,
+                     double newest_used = -std::numeric_limits<double>::infinity());
 
   enum class Result {
     kUsable,
@@ -37,6 +40,9 @@ class TimeWatch {
   /// How far the clock of a camera that is not trusted is ahead of those that are [s]; NaN when
   /// none is trusted. Nothing for a trusted camera.
   std::optional<double> ahead(std::size_t camera) const;
+
+  /// Arrival of the newest image that is used [s]; before the first, as given or minus infinity.
+  double newestUsed() const { return newest_used_; }
 
   /// Whether the last image arrived before an earlier used one.
   bool isDisordered() const { return disordered_; }
@@ -82,8 +88,9 @@ class TimeWatch {
   std::vector<Camera> cameras_;
   std::vector<Pair> pairs_;  // [a, b] with a < b: of a's newest image ahead of b's
   std::vector<std::size_t> votes_;
-  double newest_used_ = -std::numeric_limits<double>::infinity();  // arrival [s]
-  std::size_t newest_camera_ = 0;                                  // whose it is
+  double newest_used_;             // arrival [s]
+  std::size_t newest_camera_ = 0;  // whose it is
+  std::size_t awaited_;            // images before a jump back is recognised
   bool disordered_ = false;
 };
 

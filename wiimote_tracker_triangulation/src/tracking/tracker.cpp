@@ -57,7 +57,8 @@ void Tracker::useRig(const geometry::Rig& rig) {
       places_[members[i]] = {groups_.size(), i};
     groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, options_));
   }
-  time_watch_ = std::make_unique<TimeWatch>(rig_.cameras.size());
+  time_watch_ = std::make_unique<TimeWatch>(rig_.cameras.size(),
+                                            time_watch_ ? time_watch_->newestUsed() : kNever);
   views_.assign(rig_.cameras.size(), CameraView());
 }
 
@@ -103,6 +104,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     ++counters_.resets;
     for (const auto& each : groups_)
       each->clear();
+    views_.assign(views_.size(), CameraView());
     newest_time_ = newest_arrival_ = last_output_ = kNever;
   }
   store(camera, image);

@@ -108,10 +108,28 @@ TEST(Tracker, RestartsWhenABagStartsOver) {
   EXPECT_EQ(1u, tracker.counters().resets);
   EXPECT_EQ((std::set<std::uint32_t>{0, 1}), idsIn(again.front(), TrackState::kLost));
   std::size_t lost = 0;
-  for (const Snapshot& snapshot : again)
+  for (const Snapshot& snapshot : again) {
     lost += idsIn(snapshot, TrackState::kLost).size();
+    for (const CameraView& view : snapshot.views)
+      EXPECT_LE(view.time.value_or(0.0), snapshot.time) << "no view is of the former time";
+  }
   EXPECT_EQ(2u, lost);
   EXPECT_EQ((std::set<std::uint32_t>{2, 3}), idsIn(again.back(), TrackState::kTracked));
+}
+
+/// As when another bag is played, whose rig was calibrated anew.
+TEST(Tracker, RestartsWhenANewRigComesWithAnEarlierTime) {
+  const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
+  Tracker tracker(paperRig(), exactOptions());
+  track(&tracker, images);
+  geometry::Rig rig = paperRig();
+  rig.cameras[0].camera.identity = "00:00:00:00:00:01";  // so that its id is another
+  tracker.setRig(rig);
+  const std::vector<Snapshot> again = track(&tracker, images);
+  EXPECT_EQ(1u, tracker.counters().resets);
+  ASSERT_GT(again.size(), 1150u);
+  EXPECT_EQ((std::set<std::uint32_t>{0, 1}), idsIn(again.front(), TrackState::kLost));
+  EXPECT_EQ(2u, idsIn(again.back(), TrackState::kTracked).size());
 }
 
 TEST(Tracker, AStepBackOfAllClocksNeverLeavesAnLedAtItsOldPlace) {

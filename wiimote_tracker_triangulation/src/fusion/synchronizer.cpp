@@ -21,6 +21,7 @@ void Synchronizer::setRig(const geometry::Rig& rig) {
     cameras_.push_back({camera, {}});
   views_.assign(cameras_.size(), InstantView());
   has_begun_ = false;
+  former_arrival_ = newest_arrival_;
 }
 
 void Synchronizer::add(std::size_t camera_index,
@@ -34,13 +35,16 @@ void Synchronizer::add(std::size_t camera_index,
   if (!has_begun_) {
     begin(frame_.arrival);
   } else if (!frames.empty() && frame_.arrival < frames.newest().arrival - InstantFuser::kJump) {
-    ++counters->resets;
-    time_ = -kInfinity;
+    jumpBack(counters);
     begin(frame_.arrival);
   } else if (frame_.arrival < newest_arrival_) {
     ++counters->disordered;
   }
   newest_arrival_ = std::max(newest_arrival_, frame_.arrival);
+  // A new rig's camera has no last image. So all are compared, once each had time for one.
+  if (newest_arrival_ < former_arrival_ - InstantFuser::kJump &&
+      newest_arrival_ >= begun_at_ + options_.camera_timeout)
+    jumpBack(counters);
 
   const bool is_newest = frames.empty() || frame_.time > frames.newest().time;
   if (!is_newest && hasImageAt(frames, frame_.time)) {
@@ -62,7 +66,7 @@ bool Synchronizer::advance() {
   double time = kInfinity;
   for (const CameraState& camera : cameras_)
     time = std::min(time, camera.frames.firstTimeAfter(time_).value_or(time));
-  if (!(time <= reachedByAll()))
+  if (time == kInfinity || time > reachedByAll())
     return false;
   time_ = time;
   latest_arrival_ = -kInfinity;
@@ -72,6 +76,12 @@ bool Synchronizer::advance() {
     cameras_[i].frames.forgetBefore(time_);
   }
   return true;
+}
+
+void Synchronizer::jumpBack(tracking::Counters* counters) {
+  ++counters->resets;
+  time_ = -kInfinity;
+  former_arrival_ = -kInfinity;
 }
 
 void Synchronizer::begin(double arrival) {

@@ -58,6 +58,7 @@ class Synchronizer {
     FrameHistory<Frame> frames;
   };
 
+  void jumpBack(tracking::Counters* counters);
   void begin(double arrival);
   void readFrame(const geometry::RigCamera& camera, const tracking::CameraImage& image);
   double reachedByAll() const;
@@ -66,8 +67,9 @@ class Synchronizer {
   InstantFuserOptions options_;
   std::vector<CameraState> cameras_;
   bool has_begun_ = false;
-  double begun_at_ = 0.0;        // arrival of the first image
-  double newest_arrival_ = 0.0;  // of all cameras
+  double begun_at_ = 0.0;                                             // arrival of the first image
+  double newest_arrival_ = -std::numeric_limits<double>::infinity();  // of all cameras
+  double former_arrival_ = -std::numeric_limits<double>::infinity();  // the same, of the rig before
   double time_ = -std::numeric_limits<double>::infinity();
   double latest_arrival_ = 0.0;
   double skew_ = 0.0;

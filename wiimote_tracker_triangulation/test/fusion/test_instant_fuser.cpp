@@ -194,8 +194,10 @@ TEST(InstantFuser, ANewRigTakesEffectAtOnceAndTimeGoesOn) {
   const auto deliveries = film(rig, 100.0, 101.0, still);
   double newest = 0.0;
   for (std::size_t i = 0; i < deliveries.size(); ++i) {
-    if (i == 150)
+    if (i == 150) {
       fuser.setRig(moved);
+      EXPECT_EQ(nullptr, fuser.next());
+    }
     fuser.add(deliveries[i].camera, deliveries[i].image);
     while (const Snapshot* instant = fuser.next()) {
       EXPECT_GT(instant->time, newest);

@@ -181,6 +181,18 @@ TEST(InstantFuser, CountsAndIgnoresImagesThatComeLateOrTwice) {
   EXPECT_EQ(with_repeats.size() - deliveries.size(), lateImages(disturbed));
 }
 
+TEST(InstantFuser, ACameraThatRepeatsItsLastImageMakesNoInstant) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  const auto deliveries = film(rig, 100.0, 101.0, still);
+  fuse(fuser, deliveries);
+  Delivery stuck = deliveries.back();
+  stuck.image.arrival += 1.0;
+  for (const Snapshot& instant : fuse(fuser, {stuck, stuck}))
+    EXPECT_LT(instant.time, 101.0);
+  EXPECT_GT(fuse(fuser, film(rig, 103.0, 104.0, still)).size(), 290u);
+}
+
 TEST(InstantFuser, StartsOverWhenTimeJumpsBack) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
@@ -188,6 +200,17 @@ TEST(InstantFuser, StartsOverWhenTimeJumpsBack) {
   const auto second = fuse(fuser, film(rig, 100.0, 102.0, circle));
   EXPECT_EQ(1u, fuser.counters().resets);
   EXPECT_EQ(0u, lateImages(fuser));
+  expectIdentical(first, second);
+}
+
+/// As when another bag is played, whose rig was calibrated anew.
+TEST(InstantFuser, StartsOverWhenANewRigComesWithAnEarlierTime) {
+  const Rig rig = threeCameras();
+  InstantFuser fuser(rig, {});
+  const auto first = fuse(fuser, film(rig, 100.0, 102.0, circle));
+  fuser.setRig(rig);
+  const auto second = fuse(fuser, film(rig, 100.0, 102.0, circle));
+  EXPECT_EQ(1u, fuser.counters().resets);
   expectIdentical(first, second);
 }
 

@@ -8,10 +8,6 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-/// Number of images between kept states: a compromise between repeated steps for late images and
-/// copies for all images.
-constexpr std::size_t kKeepInterval = 2;
-
 // Memory, least and tolerated, chosen by simulated knocks such as those of test_tracker_knocks.cpp.
 constexpr CameraFit::Limits kFitOfMany{40.0, 0.4, 0.7};
 
@@ -74,10 +70,9 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       members_(members),
       update_(options),
       initiation_(rigOf(rig, members), partnersOf(partners, members), options),
-      clocks_(turnStddevs(rig, members)),
-      history_(kKeepInterval) {
+      clocks_(turnStddevs(rig, members)) {
   for (const std::size_t member : members_)
-    cameras_.emplace_back(rig, member);
+    cameras_.emplace_back(rig, member, options);
   state_.fits.resize(cameras_.size(),
                      CameraFit(options.ghost_rate, cameras_.size() > 2 ? kFitOfMany : kFitOfTwo));
   state_.unassigned.resize(cameras_.size());

@@ -26,20 +26,12 @@ double squaredCosineOfView(const geometry::Intrinsics& lens) {
 
 }  // namespace
 
-GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index)
-    : index_(index),
-      learnt_noise_(geometry::learntNoise(rig.cameras[index])),
+GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index, const TrackerOptions& options)
+    : pixel_stddev_(
+          geometry::pixelNoise(rig.cameras[index], options.learnt_noise, options.pixel_stddev)),
       masks_(rig.cameras[index].masks),
       for_rays_(rig.rayCamera(rig.cameras[index])),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
-
-motion::PixelNoise GroupCamera::noise(const TrackerOptions& options, double stamp_stddev) const {
-  motion::PixelNoise result;
-  result.pixel_stddev =
-      options.learnt_noise ? learnt_noise_.value_or(options.pixel_stddev) : options.pixel_stddev;
-  result.stamp_stddev = stamp_stddev;
-  return result;
-}
 
 double GroupCamera::imageArea() const {
   return static_cast<double>(for_rays_.intrinsics.width) * for_rays_.intrinsics.height;

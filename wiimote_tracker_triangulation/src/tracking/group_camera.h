@@ -9,7 +9,6 @@
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -17,13 +16,13 @@ namespace wiimote_tracker::tracking {
 /// A camera of a group with precomputed properties of its view.
 class GroupCamera {
  public:
-  GroupCamera(const geometry::Rig& rig, std::size_t index);
+  /// @param index in the rig
+  GroupCamera(const geometry::Rig& rig, std::size_t index, const TrackerOptions& options);
 
   const geometry::Camera& forRays() const { return for_rays_; }
-  std::size_t index() const { return index_; }  // in the rig
 
-  /// Of an image's pixels, as learnt_noise.h or the options tell it. @param stamp_stddev [s]
-  motion::PixelNoise noise(const TrackerOptions& options, double stamp_stddev) const;
+  /// Of an image's pixels. @param stamp_stddev [s]
+  motion::PixelNoise noise(double stamp_stddev) const { return {pixel_stddev_, stamp_stddev}; }
 
   double imageArea() const;  ///< [px^2]
 
@@ -33,12 +32,12 @@ class GroupCamera {
   /// The ray of a spot. @param led [m] @param residual of its spot [px]
   RayOffset rayOffset(const Eigen::Vector3d& led, const Eigen::Vector2d& residual) const;
 
+  /// Whether the pixel is at most `margin` [px] outside the image.
   bool isInImage(const Eigen::Vector2d& pixel, double margin) const;
   bool isMasked(const Eigen::Vector2d& pixel) const { return geometry::isMasked(masks_, pixel); }
 
  private:
-  std::size_t index_;
-  std::optional<double> learnt_noise_;  // [px]
+  double pixel_stddev_;  // [px]
   std::vector<geometry::ImageMask> masks_;
   geometry::Camera for_rays_;
   double squared_cosine_;  // of the cone around the view; 0: no limit

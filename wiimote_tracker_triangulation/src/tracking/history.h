@@ -15,9 +15,6 @@ namespace wiimote_tracker::tracking {
 template <typename State>
 class History {
  public:
-  /// @param interval number of images between kept states.
-  explicit History(std::size_t interval) : interval_(interval) {}
-
   const NumberedQueue<StoredImage>& images() const { return images_; }
 
   /// Index of the image in the order of time; nothing when no earlier state is kept.
@@ -57,9 +54,11 @@ class History {
     return states_.back().before;
   }
 
-  /// Keeps the state before the image at `place`, once per interval.
+  /// Keeps the state before the image at `place`, for every second image: a compromise between
+  /// repeated steps for late images and copies for all images.
   void keep(std::uint64_t place, const State& state) {
-    if (!states_.empty() && place < states_.back().before + interval_)
+    constexpr std::uint64_t kInterval = 2;
+    if (!states_.empty() && place < states_.back().before + kInterval)
       return;
     Kept& kept = states_.push();
     kept.before = place;
@@ -85,7 +84,6 @@ class History {
     State state;
   };
 
-  std::size_t interval_;
   NumberedQueue<StoredImage> images_;
   NumberedQueue<Kept> states_;
 };

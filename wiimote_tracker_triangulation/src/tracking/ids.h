@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IDS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IDS_H
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,6 +12,8 @@ namespace wiimote_tracker::tracking {
 struct SpotKey {
   std::uint64_t image;
   std::size_t spot;
+
+  bool operator==(const SpotKey& other) const { return image == other.image && spot == other.spot; }
 };
 
 /// Gives each new track an unused id. When a late image makes the tracker repeat its steps, a track
@@ -20,17 +23,22 @@ class Ids {
   /// @param initial_spots the spots that start the track. @param in_use whether an id is taken.
   template <typename InUse>
   std::uint32_t idFor(const std::vector<SpotKey>& initial_spots, double time, const InUse& in_use) {
-    for (const IdRecord& record : records_) {
-      for (const SpotKey& key : initial_spots) {
-        if (key.image == record.key.image && key.spot == record.key.spot && !in_use(record.id))
-          return remember(initial_spots, time, record.id);
-      }
-    }
-    return remember(initial_spots, time, next_++);
+    const auto former = std::find_if(records_.begin(), records_.end(), [&](const IdRecord& record) {
+      return std::count(initial_spots.begin(), initial_spots.end(), record.key) > 0 &&
+             !in_use(record.id);
+    });
+    const std::uint32_t id = former == records_.end() ? next_++ : former->id;
+    for (const SpotKey& key : initial_spots)
+      records_.push_back({key, time, id});
+    return id;
   }
 
   /// Steps before this time [s] will not be repeated.
-  void forgetBefore(double time);
+  void forgetBefore(double time) {
+    records_.erase(std::remove_if(records_.begin(), records_.end(),
+                                  [&](const IdRecord& record) { return record.time < time; }),
+                   records_.end());
+  }
 
  private:
   struct IdRecord {
@@ -38,8 +46,6 @@ class Ids {
     double time;  // [s]
     std::uint32_t id;
   };
-
-  std::uint32_t remember(const std::vector<SpotKey>& initial_spots, double time, std::uint32_t id);
 
   std::uint32_t next_ = 0;
   std::vector<IdRecord> records_;

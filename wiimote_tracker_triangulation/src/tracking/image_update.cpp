@@ -13,7 +13,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
                         std::vector<CameraFit>* fits,
                         std::vector<Track>* tracks,
                         std::vector<MergedPair>* pairs) {
-  noise_ = camera.noise(options_, image.stamp_stddev);
+  noise_ = camera.noise(image.stamp_stddev);
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
   measureFit(image, *tracks, fits);

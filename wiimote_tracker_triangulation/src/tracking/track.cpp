@@ -249,19 +249,12 @@ void Track::report(double time,
                    const TrackerOptions& options,
                    const std::vector<std::size_t>& rig_index,
                    TrackedLed* led) const {
-  const auto fill = [&](const motion::MotionFilter& at_time) {
-    led->position = at_time.position();
-    led->position_covariance = at_time.positionCovariance();
-    led->velocity = at_time.velocity();
-    led->velocity_covariance = at_time.velocityCovariance();
-  };
-  if (filter.time() < time) {
-    motion::MotionFilter later = filter;
-    later.predict(time);
-    fill(later);
-  } else {
-    fill(filter);
-  }
+  motion::MotionFilter at_time = filter;
+  at_time.predict(time);
+  led->position = at_time.position();
+  led->position_covariance = at_time.positionCovariance();
+  led->velocity = at_time.velocity();
+  led->velocity_covariance = at_time.velocityCovariance();
   led->id = id;
   led->first_seen = initiated_;
   led->last_observed = last_observed_;

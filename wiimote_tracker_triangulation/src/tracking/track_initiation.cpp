@@ -31,7 +31,6 @@ TrackInitiation::TrackInitiation(const geometry::Rig& rig,
                                  const std::vector<std::vector<std::size_t>>& partners,
                                  const TrackerOptions& options)
     : options_(options),
-      motion_(&options.motion),
       partners_(partners),
       associator_(rig, partners, associationOptions(rig, options)),
       sight_cache_(rig.cameras.size()),
@@ -89,14 +88,13 @@ motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoin
   by_time_.assign(spots, spots + point.spot_count);
   std::sort(by_time_.begin(), by_time_.end(),
             [&](auto& a, auto& b) { return unassigned[a.view].time < unassigned[b.view].time; });
-  motion::MotionFilter filter(*motion_, unassigned[by_time_.front().view].time,
+  motion::MotionFilter filter(options_.motion, unassigned[by_time_.front().view].time,
                               point.point.position, kVague * point.point.covariance);
   for (const association::SpotReference& spot : by_time_) {
     const UnassignedSpots& image = unassigned[spot.view];
     const GroupCamera& camera = cameras[spot.view];
     filter.predict(image.time);
-    const auto prediction =
-        filter.predictPixel(camera.forRays(), camera.noise(options_, image.stamp_stddev));
+    const auto prediction = filter.predictPixel(camera.forRays(), camera.noise(image.stamp_stddev));
     if (prediction)
       filter.update(camera.forRays(), *prediction, image.pixels[spots_[spot.view][spot.spot]]);
   }
@@ -126,7 +124,7 @@ Track* TrackInitiation::formerTrackOf(const Track& found,
       continue;
     motion::MotionFilter expected = track.filter;
     expected.predict(time);
-    const double slack = motion_->initial_speed * (time - track.lastObserved());
+    const double slack = options_.motion.initial_speed * (time - track.lastObserved());
     const Eigen::Matrix3d covariance = expected.positionCovariance() +
                                        found.filter.positionCovariance() +
                                        slack * slack * Eigen::Matrix3d::Identity();
@@ -155,7 +153,9 @@ bool TrackInitiation::collectViews(const std::vector<GroupCamera>& cameras,
   if (unassigned[newest].count == 0 ||
       std::none_of(partners_[newest].begin(), partners_[newest].end(), hasSome))
     return false;
-  std::fill(views_.begin(), views_.end(), association::View());
+  association::View nothing;
+  nothing.watching = false;
+  std::fill(views_.begin(), views_.end(), nothing);
   const auto collect = [&](std::size_t camera) {
     association::View& view = views_[camera];
     view.watching = isRecent(camera);
@@ -169,8 +169,6 @@ bool TrackInitiation::collectViews(const std::vector<GroupCamera>& cameras,
       sights_[camera][view.count++] = *sight;
     }
   };
-  for (association::View& view : views_)
-    view.watching = false;
   collect(newest);
   for (const std::size_t partner : partners_[newest])
     collect(partner);

@@ -90,8 +90,7 @@ class TrackInitiation {
     std::optional<geometry::Sight> sight;
   };
 
-  TrackerOptions options_;
-  const motion::MotionOptions* motion_;
+  const TrackerOptions& options_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
   std::vector<std::array<CachedSight, association::kMaximumSpots>> sight_cache_;  // per camera

@@ -131,23 +131,20 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
 
 /// Fills image_: the usable spots, then the masked ones. Spots outside the image are left out.
 void Tracker::store(std::size_t camera, const CameraImage& image) {
-  const geometry::RigCamera& calibration = rig_.cameras[camera];
-  image_->camera = places_[camera].member;
+  const Place& place = places_[camera];
+  const GroupCamera& view = groups_[place.group]->camera(place.member);
+  image_->camera = place.member;
   image_->arrival = image.arrival;
   image_->number = images_++;
   image_->stamp_stddev = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0
                              ? image.stamp_stddev
                              : options_.stamp_stddev;
   image_->full = image.spots.size() >= image.maximum_spots;
-  const geometry::Intrinsics& lens = calibration.camera.intrinsics;
   const auto collect = [&](bool masked) {
     for (const Spot& spot : image.spots) {
-      const Eigen::Vector2d& pixel = spot.pixel;
-      const bool usable = pixel.x() >= -0.5 && pixel.x() <= lens.width - 0.5 && pixel.y() >= -0.5 &&
-                          pixel.y() <= lens.height - 0.5;
-      if (usable && geometry::isMasked(calibration.masks, pixel) == masked &&
+      if (view.isInImage(spot.pixel, 0.5) && view.isMasked(spot.pixel) == masked &&
           image_->total_count < image_->pixels.size())
-        image_->pixels[image_->total_count++] = pixel;
+        image_->pixels[image_->total_count++] = spot.pixel;
     }
   };
   image_->total_count = 0;

@@ -6,7 +6,9 @@
 
 namespace wiimote_tracker::tracking {
 
-ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {}
+ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {
+  candidates_.reserve(association::kMaximumTracks);
+}
 
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
@@ -25,8 +27,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
   updateMergedPairs(camera, image, tracks, pairs);
   findMergedSpots(image, *tracks);
   addMergedPairs(image, *tracks, pairs);
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    const Candidate& candidate = candidates_[i];
+  for (const Candidate& candidate : candidates_) {
     Track& track = (*tracks)[candidate.track];
     if (candidate.updated)
       continue;
@@ -35,7 +36,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
     const bool is_merged = other && track.isConfirmed();
     if (is_merged && othersSeeing(image, track) > 0)
       updateMerged(camera, image, candidate, *other, tracks);
-    else if (!is_merged && candidate.spot != kNone)
+    else if (!is_merged && candidate.spot)
       updateTrack(camera, image, candidate, other ? &(*tracks)[other->track] : nullptr, &track);
     else if (is_merged || candidate.expected)
       track.miss(image.camera, image.time);
@@ -48,10 +49,10 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
                                     const StoredImage& image,
                                     std::vector<Track>* tracks) {
   constexpr double kEdge = 8.0;  // where a spot may be cut off, or just outside [px]
-  candidate_count_ = 0;
+  candidates_.clear();
   for (std::size_t i = 0; i < tracks->size(); ++i) {
     Track& track = (*tracks)[i];
-    if (candidate_count_ == candidates_.size())
+    if (candidates_.size() == association::kMaximumTracks)
       return;
     if (!camera.mayShow(track.approximatePosition(image.time)))
       continue;
@@ -63,15 +64,10 @@ void ImageUpdate::collectCandidates(const GroupCamera& camera,
     const double reach = std::sqrt(options_.gate * prediction->covariance().trace());
     if (!camera.isInImage(prediction->pixel(), std::max(options_.merging_distance, reach)))
       continue;
-    Candidate& candidate = candidates_[candidate_count_++];
-    candidate.track = i;
-    candidate.prediction = *prediction;
-    candidate.in_view =
+    const bool in_view =
         camera.isInImage(prediction->pixel(), 0.0) && !camera.isMasked(prediction->pixel());
-    candidate.expected =
-        candidate.in_view && !image.full && camera.isInImage(prediction->pixel(), -kEdge);
-    candidate.spot = kNone;
-    candidate.updated = false;
+    const bool expected = in_view && !image.full && camera.isInImage(prediction->pixel(), -kEdge);
+    candidates_.push_back({i, *prediction, in_view, expected, std::nullopt, false});
   }
 }
 
@@ -105,17 +101,15 @@ void ImageUpdate::measureFit(const StoredImage& image,
   std::size_t shown = 0;
   std::size_t missing =
       is_tested ? std::min(unassigned, (*fits)[1 - image.camera].unassigned()) : 0;
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    const Candidate& candidate = candidates_[i];
+  for (const Candidate& candidate : candidates_) {
     const Track& track = tracks[candidate.track];
     const std::size_t others = othersSeeing(image, track);
     if (!candidate.in_view || !track.isConfirmed() || others == 0)
       continue;
-    const bool has_spot = candidate.spot != kNone;
-    const bool is_astray = has_spot && is_tested && !track.raysMeet();
+    const bool is_astray = candidate.spot && is_tested && !track.raysMeet();
     const bool is_absent =
-        !has_spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate, tracks);
-    shown += has_spot && !is_astray;
+        !candidate.spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate, tracks);
+    shown += candidate.spot && !is_astray;
     missing += is_astray || is_absent;
     unassigned += is_astray;
   }
@@ -128,8 +122,7 @@ void ImageUpdate::measureClock(const StoredImage& image,
                                std::vector<CameraFit>* fits) const {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   CameraFit& fit = (*fits)[image.camera];
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    const Candidate& candidate = candidates_[i];
+  for (const Candidate& candidate : candidates_) {
     const Track& track = tracks[candidate.track];
     if (!candidate.in_view || !track.isConfirmed() || othersSeeing(image, track) < 2)
       continue;
@@ -142,7 +135,7 @@ void ImageUpdate::measureClock(const StoredImage& image,
 
 /// Whether another LED is within a distance [px].
 bool ImageUpdate::isBeside(const Candidate& candidate, double distance) const {
-  return std::any_of(candidates_.data(), end(), [&](const Candidate& other) {
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) {
     return other.track != candidate.track && pixelsBetween(candidate, other) < distance;
   });
 }
@@ -156,9 +149,8 @@ std::optional<Eigen::Vector2d> ImageUpdate::residualOf(const StoredImage& image,
   if (isBeside(candidate, std::max(kFarthest, options_.merging_distance)))
     return std::nullopt;
   const Eigen::Vector2d& predicted = candidate.prediction.pixel();
-  const auto spot = candidate.spot != kNone
-                        ? std::make_optional(static_cast<std::size_t>(candidate.spot))
-                        : nearestUnassigned(image, predicted, kFarthest);
+  const auto spot =
+      candidate.spot ? candidate.spot : nearestUnassigned(image, predicted, kFarthest);
   return spot ? std::make_optional<Eigen::Vector2d>(image.pixels[*spot] - predicted) : std::nullopt;
 }
 
@@ -170,9 +162,9 @@ void ImageUpdate::assign(const GroupCamera& camera,
   constexpr double kUncertainTrackCost = 3.0;  // tentative, or seen by this camera only
   const double detection_cost = -std::log(options_.detection_probability);
   const double miss_cost = -std::log(1.0 - options_.detection_probability);
-  costs_.reset(image.spot_count, candidate_count_,
+  costs_.reset(image.spot_count, candidates_.size(),
                -std::log(options_.ghost_rate / camera.imageArea()), miss_cost);
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
     const Candidate& candidate = candidates_[i];
     if (!candidate.expected)  // a missed detection costs no more than a detection
       costs_.miss[i] = detection_cost;
@@ -199,7 +191,7 @@ void ImageUpdate::updateTrack(const GroupCamera& camera,
                               const Candidate& candidate,
                               const Track* other,
                               Track* track) const {
-  const Eigen::Vector2d& pixel = image.pixels[static_cast<std::size_t>(candidate.spot)];
+  const Eigen::Vector2d& pixel = image.pixels[*candidate.spot];
   if (!track->filter.update(camera.forRays(), candidate.prediction, pixel))
     return;
   const Eigen::Vector2d residual = pixel - candidate.prediction.pixel();
@@ -212,15 +204,15 @@ void ImageUpdate::updateTrack(const GroupCamera& camera,
 }
 
 void ImageUpdate::assignSpot(std::size_t spot, Candidate* candidate) {
-  candidate->spot = static_cast<int>(spot);
+  candidate->spot = spot;
   track_of_spot_[spot] = static_cast<int>(candidate->track);
 }
 
 ImageUpdate::Candidate* ImageUpdate::find(const std::vector<Track>& tracks, std::uint32_t id) {
-  auto* const found =
-      std::find_if(candidates_.data(), candidates_.data() + candidate_count_,
-                   [&](auto& candidate) { return tracks[candidate.track].id == id; });
-  return found == end() ? nullptr : found;
+  const auto found = std::find_if(candidates_.begin(), candidates_.end(), [&](auto& candidate) {
+    return tracks[candidate.track].id == id;
+  });
+  return found == candidates_.end() ? nullptr : &*found;
 }
 
 }  // namespace wiimote_tracker::tracking

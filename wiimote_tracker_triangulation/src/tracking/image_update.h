@@ -42,17 +42,15 @@ class ImageUpdate {
     std::size_t track;
     motion::PixelPrediction prediction;
     bool in_view;
-    bool expected;  // without a spot, it is a missed detection
-    int spot;       // assigned to it, or kNone
-    bool updated;   // by its MergedPair
+    bool expected;                    // without a spot, it is a missed detection
+    std::optional<std::size_t> spot;  // assigned to it
+    bool updated;                     // by its MergedPair
   };
-  static constexpr int kNone = -1;
 
   static double pixelsBetween(const Candidate& a, const Candidate& b) {
     return (a.prediction.pixel() - b.prediction.pixel()).norm();
   }
 
-  const Candidate* end() const { return candidates_.data() + candidate_count_; }
   void collectCandidates(const GroupCamera& camera,
                          const StoredImage& image,
                          std::vector<Track>* tracks);
@@ -107,9 +105,8 @@ class ImageUpdate {
   void assignSpot(std::size_t spot, Candidate* candidate);
 
   TrackerOptions options_;
-  motion::PixelNoise noise_;  // of the image
-  std::size_t candidate_count_ = 0;
-  std::array<Candidate, association::kMaximumTracks> candidates_;
+  motion::PixelNoise noise_;           // of the image
+  std::vector<Candidate> candidates_;  // at most kMaximumTracks
   association::SpotCosts costs_;
   std::array<int, association::kMaximumSpots> track_of_spot_;
 };

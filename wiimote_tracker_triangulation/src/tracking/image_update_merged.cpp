@@ -1,22 +1,54 @@
 // The part of ImageUpdate for LEDs that are so close in an image that they show one spot.
 #include "image_update.h"
-#include "merged_spot.h"
+
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 namespace wiimote_tracker::tracking {
+namespace {
+
+/// Probability [0..1] that a spot is that of two merged LEDs, rather than of one while the other is
+/// hidden. A merged spot is between both predictions, a single one at its own. The distance below
+/// which two LEDs merge is uniform up to a limit, as far as we know.
+/// @param visible, absent predictions of the LED that the spot was assigned to, and of the other
+/// @param hidden prior probability that the absent one is hidden [0..1, exclusive]
+double mergedProbability(const Eigen::Vector2d& spot,
+                         const motion::PixelPrediction& visible,
+                         const motion::PixelPrediction& absent,
+                         double hidden,
+                         double pixel_stddev,
+                         double merging_distance) {
+  constexpr double kSpread = 0.15;  // of the place between two LEDs, by their brightness [1]
+  const Eigen::Vector2d between = absent.pixel() - visible.pixel();
+  const double too_close = 1.0 - between.norm() / merging_distance;
+  if (too_close <= 0.0)
+    return 0.0;
+  const Eigen::Vector2d residual = spot - visible.pixel() - 0.5 * between;
+  const Eigen::Matrix2d covariance =
+      0.25 * (visible.covariance() + absent.covariance()) +
+      0.5 * pixel_stddev * pixel_stddev * Eigen::Matrix2d::Identity() +
+      kSpread * kSpread * between * between.transpose();
+  const double merged = -0.5 * residual.dot(covariance.inverse() * residual) -
+                        std::log(2.0 * M_PI * std::sqrt(covariance.determinant()));
+  const double log_odds =
+      merged - visible.logLikelihood(spot) + std::log((1.0 - hidden) * too_close / hidden);
+  return 1.0 / (1.0 + std::exp(-log_odds));
+}
+
+}  // namespace
 
 /// Whether an LED without a spot may be merged with another one, which has a spot or has none, too.
 /// A tentative track without one may be of the LED itself.
 bool ImageUpdate::mayBeMerged(const StoredImage& image,
                               const Candidate& candidate,
                               const std::vector<Track>& tracks) const {
-  return std::any_of(candidates_.data(), end(), [&](const Candidate& other) {
+  return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) {
     return other.track != candidate.track &&
            pixelsBetween(candidate, other) < options_.merging_distance &&
-           (other.spot != kNone ||
+           (other.spot ||
             (tracks[other.track].isConfirmed() && spotBetween(image, candidate, other)));
   });
 }
@@ -54,20 +86,19 @@ const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
                                                       const std::vector<Track>& tracks) const {
   const Candidate* result = nullptr;
   double greatest = 0.5;
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    const Candidate& other = candidates_[i];
-    if (other.track == candidate.track || (other.spot == kNone) == (candidate.spot == kNone) ||
+  for (const Candidate& other : candidates_) {
+    if (other.track == candidate.track || other.spot.has_value() == candidate.spot.has_value() ||
         !tracks[other.track].isConfirmed())
       continue;
-    const Candidate& visible = other.spot == kNone ? candidate : other;
-    const Candidate& absent = other.spot == kNone ? other : candidate;
+    const Candidate& visible = other.spot ? other : candidate;
+    const Candidate& absent = other.spot ? candidate : other;
     // An LED that was hidden from this camera mostly stays hidden.
     const double hidden = tracks[absent.track].wasMissedBy(image.camera)
                               ? options_.detection_probability
                               : 1.0 - options_.detection_probability;
-    const double probability = mergedProbability(
-        image.pixels[static_cast<std::size_t>(visible.spot)], visible.prediction, absent.prediction,
-        hidden, noise_.pixel_stddev, options_.merging_distance);
+    const double probability =
+        mergedProbability(image.pixels[*visible.spot], visible.prediction, absent.prediction,
+                          hidden, noise_.pixel_stddev, options_.merging_distance);
     if (probability > greatest) {
       greatest = probability;
       result = &other;
@@ -78,10 +109,10 @@ const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
 
 void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks) {
   const auto isAlone = [&](const Candidate& candidate) {
-    return candidate.spot == kNone && tracks[candidate.track].isConfirmed();
+    return !candidate.spot && tracks[candidate.track].isConfirmed();
   };
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    for (std::size_t j = i + 1; j < candidate_count_; ++j) {
+  for (std::size_t i = 0; i < candidates_.size(); ++i) {
+    for (std::size_t j = i + 1; j < candidates_.size(); ++j) {
       Candidate &a = candidates_[i], &b = candidates_[j];
       const auto spot = isAlone(a) && isAlone(b) ? spotBetween(image, a, b) : std::nullopt;
       if (!spot)
@@ -96,10 +127,8 @@ void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Tr
 void ImageUpdate::addMergedPairs(const StoredImage& image,
                                  const std::vector<Track>& tracks,
                                  std::vector<MergedPair>* pairs) const {
-  for (std::size_t i = 0; i < candidate_count_; ++i) {
-    const Candidate& candidate = candidates_[i];
-    const Candidate* other =
-        candidate.spot == kNone ? nullptr : mergedWith(image, candidate, tracks);
+  for (const Candidate& candidate : candidates_) {
+    const Candidate* other = candidate.spot ? mergedWith(image, candidate, tracks) : nullptr;
     if (!other || !tracks[candidate.track].isConfirmed())
       continue;
     const Track& a = tracks[candidate.track];
@@ -160,8 +189,8 @@ void ImageUpdate::updateMerged(const GroupCamera& camera,
                                const Candidate& candidate,
                                const Candidate& other,
                                std::vector<Track>* tracks) const {
-  const bool is_own = candidate.spot != kNone;
-  const auto spot = static_cast<std::size_t>(is_own ? candidate.spot : other.spot);
+  const bool is_own = candidate.spot.has_value();
+  const std::size_t spot = is_own ? *candidate.spot : *other.spot;
   Track& track = (*tracks)[candidate.track];
   const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
   motion::PixelNoise noise = noise_;

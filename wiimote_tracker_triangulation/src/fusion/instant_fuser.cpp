@@ -22,7 +22,6 @@ struct InstantFuser::Parts {
   explicit Parts(const InstantFuserOptions& fuser_options)
       : options(fuser_options), synchronizer(fuser_options), memory(fuser_options) {}
 
-  void findLeds();
   void report();
   TrackedLed& nextLed();
   void describe(const LedMemory::Led& led);
@@ -33,7 +32,6 @@ struct InstantFuser::Parts {
   Synchronizer synchronizer;
   std::unique_ptr<Locator> locator;
   LedMemory memory;
-  std::vector<LedMemory::Point> points;  // of the locator, for the memory
   Snapshot snapshot;
   std::vector<TrackedLed> spare_leds;  // keep their memory
 };
@@ -65,24 +63,10 @@ void InstantFuser::add(std::size_t camera, const tracking::CameraImage& image) {
 const Snapshot* InstantFuser::next() {
   if (!parts_->synchronizer.advance())
     return nullptr;
-  parts_->findLeds();
+  parts_->locator->locate(parts_->synchronizer.views());
+  parts_->memory.match(parts_->synchronizer.time(), parts_->locator->points());
   parts_->report();
   return &parts_->snapshot;
-}
-
-void InstantFuser::Parts::findLeds() {
-  const std::vector<InstantView>& views = synchronizer.views();
-  locator->locate(views);
-  points.clear();
-  for (const Locator::Point& point : locator->points()) {
-    double observed = -std::numeric_limits<double>::infinity();
-    for (std::size_t i = 0; i < point.spot_count; ++i) {
-      const association::SpotReference& ray = locator->spots()[point.first_spot + i];
-      observed = std::max(observed, views[ray.view].spots[ray.spot].observed);
-    }
-    points.push_back({point.located.position, point.located.covariance, observed});
-  }
-  memory.match(synchronizer.time(), points);
 }
 
 void InstantFuser::Parts::report() {

@@ -14,7 +14,7 @@ constexpr double kTentativeAbsence = 0.05;  // [s]
 
 }  // namespace
 
-void LedMemory::match(double time, const std::vector<Point>& points) {
+void LedMemory::match(double time, const std::vector<Locator::Point>& points) {
   dropLost();
   taken_.assign(points.size(), false);
   findPairs(time, points);
@@ -50,14 +50,14 @@ void LedMemory::dropLost() {
 
 /// Lists the pairs within the gate that the greatest speed allows, the most likely first: -2 log of
 /// a normal density whose width grows with the time the LED was absent.
-void LedMemory::findPairs(double time, const std::vector<Point>& points) {
+void LedMemory::findPairs(double time, const std::vector<Locator::Point>& points) {
   constexpr double kStddevsOfGate = 3.0;
   pairs_.clear();
   for (std::size_t l = 0; l < leds_.size(); ++l) {
     const double gate = kSlack + options_.maximum_speed * (time - leds_[l].last_seen);
     const double stddev = gate / kStddevsOfGate;
     for (std::size_t p = 0; p < points.size(); ++p) {
-      const double distance = (points[p].position - leds_[l].position).norm();
+      const double distance = (points[p].located.position - leds_[l].position).norm();
       if (distance <= gate)
         pairs_.push_back({std::pow(distance / stddev, 2) + 6.0 * std::log(stddev), l, p});
     }
@@ -79,10 +79,13 @@ void LedMemory::endAbsent(double time) {
   }
 }
 
-void LedMemory::update(double time, std::size_t index, const Point& point, Led* led) const {
+void LedMemory::update(double time,
+                       std::size_t index,
+                       const Locator::Point& point,
+                       Led* led) const {
   led->point = index;
-  led->position = point.position;
-  led->covariance = point.covariance;
+  led->position = point.located.position;
+  led->covariance = point.located.covariance;
   led->last_seen = time;
   led->last_observed = point.last_observed;
   ++led->sightings;

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LED_MEMORY_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LED_MEMORY_H
 
+#include "locator.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
@@ -29,17 +30,10 @@ class LedMemory {
     std::size_t point = kNone;  ///< Of this instant.
   };
 
-  /// A point of this instant.
-  struct Point {
-    Eigen::Vector3d position;    ///< [m]
-    Eigen::Matrix3d covariance;  ///< [m^2]
-    double last_observed;        ///< [s]
-  };
-
   explicit LedMemory(const InstantFuserOptions& options) : options_(options) {}
 
   /// @param points of this instant, the best first: new ones beyond maximum_leds are left out.
-  void match(double time, const std::vector<Point>& points);
+  void match(double time, const std::vector<Locator::Point>& points);
 
   /// In the order of their ids: LEDs of this instant, absent ones, and those lost at this instant.
   const std::vector<Led>& leds() const { return leds_; }
@@ -55,9 +49,9 @@ class LedMemory {
   };
 
   void dropLost();
-  void findPairs(double time, const std::vector<Point>& points);
+  void findPairs(double time, const std::vector<Locator::Point>& points);
   void endAbsent(double time);
-  void update(double time, std::size_t index, const Point& point, Led* led) const;
+  void update(double time, std::size_t index, const Locator::Point& point, Led* led) const;
 
   InstantFuserOptions options_;
   std::uint32_t next_id_ = 0;

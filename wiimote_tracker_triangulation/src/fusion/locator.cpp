@@ -3,6 +3,7 @@
 #include "association/shared_views.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace wiimote_tracker::fusion {
 namespace {
@@ -48,7 +49,10 @@ void Locator::locate(const std::vector<InstantView>& views) {
       located = triangulateWithoutWorst();
     if (!located)
       continue;
-    points_.push_back({*located, spots_.size(), rays_.size()});
+    double observed = -std::numeric_limits<double>::infinity();
+    for (const association::SpotReference& ray : rays_)
+      observed = std::max(observed, views[ray.view].spots[ray.spot].observed);
+    points_.push_back({*located, observed, spots_.size(), rays_.size()});
     spots_.insert(spots_.end(), rays_.begin(), rays_.end());
   }
   std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) {

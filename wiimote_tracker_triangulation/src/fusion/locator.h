@@ -18,6 +18,7 @@ class Locator {
  public:
   struct Point {
     geometry::TriangulatedPoint located;
+    double last_observed;    ///< Newest image of its spots [s].
     std::size_t first_spot;  ///< In spots().
     std::size_t spot_count;
   };

@@ -45,13 +45,14 @@ std::vector<std::vector<std::size_t>> sharedViews(const geometry::Rig& rig, doub
     points.push_back(pointsInView(camera.camera, range));
   std::vector<std::vector<std::size_t>> shared(count);
   for (std::size_t a = 0; a < count; ++a) {
-    for (std::size_t b = 0; b < count; ++b) {
+    for (std::size_t b = a + 1; b < count; ++b) {
       const geometry::Camera& camera_a = rig.cameras[a].camera;
       const geometry::Camera& camera_b = rig.cameras[b].camera;
       const bool near = (camera_a.center() - camera_b.center()).norm() <= 2.0 * range;
-      if (a != b && near &&
-          (seesAny(camera_b, points[a], range) || seesAny(camera_a, points[b], range)))
-        shared[a].push_back(b);
+      if (!near || (!seesAny(camera_b, points[a], range) && !seesAny(camera_a, points[b], range)))
+        continue;
+      shared[a].push_back(b);
+      shared[b].push_back(a);
     }
   }
   return shared;

@@ -10,24 +10,22 @@ bool hasSmallerId(const TrackedLed& a, const TrackedLed& b) {
   return a.id < b.id;
 }
 
-}  // namespace
-
-std::size_t countTracks(const std::vector<std::unique_ptr<CameraGroup>>& groups) {
+std::size_t countTracks(const SnapshotWriter::Groups& groups) {
   std::size_t count = 0;
   for (const auto& group : groups)
     count += group->tracks().size();
   return count;
 }
 
-void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
-               double time,
-               const TrackerOptions& options,
-               Snapshot* snapshot) {
+}  // namespace
+
+/// The snapshot has at least as many LEDs as there are tracks.
+void SnapshotWriter::writeLeds(const Groups& groups, double time, Snapshot* snapshot) const {
   snapshot->time = time;
   auto led = snapshot->leds.begin();
   for (const auto& group : groups) {
     for (const Track& track : group->tracks()) {
-      track.report(time, options, group->members(), &*led);
+      track.report(time, options_, group->members(), &*led);
       if (led->state == TrackState::kTracked && group->isDoubtful())
         led->state = TrackState::kPredicted;
       ++led;
@@ -36,12 +34,15 @@ void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
   std::sort(snapshot->leds.begin(), led, hasSmallerId);
 }
 
-void SnapshotWriter::write(const std::vector<std::unique_ptr<CameraGroup>>& groups,
-                           double time,
-                           Snapshot* snapshot) {
+void SnapshotWriter::predict(const Groups& groups, double time, Snapshot* snapshot) const {
+  snapshot->leds.resize(countTracks(groups));
+  writeLeds(groups, time, snapshot);
+}
+
+void SnapshotWriter::write(const Groups& groups, double time, Snapshot* snapshot) {
   const std::size_t count = countTracks(groups);
   resize(count, &snapshot->leds);
-  writeLeds(groups, time, options_, snapshot);
+  writeLeds(groups, time, snapshot);
   for (const TrackedLed& led : before_) {
     const auto end = snapshot->leds.begin() + static_cast<std::ptrdiff_t>(count);
     if (std::binary_search(snapshot->leds.begin(), end, led, hasSmallerId))

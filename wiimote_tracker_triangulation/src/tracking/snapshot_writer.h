@@ -11,26 +11,22 @@
 
 namespace wiimote_tracker::tracking {
 
-/// Writes the time, and all tracks at that time sorted by id. The snapshot must have at least as
-/// many LEDs as there are tracks.
-void writeLeds(const std::vector<std::unique_ptr<CameraGroup>>& groups,
-               double time,
-               const TrackerOptions& options,
-               Snapshot* snapshot);
-
-std::size_t countTracks(const std::vector<std::unique_ptr<CameraGroup>>& groups);
-
-/// Writes successive snapshots. An LED whose track has ended since the last snapshot is reported as
-/// lost once. Does not allocate once warm.
+/// Writes a snapshot's time and its LEDs at that time, sorted by id.
 class SnapshotWriter {
  public:
+  using Groups = std::vector<std::unique_ptr<CameraGroup>>;
+
   explicit SnapshotWriter(const TrackerOptions& options) : options_(options) {}
 
-  void write(const std::vector<std::unique_ptr<CameraGroup>>& groups,
-             double time,
-             Snapshot* snapshot);
+  /// The next of successive snapshots: an LED whose track has ended since the last one is reported
+  /// as lost once. Does not allocate once warm.
+  void write(const Groups& groups, double time, Snapshot* snapshot);
+
+  /// Without lost LEDs.
+  void predict(const Groups& groups, double time, Snapshot* snapshot) const;
 
  private:
+  void writeLeds(const Groups& groups, double time, Snapshot* snapshot) const;
   void resize(std::size_t count, std::vector<TrackedLed>* leds);
 
   TrackerOptions options_;

@@ -5,6 +5,7 @@
 #include "ids.h"
 #include "snapshot_writer.h"
 #include "tracking/time_watch.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -177,8 +178,7 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) {
   if (newest_time_ == kNever || !(time >= newest_time_))
     return false;
   updateGroups();
-  snapshot->leds.resize(countTracks(groups_));
-  writeLeds(groups_, time, options_, snapshot);
+  writer_->predict(groups_, time, snapshot);
   for (TrackedLed& led : snapshot->leds) {
     if (const auto covariance =
             uncertainty_->covarianceOf(led.position, led.cameras.data(), led.cameras.size()))

@@ -1,5 +1,6 @@
 // Track initiation, accuracy and reports.
 #include "tracking/tracker_runs.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"

@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
 
-#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
@@ -12,6 +11,10 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace wiimote_tracker::geometry {
+class CalibrationUncertainty;
+}
 
 namespace wiimote_tracker::tracking {
 

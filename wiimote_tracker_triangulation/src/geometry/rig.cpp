@@ -3,6 +3,8 @@
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <set>
@@ -14,16 +16,6 @@ namespace {
 void require(bool good, const std::string& message) {
   if (!good)
     throw InvalidRigError(message);
-}
-
-/// Whether a namespace can have this name: a letter first, then letters, digits, _ and /.
-bool isName(const std::string& name) {
-  const auto isLetter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-  const std::size_t first = !name.empty() && name[0] == '/' ? 1 : 0;
-  return name.size() > first && isLetter(name[first]) &&
-         std::all_of(name.begin(), name.end(), [&](char c) {
-           return isLetter(c) || (c >= '0' && c <= '9') || c == '_' || c == '/';
-         });
 }
 
 void checkPose(const Eigen::Isometry3d& pose) {
@@ -96,9 +88,10 @@ void Rig::check() const {
   std::set<std::string> frames;
   for (const RigCamera& camera : cameras) {
     const std::string& name = camera.camera.name;
-    require(isName(name), "'" + name +
-                              "' is no name for a camera; use a letter, then letters, digits and "
-                              "underscores");
+    // A namespace, so slashes are allowed.
+    require(isWord(withoutSlashes(name)),
+            "'" + name +
+                "' is no name for a camera; use a letter, then letters, digits and underscores");
     require(frames.insert(opticalFrame(name)).second,
             "two cameras share the name '" + name + "'; rename one");
     try {

@@ -1,14 +1,13 @@
 // The accuracy of the motion filter of one LED, compared with bounds.
 #include "benchmark_tracking_sections.h"
 #include "constant_noise_filter.h"
+#include "geometry/accuracy.h"
 #include "motion/known_mode.h"
 #include "motion/motion_filter.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
 
 #include <wiimote_tracker_msgs/text.h>
-
-#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <algorithm>
 #include <array>
@@ -29,37 +28,23 @@ using motion::MotionOptions;
 using tracking::test::Path;
 
 constexpr double kPixelStddev = 0.5;
-constexpr double kPeriod = 0.01;           // of each camera's images [s]
-constexpr double kStep = kPeriod / 4.0;    // from one camera's image to the next one's [s]
-constexpr double kStartStddev = 2e-3;      // of the first position, per axis [m]
-constexpr double kSettled = 0.5;           // errors before are not scored [s]
-constexpr double kWithin95 = 7.814727903;  // quantile of chi square with three degrees of freedom
+constexpr double kPeriod = 0.01;         // of each camera's images [s]
+constexpr double kStep = kPeriod / 4.0;  // from one camera's image to the next one's [s]
+constexpr double kStartStddev = 2e-3;    // of the first position, per axis [m]
+constexpr double kSettled = 0.5;         // errors before are not scored [s]
 
-/// Errors, their bound, and how they fit the covariance.
-struct Figures {
-  double squared = 0.0;        // [m^2]
+/// Errors, and their bound.
+struct Figures : geometry::test::Accuracy {
   double bound_squared = 0.0;  // [m^2]
-  double nees = 0.0;
-  int within = 0;
-  int count = 0;
-
-  void add(const Vector3d& error, const Matrix3d& covariance) {
-    const double squared_distance = geometry::squaredMahalanobis(error, covariance);
-    squared += error.squaredNorm();
-    nees += squared_distance;
-    within += squared_distance < kWithin95;
-    ++count;
-  }
 
   BenchmarkRow row(const std::string& name) const {
-    const double rms = std::sqrt(squared / count);
     const double bound = std::sqrt(bound_squared / count);
     return {name,
-            {{"RMS mm", 1e3 * rms},
+            {{"RMS mm", 1e3 * rms()},
              {"bound mm", 1e3 * bound},
-             {"ratio", rms / bound},
-             {"NEES", nees / count},
-             {"in 95 %", 100.0 * within / count}}};
+             {"ratio", rms() / bound},
+             {"NEES", nees()},
+             {"in 95 %", 100.0 * shareInside()}}};
   }
 };
 
@@ -145,8 +130,9 @@ void runDrawn(const Drawn& drawn,
 }
 
 Figures sum(const Figures& a, const Figures& b) {
-  return {a.squared + b.squared, a.bound_squared + b.bound_squared, a.nees + b.nees,
-          a.within + b.within, a.count + b.count};
+  return {
+      {a.squares + b.squares, a.distances + b.distances, a.inside + b.inside, a.count + b.count},
+      a.bound_squared + b.bound_squared};
 }
 
 /// With a single mode, the filter is a Kalman filter.

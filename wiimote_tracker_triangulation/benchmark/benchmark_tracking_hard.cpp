@@ -1,9 +1,9 @@
 // The accuracy of random motion, from slow to hard, with unsynchronised cameras.
 #include "benchmark_tracking_sections.h"
+#include "geometry/accuracy.h"
 #include "motion/smoother.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -17,30 +17,13 @@
 namespace wiimote_tracker {
 namespace {
 
+using geometry::test::Accuracy;
 using tracking::Mode;
 using tracking::test::Path;
 using tracking::test::SceneImage;
 
 constexpr double kRun = 8.0;         // [s]
 constexpr double kStartOfRun = 0.5;  // errors before are not scored [s]
-
-/// Errors of the tracked LED.
-struct HardErrors {
-  double squared = 0.0;
-  double nees = 0.0;
-  int inside = 0;
-  int count = 0;
-
-  void add(const Eigen::Vector3d& error, const Eigen::Matrix3d& covariance) {
-    const double distance = geometry::squaredMahalanobis(error, covariance);
-    squared += error.squaredNorm();
-    nees += distance;
-    inside += distance < 7.814727903;  // quantile of chi square with three degrees of freedom
-    ++count;
-  }
-
-  double rms() const { return std::sqrt(squared / count); }
-};
 
 std::vector<SceneImage> filmHard(const geometry::Rig& rig, const Path& path, unsigned seed) {
   tracking::test::SceneOptions options;
@@ -57,7 +40,7 @@ void trackHard(const geometry::Rig& rig,
                const std::vector<SceneImage>& images,
                const Path& path,
                const tracking::EstimatorOptions& options,
-               HardErrors* errors) {
+               Accuracy* errors) {
   const auto estimator = tracking::makeEstimator(rig, options);
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
@@ -76,7 +59,7 @@ void trackHard(const geometry::Rig& rig,
 void smooth(const geometry::Rig& rig,
             const std::vector<SceneImage>& images,
             const Path& path,
-            HardErrors* errors) {
+            Accuracy* errors) {
   struct Track {
     std::vector<motion::Observation> observations;
     std::vector<motion::Place> places;
@@ -137,7 +120,7 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
     geometry::Rig rig = tracking::test::paperRig();
     rig.cameras.resize(cameras);
     for (const auto& [speed, acceleration] : kMotions) {
-      HardErrors tracks, smoothed, singles, instants;
+      Accuracy tracks, smoothed, singles, instants;
       tracking::EstimatorOptions default_options, single, instant;
       single.tracks.motion = singleMode(speed, acceleration);
       instant.mode = Mode::kInstant;
@@ -152,14 +135,14 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
       }
       row({format("%zu cameras, %.2f m/s, %.1f m/s^2", cameras, speed, acceleration),
            {{"RMS mm", 1e3 * tracks.rms()},
-            {"NEES", tracks.nees / tracks.count},
-            {"in 95 %", 100.0 * tracks.inside / tracks.count},
+            {"NEES", tracks.nees()},
+            {"in 95 %", 100.0 * tracks.shareInside()},
             {"single mm", 1e3 * singles.rms()},
             {"instant mm", 1e3 * instants.rms()},
             {"ratio", tracks.rms() / instants.rms()},
             {"smooth mm", 1e3 * smoothed.rms()},
-            {"NEES ", smoothed.nees / smoothed.count},
-            {"in 95 % ", 100.0 * smoothed.inside / smoothed.count}}});
+            {"NEES ", smoothed.nees()},
+            {"in 95 % ", 100.0 * smoothed.shareInside()}}});
     }
   }
 }

@@ -1,3 +1,4 @@
+#include "geometry/accuracy.h"
 #include "motion/filter_scene.h"
 #include "motion/known_mode.h"
 #include "motion/textbook_imm.h"
@@ -72,21 +73,15 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
   }
 }
 
-/// Errors relative to a bound, and the consistency of the covariance.
-struct Accuracy {
-  double squared = 0.0;
-  double bound = 0.0;
-  double nees = 0.0;
-  int count = 0;
+/// Errors beside a bound.
+struct BoundedErrors : geometry::test::Accuracy {
+  double bounds = 0.0;  // of the squared errors, summed [m^2]
 
-  void add(const MotionFilter& filter, const Vector3d& truth, double squared_bound) {
-    const Vector3d error = filter.position() - truth;
-    squared += error.squaredNorm();
-    nees += geometry::squaredMahalanobis(error, filter.positionCovariance());
-    bound += squared_bound;
-    ++count;
+  void take(const MotionFilter& filter, const Vector3d& truth, double squared_bound) {
+    add(filter.position() - truth, filter.positionCovariance());
+    bounds += squared_bound;
   }
-  double ratio() const { return std::sqrt(squared / bound); }
+  double squaredRatio() const { return squares / bounds; }
 };
 
 TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
@@ -99,7 +94,7 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
   const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
   const std::vector<Camera> cameras = ring();
   Random random(5);
-  Accuracy all;
+  BoundedErrors all;
   std::vector<double> nees_of_runs, ratio_of_runs;
   for (int run = 0; run < kRuns; ++run) {
     test::SingerTruth truth(kStddev, kTime, kStep);
@@ -113,18 +108,18 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
     truth.startMoving(random);
     MotionFilter filter(options, 0.0, position + error, covariance);
     test::KnownModeBound bound(kStddev, kTime, kStep, covariance, options.initial_speed);
-    Accuracy one;
+    BoundedErrors one;
     for (int i = 1; i <= 320; ++i) {
       truth.step(random);
       bound.step();
       const Camera& camera = cameras[i % 4];
       ASSERT_TRUE(takeIn(&filter, kStep * i, camera, noisyPixel(camera, truth.position(), random)));
       bound.observe(camera, truth.position(), kPixelStddev);
-      one.add(filter, truth.position(), bound.squaredError());
-      all.add(filter, truth.position(), bound.squaredError());
+      one.take(filter, truth.position(), bound.squaredError());
+      all.take(filter, truth.position(), bound.squaredError());
     }
-    nees_of_runs.push_back(one.nees / one.count);
-    ratio_of_runs.push_back(one.squared / one.bound);
+    nees_of_runs.push_back(one.nees());
+    ratio_of_runs.push_back(one.squaredRatio());
   }
   // Within four standard errors, estimated from the runs, which are independent.
   const auto standardError = [](const std::vector<double>& values) {
@@ -136,8 +131,8 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
     const double n = static_cast<double>(values.size());
     return std::sqrt((squares / n - sum * sum / (n * n)) / (n - 1.0));
   };
-  EXPECT_NEAR(3.0, all.nees / all.count, 4.0 * standardError(nees_of_runs));
-  EXPECT_NEAR(1.0, all.squared / all.bound, 4.0 * standardError(ratio_of_runs));
+  EXPECT_NEAR(3.0, all.nees(), 4.0 * standardError(nees_of_runs));
+  EXPECT_NEAR(1.0, all.squaredRatio(), 4.0 * standardError(ratio_of_runs));
   EXPECT_LT(standardError(nees_of_runs), 0.15);
 }
 
@@ -147,7 +142,7 @@ TEST(MotionFilter, IsQuietWhenStillAndKeepsUpWithJumps) {
   const std::vector<Camera> cameras = ring();
   const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
   Random random(6);
-  Accuracy all, still;
+  BoundedErrors all, still;
   for (int run = 0; run < kRuns; ++run) {
     test::SingerTruth truth(kAcceleration, kTime, kStep);
     truth.place(random.inBox(0.2), Vector3d::Zero());
@@ -176,13 +171,13 @@ TEST(MotionFilter, IsQuietWhenStillAndKeepsUpWithJumps) {
       EXPECT_LT(prediction->squaredDistance(measured), i % 1400 < 4 ? 100.0 : 36.0);
       ASSERT_TRUE(filter.update(camera, *prediction, measured));
       bound.observe(camera, truth.position(), kPixelStddev);
-      all.add(filter, truth.position(), bound.squaredError());
+      all.take(filter, truth.position(), bound.squaredError());
       if (!truth.moves())
-        still.add(filter, truth.position(), bound.squaredError());
+        still.take(filter, truth.position(), bound.squaredError());
     }
   }
-  EXPECT_LT(all.ratio(), 1.10);
-  EXPECT_LT(still.ratio(), 1.4);
+  EXPECT_LT(std::sqrt(all.squaredRatio()), 1.10);
+  EXPECT_LT(std::sqrt(still.squaredRatio()), 1.4);
 }
 
 TEST(MotionFilter, FollowsASuddenStartAtThreeMetresPerSecond) {
@@ -210,8 +205,8 @@ TEST(MotionFilter, KeepsUpWithHardMotion) {
   single.sudden_random_walk = single.stop_rate = 0.0;
   const std::vector<Camera> cameras = ring();
   Random random(16);
-  double squared = 0.0, best = 0.0;
-  int inside = 0, count = 0;
+  geometry::test::Accuracy accuracy;
+  double best = 0.0;
   for (int run = 0; run < 4; ++run) {
     const auto path = tracking::test::shaken(random, Vector3d::Zero(), kSpeed, kAcceleration);
     MotionFilter filter(kDefault, 0.0, path(0.0), 4e-6 * Matrix3d::Identity());
@@ -223,15 +218,12 @@ TEST(MotionFilter, KeepsUpWithHardMotion) {
       ASSERT_TRUE(takeIn(&ideal, kStep * i, cameras[i % 4], pixel));
       if (i <= 200)
         continue;
-      const Vector3d error = filter.position() - truth;
-      squared += error.squaredNorm();
+      accuracy.add(filter.position() - truth, filter.positionCovariance());
       best += (ideal.position() - truth).squaredNorm();
-      inside += geometry::squaredMahalanobis(error, filter.positionCovariance()) < 7.815;
-      ++count;
     }
   }
-  EXPECT_LT(std::sqrt(squared / best), 1.05);
-  EXPECT_NEAR(0.95, static_cast<double>(inside) / count, 0.02);
+  EXPECT_LT(std::sqrt(accuracy.squares / best), 1.05);
+  EXPECT_NEAR(0.95, accuracy.shareInside(), 0.02);
 }
 
 TEST(MotionFilter, GrowsUncertainInAGapAndFindsBack) {

@@ -1,5 +1,6 @@
 #include "motion/filter_scene.h"
 
+#include "geometry/accuracy.h"
 #include "motion/motion_filter.h"
 #include "motion/smoother.h"
 #include "motion/textbook_imm.h"
@@ -141,9 +142,8 @@ TEST(Smoother, IsBetterThanTheFilterAndHonest) {
   const std::vector<Camera> cameras = test::ring();
   for (const Motion& motion : {Motion{0.2, 0.5}, Motion{1.0, 6.0}, Motion{3.0, 38.0}}) {
     Random random(22);
-    double filtered = 0.0, squared = 0.0;
-    double nees = 0.0;
-    int inside = 0, count = 0;
+    double filtered = 0.0;
+    geometry::test::Accuracy smoothed;
     for (int run = 0; run < 8; ++run) {
       const Path path =
           tracking::test::shaken(random, Vector3d::Zero(), motion.speed, motion.acceleration);
@@ -160,17 +160,13 @@ TEST(Smoother, IsBetterThanTheFilterAndHonest) {
         if (i < 60 || i + 60 > places.size())
           continue;
         const Vector3d truth = path(places[i].time);
-        const Vector3d error = states[i].position() - truth;
         filtered += (filter.position() - truth).squaredNorm();
-        squared += error.squaredNorm();
-        nees += squaredDistance(error, states[i]);
-        inside += squaredDistance(error, states[i]) < 7.815;
-        ++count;
+        smoothed.add(states[i].position() - truth, states[i].positionCovariance());
       }
     }
-    EXPECT_LT(std::sqrt(squared / filtered), 0.6) << motion.speed;
-    EXPECT_GT(static_cast<double>(inside) / count, 0.93) << motion.speed;
-    EXPECT_NEAR(3.0, nees / count, 1.0) << motion.speed;
+    EXPECT_LT(std::sqrt(smoothed.squares / filtered), 0.6) << motion.speed;
+    EXPECT_GT(smoothed.shareInside(), 0.93) << motion.speed;
+    EXPECT_NEAR(3.0, smoothed.nees(), 1.0) << motion.speed;
   }
 }
 

@@ -1,8 +1,8 @@
 // Track initiation, accuracy and reports.
+#include "geometry/accuracy.h"
 #include "tracking/tracker_runs.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -236,18 +236,15 @@ double neesWith(double noise, bool learnt_noise) {
   options.learnt_noise = learnt_noise;
   const std::vector<Path> leds = wanderers(1, 4);
   Tracker tracker(rig, options);
-  double sum = 0.0;
-  int count = 0;
+  geometry::test::Accuracy accuracy;
   for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, leds, scene, 8000))) {
     if (snapshot.leds.size() != 1 || snapshot.leds[0].state != TrackState::kTracked)
       continue;
     const TrackedLed& led = snapshot.leds[0];
-    const Eigen::Vector3d error = led.position - leds[0](snapshot.time);
-    sum += geometry::squaredMahalanobis(error, led.position_covariance) / 3.0;
-    ++count;
+    accuracy.add(led.position - leds[0](snapshot.time), led.position_covariance);
   }
-  EXPECT_GT(count, 7000);
-  return sum / count;
+  EXPECT_GT(accuracy.count, 7000);
+  return accuracy.nees() / 3.0;
 }
 
 TEST(Tracker, CovarianceFollowsTheNoiseThatCamerasLearnt) {

@@ -1,9 +1,9 @@
 // LEDs on one hand: their spots merge, and some are hidden meanwhile.
+#include "geometry/accuracy.h"
 #include "tracking/tracker_runs.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <cmath>
 #include <map>
@@ -53,9 +53,7 @@ TEST(TrackerCloseLeds, HiddenLedsAreNotTakenForMergedOnes) {
     scene.hidden = isHidden;
     Tracker tracker(paperRig(), exactOptions());
     std::map<std::uint32_t, std::size_t> led_of_id;
-    double squares = 0.0;
-    std::size_t tracked = 0;
-    std::size_t inside = 0;
+    geometry::test::Accuracy tracked;
     for (const Snapshot& s : track(&tracker, imagesOf(paperRig(), leds, scene, 4800))) {
       for (const TrackedLed& track : s.leds) {
         if (s.time < 1001.0 || track.state != TrackState::kTracked)
@@ -67,18 +65,14 @@ TEST(TrackerCloseLeds, HiddenLedsAreNotTakenForMergedOnes) {
             nearest = led;
         }
         const std::size_t own = led_of_id.emplace(track.id, nearest).first->second;
-        const Eigen::Vector3d error = track.position - leds[own](s.time);
-        squares += error.squaredNorm();
-        inside += error.dot(track.position_covariance.inverse() * error) < 7.815;  // 95 %
-        ++tracked;
+        tracked.add(track.position - leds[own](s.time), track.position_covariance);
         EXPECT_FALSE(own == 2 && s.time > kHiddenFrom + 0.1 && s.time < kHiddenTo) << s.time;
       }
     }
-    const auto count = static_cast<double>(tracked);
     EXPECT_LE(led_of_id.size(), 3u);
-    EXPECT_GE(tracked, 3u * 4400 * 95 / 100);
-    EXPECT_LT(std::sqrt(squares / count), expected.rms) << expected.merging_distance;
-    EXPECT_GT(static_cast<double>(inside), expected.inside * count) << expected.merging_distance;
+    EXPECT_GE(tracked.count, 3 * 4400 * 95 / 100);
+    EXPECT_LT(tracked.rms(), expected.rms) << expected.merging_distance;
+    EXPECT_GT(tracked.shareInside(), expected.inside) << expected.merging_distance;
     for (std::size_t camera = 0; camera < 4; ++camera)
       EXPECT_FALSE(tracker.cameraFault(camera)) << camera;
   }

@@ -1,10 +1,8 @@
-// A clock whose new epoch the rig has no time offset for is found from the
-// motion.
+// A clock whose new epoch the rig has no time offset for is found from the motion.
+#include "geometry/accuracy.h"
 #include "tracking/tracker_runs.h"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -16,13 +14,9 @@ namespace {
 constexpr double kReconnect = 2.0;  // since the start [s]
 
 struct Figures {
-  std::vector<double> errors;  // of the time of the camera's last image, per scene [s]
-  std::vector<double> stated;  // its standard deviation [s]
-  double squares = 0.0;        // of tracked positions' errors since the reconnection [m^2]
-  std::size_t tracked = 0;
-  std::size_t inside = 0;  // of these, within the 95 % ellipsoid
-
-  double rms() const { return std::sqrt(squares / static_cast<double>(tracked)); }  // [m]
+  std::vector<double> errors;        // of the time of the camera's last image, per scene [s]
+  std::vector<double> stated;        // its standard deviation [s]
+  geometry::test::Accuracy tracked;  // since the reconnection
 };
 
 /// One of four cameras, each time another, reconnects; its stamps are then late
@@ -68,9 +62,7 @@ void reconnect(unsigned seed, double offset, bool is_known, double jitter, Figur
         const Eigen::Vector3d other = led.position - leds[1](snapshot->time);
         if (other.norm() < off.norm())
           off = other;
-        ++figures->tracked;
-        figures->squares += off.squaredNorm();
-        figures->inside += off.dot(led.position_covariance.inverse() * off) < 7.815;
+        figures->tracked.add(off, led.position_covariance);
       }
     }
   }
@@ -101,9 +93,9 @@ TEST(TrackerEpochs, TheOffsetOfANewEpochIsFoundFromTheMotion) {
   EXPECT_LE(rms(found.errors), 0.00025);
   EXPECT_LE(rms(found.stated), 0.0003);
   EXPECT_GE(within_two, 17u);
-  EXPECT_LT(found.rms(), 1.02 * exact.rms());
-  EXPECT_LT(found.rms(), wrong.rms());
-  EXPECT_GT(found.inside, 0.94 * found.tracked);
+  EXPECT_LT(found.tracked.rms(), 1.02 * exact.tracked.rms());
+  EXPECT_LT(found.tracked.rms(), wrong.tracked.rms());
+  EXPECT_GT(found.tracked.shareInside(), 0.94);
 }
 
 TEST(TrackerEpochs, TheOffsetIsFoundFromLateImages) {

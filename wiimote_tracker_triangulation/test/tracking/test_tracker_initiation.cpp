@@ -1,9 +1,8 @@
 // How soon and how well LEDs are located that come into view, or back.
+#include "geometry/accuracy.h"
 #include "tracking/tracker_runs.h"
 
 #include <gtest/gtest.h>
-
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -30,8 +29,7 @@ TEST(TrackerInitiation, TheFirstPointsOfAMovingLedAreExact) {
   options.birth_pixel_stddev = 15.0;  // the motion within birth_window
   options.confirmation_hits = 2;
   geometry::test::Random random(4);
-  double squares = 0.0;
-  int count = 0, inside = 0;
+  geometry::test::Accuracy accuracy;
   const geometry::Rig rig = pairOfCameras();
   for (unsigned run = 0; run < 150; ++run) {
     const Path led = straight(middle, 2.0 * random.inBox(1.0).normalized(), 1000.4);
@@ -42,15 +40,12 @@ TEST(TrackerInitiation, TheFirstPointsOfAMovingLedAreExact) {
         continue;
       ++points;
       const TrackedLed& found = snapshot.leds[0];
-      const Eigen::Vector3d error = found.position - led(snapshot.time);
-      squares += error.squaredNorm();
-      inside += error.dot(found.position_covariance.inverse() * error) < 7.815;  // 95 %
-      ++count;
+      accuracy.add(found.position - led(snapshot.time), found.position_covariance);
     }
   }
-  ASSERT_EQ(450, count);
-  EXPECT_LT(std::sqrt(squares / count), 0.005);
-  EXPECT_NEAR(0.95, static_cast<double>(inside) / count, 0.04);
+  ASSERT_EQ(450, accuracy.count);
+  EXPECT_LT(accuracy.rms(), 0.005);
+  EXPECT_NEAR(0.95, accuracy.shareInside(), 0.04);
 }
 
 /// Those of the newest image and of the other camera's, which is older.

@@ -16,17 +16,6 @@ using namespace tracking::test;
 
 constexpr double kMerging = 8.0;  // of the sensor; the tracker assumes its default [px]
 
-/// Four LEDs, each in its own quarter of the volume, at least 0.4 m apart: some view always
-/// resolves them. In single views they often pass and merge.
-std::vector<Path> fourLeds(geometry::test::Random& random, double speed) {
-  std::vector<Path> leds;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector3d center(i % 2 ? 1.7 : 0.8, i / 2 ? 1.7 : 0.8, 1.0);
-    leds.push_back(wandering(random, center, 0.25, speed));
-  }
-  return leds;
-}
-
 BenchmarkRow timeRow(const std::string& name,
                      double speed,
                      double dropout,
@@ -34,8 +23,8 @@ BenchmarkRow timeRow(const std::string& name,
                      double jitter,
                      int frames,
                      unsigned seed) {
-  geometry::test::Random random(seed);
-  const std::vector<Path> leds = fourLeds(random, speed);
+  // Some view always resolves them. In single views they often pass and merge.
+  const std::vector<Path> leds = wanderers(4, seed, speed);
   SceneOptions options;
   options.pixel_noise = kPixelNoise;
   options.merging_distance = kMerging;

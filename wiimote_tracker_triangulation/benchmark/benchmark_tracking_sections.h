@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_TRACKING_SECTIONS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_TRACKING_SECTIONS_H
 
-#include "wiimote_tracker_triangulation/tracking/tracker.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 

@@ -64,6 +64,16 @@ Path wandering(geometry::test::Random& random,
   };
 }
 
+std::vector<Path> wanderers(int count, unsigned seed, double speed) {
+  geometry::test::Random random(seed);
+  std::vector<Path> leds;
+  for (int i = 0; i < count; ++i) {
+    const Eigen::Vector3d center(i % 2 ? 1.7 : 0.8, i / 2 ? 1.7 : 0.8, 1.0);
+    leds.push_back(wandering(random, center, 0.25, speed));
+  }
+  return leds;
+}
+
 Path shaken(geometry::test::Random& random,
             const Eigen::Vector3d& center,
             double speed,

@@ -30,6 +30,10 @@ Path wandering(geometry::test::Random& random,
                double half_side,
                double speed);
 
+/// Up to four LEDs, each wandering in its own quarter of the paper's cube, at least 0.4 m from the
+/// others. @param speed RMS [m/s]
+std::vector<Path> wanderers(int count, unsigned seed, double speed = 1.0);
+
 /// Random motion of this RMS speed [m/s, > 0] and RMS acceleration [m/s^2, > 0]: five sine waves
 /// per axis, within a factor of 4 in frequency.
 Path shaken(geometry::test::Random& random,

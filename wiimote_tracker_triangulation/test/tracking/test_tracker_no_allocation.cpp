@@ -19,13 +19,7 @@ TEST(TrackerNoAllocation, TheCounterCounts) {
 
 /// Allocations in `count` images, after as many for warm-up.
 int allocations(const SceneOptions& options, int count) {
-  geometry::test::Random random(3);
-  std::vector<Path> leds;
-  for (int i = 0; i < 4; ++i) {
-    const Eigen::Vector3d center(i % 2 ? 1.7 : 0.8, i / 2 ? 1.7 : 0.8, 1.0);
-    leds.push_back(wandering(random, center, 0.25, 1.0));
-  }
-  Scene scene(paperRig(), leds, options, 5);
+  Scene scene(paperRig(), wanderers(4, 3), options, 5);
   std::vector<SceneImage> images;
   for (int i = 0; i < 2 * count; ++i)
     images.push_back(scene.next());

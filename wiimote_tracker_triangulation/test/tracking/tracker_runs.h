@@ -16,9 +16,6 @@ namespace wiimote_tracker::tracking::test {
 /// Options for a scene of 0.3 px of noise and exact stamps.
 TrackerOptions exactOptions();
 
-/// LEDs that wander about their own places in the paper's cube.
-std::vector<Path> wanderers(int count, unsigned seed, double speed = 1.0);
-
 std::vector<SceneImage> imagesOf(const geometry::Rig& rig,
                                  const std::vector<Path>& leds,
                                  const SceneOptions& options,

@@ -59,40 +59,6 @@ Matrix32 positionByPixel(const Matrix3& inverse, const Vector3& position, const 
   return inverse * change * sight.directionByPixel();
 }
 
-/// The midpoint of two rays' closest points: it has the least squared distances to both.
-struct Midpoint {
-  Midpoint(const Sight& a, const Sight& b) {
-    const Matrix3 across_b = acrossRay(b);
-    inverse = (acrossRay(a) + across_b).inverse();
-    position = a.origin + inverse * (across_b * (b.origin - a.origin));
-  }
-  Matrix3 inverse;
-  Vector3 position;
-};
-
-/// Mean over all pairs that are not parallel of the point halfway between the two rays.
-void meanClosest(const Sights& sights, double minimum_sine_squared, TriangulatedPoint* point) {
-  Vector3 sum = Vector3::Zero();
-  int pairs = 0;
-  Matrix3 variance = Matrix3::Zero();
-  for (const Sight& a : sights) {
-    Matrix32 position_by_pixel = Matrix32::Zero();  // the sum over the pairs of which a is one
-    for (const Sight& b : sights) {
-      if (&a == &b || isParallel(a, b, minimum_sine_squared))
-        continue;
-      const Midpoint midpoint(a, b);
-      position_by_pixel += positionByPixel(midpoint.inverse, midpoint.position, a);
-      if (&a < &b) {
-        sum += midpoint.position;
-        ++pairs;
-      }
-    }
-    variance += position_by_pixel * position_by_pixel.transpose();
-  }
-  point->position = sum / pairs;
-  point->covariance = variance / (pairs * pairs);
-}
-
 /// The point with the least weighted sum of squared distances to all rays, and the inverse of its
 /// normal equations.
 struct Nearest {
@@ -114,6 +80,30 @@ struct Nearest {
 };
 
 constexpr auto kEqualWeights = [](const Sight&) { return 1.0; };
+
+/// Mean over all pairs that are not parallel of the point halfway between the two rays.
+void meanClosest(const Sights& sights, double minimum_sine_squared, TriangulatedPoint* point) {
+  Vector3 sum = Vector3::Zero();
+  int pairs = 0;
+  Matrix3 variance = Matrix3::Zero();
+  for (const Sight& a : sights) {
+    Matrix32 position_by_pixel = Matrix32::Zero();  // the sum over the pairs of which a is one
+    for (const Sight& b : sights) {
+      if (&a == &b || isParallel(a, b, minimum_sine_squared))
+        continue;
+      const Sight pair[] = {a, b};
+      const Nearest midpoint({pair, 2}, kEqualWeights);  // halfway between their closest points
+      position_by_pixel += positionByPixel(midpoint.inverse, midpoint.position, a);
+      if (&a < &b) {
+        sum += midpoint.position;
+        ++pairs;
+      }
+    }
+    variance += position_by_pixel * position_by_pixel.transpose();
+  }
+  point->position = sum / pairs;
+  point->covariance = variance / (pairs * pairs);
+}
 
 /// The covariance neglects that the weights change with the pixels.
 template <typename Weight>

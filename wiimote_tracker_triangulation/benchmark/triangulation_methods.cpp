@@ -29,7 +29,7 @@ void take(const std::optional<geometry::TriangulatedPoint>& point,
 }
 
 TriangulationMethodUnderTest fromSights(const std::string& name, TriangulationMethod method) {
-  return {name, true, true, false, [method](const TriangulationScene& scene) {
+  return {name, true, false, [method](const TriangulationScene& scene) {
             std::vector<geometry::Sight> sights;  // of one point after the other
             for (const auto& pixels : scene.pixels) {
               for (std::size_t c = 0; c < pixels.size(); ++c)
@@ -45,8 +45,7 @@ TriangulationMethodUnderTest fromSights(const std::string& name, TriangulationMe
 
 /// Includes undistortion.
 TriangulationMethodUnderTest fromPixels() {
-  return {"maximum likelihood, from pixels", true, true, false,
-          [](const TriangulationScene& scene) {
+  return {"maximum likelihood, from pixels", true, false, [](const TriangulationScene& scene) {
             std::vector<std::vector<geometry::Observation>> observations;
             for (const auto& pixels : scene.pixels) {
               observations.emplace_back();

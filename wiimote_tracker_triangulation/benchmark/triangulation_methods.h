@@ -20,7 +20,6 @@ struct TriangulationOutput {
 /// A way to intersect rays, ours or a library's.
 struct TriangulationMethodUnderTest {
   std::string name;
-  bool more_than_two_views;
   bool has_covariance;
   bool in_first_camera;  ///< Positions are in the first camera's axes, not the world's.
 

@@ -158,24 +158,24 @@ Run mrcalLindstrom(const TriangulationScene& scene) {
 std::vector<TriangulationMethodUnderTest> peerMethods() {
   std::vector<TriangulationMethodUnderTest> methods;
 #ifdef WIIMOTE_TRACKER_HAVE_OPENCV
-  methods.push_back({"OpenCV triangulatePoints", false, false, false, opencv});
+  methods.push_back({"OpenCV triangulatePoints", false, false, opencv});
 #endif
 #ifdef WIIMOTE_TRACKER_HAVE_OPENGV
-  methods.push_back({"OpenGV triangulate (DLT)", false, false, true, [](const auto& scene) {
+  methods.push_back({"OpenGV triangulate (DLT)", false, true, [](const auto& scene) {
                        return opengvRun(scene, opengv::triangulation::triangulate);
                      }});
-  methods.push_back({"OpenGV triangulate2 (midpoint)", false, false, true, [](const auto& scene) {
+  methods.push_back({"OpenGV triangulate2 (midpoint)", false, true, [](const auto& scene) {
                        return opengvRun(scene, opengv::triangulation::triangulate2);
                      }});
 #endif
 #ifdef WIIMOTE_TRACKER_HAVE_MRCAL
-  methods.push_back({"mrcal geometric (midpoint)", false, false, true,
-                     mrcalInFirstCamera(mrcal_triangulate_geometric)});
-  methods.push_back({"mrcal lindstrom", false, false, true, mrcalLindstrom});
-  methods.push_back({"mrcal leecivera_l1", false, false, true,
-                     mrcalInFirstCamera(mrcal_triangulate_leecivera_l1)});
-  methods.push_back({"mrcal leecivera_mid2", false, false, true,
-                     mrcalInFirstCamera(mrcal_triangulate_leecivera_mid2)});
+  methods.push_back(
+      {"mrcal geometric (midpoint)", false, true, mrcalInFirstCamera(mrcal_triangulate_geometric)});
+  methods.push_back({"mrcal lindstrom", false, true, mrcalLindstrom});
+  methods.push_back(
+      {"mrcal leecivera_l1", false, true, mrcalInFirstCamera(mrcal_triangulate_leecivera_l1)});
+  methods.push_back(
+      {"mrcal leecivera_mid2", false, true, mrcalInFirstCamera(mrcal_triangulate_leecivera_mid2)});
 #endif
   return methods;
 }

@@ -95,7 +95,6 @@ Evaluation evaluate(const std::vector<Person>& train,
       gesture::Recognizer without = recognizer;
       without.remove(sample.gesture);
       const auto unknown = without.recognize(sample.path);
-      ++result.unknown_tested;
       result.unknown_rejected += !unknown || !unknown->accepted() ? 1 : 0;
 
       const Cloud cloud = cloudOf(sample.path);

@@ -23,9 +23,8 @@ struct Evaluation {
   std::size_t right = 0;     ///< By this package, accepted or not.
   std::size_t rejected = 0;  ///< Of those tested, by this package.
 
-  /// Unknown gestures: how many were tested, and how many of those rejected. Each sample is tested
-  /// once more without the examples of its own gesture.
-  std::size_t unknown_tested = 0;
+  /// Unknown gestures that were rejected: each sample is tested once more without the examples of
+  /// its own gesture.
   std::size_t unknown_rejected = 0;
 
   std::size_t examples = 0;     ///< Largest number of examples used at once.

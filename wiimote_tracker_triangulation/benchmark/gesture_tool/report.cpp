@@ -39,7 +39,7 @@ std::string table(const Evaluation& e, const std::optional<FalseAlarms>& alarms)
     out << line(other.name.c_str(), other.right, e.tested);
   out << "Rejected:\n";
   out << line("gestures that were shown", e.rejected, e.tested);
-  out << line("gestures that were not", e.unknown_rejected, e.unknown_tested);
+  out << line("gestures that were not", e.unknown_rejected, e.tested);
   out << format("Time of a recognition, median: %.0f us\n", 1e6 * e.median_seconds);
   if (alarms) {
     out << format(
@@ -70,7 +70,7 @@ void writeJson(const std::string& file,
   out.precision(17);
   out << "{\n  \"accuracy\": " << share(e.right, e.tested) << ",\n  \"tested\": " << e.tested
       << ",\n  \"right\": " << e.right << ",\n  \"rejected\": " << e.rejected
-      << ",\n  \"unknown_tested\": " << e.unknown_tested
+      << ",\n  \"unknown_tested\": " << e.tested
       << ",\n  \"unknown_rejected\": " << e.unknown_rejected << ",\n  \"examples\": " << e.examples
       << ",\n  \"median_recognition_s\": " << e.median_seconds << ",\n  \"others\": {";
   for (std::size_t i = 0; i < e.others.size(); ++i)

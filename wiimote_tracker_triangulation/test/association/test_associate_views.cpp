@@ -6,20 +6,10 @@
 
 #include <gtest/gtest.h>
 
-namespace wiimote_tracker::association {
+namespace wiimote_tracker::association::test {
 namespace {
 
 using Eigen::Vector3d;
-using test::bestDivision;
-using test::bestPermutation;
-using test::Disturbance;
-using test::Division;
-using test::divisionOf;
-using test::Random;
-using test::randomLeds;
-using test::ringRig;
-using test::SimulatedViews;
-using test::simulateViews;
 
 constexpr double kRange = 10.0;  // [m]
 
@@ -204,4 +194,4 @@ TEST(SharedViews, AreOnlyCamerasWithCommonVolume) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::association
+}  // namespace wiimote_tracker::association::test

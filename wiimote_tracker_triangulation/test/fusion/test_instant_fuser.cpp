@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-namespace wiimote_tracker::fusion {
+namespace wiimote_tracker::fusion::test {
 namespace {
 
 using Eigen::Vector2d;
@@ -16,19 +16,6 @@ using Eigen::Vector3d;
 using geometry::Rig;
 using geometry::RigCamera;
 using geometry::test::Random;
-using test::circle;
-using test::Delivery;
-using test::expectIncreasing;
-using test::film;
-using test::fuse;
-using test::kLatency;
-using test::kPeriod;
-using test::lateImages;
-using test::ledOf;
-using test::spotAt;
-using test::still;
-using test::threeCameras;
-using test::uses;
 using tracking::CameraImage;
 using tracking::Snapshot;
 using tracking::SpotUse;
@@ -228,4 +215,4 @@ TEST(InstantFuser, AnUnusableRigIsRefusedAndTheOneBeforeStays) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::fusion
+}  // namespace wiimote_tracker::fusion::test

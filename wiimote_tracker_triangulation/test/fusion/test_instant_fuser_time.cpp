@@ -6,24 +6,12 @@
 #include <algorithm>
 #include <vector>
 
-namespace wiimote_tracker::fusion {
+namespace wiimote_tracker::fusion::test {
 namespace {
 
 using geometry::Rig;
 using geometry::RigCamera;
 using geometry::test::Random;
-using test::circle;
-using test::Delivery;
-using test::film;
-using test::fuse;
-using test::kLatency;
-using test::kPeriod;
-using test::lateImages;
-using test::ledOf;
-using test::spotAt;
-using test::still;
-using test::threeCameras;
-using test::uses;
 using tracking::Snapshot;
 
 void expectIdentical(const std::vector<Snapshot>& a, const std::vector<Snapshot>& b) {
@@ -300,4 +288,4 @@ TEST(InstantFuser, AppliesTimeOffsetsByTheirRule) {
   EXPECT_GT(worstError(other_epoch), 1e-3);
 }
 }  // namespace
-}  // namespace wiimote_tracker::fusion
+}  // namespace wiimote_tracker::fusion::test

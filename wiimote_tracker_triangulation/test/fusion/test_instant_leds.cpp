@@ -11,19 +11,12 @@
 #include <functional>
 #include <vector>
 
-namespace wiimote_tracker::fusion {
+namespace wiimote_tracker::fusion::test {
 namespace {
 
 using Eigen::Vector3d;
 using geometry::Rig;
 using geometry::test::Random;
-using test::Delivery;
-using test::film;
-using test::fuse;
-using test::kPeriod;
-using test::ledOf;
-using test::spotAt;
-using test::still;
 using tracking::Snapshot;
 using tracking::TrackedLed;
 using tracking::TrackState;
@@ -218,4 +211,4 @@ TEST(InstantFuser, EveryMethodFindsEveryLed) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::fusion
+}  // namespace wiimote_tracker::fusion::test

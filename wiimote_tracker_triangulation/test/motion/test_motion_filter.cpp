@@ -11,7 +11,7 @@
 
 #include <array>
 
-namespace wiimote_tracker::motion {
+namespace wiimote_tracker::motion::test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -19,15 +19,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Camera;
 using geometry::test::Random;
-using test::kDefault;
-using test::kPixelStddev;
-using test::kStep;
-using test::noisyPixel;
-using test::relative;
-using test::restProbability;
-using test::ring;
-using test::takeIn;
-using test::variedPath;
 
 TEST(MotionFilter, IsTheTextbooksFilter) {
   const std::vector<Camera> cameras = ring();
@@ -36,7 +27,7 @@ TEST(MotionFilter, IsTheTextbooksFilter) {
   Random random(1);
   const Matrix3d covariance = Vector3d(1e-6, 2e-6, 3e-6).asDiagonal();
   MotionFilter filter(options, 0.0, variedPath(0.0), covariance);
-  test::TextbookImm textbook(options, 0.0, variedPath(0.0), covariance);
+  TextbookImm textbook(options, 0.0, variedPath(0.0), covariance);
   double stopped = 0.0, changed = 0.0;
   for (int i = 1; i < 800; ++i) {
     // Cameras drop out for a while: steps of different length.
@@ -97,7 +88,7 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
   BoundedErrors all;
   std::vector<double> nees_of_runs, ratio_of_runs;
   for (int run = 0; run < kRuns; ++run) {
-    test::SingerTruth truth(kStddev, kTime, kStep);
+    SingerTruth truth(kStddev, kTime, kStep);
     const Vector3d position = random.inBox(0.3);
     Vector3d velocity, error;
     for (int i = 0; i < 3; ++i) {
@@ -107,7 +98,7 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
     truth.place(position, velocity);
     truth.startMoving(random);
     MotionFilter filter(options, 0.0, position + error, covariance);
-    test::KnownModeBound bound(kStddev, kTime, kStep, covariance, options.initial_speed);
+    KnownModeBound bound(kStddev, kTime, kStep, covariance, options.initial_speed);
     BoundedErrors one;
     for (int i = 1; i <= 320; ++i) {
       truth.step(random);
@@ -144,11 +135,11 @@ TEST(MotionFilter, IsQuietWhenStillAndKeepsUpWithJumps) {
   Random random(6);
   BoundedErrors all, still;
   for (int run = 0; run < kRuns; ++run) {
-    test::SingerTruth truth(kAcceleration, kTime, kStep);
+    SingerTruth truth(kAcceleration, kTime, kStep);
     truth.place(random.inBox(0.2), Vector3d::Zero());
     const Vector3d start = truth.position() + random.inBox(2e-3);
     MotionFilter filter(kDefault, 0.0, start, covariance);
-    test::KnownModeBound bound(kAcceleration, kTime, kStep, covariance, 0.0);
+    KnownModeBound bound(kAcceleration, kTime, kStep, covariance, 0.0);
     bound.stop();
     for (int i = 1; i <= 2800; ++i) {
       if (i % 1400 == 800) {  // 2 s still, 1.5 s moving
@@ -308,4 +299,4 @@ TEST(MotionFilter, IteratesFromAPoorStart) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::motion
+}  // namespace wiimote_tracker::motion::test

@@ -12,7 +12,7 @@
 #include <memory>
 #include <vector>
 
-namespace wiimote_tracker::motion {
+namespace wiimote_tracker::motion::test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -20,15 +20,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Camera;
 using geometry::test::Random;
-using test::kDefault;
-using test::kPixelStddev;
-using test::kStep;
-using test::noisyPixel;
-using test::relative;
-using test::restProbability;
-using test::ring;
-using test::takeIn;
-using test::variedPath;
 
 TEST(MotionFilter, TheOrderOfImagesOfOneTimeMakesNoDifference) {
   const std::vector<Camera> cameras = ring();
@@ -158,4 +149,4 @@ TEST(MotionFilter, DoesNotAllocate) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::motion
+}  // namespace wiimote_tracker::motion::test

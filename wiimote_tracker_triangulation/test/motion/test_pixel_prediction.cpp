@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-namespace wiimote_tracker::motion {
+namespace wiimote_tracker::motion::test {
 namespace {
 
 using Eigen::Matrix3d;
@@ -14,14 +14,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 using geometry::Camera;
 using geometry::test::Random;
-using test::kDefault;
-using test::kPixelStddev;
-using test::kStep;
-using test::noisyPixel;
-using test::relative;
-using test::ring;
-using test::takeIn;
-using test::variedPath;
 
 TEST(PixelPrediction, IsTheMixturesDensityAndMoments) {
   const Camera camera = ring()[1];
@@ -110,4 +102,4 @@ TEST(PixelPrediction, AnUncertainStampAddsNoiseAlongTheMotion) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::motion
+}  // namespace wiimote_tracker::motion::test

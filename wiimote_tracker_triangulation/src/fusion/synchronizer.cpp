@@ -29,8 +29,10 @@ void Synchronizer::add(std::size_t camera_index,
                        tracking::Counters* counters) {
   CameraState& camera = cameras_.at(camera_index);
   readFrame(camera.calibration, image);
-  if (!std::isfinite(frame_.time) || !std::isfinite(frame_.arrival))
+  if (!std::isfinite(frame_.time) || !std::isfinite(frame_.arrival)) {
+    ++counters->dropped;
     return;
+  }
   FrameHistory<Frame>& frames = camera.frames;
   if (!has_begun_) {
     begin(frame_.arrival);

@@ -170,6 +170,7 @@ TEST(InstantFuser, ImagesWithoutATimeAreIgnored) {
   image.stamp = std::numeric_limits<double>::quiet_NaN();
   fuser.add(0, image);
   EXPECT_EQ(nullptr, fuser.next());
+  EXPECT_EQ(1u, fuser.counters().dropped);
 }
 
 TEST(InstantFuser, ANewRigTakesEffectAtOnceAndTimeGoesOn) {

@@ -30,6 +30,9 @@ const SingerMode* singerMode(const MotionOptions& options, int mode) {
   }
 }
 
+/// From each mode (row) to another (column): rates [1/s] or probabilities.
+using ModeTransitions = Eigen::Matrix<double, kModes, kModes>;
+
 /// Probabilities over a duration h from rates r [1/s]: r h / (1 + sum(r) h) for each change, the
 /// rest for none.
 ModeTransitions probabilities(const ModeTransitions& rates, double duration) {
@@ -63,6 +66,31 @@ KinematicState mixture(const Eigen::Matrix<double, kModes, 1>& weights, const Mo
         weights[i] * state.covariance.topLeftCorner<N, N>() + weighted.lazyProduct(d.transpose());
   }
   return result;
+}
+
+void mix(const ModeTransitions& transitions, const MotionOptions& options, Modes* modes) {
+  const Modes before = *modes;
+  for (int j = 0; j < kModes; ++j) {
+    Eigen::Matrix<double, kModes, 1> weights;
+    double less_agile = 0.0;  // probability of entering from these
+    for (int i = 0; i < kModes; ++i) {
+      weights[i] = transitions(i, j) * before[i].probability;
+      if (i < j)
+        less_agile += weights[i];
+    }
+    Mode& mode = (*modes)[j];
+    mode.probability = weights.sum();
+    if (mode.probability == weights[j])
+      continue;  // nothing enters
+    weights /= mode.probability;
+    if (isAtRest(j)) {
+      mode.state = mixture<3>(weights, before);  // of the positions
+      continue;
+    }
+    mode.state = mixture<9>(weights, before);
+    mode.state.covariance.diagonal().tail<3>().array() +=
+        less_agile / mode.probability * accelerationVariance(options, j);
+  }
 }
 
 }  // namespace
@@ -112,14 +140,14 @@ KinematicState momentsOf(const Modes& modes) {
   return mixture<9>(weights, modes);
 }
 
-ModeTransitions stopProbabilities(const MotionOptions& options, double duration) {
+void mixStops(const MotionOptions& options, double duration, Modes* modes) {
   ModeTransitions rates = ModeTransitions::Zero();
   for (int i = kRestModes; i < endOf(options); ++i)
     rates.row(i).head<kRestModes>().setConstant(options.stop_rate / kRestModes);
-  return probabilities(rates, duration);
+  mix(probabilities(rates, duration), options, modes);
 }
 
-ModeTransitions changeProbabilities(const MotionOptions& options, double duration) {
+void mixChanges(const MotionOptions& options, double duration, Modes* modes) {
   const int end = endOf(options);
   ModeTransitions rates = ModeTransitions::Zero();
   for (int to = kRestModes; to < end; ++to) {
@@ -132,32 +160,7 @@ ModeTransitions changeProbabilities(const MotionOptions& options, double duratio
     for (int to = from + 1; to < end; ++to)
       rates(from, to) = options.rise_rate / (end - 1 - from);
   }
-  return probabilities(rates, duration);
-}
-
-void mix(const ModeTransitions& transitions, const MotionOptions& options, Modes* modes) {
-  const Modes before = *modes;
-  for (int j = 0; j < kModes; ++j) {
-    Eigen::Matrix<double, kModes, 1> weights;
-    double less_agile = 0.0;  // probability of entering from these
-    for (int i = 0; i < kModes; ++i) {
-      weights[i] = transitions(i, j) * before[i].probability;
-      if (i < j)
-        less_agile += weights[i];
-    }
-    Mode& mode = (*modes)[j];
-    mode.probability = weights.sum();
-    if (mode.probability == weights[j])
-      continue;  // nothing enters
-    weights /= mode.probability;
-    if (isAtRest(j)) {
-      mode.state = mixture<3>(weights, before);  // of the positions
-      continue;
-    }
-    mode.state = mixture<9>(weights, before);
-    mode.state.covariance.diagonal().tail<3>().array() +=
-        less_agile / mode.probability * accelerationVariance(options, j);
-  }
+  mix(probabilities(rates, duration), options, modes);
 }
 
 }  // namespace wiimote_tracker::motion

@@ -38,22 +38,17 @@ void predict(const MotionOptions& options, int mode, double duration, KinematicS
 /// Variance of the acceleration with which a mode begins, per axis [m^2/s^4].
 double accelerationVariance(const MotionOptions& options, int mode);
 
-/// Probabilities that a mode (row) changes to another (column).
-using ModeTransitions = Eigen::Matrix<double, kModes, kModes>;
-
 /// Mean and covariance of the mixture of all modes.
 KinematicState momentsOf(const Modes& modes);
 
-/// From moving modes to those at rest. @param duration [s]
-ModeTransitions stopProbabilities(const MotionOptions& options, double duration);
+/// The interaction (mixing) step by the changes from moving modes to those at rest over a duration
+/// [s]: each mode's state becomes the mean and covariance of the mixture of all modes' states,
+/// weighted by their mixing probabilities. A mode at rest mixes positions only.
+void mixStops(const MotionOptions& options, double duration, Modes* modes);
 
-/// All other changes: from rest to moving modes, and among these. @param duration [s]
-ModeTransitions changeProbabilities(const MotionOptions& options, double duration);
-
-/// The interaction (mixing) step: each mode's state becomes the mean and covariance of the mixture
-/// of all modes' states, weighted by their mixing probabilities. A mode at rest mixes positions
-/// only. States that enter a moving mode from a less agile one get its variance of acceleration.
-void mix(const ModeTransitions& transitions, const MotionOptions& options, Modes* modes);
+/// The same by all other changes: from rest to moving modes, and among these. States that enter a
+/// moving mode from a less agile one get its variance of acceleration.
+void mixChanges(const MotionOptions& options, double duration, Modes* modes);
 
 }  // namespace wiimote_tracker::motion
 

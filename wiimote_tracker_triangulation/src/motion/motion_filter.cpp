@@ -53,11 +53,11 @@ void MotionFilter::predict(double time) {
   }
   time_ = time;
   if (time - last_stop_ >= kStopInterval) {
-    mix(stopProbabilities(*options_, time - last_stop_), *options_, &modes_);
+    mixStops(*options_, time - last_stop_, &modes_);
     last_stop_ = time;
   }
   if (time - last_change_ >= kChangeInterval) {
-    mix(changeProbabilities(*options_, time - last_change_), *options_, &modes_);
+    mixChanges(*options_, time - last_change_, &modes_);
     last_change_ = time;
   }
 }

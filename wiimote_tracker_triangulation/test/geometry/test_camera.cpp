@@ -10,13 +10,11 @@
 
 #include <limits>
 
-namespace wiimote_tracker::geometry {
+namespace wiimote_tracker::geometry::test {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using test::OpenCvCamera;
-using test::Random;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
@@ -30,7 +28,7 @@ Intrinsics folding() {
 TEST(Camera, ProjectsAsOpenCvDoes) {
   Random random(1);
   for (int i = 0; i < 100; ++i) {
-    const Camera camera = test::randomRig(random, 1).cameras[0].camera;
+    const Camera camera = randomRig(random, 1).cameras[0].camera;
     const OpenCvCamera reference(camera);
     for (int k = 0; k < 20; ++k) {
       const Vector3d point = random.inBox(1.0);
@@ -44,7 +42,7 @@ TEST(Camera, ProjectsAsOpenCvDoes) {
 TEST(Camera, UndistortsAsOpenCvDoes) {
   Random random(2);
   for (int i = 0; i < 100; ++i) {
-    const Camera camera = test::randomRig(random, 1).cameras[0].camera;
+    const Camera camera = randomRig(random, 1).cameras[0].camera;
     const OpenCvCamera reference(camera);
     const Vector2d pixel(random.uniform(0, camera.intrinsics.width - 1),
                          random.uniform(0, camera.intrinsics.height - 1));
@@ -64,7 +62,7 @@ TEST(Camera, PixelToRayToPixelIsExact) {
   Random random(3);
   double worst = 0.0;
   for (int i = 0; i < 10000; ++i) {
-    const Intrinsics intrinsics = test::randomIntrinsics(random);
+    const Intrinsics intrinsics = randomIntrinsics(random);
     const Vector2d pixel(random.uniform(0, intrinsics.width - 1),
                          random.uniform(0, intrinsics.height - 1));
     const auto normalized = intrinsics.normalizedFromPixel(pixel);
@@ -77,15 +75,15 @@ TEST(Camera, PixelToRayToPixelIsExact) {
 TEST(Camera, DerivativesAreThoseOfFiniteDifferences) {
   Random random(4);
   for (int i = 0; i < 50; ++i) {
-    const Camera camera = test::randomRig(random, 1).cameras[0].camera;
-    test::expectDerivatives(camera, random.inBox(1.0));
+    const Camera camera = randomRig(random, 1).cameras[0].camera;
+    expectDerivatives(camera, random.inBox(1.0));
   }
 }
 
 TEST(Camera, RayPassesThroughThePoint) {
   Random random(5);
   for (int i = 0; i < 100; ++i) {
-    const Camera camera = test::randomRig(random, 1).cameras[0].camera;
+    const Camera camera = randomRig(random, 1).cameras[0].camera;
     const Vector3d point = random.inBox(1.0);
     const auto sight = sightFromPixel(camera, *camera.project(point));
     ASSERT_TRUE(sight);
@@ -200,4 +198,4 @@ TEST(Camera, CheckNamesTheBadValue) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::geometry
+}  // namespace wiimote_tracker::geometry::test

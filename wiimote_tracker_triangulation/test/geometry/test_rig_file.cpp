@@ -13,13 +13,10 @@
 #include <iterator>
 #include <thread>
 
-namespace wiimote_tracker::geometry {
+namespace wiimote_tracker::geometry::test {
 namespace {
 
 namespace fs = std::filesystem;
-using test::fullRig;
-using test::Random;
-using test::RigFile;
 
 constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
@@ -96,7 +93,7 @@ TEST_F(RigFile, ComesBackBitForBit) {
 Rig correctedRig() {
   Random random(44);
   Rig rig = fullRig();
-  rig.cameras[1].camera.intrinsics = test::randomFisheye(random);
+  rig.cameras[1].camera.intrinsics = randomFisheye(random);
   rig.covariance.row(30).setZero();
   rig.covariance.col(30).setZero();
   remap::Remap remap;
@@ -170,7 +167,7 @@ TEST_F(RigFile, AFileWithoutZonesShowsHowOneIsWritten) {
 TEST_F(RigFile, ManyRandomRigsComeBackBitForBit) {
   Random random(42);
   for (int i = 0; i < 20; ++i) {
-    const Rig rig = test::randomRig(random, 4);
+    const Rig rig = randomRig(random, 4);
     write(rig);
     expectSame(rig, readRigFile(path_));
   }
@@ -275,4 +272,4 @@ TEST_F(RigFile, ThreadsMayWriteAtTheSameTime) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::geometry
+}  // namespace wiimote_tracker::geometry::test

@@ -5,13 +5,10 @@
 
 #include <limits>
 
-namespace wiimote_tracker::geometry {
+namespace wiimote_tracker::geometry::test {
 namespace {
 
 namespace fs = std::filesystem;
-using test::fullRig;
-using test::Random;
-using test::RigFile;
 
 TEST_F(RigFile, IsRefusedWhenCutOffAnywhere) {
   Rig rig = fullRig();
@@ -124,4 +121,4 @@ TEST_F(RigFile, ValuesThatAreNoNumbersAreRefused) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::geometry
+}  // namespace wiimote_tracker::geometry::test

@@ -9,13 +9,11 @@
 #include <iostream>
 #include <limits>
 
-namespace wiimote_tracker::geometry {
+namespace wiimote_tracker::geometry::test {
 namespace {
 
 using Eigen::Vector2d;
 using Eigen::Vector3d;
-using test::OpenCvCamera;
-using test::Random;
 
 constexpr TriangulationMethod kMethods[] = {
     TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares,
@@ -35,6 +33,13 @@ std::vector<Observation> observe(const Rig& rig, const Vector3d& point) {
   return observations;
 }
 
+double squaredResiduals(const std::vector<Observation>& observations, const Vector3d& point) {
+  double sum = 0.0;
+  for (const Observation& o : observations)
+    sum += (OpenCvCamera(*o.camera).project(point) - o.pixel).squaredNorm();
+  return sum;
+}
+
 /// Pinhole cameras side by side along x, looking along z.
 Rig parallelRig(const std::vector<double>& places) {
   Rig rig;
@@ -52,7 +57,7 @@ TEST(Triangulate, ExactPixelsGiveTheExactPoint) {
   double worst = 0.0;
   for (const int cameras : {2, 3, 4, 8}) {
     for (int i = 0; i < 50; ++i) {
-      const Rig rig = test::randomRig(random, cameras);
+      const Rig rig = randomRig(random, cameras);
       for (int k = 0; k < 10; ++k) {
         const Vector3d truth = random.inBox(1.0);
         const auto observations = observe(rig, truth);
@@ -146,7 +151,7 @@ TEST(Triangulate, AgreesWithOpenCvForTwoViews) {
   double opencv_sum = 0.0;
   double sums[4] = {};
   for (int i = 0; i < 2000; ++i) {
-    Rig rig = test::randomRig(random, 2);
+    Rig rig = randomRig(random, 2);
     for (RigCamera& camera : rig.cameras)
       camera.camera.intrinsics.distortion = {};
     const Vector3d truth = random.inBox(1.0);
@@ -176,7 +181,7 @@ TEST(Triangulate, AgreesWithOpenCvForTwoViews) {
 
 TEST(Triangulate, RefusesFewerThanTwoObservations) {
   Random random(13);
-  const Rig rig = test::randomRig(random, 1);
+  const Rig rig = randomRig(random, 1);
   for (const TriangulationMethod method : kMethods) {
     EXPECT_FALSE(triangulate({}, optionsFor(method)));
     EXPECT_FALSE(triangulate(observe(rig, Vector3d::Zero()), optionsFor(method)));
@@ -245,7 +250,7 @@ TEST(Triangulate, RefusesAPointBehindOneOfManyCameras) {
 
 TEST(Triangulate, RefusesAPixelThatIsNoNumberOrHasNoRay) {
   Random random(14);
-  Rig rig = test::randomRig(random, 3);
+  Rig rig = randomRig(random, 3);
   std::vector<Observation> observations = observe(rig, Vector3d::Zero());
   observations[1].pixel.y() = std::numeric_limits<double>::quiet_NaN();
   for (const TriangulationMethod method : kMethods)
@@ -259,24 +264,22 @@ TEST(Triangulate, RefusesAPixelThatIsNoNumberOrHasNoRay) {
 
 TEST(Triangulate, ReprojectionErrorIsTheRootMeanSquareDistance) {
   Random random(15);
-  const Rig rig = test::randomRig(random, 3);
+  const Rig rig = randomRig(random, 3);
   std::vector<Observation> observations = observe(rig, Vector3d::Zero());
   for (Observation& o : observations)
     o.pixel += 3.0 * Vector2d(random.gaussian(), random.gaussian());
   for (const TriangulationMethod method : kMethods) {
     const auto point = triangulate(observations, optionsFor(method));
     ASSERT_TRUE(point);
-    double sum = 0.0;
-    for (const Observation& o : observations)
-      sum += (OpenCvCamera(*o.camera).project(point->position) - o.pixel).squaredNorm();
-    EXPECT_NEAR(point->reprojection_error, std::sqrt(sum / 3.0), 1e-9);
+    EXPECT_NEAR(point->reprojection_error,
+                std::sqrt(squaredResiduals(observations, point->position) / 3.0), 1e-9);
   }
 }
 
 TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
   Random random(16);
   for (int i = 0; i < 100; ++i) {
-    const Rig rig = test::randomRig(random, 4);
+    const Rig rig = randomRig(random, 4);
     std::vector<Observation> observations = observe(rig, random.inBox(1.0));
     for (Observation& o : observations)
       o.pixel += 2.0 * Vector2d(random.gaussian(), random.gaussian());
@@ -292,22 +295,11 @@ TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
     // A minimum: any small step is worse.
     for (int a = 0; a < 3; ++a) {
       for (const double step : {-1e-4, 1e-4}) {
-        double sum = 0.0;
-        for (const Observation& o : observations) {
-          const Vector3d moved = best->position + step * Vector3d::Unit(a);
-          sum += (OpenCvCamera(*o.camera).project(moved) - o.pixel).squaredNorm();
-        }
-        EXPECT_GT(std::sqrt(sum / 4.0), best->reprojection_error);
+        const Vector3d moved = best->position + step * Vector3d::Unit(a);
+        EXPECT_GT(std::sqrt(squaredResiduals(observations, moved) / 4.0), best->reprojection_error);
       }
     }
   }
-}
-
-double squaredResiduals(const std::vector<Observation>& observations, const Vector3d& point) {
-  double sum = 0.0;
-  for (const Observation& o : observations)
-    sum += (OpenCvCamera(*o.camera).project(point) - o.pixel).squaredNorm();
-  return sum;
 }
 
 /// By how much Newton's method with numerical derivatives lowers the cost of a point [px^2].
@@ -334,7 +326,7 @@ TEST(Triangulate, MaximumLikelihoodLeavesNothingToGain) {
   Random random(17);
   double worst = 0.0;
   for (int i = 0; i < 300; ++i) {
-    Rig rig = test::randomRig(random, 2 + i % 4);
+    Rig rig = randomRig(random, 2 + i % 4);
     if (i % 3 == 0) {  // side by side, badly determined
       rig = parallelRig({0.0, 0.3});
       for (RigCamera& camera : rig.cameras)
@@ -356,7 +348,7 @@ TEST(Triangulate, MaximumLikelihoodLeavesNothingToGain) {
 TEST(Triangulate, SightsGiveTheSamePointAsObservations) {
   Random random(19);
   for (int i = 0; i < 100; ++i) {
-    const Rig rig = test::randomRig(random, 2 + i % 7);
+    const Rig rig = randomRig(random, 2 + i % 7);
     std::vector<Observation> observations = observe(rig, random.inBox(1.0));
     std::vector<Sight> sights;
     for (Observation& o : observations) {
@@ -377,7 +369,7 @@ TEST(Triangulate, SightsGiveTheSamePointAsObservations) {
 
 TEST(Triangulate, TakesAnyNumberOfObservations) {
   Random random(18);
-  const Rig rig = test::randomRig(random, 40);
+  const Rig rig = randomRig(random, 40);
   const Vector3d truth(0.1, 0.2, 0.3);
   for (const TriangulationMethod method : kMethods) {
     const auto point = triangulate(observe(rig, truth), optionsFor(method));
@@ -387,4 +379,4 @@ TEST(Triangulate, TakesAnyNumberOfObservations) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::geometry
+}  // namespace wiimote_tracker::geometry::test

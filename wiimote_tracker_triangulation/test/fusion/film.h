@@ -1,10 +1,15 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H
 
+#include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -79,6 +84,25 @@ inline std::vector<tracking::Snapshot> fuse(InstantFuser& fuser,
 
 inline Eigen::Vector3d still(double) {
   return {0.1, 0.2, 0.3};
+}
+
+inline geometry::Rig threeCameras() {
+  geometry::test::Random random(51);
+  return geometry::test::randomRig(random, 3);
+}
+
+inline void expectIncreasing(const std::vector<tracking::Snapshot>& instants) {
+  for (std::size_t i = 1; i < instants.size(); ++i)
+    ASSERT_GT(instants[i].time, instants[i - 1].time);
+}
+
+inline std::uint64_t lateImages(const InstantFuser& fuser) {
+  return fuser.counters().late + fuser.counters().repeated;
+}
+
+/// A path: 1 m/s on a circle of 0.5 m.
+inline Eigen::Vector3d circle(double t) {
+  return {0.5 * std::cos(2.0 * t), 0.5 * std::sin(2.0 * t), 0.2};
 }
 
 }  // namespace wiimote_tracker::fusion::test

@@ -1,5 +1,5 @@
 // One LED in front of unsynchronised cameras: where it is found, and what is refused.
-#include "fusion/instants.h"
+#include "fusion/film.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Cameras that lose sight of an LED, fail and come back; images out of order, and time that jumps.
-#include "fusion/instants.h"
+#include "fusion/film.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,5 @@
 // Several LEDs, instant by instant: ids, appearance and loss.
 #include "fusion/film.h"
-#include "geometry/random_rigs.h"
 
 #include <gtest/gtest.h>
 

@@ -37,7 +37,9 @@ void BodyFollower::setRig(const geometry::Rig& rig) {
   else
     useTracker(rig, constellations_);
   if (!keeps_times || !haveSameCameras(rig_, rig))
-    time_watch_ = std::make_unique<tracking::TimeWatch>(rig.cameras.size());
+    time_watch_ = std::make_unique<tracking::TimeWatch>(
+        rig.cameras.size(),
+        time_watch_ ? time_watch_->newestUsed() : -std::numeric_limits<double>::infinity());
   rig_ = rig;
 }
 

@@ -164,6 +164,10 @@ TEST_F(AtRest, IsFoundAnewWhenANewRigSetsTimeBack) {
   }
   follower_.setRig(rig_);
   EXPECT_TRUE(show(40).spots.empty());
+  const BodySnapshot* snapshot = follower_.next();
+  ASSERT_TRUE(snapshot) << "its time is before that of the last one";
+  EXPECT_LT(snapshot->time, 996.0);
+  EXPECT_TRUE(snapshot->bodies[0]);
 }
 
 TEST_F(AtRest, IsLostInANewRigWhileItIsHidden) {

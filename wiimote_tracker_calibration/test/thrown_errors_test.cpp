@@ -147,6 +147,21 @@ TEST_F(ThrownErrors, BecomeRefusalsAndTheNextRequestWorks) {
   }
 }
 
+TEST_F(ThrownErrors, ARefusalIsHeardOnce) {
+  const auto refusals = [] {
+    const Lock lock(node->context().mutex());
+    return node->context().calibration(lock).refusals();
+  };
+  ASSERT_TRUE(replyTo<std_srvs::Trigger>("calibration/known_places/clear").success);
+  const std::size_t before = refusals();
+  EXPECT_FALSE(start(-1.0).success);
+  EXPECT_EQ(refusals(), before + 1);
+  EXPECT_FALSE(replyTo<std_srvs::Trigger>("calibration/known_places/undo").success);
+  EXPECT_EQ(refusals(), before + 2);
+  EXPECT_FALSE(replyTo<std_srvs::Trigger>("calibration/stop_wave").success);
+  EXPECT_EQ(refusals(), before + 3);
+}
+
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
   // Images come until the node ends, after this test.
   const auto thrown = std::make_shared<bool>(false);

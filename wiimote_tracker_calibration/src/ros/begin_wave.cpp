@@ -51,10 +51,7 @@ workflow::Reply beginWave(const std::optional<wave::Wand>& wand, NodeContext* co
   std::vector<geometry::Camera> cameras;
   const bool posed =
       context->compute(lock, [&] { return knownCameras(captured, options, &cameras); });
-  const workflow::Reply reply =
-      context->calibration(*lock).beginWave(cameras, posed, wand, NodeContext::now());
-  context->publishStatus(*lock);
-  return reply;
+  return context->calibration(*lock).beginWave(cameras, posed, wand, NodeContext::now());
 }
 
 }  // namespace wiimote_tracker

@@ -116,12 +116,11 @@ class CaptureServices {
           problems.push_back(name + " " + problem);
       }
       if (!problems.empty())
-        return Reply{false, joined(problems, "; ")};
-      context_.calibration(lock).preparation().connection_checked = true;
-      const std::string message =
-          "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot";
-      context_.show(message, lock);
-      return Reply{true, message};
+        throw Refusal(joined(problems, "; "));
+      workflow::Calibration& calibration = context_.calibration(lock);
+      calibration.preparation().connection_checked = true;
+      return calibration.shown({true, "all " + std::to_string(response->cameras.size()) +
+                                          " cameras see exactly one spot"});
     });
   }
 
@@ -150,7 +149,6 @@ class CaptureServices {
         context_.inputs().restartGravity();
       if (reply.success && wand)
         return beginWave(wand, &context_, &lock);
-      context_.publishStatus(lock);
       return reply;
     });
   }
@@ -176,34 +174,31 @@ class CaptureServices {
     taped.length = request.length;
     if (request.stddev != 0.0)
       taped.stddev = request.stddev;
-    const Lock lock(context_.mutex());
-    const Reply reply = context_.calibration(lock).measureLength(
-        taped, context_.parameters(lock).solve.square.uncertainty.placement);
-    context_.publishStatus(lock);
-    return reply;
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      return context_.calibration(lock).measureLength(
+          taped, context_.parameters(lock).solve.square.uncertainty.placement);
+    });
   }
 
   Reply handsFree(const std_srvs::SetBool::Request& request, std_srvs::SetBool::Response*) {
     const Lock lock(context_.mutex());
     context_.calibration(lock).setHandsFree(request.data);
-    const char* message =
-        request.data ? "a corner is captured automatically when the LED is still at a new place"
-                     : "corners are captured on request only";
-    context_.show(message, lock);
-    return {true, message};
+    return context_.show(
+        {true, request.data
+                   ? "a corner is captured automatically when the LED is still at a new place"
+                   : "corners are captured on request only"},
+        lock);
   }
 
   Reply undo() {
-    const Lock lock(context_.mutex());
-    const Reply reply = context_.calibration(lock).undo();
-    context_.publishStatus(lock);
-    return reply;
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] { return context_.calibration(lock).undo(); });
   }
 
   Reply cancel() {
-    const Lock lock(context_.mutex());
-    const Reply reply = context_.calibration(lock).cancel();
-    context_.publishStatus(lock);
+    Lock lock(context_.mutex());
+    const Reply reply = context_.answer(&lock, [&] { return context_.calibration(lock).cancel(); });
     context_.notify();
     return reply;
   }

@@ -103,8 +103,7 @@ class FileServices {
       if (session.recording.cameras.empty())
         throw Refusal("nothing was captured that could be saved: start a calibration first");
       context_.compute(&lock, [&] { session::writeSessionFile(session, path); });
-      context_.show("what was captured is saved to " + path, lock);
-      return Reply{true, "what was captured is saved to " + path};
+      return context_.calibration(lock).shown({true, "what was captured is saved to " + path});
     });
   }
 
@@ -148,7 +147,6 @@ class FileServices {
         context_.inputs().setMasks(masks);
         context_.publishRig(session::verdictOf(rig), lock);
       }
-      context_.publishStatus(lock);
       return reply;
     });
   }

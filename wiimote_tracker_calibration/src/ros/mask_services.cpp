@@ -59,8 +59,7 @@ class MaskServices {
     const Lock lock(context_.mutex());
     const std::string message = std::string("no light is masked any more") +
                                 (context_.setMasks({}, lock) ? kToBeSaved : "");
-    context_.show(message, lock);
-    return {true, message};
+    return context_.show({true, message}, lock);
   }
 
   workflow::Reply useMasks(const std::map<std::string, capture::LearnedMasks>& learned,

@@ -98,11 +98,15 @@ workflow::Reply NodeContext::run(const Job& job,
 }
 
 workflow::Reply NodeContext::answer(Lock* lock, const std::function<workflow::Reply()>& work) {
-  const workflow::Reply reply = replyOf(work);
-  if (!reply.success) {
+  bool is_shown = false;
+  const workflow::Reply reply = replyOf([&] {
+    const workflow::Reply returned = work();
+    is_shown = true;
+    return returned;
+  });
+  if (!is_shown)
     calibration_.shown(reply);
-    publishStatus(*lock);
-  }
+  publishStatus(*lock);
   return reply;
 }
 
@@ -131,9 +135,10 @@ bool NodeContext::waitFor(double duration, workflow::Step step, Lock* lock) {
   });
 }
 
-void NodeContext::show(const std::string& message, const Lock& lock) {
-  calibration_.shown({true, message});
+workflow::Reply NodeContext::show(const workflow::Reply& reply, const Lock& lock) {
+  calibration_.shown(reply);
   publishStatus(lock);
+  return reply;
 }
 
 session::Session NodeContext::session(const Lock&) {
@@ -148,7 +153,7 @@ session::Session NodeContext::session(const Lock&) {
   return calibration_.session(facts, inputs_.masks());
 }
 
-workflow::Reply NodeContext::setSession(const session::Session& session, const Lock& lock) {
+workflow::Reply NodeContext::setSession(const session::Session& session, const Lock&) {
   const workflow::Reply reply = calibration_.restore(session);
   if (reply.success) {
     capture::Masks masks = inputs_.masks();
@@ -156,7 +161,6 @@ workflow::Reply NodeContext::setSession(const session::Session& session, const L
       masks[session.recording.cameras[i].sightings.name] = session.masks[i];
     inputs_.setMasks(masks);
   }
-  publishStatus(lock);
   return reply;
 }
 

@@ -67,7 +67,8 @@ class NodeContext {
   }
   void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
 
-  /// Does short work, or work that is no step of the calibration. The status shows a refusal.
+  /// Does short work, or work that is no step of the calibration, and publishes the status, which
+  /// shows what was thrown. A refusal that is returned was shown already.
   workflow::Reply answer(Lock* lock, const std::function<workflow::Reply()>& work);
 
   /// Waits until done() is true (checked with the mutex locked at each image, and ten times a
@@ -104,8 +105,8 @@ class NodeContext {
   /// Measured with the current rig after useRig(); before that perhaps with another.
   place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
 
-  /// Shows a message in the status at once.
-  void show(const std::string& message, const Lock& lock);
+  /// Shows a reply in the status at once. @returns it.
+  workflow::Reply show(const workflow::Reply& reply, const Lock& lock);
 
   /// All that was captured so far, to be solved or saved.
   /// @throws Refusal: starting intrinsics do not fit the size of a camera's images.

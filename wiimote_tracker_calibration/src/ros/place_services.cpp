@@ -154,20 +154,18 @@ class PlaceServices {
     const std::string dropped = dropPlacesOfOtherRigs(lock);
     place::KnownPlaces& places = context_.knownPlaces(lock);
     const bool success = places.undo();
-    const Reply reply = {success,
-                         (success ? "the latest place was dropped, " +
-                                        std::to_string(places.places().size()) + " are left"
-                                  : "there is no known place to drop") +
-                             dropped};
-    context_.show(reply.message, lock);
-    return reply;
+    return context_.show(
+        {success, (success ? "the latest place was dropped, " +
+                                 std::to_string(places.places().size()) + " are left"
+                           : "there is no known place to drop") +
+                      dropped},
+        lock);
   }
 
   Reply clear() {
     const Lock lock(context_.mutex());
     context_.knownPlaces(lock).clear();
-    context_.show("all known places were dropped", lock);
-    return {true, "all known places were dropped"};
+    return context_.show({true, "all known places were dropped"}, lock);
   }
 
   Reply fit(const FitRemap::Request& request, FitRemap::Response* response) {

@@ -27,10 +27,8 @@ class WaveServices {
   }
 
   workflow::Reply stop() {
-    const Lock lock(context_.mutex());
-    const workflow::Reply reply = context_.calibration(lock).endWave();
-    context_.publishStatus(lock);
-    return reply;
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] { return context_.calibration(lock).endWave(); });
   }
 
   NodeContext& context_;

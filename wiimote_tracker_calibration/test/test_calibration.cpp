@@ -219,6 +219,15 @@ TEST_F(Workflow, AWaveIsRecordedCoveredAndKeptBesideTheSquare) {
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
 }
 
+TEST_F(Workflow, ARefusedSolveDoesNotEndTheWave) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(30.0);
+  ASSERT_TRUE(calibration_.missing().empty()) << calibration_.missing().front();
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "only 0 of 4 corners");
+  EXPECT_EQ(calibration_.step(), Step::kWaving);
+}
+
 TEST_F(Workflow, FramesOfAnOlderClockEpochAreDroppedAndReported) {
   captureAll();
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
@@ -289,6 +298,9 @@ TEST_F(Workflow, CancelStopsALongTaskFirst) {
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
   calibration_.end({false, "it was cancelled"});
   EXPECT_EQ(calibration_.step(), Step::kComplete);
+  // So was this cancel, which came after the solver had stopped.
+  EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
   ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "measuring").success);
   EXPECT_TRUE(calibration_.isBusyWith(Step::kMeasuring));
   calibration_.setProgress(0.5);

@@ -225,13 +225,15 @@ Reply Calibration::cancel() {
 }
 
 Reply Calibration::begin(Step step, const std::string& message) {
-  if (step == Step::kSolving && isBusyWith(Step::kWaving) && captured_.wave->report().enough())
-    endWave();
-  if (busy_)
+  const bool ends_wave =
+      step == Step::kSolving && isBusyWith(Step::kWaving) && captured_.wave->report().enough();
+  if (busy_ && !ends_wave)
     return refuse(occupied());
   if (const std::string reason = captured_.whyNotSolvable();
       step == Step::kSolving && !reason.empty())
     return refuse(reason);
+  if (ends_wave)
+    endWave();
   busy_ = step;
   just_solved_ = false;
   progress_ = 0.0;
@@ -239,7 +241,7 @@ Reply Calibration::begin(Step step, const std::string& message) {
 }
 
 void Calibration::end(const Reply& outcome) {
-  just_solved_ = isBusyWith(Step::kSolving);
+  just_solved_ = busy_ == Step::kSolving;
   busy_.reset();
   stopping_ = false;
   shown(outcome);

@@ -336,7 +336,8 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
 
 TEST_F(Node, TheLastSavedRigIsLoadedAtStart) {
   ASSERT_TRUE(exists(folder_ + "/rig.yaml"));  // from the test before
-  const Process process("/stored", {"_rig_file:=" + folder_ + "/rig.yaml", "_origin_x:=1.0"});
+  const Process process("/stored", {"_rig_file:=" + folder_ + "/rig.yaml", "_origin_x:=1.0",
+                                    "_world_frame:=elsewhere"});
   Latest<RigCalibration> rig("/stored/calibration/rig");
   Latest<geometry_msgs::PolygonStamped> square("/stored/calibration/square");
   Latest<CalibrationStatus> status("/stored/calibration/status");

@@ -9,6 +9,7 @@
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
+#include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
 
 #include <filesystem>
@@ -20,6 +21,7 @@ namespace {
 using wiimote_tracker_msgs::AddKnownPlace;
 using wiimote_tracker_msgs::CheckPlace;
 using wiimote_tracker_msgs::FitRemap;
+using wiimote_tracker_msgs::LearnMasks;
 using wiimote_tracker_msgs::RecalibrateCamera;
 
 geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
@@ -185,6 +187,15 @@ TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
   const CheckPlace::Response checked = check(1.02 * place);
   EXPECT_TRUE(checked.success) << checked.message;
   EXPECT_LT(checked.error, 0.005);
+
+  // Masks move no point: the places stay.
+  LearnMasks::Request masks;
+  masks.duration = 0.5;
+  const auto learned = call<LearnMasks>("calibration/learn_masks", masks);
+  ASSERT_TRUE(learned.success) << learned.message;
+  EXPECT_SAYS(learned.message, "the rig in use has the masks now");
+  const auto again = call<FitRemap>("calibration/known_places/fit", fit);
+  EXPECT_TRUE(again.success) << again.message;
 
   // Another calibration: the places are worth nothing.
   geometry::Rig other = trueRig();

@@ -24,6 +24,12 @@ class KnownPlaces {
     return dropped;
   }
 
+  /// The calibration has another id now, though no camera has moved.
+  void renameRig(const std::string& before, const std::string& now) {
+    if (rig_id_ == before)
+      rig_id_ = now;
+  }
+
   void add(const remap::KnownPoint& place) { places_.push_back(place); }
 
   /// Drops the latest. @returns false when there is none.

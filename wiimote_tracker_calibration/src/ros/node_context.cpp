@@ -202,8 +202,10 @@ void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
 
 bool NodeContext::setMasks(const capture::Masks& masks, const Lock& lock) {
   inputs_.setMasks(masks);
+  const std::string before = calibration_.rig() ? calibration_.rig()->id() : "";
   if (!calibration_.setMasks(masks))
     return false;
+  known_places_.renameRig(before, calibration_.rig()->id());
   publishRig(verdict_, lock);
   return true;
 }
@@ -256,9 +258,11 @@ void NodeContext::publishSound(const Lock&) {
 
 void NodeContext::publishSquare(const Lock&) {
   std::optional<square::SquareLayout> square = calibration_.layout();
-  if (!square && calibration_.rig())
+  std::string world_frame = parameters_.calibration.world_frame;
+  if (!square && calibration_.rig()) {
     square = squareOf(*calibration_.rig());
-  const std::string& world_frame = parameters_.calibration.world_frame;
+    world_frame = calibration_.rig()->world_frame;
+  }
   const geometry_msgs::PolygonStamped outline = squareOutline(world_frame, square);
   if (outline == outline_)
     return;

@@ -215,6 +215,13 @@ TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
   EXPECT_EQ(saved.message.find("camera_2"), std::string::npos);
   cameras_->hang("");
   EXPECT_TRUE(waitUntil([] { return cameras_->cameraInfos().count("camera_3") == 1; }));
+
+  // The lens of a camera does not replace a rig that has the camera's name.
+  wiimote_tracker_msgs::SaveRig::Request request;
+  request.path = folder_ + "/camera_1.yaml";
+  EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", request).message,
+              "save the rig by another name");
+  EXPECT_EQ(geometry::readRigFile(request.path).id(), status_->get()->rig_id);
 }
 
 class BagWriter : public Recorder {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <ctime>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -236,9 +237,10 @@ class ContinuousServices {
 
   /// Writes a rig beside the rig file. @returns where, or why not.
   std::string keepVersion(const geometry::Rig& rig, Lock* lock) {
-    const std::string& rig_file = context_.parameters(*lock).rig_file;
-    const std::string path = rig_file.substr(0, rig_file.rfind('/') + 1) + "versions/" +
-                             dateOf(NodeContext::now()) + "_" + rig.id() + ".yaml";
+    const std::string path =
+        std::filesystem::path(context_.parameters(*lock).rig_file)
+            .replace_filename("versions/" + dateOf(NodeContext::now()) + "_" + rig.id() + ".yaml")
+            .string();
     try {
       context_.compute(lock, [&] { geometry::writeRigFile(rig, path); });
     } catch (const Error& error) {

@@ -46,8 +46,7 @@ std::string rigPath(const std::string& requested, const Parameters& parameters) 
 std::string samplesPath(const std::string& requested, const Parameters& parameters) {
   if (!requested.empty())
     return permittedPath(requested, parameters);
-  const std::string& rig_file = parameters.rig_file;
-  return rig_file.substr(0, rig_file.rfind('/') + 1) + "samples.yaml";
+  return fs::path(parameters.rig_file).replace_filename("samples.yaml").string();
 }
 
 }  // namespace wiimote_tracker

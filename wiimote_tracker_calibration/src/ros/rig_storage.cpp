@@ -11,6 +11,7 @@
 #include <chrono>
 #include <cstddef>
 #include <exception>
+#include <filesystem>
 #include <future>
 #include <thread>
 #include <utility>
@@ -23,7 +24,7 @@ namespace {
 std::string cameraFile(const std::string& rig_file, std::string camera) {
   camera.erase(0, camera.find_first_not_of('/'));
   std::replace(camera.begin(), camera.end(), '/', '_');
-  return rig_file.substr(0, rig_file.rfind('/') + 1) + camera + ".yaml";
+  return std::filesystem::path(rig_file).replace_filename(camera + ".yaml").string();
 }
 
 /// @returns why the driver does not know its lens now; empty when it does.
@@ -47,8 +48,14 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
   std::vector<std::string> warnings;
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
+    const std::string file = cameraFile(path, camera.name);
+    if (file == path) {
+      warnings.push_back(file + " is the rig's file, so the lens of " + camera.name +
+                         " has none: save the rig by another name");
+      continue;
+    }
     try {
-      geometry::writeCameraInfoFile(camera, cameraFile(path, camera.name));
+      geometry::writeCameraInfoFile(camera, file);
     } catch (const geometry::Error& error) {
       warnings.emplace_back(error.what());
     }

@@ -97,7 +97,9 @@ class Node:
             if rospy.is_shutdown():
                 raise rospy.ROSException()
         result = self._capture.get_result()
-        return result.success, result.message
+        if result is None:  # the server has lost the goal, as when the node was started again
+            raise rospy.ROSException()
+        return result.success, sentence(result)
 
 
 def fill(message: Any, fields: Dict[str, Any]) -> None:

@@ -29,7 +29,10 @@ class Plain:
         self._told = {}
         self._last = ''
         self.failures = 0
-        threading.Thread(target=self._read, args=(lines or sys.stdin,), daemon=True).start()
+        if lines is None:
+            lines = sys.stdin
+            lines.reconfigure(errors='replace')  # a script's remarks may have another encoding
+        threading.Thread(target=self._read, args=(lines,), daemon=True).start()
 
     def _read(self, lines: Iterable[str]) -> None:
         for line in lines:

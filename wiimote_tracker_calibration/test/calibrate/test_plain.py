@@ -1,6 +1,7 @@
 """The words of a script, carried out one after the other."""
 
 import io
+import sys
 import time
 
 from wiimote_tracker_msgs.msg import CalibrationStatus
@@ -49,6 +50,14 @@ def test_plain_next_without_a_node_fails_and_does_not_hang():
     face.run()
     assert face.failures == 1
     assert 'Waiting for the calibration node.' in said
+
+
+def test_plain_reads_on_after_bytes_of_another_encoding(monkeypatch):
+    script = io.BytesIO('# größe\nundo\n'.encode('latin-1'))
+    monkeypatch.setattr(sys, 'stdin', io.TextIOWrapper(script, 'utf-8'))
+    face = Plain(dialogue_with(FakeNode()), print)
+    lines = [face._lines.get(timeout=10.0) for _ in range(3)]
+    assert lines == ['# gr\ufffd\ufffde\n', 'undo\n', None]
 
 
 def test_plain_waits_until_nothing_is_missing():

@@ -30,6 +30,22 @@ std::string outcomeOf(const wave::Recording& recording, const SolveOptions& opti
   }
 }
 
+TEST(ClockLag, IsFoundBesideCamerasThatSeeALampOrNothing) {
+  wave::Recording recording;
+  recording.cameras.resize(4);
+  for (int k = 0; k < 1000; ++k) {
+    const double t = 0.01 * k;
+    const Eigen::Vector2d led(500.0 + 200.0 * std::sin(2.3 * t + 1.5 * std::sin(0.9 * t)), 400.0);
+    recording.cameras[0].frames.push_back({t + 0.5, {led}});
+    recording.cameras[1].frames.push_back({t, {led}});
+    recording.cameras[2].frames.push_back({t, {Eigen::Vector2d(100.0, 100.0)}});
+  }
+  const auto lag = clockLag(recording, 0);
+  ASSERT_TRUE(lag);
+  EXPECT_NEAR(*lag, 0.5, 0.03);
+  EXPECT_FALSE(clockLag(recording, 3));
+}
+
 /// The paper's square, without a wave.
 class SquareMistake : public ::testing::Test {
  protected:

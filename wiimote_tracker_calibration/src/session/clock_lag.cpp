@@ -61,10 +61,10 @@ double correlation(const std::vector<double>& late, const std::vector<double>& o
     other_squares += b * b;
     ++common;
   }
-  return common < kLeastCommon
-             ? 0.0
-             : product / std::sqrt(squares * other_squares) *
-                   std::sqrt(static_cast<double>(common) / static_cast<double>(size));
+  const double scale = std::sqrt(squares * other_squares);
+  if (common < kLeastCommon || !(scale > 0.0))  // 0 where a spot stands still
+    return 0.0;
+  return product / scale * std::sqrt(static_cast<double>(common) / static_cast<double>(size));
 }
 
 }  // namespace
@@ -74,15 +74,17 @@ std::optional<double> clockLag(const wave::Recording& recording, std::size_t cam
   double end = -start;
   for (const wave::CameraRecording& each : recording.cameras) {
     if (each.frames.empty())
-      return std::nullopt;
+      continue;
     start = std::min(start, each.frames.front().stamp);
     end = std::max(end, each.frames.back().stamp);
   }
+  if (recording.cameras[camera].frames.empty())
+    return std::nullopt;
   const auto steps = static_cast<std::size_t>((end - start) / kStep) + 1;
   const std::vector<double> own = speeds(recording.cameras[camera], start, steps);
   std::vector<std::vector<double>> others;
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    if (i != camera)
+    if (i != camera && !recording.cameras[i].frames.empty())
       others.push_back(speeds(recording.cameras[i], start, steps));
   }
   double best = kLeastCorrelation * static_cast<double>(others.size());

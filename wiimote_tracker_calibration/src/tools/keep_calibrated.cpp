@@ -1,5 +1,6 @@
 // keep_calibrated: continuous calibration over a recording, without the node.
 
+#include "capture/masks.h"
 #include "continuous/continuous_calibration.h"
 
 #include <rosbag/bag.h>
@@ -36,12 +37,15 @@ class KeptRig {
  public:
   void use(const geometry::Rig& rig) {
     rig_ = rig;
+    for (const geometry::RigCamera& camera : rig.cameras)
+      masks_[camera.camera.name] = camera.masks;
     continuous_.emplace(rig, continuous::Options{});
   }
 
-  void add(const capture::Image& image) {
+  void add(capture::Image image) {
     if (!continuous_)
       return;
+    capture::applyMasks(masks_, &image);
     if (const auto proposal = continuous_->add(image)) {
       std::printf("%.3f: %s\n", image.stamp, proposal->message.c_str());
       use(continuous::appliedRig(proposal->rig, *rig_));
@@ -52,6 +56,7 @@ class KeptRig {
 
  private:
   std::optional<geometry::Rig> rig_;
+  capture::Masks masks_;  // of the rig
   std::optional<continuous::ContinuousCalibration> continuous_;
 };
 

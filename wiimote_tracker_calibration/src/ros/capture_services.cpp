@@ -49,12 +49,6 @@ std::optional<wave::Wand> wandOnFloor(
   return wand;
 }
 
-/// Ends a running capture when it leaves scope.
-struct EndOfCapture {
-  workflow::Calibration& calibration;
-  ~EndOfCapture() { calibration.abandonCapture("an error occurred"); }
-};
-
 class CaptureServices {
  public:
   explicit CaptureServices(NodeContext* context) : context_(*context) {
@@ -105,13 +99,12 @@ class CaptureServices {
     return context_.answer(&lock, [&] {
       context_.beginWalk(lock);
       context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
-      const double now = NodeContext::now();
-      response->cameras = context_.cameraStatus(now, duration, lock);
+      response->cameras = context_.cameraStatus(duration, lock);
       if (response->cameras.empty())
         throw Refusal("no camera is there: start the drivers");
       std::vector<std::string> problems;
       for (const auto& [name, input] : context_.inputs().cameras()) {
-        const std::string problem = input.monitor.view(now, duration).problem;
+        const std::string problem = input.monitor.view(NodeContext::now(), duration).problem;
         if (!problem.empty())
           problems.push_back(name + " " + problem);
       }
@@ -251,7 +244,7 @@ class CaptureServices {
       context_.publishStatus(lock);
       if (outcome.success)
         outcome = waitForCapture(&lock);
-      result.cameras = context_.cameraStatus(NodeContext::now(), 1.0, lock);
+      result.cameras = context_.cameraStatus(1.0, lock);
       context_.publishStatus(lock);
       return outcome;
     });
@@ -297,7 +290,7 @@ class CaptureServices {
   /// Waits until the capture has ended, was preempted or cancelled.
   Reply waitForCapture(Lock* lock) {
     workflow::Calibration& calibration = context_.calibration(*lock);
-    const EndOfCapture end{calibration};
+    const AtEnd end{[&] { calibration.abandonCapture("an error occurred"); }};
     double next_feedback = 0.0;
     const bool over = context_.waitUntil(lock, kForEver, [&] {
       const double now = NodeContext::now();
@@ -310,7 +303,7 @@ class CaptureServices {
         feedback.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
         feedback.progress = calibration.progress();
         feedback.message = calibration.square().capture()->message();
-        feedback.cameras = context_.cameraStatus(now, 1.0, *lock);
+        feedback.cameras = context_.cameraStatus(1.0, *lock);
         capture_server_->publishFeedback(feedback);
       }
       return false;

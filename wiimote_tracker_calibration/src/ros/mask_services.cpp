@@ -42,7 +42,7 @@ class MaskServices {
     const Job job = {Step::kMasking, "looking for other lights: keep the LED off",
                      "the masks are as they were"};
     const workflow::Reply reply = context_.run(job, &lock, [&] {
-      const EmptyAtEnd<capture::MaskLearner> end{&learner_};
+      const AtEnd end{[&] { learner_.reset(); }};
       learner_.emplace(context_.inputs().names(), context_.parameters(lock).masks);
       if (!context_.waitFor(duration, Step::kMasking, &lock))
         return workflow::Reply{false, ""};

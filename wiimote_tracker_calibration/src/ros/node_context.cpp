@@ -20,22 +20,6 @@ namespace {
 constexpr std::chrono::milliseconds kLongestNap(100);
 constexpr std::chrono::seconds kPatience(10);
 
-/// Ends the step of a job when it leaves scope.
-struct EndOfJob {
-  NodeContext& context;
-  const Lock& lock;
-  workflow::Reply reply = {false, "the job failed: try again"};
-
-  ~EndOfJob() {
-    try {
-      context.calibration(lock).end(reply);
-      context.publishStatus(lock);
-    } catch (const std::exception&) {
-      // Out of memory. The step has ended nevertheless; the timer publishes the status.
-    }
-  }
-};
-
 /// The camera's identity, starting intrinsics and gravity.
 /// @throws Refusal: the intrinsics are for another size of image.
 workflow::CameraFacts factsOf(const std::string& name,
@@ -89,11 +73,20 @@ workflow::Reply NodeContext::run(const Job& job,
   publishStatus(*lock);
   if (!begun.success)
     return begun;
-  EndOfJob end{*this, *lock};
-  workflow::Reply reply = replyOf(work);
-  if (!reply.success && isCancelled(job.step, *lock))
-    reply.message = "it was cancelled; " + job.kept;
-  end.reply = reply;
+  workflow::Reply reply = {false, "the job failed: try again"};
+  {
+    const AtEnd end{[&] {
+      try {
+        calibration_.end(reply);
+        publishStatus(*lock);
+      } catch (const std::exception&) {
+        // Out of memory. The step has ended nevertheless; the timer publishes the status.
+      }
+    }};
+    reply = replyOf(work);
+    if (!reply.success && isCancelled(job.step, *lock))
+      reply.message = "it was cancelled; " + job.kept;
+  }
   return reply;
 }
 
@@ -222,10 +215,11 @@ std::string NodeContext::health(const std::string& camera, const Lock&) const {
   return finding + (finding.empty() ? "" : "; ") + proposal_.second;
 }
 
-std::vector<wiimote_tracker_msgs::CalibrationCameraStatus>
-NodeContext::cameraStatus(double now, double window, const Lock& lock) const {
+std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> NodeContext::cameraStatus(
+    double window,
+    const Lock& lock) const {
   std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameras =
-      wiimote_tracker::cameraStatus(calibration_, inputs_.cameras(), now, window);
+      wiimote_tracker::cameraStatus(calibration_, inputs_.cameras(), now(), window);
   for (wiimote_tracker_msgs::CalibrationCameraStatus& camera : cameras) {
     const auto masks = inputs_.masks().find(camera.name);
     if (masks != inputs_.masks().end())
@@ -241,7 +235,7 @@ void NodeContext::publishStatus(const Lock& lock) {
   wiimote_tracker_msgs::CalibrationStatus status = calibrationStatus(calibration_, verdict_);
   status.header.stamp = ros::Time::now();
   status.header.frame_id = parameters_.calibration.world_frame;
-  status.cameras = cameraStatus(now(), 1.0, lock);
+  status.cameras = cameraStatus(1.0, lock);
   if (isWalked())
     status.walk = walk_.sentence();
   status_publisher_.publish(status);

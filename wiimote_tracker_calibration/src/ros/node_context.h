@@ -83,13 +83,9 @@ class NodeContext {
   /// Computes something without the lock. It is locked again afterwards, whatever is thrown.
   template <typename Compute>
   auto compute(Lock* lock, const Compute& compute) {
-    struct Relock {
-      Lock* lock;
-      ~Relock() { lock->lock(); }
-    };
     const std::function<void()> fault_now = fault;
     lock->unlock();
-    const Relock relock{lock};
+    const AtEnd relock{[&] { lock->lock(); }};
     fault_now();
     return compute();
   }
@@ -142,8 +138,7 @@ class NodeContext {
   std::string health(const std::string& camera, const Lock&) const;
 
   /// What each camera shows over the last `window` seconds, and what it has contributed so far.
-  std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(double now,
-                                                                          double window,
+  std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(double window,
                                                                           const Lock&) const;
 
   void publishStatus(const Lock& lock);

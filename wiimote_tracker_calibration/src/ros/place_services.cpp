@@ -224,7 +224,7 @@ class PlaceServices {
                                           const capture::CornerCaptureOptions& options,
                                           Lock* lock) {
     using State = capture::CornerCapture::State;
-    const EmptyAtEnd<capture::CornerCapture> end{&capture_};
+    const AtEnd end{[&] { capture_.reset(); }};
     std::vector<std::string> names;
     for (const geometry::RigCamera& camera : rig.cameras)
       names.push_back(camera.camera.name);

@@ -52,7 +52,7 @@ class RecalibrateServices {
                      "wave the LED where " + camera + " and two other cameras or more see it",
                      "the rig is as it was"};
     return context_.run(job, &lock, [&] {
-      const EmptyAtEnd<recalibrate::Request> end{&recording_};
+      const AtEnd end{[&] { recording_.reset(); }};
       gravity_ = capture::RestGravity();
       recording_.emplace();
       recording_->camera = camera;

@@ -10,7 +10,6 @@
 
 #include <functional>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,12 +60,14 @@ ros::ServiceServer advertise(ros::NodeHandle nh,
       });
 }
 
-/// Empties an optional when it leaves scope.
-template <typename Value>
-struct EmptyAtEnd {
-  std::optional<Value>* value;
-  ~EmptyAtEnd() { value->reset(); }
+/// Calls something when it leaves scope, whatever was thrown.
+template <typename Call>
+struct AtEnd {
+  Call call;
+  ~AtEnd() { call(); }
 };
+template <typename Call>
+AtEnd(Call) -> AtEnd<Call>;
 
 /// "; first; second".
 std::string appendix(const std::vector<std::string>& sentences);

@@ -46,7 +46,7 @@ CameraView CameraMonitor::view(double now, double window) const {
   if (count == 0) {
     view.problem = !images_.empty() && images_.back().time <= 0.0
                        ? "sends images without stamps: correct its driver"
-                       : "sends no images: check its battery, its connection and its driver";
+                       : kSendsNoImages;
     return view;
   }
 

@@ -44,6 +44,10 @@ class CameraMonitor {
   Eigen::Vector2d first_blob_ = Eigen::Vector2d::Zero();
 };
 
+/// Why a camera without images sees nothing, and what to do.
+inline constexpr char kSendsNoImages[] =
+    "sends no images: check its battery, its connection and its driver";
+
 /// Why a camera with this many spots does not see the LED, and what to do; empty for one spot.
 std::string spotCountProblem(std::size_t blobs);
 

@@ -97,10 +97,7 @@ double CornerCapture::progress() const {
 }
 
 std::string CornerCapture::problem(const std::string& name) const {
-  const auto found = cameras_.find(name);
-  if (found == cameras_.end())
-    return "takes no part in this calibration";
-  const Camera& camera = found->second;
+  const Camera& camera = cameras_.at(name);
   const std::string moved = movement(camera.spot);
   if (!moved.empty())
     return moved;
@@ -108,7 +105,7 @@ std::string CornerCapture::problem(const std::string& name) const {
     return "";
   const bool just_begun = now_ - start_time_ < std::min(kHold, options_.timeout);
   if (!camera.seen && !just_begun)
-    return "sends no images: check its battery, its connection and its driver";
+    return kSendsNoImages;
   if (camera.blobs == 0 && camera.masked > 0)
     return "sees only masked lights: if the LED stands in front of one of them, move that "
            "lamp or the camera and learn the masks again";

@@ -60,6 +60,7 @@ class CornerCapture {
   double progress() const;
 
   /// Why this camera does not contribute, or not yet. Empty when it has given its samples.
+  /// @throws std::out_of_range for unknown cameras.
   std::string problem(const std::string& camera) const;
 
   /// The samples of this camera so far. @throws std::out_of_range for unknown cameras.

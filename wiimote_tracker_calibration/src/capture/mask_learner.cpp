@@ -1,5 +1,7 @@
 #include "capture/mask_learner.h"
 
+#include "capture/camera_monitor.h"
+
 #include <algorithm>
 
 namespace wiimote_tracker::capture {
@@ -58,10 +60,9 @@ std::map<std::string, LearnedMasks> MaskLearner::result() const {
 LearnedMasks MaskLearner::learned(const Camera& camera) const {
   LearnedMasks result;
   if (camera.images < kFewestImages) {
-    result.problem =
-        camera.images == 0
-            ? "sends no images: check its battery, its connection and its driver"
-            : "sent " + std::to_string(camera.images) + " images only: look for a longer time";
+    result.problem = camera.images == 0 ? kSendsNoImages
+                                        : "sent " + std::to_string(camera.images) +
+                                              " images only: look for a longer time";
     return result;
   }
   const double needed = std::max(options_.share * static_cast<double>(camera.images),

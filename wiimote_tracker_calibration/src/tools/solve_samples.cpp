@@ -27,9 +27,8 @@ struct Arguments {
 };
 
 session::SolveOptions optionsOf(const Arguments& arguments) {
-  session::SolveOptions options;
-  if (!arguments.params.empty())
-    options = readParameters(ParameterReader(readParameterTree(arguments.params))).solve;
+  session::SolveOptions options =
+      readParameters(ParameterReader(readParameterTree(arguments.params))).solve;
   if (!arguments.method.empty())
     options.square.method =
         arguments.method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;

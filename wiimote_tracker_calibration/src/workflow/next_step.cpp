@@ -16,10 +16,6 @@ constexpr double kUsualLongest = 10.0;
 const std::array<const char*, SquareRun::kCorners> kCornerHints = {
     "the world's origin", "along x", "counter-clockwise seen from above puts z up", "the last one"};
 
-std::string nameOfCorner(std::size_t corner) {
-  return "corner " + std::to_string(corner + 1);
-}
-
 std::string cornerTitle(std::size_t corner) {
   return "Corner " + std::to_string(corner + 1);
 }
@@ -29,15 +25,15 @@ NextStep beforeStart(const Preparation& done) {
     return {
         "LED off",
         "Switch the LED off or take it away: the lights of the room are learned, to ignore them.",
-        "learn_masks", "learn the lights", std::nullopt};
+        "learn_masks", "learn the lights"};
   if (!done.connection_checked)
     return {"LED on", "Switch the LED on and hold it up where all cameras see it.",
-            "check_connection", "check that they see it", std::nullopt};
+            "check_connection", "check that they see it"};
   return {
       "Square",
       "Walk through the volume with the LED to see what the cameras cover. Then measure the side "
       "of the square on the floor, or lay a wand of known length there.",
-      "start", "start", std::nullopt};
+      "start", "start"};
 }
 
 /// Asks back for sides that are hardly meant; empty for usual ones.
@@ -53,55 +49,51 @@ NextStep nextCorner(const Calibration& calibration) {
   if (sides.empty())
     return {"Wand",
             "Take the wand and give its length to begin, or start again with it on the floor.",
-            "start_wave", "begin the wave", std::nullopt};
+            "start_wave", "begin the wave"};
   const std::size_t corner = calibration.square().corners().size();
   const std::string doubt = corner == 0 ? doubtAbout(sides) : "";
-  const std::string place = nameOfCorner(corner) + " (" + kCornerHints.at(corner) + ")";
+  const std::string place = SquareRun::nameOf(corner) + " (" + kCornerHints.at(corner) + ")";
   if (calibration.isHandsFree())
     return {cornerTitle(corner),
-            doubt + "Hold the LED still on " + place + " until it is captured.", "", "",
-            std::nullopt};
+            doubt + "Hold the LED still on " + place + " until it is captured."};
   return {cornerTitle(corner), doubt + "Put the LED on " + place + ".", "capture_corner",
-          "capture " + nameOfCorner(corner), std::nullopt};
+          "capture " + SquareRun::nameOf(corner)};
 }
 
 NextStep waving(const Calibration& calibration) {
   const WaveRecorder& wave = *calibration.wave();
   if (wave.needsFloor())
-    return {"Leave it",
-            "Leave the wand on the floor until it is captured. Its end nearer to " +
-                calibration.cameras().front() +
-                " is the world's origin, the other one lies on the x axis.",
-            "", "", std::nullopt};
+    return {"Leave it", "Leave the wand on the floor until it is captured. Its end nearer to " +
+                            calibration.cameras().front() +
+                            " is the world's origin, the other one lies on the x axis."};
   if (!wave.report().enough())
-    return {"Wave", "Wave through the whole volume, high and low, near and far.", "", "",
-            std::nullopt};
+    return {"Wave", "Wave through the whole volume, high and low, near and far."};
   const char* const enough = "All cameras have seen enough.";
   if (calibration.sides().empty())  // without a square nothing else is needed
-    return {"Enough", enough, "solve", "end the wave and solve", std::nullopt};
-  return {"Enough", enough, "stop_wave", "end the wave", std::nullopt};
+    return {"Enough", enough, "solve", "end the wave and solve"};
+  return {"Enough", enough, "stop_wave", "end the wave"};
 }
 
 NextStep complete(const Calibration& calibration) {
   if (calibration.wave() && calibration.wave()->report().seconds > 0.0)
-    return {"Solve", "All is captured.", "solve", "solve", std::nullopt};
+    return {"Solve", "All is captured.", "solve", "solve"};
   if (calibration.square().isClockwise())
     return {
         "z is down",
         "The corners go clockwise, so z will point down. Start again if you want z up, or go on "
         "with the wave.",
-        "start_wave", "begin the wave", std::nullopt};
+        "start_wave", "begin the wave"};
   return {"Wave", "Take the LED in your hand to wave it, or solve from the square alone.",
-          "start_wave", "begin the wave", std::nullopt};
+          "start_wave", "begin the wave"};
 }
 
 NextStep solved(const session::Verdict& verdict) {
   if (verdict.grade != session::Grade::kRedo)
     return {verdict.grade == session::Grade::kGood ? "Good" : "Usable",
-            "Read the verdict, then save.", "save", "save", std::nullopt};
+            "Read the verdict, then save.", "save", "save"};
   if (!verdict.redo_corner)
-    return {"Again", "Do again what the verdict says, or save all the same.", "", "", std::nullopt};
-  const std::string name = nameOfCorner(*verdict.redo_corner);
+    return {"Again", "Do again what the verdict says, or save all the same."};
+  const std::string name = SquareRun::nameOf(*verdict.redo_corner);
   return {cornerTitle(*verdict.redo_corner),
           "Put the LED on " + name + " again, or save all the same.", "capture_corner",
           "capture " + name + " again", verdict.redo_corner};
@@ -122,17 +114,16 @@ NextStep nextStep(const Calibration& calibration, const session::Verdict& verdic
     case Step::kSolved:
       return solved(verdict);
     case Step::kSolving:
-      return {"Solving", "Computing the cameras: wait.", "", "", std::nullopt};
+      return {"Solving", "Computing the cameras: wait."};
     case Step::kMasking:
-      return {"LED off", "Leave the LED off.", "", "", std::nullopt};
+      return {"LED off", "Leave the LED off."};
     case Step::kCapturing:
     case Step::kMeasuring:
-      return {"Hold still", "Keep the LED still.", "", "", std::nullopt};
+      return {"Hold still", "Keep the LED still."};
     case Step::kSaved:
       break;
   }
-  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know.", "",
-          "", std::nullopt};
+  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
 }
 
 }  // namespace wiimote_tracker::workflow

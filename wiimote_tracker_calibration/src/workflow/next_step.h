@@ -12,11 +12,11 @@ namespace wiimote_tracker::workflow {
 
 /// The one thing that a person is to do next. Fields as the next_... of CalibrationStatus.msg.
 struct NextStep {
-  std::string title;                  ///< In one or two words, to be read from afar.
-  std::string sentence;               ///< In full.
-  std::string request;                ///< That does it; empty: there is nothing to request.
-  std::string label;                  ///< Of a key or a button for it.
-  std::optional<std::size_t> corner;  ///< To be captured again, 0..3.
+  std::string title;                    ///< In one or two words, to be read from afar.
+  std::string sentence;                 ///< In full.
+  std::string request{};                ///< That does it; empty: there is nothing to request.
+  std::string label{};                  ///< Of a key or a button for it.
+  std::optional<std::size_t> corner{};  ///< To be captured again, 0..3.
 };
 
 /// @param verdict of the rig in use, if there is one.

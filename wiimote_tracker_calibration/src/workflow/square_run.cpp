@@ -9,15 +9,15 @@ namespace {
 // An LED on the same corner as before appears within this distance of where it was [px].
 constexpr double kSamePlace = 3.0;
 
-std::string cornerName(std::size_t corner) {
+}  // namespace
+
+std::string SquareRun::nameOf(std::size_t corner) {
   return "corner " + std::to_string(corner + 1);
 }
 
-}  // namespace
-
 Reply SquareRun::begin(std::optional<std::size_t> retake, double now) {
   if (retake && *retake >= corners_.size())
-    return {false, cornerName(*retake) + " cannot be captured again, " +
+    return {false, nameOf(*retake) + " cannot be captured again, " +
                        std::to_string(corners_.size()) +
                        " are captured so far: take the next corner, or retake one of those"};
   if (!retake && isComplete())
@@ -25,7 +25,7 @@ Reply SquareRun::begin(std::optional<std::size_t> retake, double now) {
   current_corner_ = retake.value_or(corners_.size());
   capture_.emplace(cameras_, options_, now);
   outcome_.reset();
-  return {true, "capturing " + cornerName(current_corner_) + ": keep the LED still"};
+  return {true, "capturing " + nameOf(current_corner_) + ": keep the LED still"};
 }
 
 void SquareRun::add(const capture::Image& image) {
@@ -44,19 +44,19 @@ void SquareRun::update(double now) {
 
 void SquareRun::abandon(const std::string& why) {
   if (capture_)
-    end({false, cornerName(current_corner_) + " was not captured: " + why});
+    end({false, nameOf(current_corner_) + " was not captured: " + why});
 }
 
 void SquareRun::finish() {
   const capture::CornerCapture::State state = capture_->state();
   if (state == capture::CornerCapture::State::kCollecting)
     return;
-  const std::string name = cornerName(current_corner_);
+  const std::string name = nameOf(current_corner_);
   if (state == capture::CornerCapture::State::kRefused)
     return abandon(capture_->message());
   const capture::CapturedCorner corner = capture_->result();
   if (const auto other = cornerInSamePlace(corner))
-    return abandon("the LED is still where " + cornerName(*other) +
+    return abandon("the LED is still where " + nameOf(*other) +
                    " was captured; carry it on and capture again");
   if (current_corner_ < corners_.size())
     corners_[current_corner_] = corner;
@@ -74,7 +74,7 @@ Reply SquareRun::undo() {
   if (corners_.empty())
     return {false, "there is no captured corner to undo"};
   corners_.pop_back();
-  return {true, cornerName(corners_.size()) + " was dropped: put the LED there and capture it"};
+  return {true, nameOf(corners_.size()) + " was dropped: put the LED there and capture it"};
 }
 
 std::string SquareRun::next() const {
@@ -85,7 +85,7 @@ std::string SquareRun::next() const {
                   "capture them counter-clockwise for z up, or go on; "
                 : ": ") +
            "wave the LED through the volume, or solve";
-  return "put the LED on " + cornerName(corners_.size()) + " and capture it";
+  return "put the LED on " + nameOf(corners_.size()) + " and capture it";
 }
 
 bool SquareRun::isClockwise() const {

@@ -17,6 +17,9 @@ class SquareRun {
  public:
   static constexpr std::size_t kCorners = 4;
 
+  /// "corner 1".
+  static std::string nameOf(std::size_t corner);
+
   SquareRun() = default;
   SquareRun(const std::vector<std::string>& cameras, const capture::CornerCaptureOptions& options)
       : cameras_(cameras), options_(options) {}

@@ -15,9 +15,9 @@ def advice(guide: Guide, camera: str) -> Advice:
     board = guide.board
     if board is None or board.camera != camera:
         return Advice(f'Hold the 16-LED board in front of {camera}. SPACE starts.', 'start')
-    if guide.has_done('commit'):
+    if guide.has_done('commit', 'undo'):
         return Advice('The lens is in use. Calibrate the rig now. q ends.')
-    if guide.has_done('solve'):
+    if guide.has_done('solve', 'undo'):
         return Advice('SPACE saves the lens and gives it to the driver.', 'commit')
     if board.missing:
         return Advice('Hold the board still for two seconds, then elsewhere: to all sides of the '

@@ -42,7 +42,7 @@ class Guide:
         self.running = []       # words of the commands that have not been answered
         self.feedback = ''
         self.progress = 0.0
-        self._done = set()      # words of the commands that succeeded
+        self._done = {}         # word of a command -> number of its last good answer
         self._started_at = None
         self._square_at = None  # when the last corner was captured
         self._saved_at = None
@@ -80,7 +80,6 @@ class Guide:
         self.statuses_since_answer = 0
         self.answers.append((good, text))
         if word == 'start' and good:
-            self._done -= {'solve', 'commit'}
             self._started_at = now
             self._square_at = self._saved_at = None
             self.measured = ''
@@ -89,7 +88,7 @@ class Guide:
         if word == 'save' and good:
             self._saved_at = now
         if good:
-            self._done.add(word)
+            self._done[word] = len(self.answers)
 
     def say(self, text: str) -> None:
         """Shows a sentence of this program in the place of an answer."""
@@ -141,9 +140,9 @@ class Guide:
         return status is not None and status.step in (
             status.CAPTURING, status.WAVING, status.SOLVING, status.MASKING, status.MEASURING)
 
-    def has_done(self, word: str) -> bool:
-        """Whether a command succeeded."""
-        return word in self._done
+    def has_done(self, word: str, since: str = 'start') -> bool:
+        """Whether a command succeeded after `start` and another one last did."""
+        return self._done.get(word, 0) > max(self._done.get(other, 0) for other in ('start', since))
 
     def elapsed(self, now: float) -> float:
         """From the start of the calibration until it was saved, or until now [s]."""

@@ -171,6 +171,15 @@ def test_a_board_has_four_bars():
     assert lines[21] == 'view 5 was kept'
 
 
+def test_a_lens_whose_view_is_dropped_is_solved_again():
+    guide = guide_at(status(CalibrationStatus.IDLE))
+    guide.on_board(BoardStatus(camera='wiimote_1', views=13, views_needed=12))
+    for word, following in (('start', 'solve'), ('solve', 'commit'), ('undo', 'solve'),
+                            ('solve', 'commit'), ('commit', None), ('start', 'solve')):
+        guide.on_answer(word, True, '', 1.0)
+        assert board_screen.advice(guide, 'wiimote_1').word == following
+
+
 def screens(rows, columns):
     """Every view of many states, with texts as long as they come."""
     long_text = 'a very long sentence that says what to do, ' * 12

@@ -6,31 +6,44 @@
 
 namespace wiimote_tracker {
 
+namespace {
+
+/// What is being handled, in words.
+std::string reasonOfException() {
+  try {
+    throw;
+  } catch (const Error& error) {
+    return error.what();
+  } catch (const std::bad_alloc&) {
+    return "the computer has no memory left: close other programs and try again";
+  } catch (const std::exception& error) {
+    return std::string("an unexpected error occurred (") + error.what() +
+           "): try again, and report it if it comes back";
+  } catch (...) {
+    return "an unexpected error occurred: try again, and report it if it comes back";
+  }
+}
+
+}  // namespace
+
 workflow::Reply replyOf(const std::function<workflow::Reply()>& work) {
-  std::string reason;
   try {
     return work();
   } catch (const Error& error) {
     return {false, error.what()};
-  } catch (const std::bad_alloc&) {
-    reason = "the computer has no memory left: close other programs and try again";
-  } catch (const std::exception& error) {
-    reason = std::string("an unexpected error occurred (") + error.what() +
-             "): try again, and report it if it comes back";
   } catch (...) {
-    reason = "an unexpected error occurred: try again, and report it if it comes back";
+    const std::string reason = reasonOfException();
+    ROS_ERROR_STREAM(reason);
+    return {false, reason};
   }
-  ROS_ERROR_STREAM(reason);
-  return {false, reason};
 }
 
 void runCallback(const std::string& name, const std::function<void()>& callback) {
-  const workflow::Reply reply = replyOf([&] {
+  try {
     callback();
-    return workflow::Reply{true, ""};
-  });
-  if (!reply.success)
-    ROS_ERROR_STREAM_THROTTLE(10.0, name << " failed: " << reply.message);
+  } catch (...) {
+    ROS_ERROR_STREAM_THROTTLE(10.0, name << " failed: " << reasonOfException());
+  }
 }
 
 std::string appendix(const std::vector<std::string>& sentences) {

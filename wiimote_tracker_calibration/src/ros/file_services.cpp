@@ -14,7 +14,6 @@
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -25,18 +24,6 @@ using namespace wiimote_tracker_msgs;
 using workflow::Reply;
 
 namespace {
-
-/// Over the cameras that both rigs have; without any, over the known places.
-session::JoinedRigs joinWith(const geometry::Rig& first,
-                             const geometry::Rig& second,
-                             const std::vector<session::CommonPlace>& places) {
-  const bool share_cameras = std::any_of(first.cameras.begin(), first.cameras.end(),
-                                         [&](const geometry::RigCamera& camera) {
-                                           return second.find(camera.camera.name) != nullptr;
-                                         });
-  return share_cameras || places.empty() ? session::joinRigs(first, second)
-                                         : session::joinRigs(first, second, places);
-}
 
 class FileServices {
  public:
@@ -124,7 +111,7 @@ class FileServices {
       const std::vector<session::CommonPlace> places = commonPlaces(second.id(), lock);
       const std::string path = rigPath(request.path, context_.parameters(lock));
       session::JoinedRigs joined = context_.compute(
-          &lock, [&] { return joinWith(geometry::readRigFile(path), second, places); });
+          &lock, [&] { return session::joinRigs(geometry::readRigFile(path), second, places); });
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();
       response->rig = toMessage(joined.rig);

@@ -99,48 +99,9 @@ Eigen::Isometry3d startOver(const std::vector<CommonPlace>& places) {
   return geometry::rigidAlignment(in_first, in_second);
 }
 
-}  // namespace
-
-JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second) {
-  checkRigs(first, second);
-  std::vector<Shared> shared;
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < first.cameras.size(); ++i) {
-    for (std::size_t j = 0; j < second.cameras.size(); ++j) {
-      if (first.cameras[i].camera.name != second.cameras[j].camera.name)
-        continue;
-      checkGravity(first.cameras[i], second.cameras[j]);
-      shared.push_back({first.cameras[i].camera.world_from_camera,
-                        second.cameras[j].camera.world_from_camera, poseByParameters(first, i),
-                        poseByParameters(second, j)});
-      names.push_back(first.cameras[i].camera.name);
-    }
-  }
-  if (names.empty())
-    throw Error(
-        "the rigs share no camera: calibrate the second room together with a camera of the first "
-        "that stays where it is, or measure three known places or more of the first world with the "
-        "second rig");
-  const Eigen::Isometry3d start = shared[0].in_first * shared[0].in_second.inverse();
-  const RigMotion motion = fitMotion(first, second, shared, start);
-  if (motion.contradicts()) {
-    if (names.size() == 2)
-      throw Error(names[0] + " and " + names[1] +
-                  " do not stand to each other in the second rig as in the first: one of "
-                  "them was moved in between, or calibrated badly; calibrate one of the "
-                  "rooms anew");
-    throw Error(names[oddOneOut(first, second, shared, start)] +
-                " does not stand to the other shared cameras in the second rig as in the "
-                "first: it was moved in between, or was calibrated badly; calibrate one of "
-                "the rooms again");
-  }
-  return finish(first, second, motion, square::listOf(names));
-}
-
-JoinedRigs joinRigs(const geometry::Rig& first,
-                    const geometry::Rig& second,
-                    const std::vector<CommonPlace>& places) {
-  checkRigs(first, second);
+JoinedRigs joinOver(const std::vector<CommonPlace>& places,
+                    const geometry::Rig& first,
+                    const geometry::Rig& second) {
   checkPlaces(places);
   std::vector<Shared> shared;
   for (const CommonPlace& place : places) {
@@ -166,6 +127,48 @@ JoinedRigs joinRigs(const geometry::Rig& first,
                 "first: measure it again");
   }
   return finish(first, second, motion, std::to_string(places.size()) + " common places");
+}
+
+}  // namespace
+
+JoinedRigs joinRigs(const geometry::Rig& first,
+                    const geometry::Rig& second,
+                    const std::vector<CommonPlace>& places) {
+  checkRigs(first, second);
+  std::vector<Shared> shared;
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < first.cameras.size(); ++i) {
+    for (std::size_t j = 0; j < second.cameras.size(); ++j) {
+      if (first.cameras[i].camera.name != second.cameras[j].camera.name)
+        continue;
+      checkGravity(first.cameras[i], second.cameras[j]);
+      shared.push_back({first.cameras[i].camera.world_from_camera,
+                        second.cameras[j].camera.world_from_camera, poseByParameters(first, i),
+                        poseByParameters(second, j)});
+      names.push_back(first.cameras[i].camera.name);
+    }
+  }
+  if (names.empty() && !places.empty())
+    return joinOver(places, first, second);
+  if (names.empty())
+    throw Error(
+        "the rigs share no camera: calibrate the second room together with a camera of the first "
+        "that stays where it is, or measure three known places or more of the first world with the "
+        "second rig");
+  const Eigen::Isometry3d start = shared[0].in_first * shared[0].in_second.inverse();
+  const RigMotion motion = fitMotion(first, second, shared, start);
+  if (motion.contradicts()) {
+    if (names.size() == 2)
+      throw Error(names[0] + " and " + names[1] +
+                  " do not stand to each other in the second rig as in the first: one of "
+                  "them was moved in between, or calibrated badly; calibrate one of the "
+                  "rooms anew");
+    throw Error(names[oddOneOut(first, second, shared, start)] +
+                " does not stand to the other shared cameras in the second rig as in the "
+                "first: it was moved in between, or was calibrated badly; calibrate one of "
+                "the rooms again");
+  }
+  return finish(first, second, motion, square::listOf(names));
 }
 
 }  // namespace wiimote_tracker::session

@@ -21,14 +21,6 @@ struct JoinedRigs {
   std::string message;  ///< One sentence: what they share, and how well that agrees.
 };
 
-/// Moves the second rig into the world of the first, such that the shared cameras coincide,
-/// weighted by their covariances in both rigs. A shared camera must not have moved in between, and
-/// stays as it is in the first rig. The joint covariance is to first order, both rigs being
-/// independent.
-/// @throws Error: no shared camera; one that contradicts (chi-squared test, 99.9 %), was
-/// moved or is another device; a rig without covariance; different ray models.
-JoinedRigs joinRigs(const geometry::Rig& first, const geometry::Rig& second);
-
 /// A place known in the first world and measured with the second rig.
 struct CommonPlace {
   Eigen::Vector3d in_first;   ///< [m]
@@ -36,11 +28,17 @@ struct CommonPlace {
   double stddev = 0.005;      ///< Of both together, without the second rig's covariance [m, > 0].
 };
 
-/// The same with three or more common places, not on a line, for rigs without a shared camera.
-/// @throws Error as above; it names the contradicting place, counted from 1.
+/// Moves the second rig into the world of the first, such that the shared cameras coincide or,
+/// without any, the common places; weighted by the covariances of both rigs. A shared camera must
+/// not have moved in between, and stays as it is in the first rig. The joint covariance is to first
+/// order, both rigs being independent.
+/// @param places three or more, not on a line.
+/// @throws Error: neither shared camera nor place; a camera or a place, counted from 1, that
+/// contradicts (chi-squared test, 99.9 %); a camera that was moved or is another device; a rig
+/// without covariance; different ray models.
 JoinedRigs joinRigs(const geometry::Rig& first,
                     const geometry::Rig& second,
-                    const std::vector<CommonPlace>& places);
+                    const std::vector<CommonPlace>& places = {});
 
 }  // namespace wiimote_tracker::session
 

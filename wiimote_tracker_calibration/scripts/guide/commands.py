@@ -239,7 +239,4 @@ def board_commands(camera: str) -> List[Command]:
 
 def find(commands: List[Command], word_or_key: str) -> Optional[Command]:
     """The command of this word or key, or None."""
-    for command in commands:
-        if word_or_key in (command.word, command.key):
-            return command
-    return None
+    return next((c for c in commands if word_or_key in (c.word, c.key)), None)

@@ -58,30 +58,30 @@ class Dialogue:
                 event, *values = self.node.events.get_nowait()
             except queue.Empty:
                 break
-            rings = max(rings, self._take(event, values, now) or 0)
+            rings = max(rings, self._take(event, values, now))
         self._do_next()
         return rings
 
-    def _take(self, event: str, values: list, now: float):
+    def _take(self, event: str, values: list, now: float) -> int:
+        """Returns how often a bell should ring for it."""
         guide = self.guide
-        if event == 'status':
-            return guide.on_status(values[0], now)
         if event == 'board':
-            return guide.on_board(values[0])
+            return int(guide.on_board(values[0]))
         if event == 'sound':
             return 2 if values[0].data == 'refused' else 1
-        if event == 'feedback':
-            return guide.on_feedback(*values)
-        if event == 'answer':
+        if event == 'status':
+            guide.on_status(values[0], now)
+        elif event == 'feedback':
+            guide.feedback, guide.progress = values
+        elif event == 'answer':
             guide.on_answer(*values, now)
             if values[0] in ('length', 'known') and values[1] and guide.has_done('solve'):
                 self.command('solve')  # to show what it gained
-            return False
-        if event == 'image_size':
+        elif event == 'image_size':
             guide.image_sizes[values[0]] = values[1]
         else:
             setattr(guide, event, values[0])  # verdict, trace
-        return False
+        return 0
 
     def _do_next(self) -> None:
         guide = self.guide

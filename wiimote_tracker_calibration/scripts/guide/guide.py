@@ -69,10 +69,6 @@ class Guide:
         self.feedback = ''
         self.progress = 0.0
 
-    def on_feedback(self, message: str, progress: float) -> None:
-        self.feedback = message
-        self.progress = progress
-
     def on_answer(self, word: str, good: bool, text: str, now: float) -> None:
         if word in self.running:
             self.running.remove(word)

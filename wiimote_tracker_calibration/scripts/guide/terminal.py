@@ -4,7 +4,7 @@ import curses
 import time
 from typing import Callable, Dict, List
 
-from .commands import Command
+from .commands import Command, find
 from .dialogue import Dialogue
 
 PERIOD = 0.1         # [s] Between two drawings.
@@ -66,7 +66,7 @@ class Terminal:
             self._type(key)
             return True
         sign = chr(key) if 0 <= key < 256 else ''
-        command = next((c for c in self._dialogue.command_list if c.key == sign), None)
+        command = find(self._dialogue.command_list, sign)
         if sign == 'q':
             return False
         if sign == ' ':

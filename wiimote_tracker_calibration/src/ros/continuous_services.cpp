@@ -42,16 +42,11 @@ std::string dateOf(double time) {
 
 class ContinuousServices {
  public:
-  explicit ContinuousServices(NodeContext* context)
-      : context_(*context),
-        services_({advertise(context_.nh(),
-                             "calibration/continuous/apply",
-                             &ContinuousServices::apply,
-                             this),
-                   advertise(context_.nh(),
-                             "calibration/continuous/revert",
-                             &ContinuousServices::revert,
-                             this)}) {
+  explicit ContinuousServices(NodeContext* context) : context_(*context) {
+    using Self = ContinuousServices;
+    const ros::NodeHandle& nh = context_.nh();
+    services_ = {advertise(nh, "calibration/continuous/apply", &Self::apply, this),
+                 advertise(nh, "calibration/continuous/revert", &Self::revert, this)};
     const Lock lock(context_.mutex());
     policy_ = context_.parameters(lock).continuous_policy;
     options_.recalibrate.uncertainty = context_.parameters(lock).solve.square.uncertainty;

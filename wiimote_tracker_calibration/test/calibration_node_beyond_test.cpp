@@ -72,10 +72,8 @@ TEST_F(Beyond, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
   EXPECT_SAYS(solved.rig.method, "wave");
   ASSERT_EQ(solved.rig.cameras.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto& position = solved.rig.cameras[i].world_from_camera.position;
-    EXPECT_LT(
-        (Eigen::Vector3d(position.x, position.y, position.z) - cameras_->truth[i].center()).norm(),
-        0.03);
+    const Eigen::Vector3d center = vectorOf(solved.rig.cameras[i].world_from_camera.position);
+    EXPECT_LT((center - cameras_->truth[i].center()).norm(), 0.03);
     EXPECT_LT(std::abs(solved.rig.cameras[i].time_offset), 0.0005);
   }
 }
@@ -116,11 +114,11 @@ TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
   Eigen::Vector3d x = origin - cameras_->truth[0].center();
   x = Eigen::Vector3d(x.x(), x.y(), 0.0).normalized();
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto& position = solved.rig.cameras[i].world_from_camera.position;
+    const Eigen::Vector3d center = vectorOf(solved.rig.cameras[i].world_from_camera.position);
     const Eigen::Vector3d from_origin = cameras_->truth[i].center() - origin;
     const Eigen::Vector3d truth(x.dot(from_origin),
                                 x.x() * from_origin.y() - x.y() * from_origin.x(), from_origin.z());
-    EXPECT_LT((Eigen::Vector3d(position.x, position.y, position.z) - truth).norm(), 0.05) << i;
+    EXPECT_LT((center - truth).norm(), 0.05) << i;
   }
 }
 

@@ -220,8 +220,7 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   EXPECT_EQ(solved.rig.ray_model, RigCalibration::RAY_MODEL_CALIBRATED);
   EXPECT_EQ(solved.rig.covariance.size(), 64U * 64U);
   for (std::size_t i = 0; i < 4; ++i) {
-    const auto& position = solved.rig.cameras[i].world_from_camera.position;
-    const Eigen::Vector3d center(position.x, position.y, position.z);
+    const Eigen::Vector3d center = vectorOf(solved.rig.cameras[i].world_from_camera.position);
     // 0.1 px, averaged over twenty images, at 6 m.
     EXPECT_LT((center - cameras_->truth[i].center()).norm(), 0.03);
     EXPECT_EQ(solved.rig.cameras[i].identity, "00:1e:35:00:00:0" + std::to_string(i + 1));
@@ -320,9 +319,7 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   const Eigen::Vector3d place(1.0, 0.8, 1.5);
   putLed(place);
   wiimote_tracker_msgs::CheckPlace::Request known;
-  known.known.x = place.x();
-  known.known.y = place.y();
-  known.known.z = place.z();
+  known.known = pointOf(place);
   const auto placed = call<wiimote_tracker_msgs::CheckPlace>("calibration/measure_place", known);
   ASSERT_TRUE(placed.success) << placed.message;
   EXPECT_SAYS(placed.message, "place 1 at (1.000, 0.800, 1.500) m is captured by 4 cameras");

@@ -6,6 +6,7 @@
 
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
+#include <wiimote_tracker_triangulation/ros/message_fields.h>
 
 #include <actionlib/client/simple_action_client.h>
 #include <gtest/gtest.h>

@@ -24,14 +24,6 @@ using wiimote_tracker_msgs::FitRemap;
 using wiimote_tracker_msgs::LearnMasks;
 using wiimote_tracker_msgs::RecalibrateCamera;
 
-geometry_msgs::Point pointMessage(const Eigen::Vector3d& point) {
-  geometry_msgs::Point message;
-  message.x = point.x();
-  message.y = point.y();
-  message.z = point.z();
-  return message;
-}
-
 class CalibratedNode : public Node {
  protected:
   /// The rig as it stands, with no uncertainty but that of the pixels.
@@ -62,7 +54,7 @@ class CalibratedNode : public Node {
 
   static CheckPlace::Response check(const Eigen::Vector3d& known) {
     CheckPlace::Request request;
-    request.known = pointMessage(known);
+    request.known = pointOf(known);
     request.known_stddev = 0.001;
     return call<CheckPlace>("calibration/check", request);
   }
@@ -92,7 +84,7 @@ TEST_F(CalibratedNode, ChecksAKnownPlace) {
   EXPECT_TRUE(waitUntil([&] { return status_->get()->message == response.message; }));
 
   CheckPlace::Request to_solve;
-  to_solve.known = pointMessage(place);
+  to_solve.known = pointOf(place);
   EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", to_solve).message,
               "capture its four corners first");
   to_solve.known.x += 0.2;
@@ -154,7 +146,7 @@ TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
         const Eigen::Vector3d place(x, y, z);
         putLed(place);
         AddKnownPlace::Request request;
-        request.known = pointMessage(1.02 * place);
+        request.known = pointOf(1.02 * place);
         const auto response = call<AddKnownPlace>("calibration/known_places/add", request);
         ASSERT_TRUE(response.success) << response.message;
         EXPECT_EQ(response.places, ++places);
@@ -163,7 +155,7 @@ TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
     }
   }
   AddKnownPlace::Request request;
-  request.known = pointMessage({0.0, 0.0, 0.0});
+  request.known = pointOf({0.0, 0.0, 0.0});
   EXPECT_TRUE(call<AddKnownPlace>("calibration/known_places/add", request).success);
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/known_places/undo").success);
 

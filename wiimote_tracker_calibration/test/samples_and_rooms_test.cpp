@@ -249,9 +249,7 @@ TEST_F(Rooms, WithoutASharedCameraAreJoinedOverKnownPlaces) {
         Eigen::Vector3d(2.1, 2.1, 0.1), Eigen::Vector3d(0.8, 1.9, 1.3)}) {
     putLed(place);
     AddKnownPlace::Request request;
-    request.known.x = place.x();
-    request.known.y = place.y();
-    request.known.z = place.z();
+    request.known = pointOf(place);
     const auto added = call<AddKnownPlace>("calibration/known_places/add", request);
     ASSERT_TRUE(added.success) << added.message;
     if (added.places < 3) {

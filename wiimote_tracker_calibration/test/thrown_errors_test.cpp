@@ -162,6 +162,23 @@ TEST_F(ThrownErrors, ARefusalIsHeardOnce) {
   EXPECT_EQ(refusals(), before + 3);
 }
 
+TEST_F(ThrownErrors, AWandThatCannotBeWavedDropsNothing) {
+  captureAll();
+  const auto setWidth = [](int width) {
+    const Lock lock(node->context().mutex());
+    node->context().parameters(lock).own_intrinsics["camera_2"].width = width;
+  };
+  setWidth(640);
+  StartCalibration::Request request;
+  request.without_square = true;
+  request.wand_length = 0.5;
+  EXPECT_SAYS(replyTo<StartCalibration>("calibration/start", request).message,
+              "its starting intrinsics are for 640 x 768");
+  setWidth(1024);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  EXPECT_EQ(status_->get()->corners_captured, 4U);
+}
+
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
   // Images come until the node ends, after this test.
   const auto thrown = std::make_shared<bool>(false);

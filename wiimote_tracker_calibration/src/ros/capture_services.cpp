@@ -133,8 +133,10 @@ class CaptureServices {
             "the side of the square is 0: measure it, and give side_x in the request or set " +
             ros::this_node::getName() + "/side_length, in metres");
       const std::optional<wave::Wand> wand = wandOnFloor(request, parameters);
-      if (wand)
+      if (wand) {
         requireUp(cameras, &lock);
+        context_.facts(cameras, lock);  // a wave that cannot begin must not drop what was captured
+      }
       workflow::Calibration& calibration = context_.calibration(lock);
       const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
                                                  : calibration.start(side_x, side_y, cameras);

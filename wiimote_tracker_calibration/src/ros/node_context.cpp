@@ -134,16 +134,22 @@ workflow::Reply NodeContext::show(const workflow::Reply& reply, const Lock& lock
   return reply;
 }
 
-session::Session NodeContext::session(const Lock&) {
+std::map<std::string, workflow::CameraFacts> NodeContext::facts(
+    const std::vector<std::string>& cameras,
+    const Lock&) const {
   std::map<std::string, workflow::CameraFacts> facts;
-  if (!calibration_.isRestored()) {
-    for (const std::string& name : calibration_.cameras()) {
-      const auto input = inputs_.cameras().find(name);
-      if (input != inputs_.cameras().end())
-        facts[name] = factsOf(name, input->second, parameters_);
-    }
+  for (const std::string& name : cameras) {
+    const auto input = inputs_.cameras().find(name);
+    if (input != inputs_.cameras().end())
+      facts[name] = factsOf(name, input->second, parameters_);
   }
-  return calibration_.session(facts, inputs_.masks());
+  return facts;
+}
+
+session::Session NodeContext::session(const Lock& lock) const {
+  const bool is_live = !calibration_.isRestored();
+  return calibration_.session(
+      facts(is_live ? calibration_.cameras() : std::vector<std::string>(), lock), inputs_.masks());
 }
 
 workflow::Reply NodeContext::setSession(const session::Session& session, const Lock&) {

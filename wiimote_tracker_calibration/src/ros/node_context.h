@@ -104,9 +104,12 @@ class NodeContext {
   /// Shows a reply in the status at once. @returns it.
   workflow::Reply show(const workflow::Reply& reply, const Lock& lock);
 
-  /// All that was captured so far, to be solved or saved.
+  /// What is known of these cameras, for a calibration that is captured live.
   /// @throws Refusal: starting intrinsics do not fit the size of a camera's images.
-  session::Session session(const Lock& lock);
+  std::map<std::string, workflow::CameraFacts> facts(const std::vector<std::string>& cameras,
+                                                     const Lock&) const;
+  /// All that was captured so far, to be solved or saved. @throws Refusal as facts().
+  session::Session session(const Lock& lock) const;
   /// Continues from captured data, with its masks.
   workflow::Reply setSession(const session::Session& session, const Lock& lock);
 

@@ -216,7 +216,7 @@ TEST(CameraMonitor, RateAndSpotOfACameraThatSeesTheLed) {
   EXPECT_FALSE(monitor.view(0.0).connected);
   EXPECT_SAYS(monitor.view(0.0).problem, "sends no images");
   for (int i = 0; i <= 300; ++i)
-    monitor.add(i * kPeriod, one(i, 7));
+    monitor.add(i * kPeriod, one(i, 7), i * kPeriod);
   const CameraView view = monitor.view(3.0);
   EXPECT_TRUE(view.connected);
   EXPECT_TRUE(view.sees_led);
@@ -225,21 +225,21 @@ TEST(CameraMonitor, RateAndSpotOfACameraThatSeesTheLed) {
   EXPECT_EQ(view.problem, "");
   EXPECT_FALSE(monitor.view(4.5).connected);  // the images stopped
   EXPECT_TRUE(monitor.view(4.5, 2.0).connected);
-  monitor.add(3.01, {});
+  monitor.add(3.01, {}, 3.01);
   EXPECT_FALSE(monitor.view(3.01).sees_led);
 }
 
 TEST(CameraMonitor, SaysWhatIsWrong) {
   CameraMonitor two;
-  two.add(0.0, {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 2)});
+  two.add(0.0, {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 2)}, 0.0);
   EXPECT_EQ(two.view(0.0).blobs, 2U);
   EXPECT_SAYS(two.view(0.0).problem, "sees 2 spots");
   CameraMonitor none;
-  none.add(0.0, {});
+  none.add(0.0, {}, 0.0);
   EXPECT_SAYS(none.view(0.0).problem, "sees no spot");
   CameraMonitor flicker;
   for (int i = 0; i < 50; ++i)
-    flicker.add(i * kPeriod, i % 2 == 0 ? Blobs() : one(1, 1));
+    flicker.add(i * kPeriod, i % 2 == 0 ? Blobs() : one(1, 1), i * kPeriod);
   EXPECT_FALSE(flicker.view(0.5).sees_led);
   EXPECT_SAYS(flicker.view(0.5).problem, "50 % of its images only");
   EXPECT_TRUE(std::isnan(flicker.view(0.5).pixel.x()));
@@ -247,8 +247,16 @@ TEST(CameraMonitor, SaysWhatIsWrong) {
 
 TEST(CameraMonitor, NamesMissingStamps) {
   CameraMonitor monitor;
-  monitor.add(0.0, {{100.0, 100.0}});
+  monitor.add(0.0, {{100.0, 100.0}}, 1.7e9);
   EXPECT_SAYS(monitor.view(1.7e9).problem, "without stamps");
+}
+
+TEST(CameraMonitor, NamesAClockThatIsBehind) {
+  CameraMonitor monitor;
+  for (int i = 0; i <= 50; ++i)
+    monitor.add(i * kPeriod, one(1, 1), i * kPeriod + 7.0);
+  EXPECT_SAYS(monitor.view(7.6).problem, "7.0 s old by their stamps");
+  EXPECT_SAYS(monitor.view(20.0).problem, "sends no images");
 }
 
 TEST(Image, SpotsOutsideOfItAreRemoved) {

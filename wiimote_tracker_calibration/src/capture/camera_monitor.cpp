@@ -1,5 +1,7 @@
 #include "capture/camera_monitor.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 namespace wiimote_tracker::capture {
 
 namespace {
@@ -7,6 +9,8 @@ namespace {
 // Least share of images with exactly one spot: at the edge of the field of view the LED is missed
 // now and then.
 constexpr double kShareWithOneSpot = 0.9;
+// An image that comes later after its stamp was stamped by another clock [s].
+constexpr double kLongestDelay = 1.0;
 
 }  // namespace
 
@@ -20,7 +24,8 @@ std::string spotCountProblem(std::size_t blobs) {
   return "";
 }
 
-void CameraMonitor::add(double time, const Blobs& blobs) {
+void CameraMonitor::add(double time, const Blobs& blobs, double arrival) {
+  arrival_ = arrival;
   if (!images_.empty() && time < images_.back().time - kMemory)
     images_.clear();
   images_.push_back({time, blobs.size()});
@@ -44,9 +49,15 @@ CameraView CameraMonitor::view(double now, double window) const {
     with_one_spot += image.blobs == 1;
   }
   if (count == 0) {
-    view.problem = !images_.empty() && images_.back().time <= 0.0
-                       ? "sends images without stamps: correct its driver"
-                       : kSendsNoImages;
+    view.problem = kSendsNoImages;
+    const double delay = images_.empty() ? 0.0 : arrival_ - images_.back().time;
+    if (!images_.empty() && images_.back().time <= 0.0)
+      view.problem = "sends images without stamps: correct its driver";
+    else if (delay > kLongestDelay && arrival_ >= now - window)
+      view.problem = format(
+          "sends images that are %.1f s old by their stamps: set the clock of its computer, or "
+          "play a bag with --clock",
+          delay);
     return view;
   }
 

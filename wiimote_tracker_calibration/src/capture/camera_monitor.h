@@ -22,14 +22,15 @@ struct CameraView {
   std::string problem;  ///< One sentence that says what to do; empty when all is well.
 };
 
-/// Summarises the images of one camera. Times [s] are of one clock; when it is set back, earlier
-/// images are forgotten.
+/// Summarises the images of one camera. Times [s] are to be of one clock; when it is set back,
+/// earlier images are forgotten.
 class CameraMonitor {
  public:
   /// Images older than this are forgotten [s].
   static constexpr double kMemory = 10.0;
 
-  void add(double time, const Blobs& blobs);
+  /// @param time stamp of the image; @param arrival when it came.
+  void add(double time, const Blobs& blobs, double arrival);
 
   /// Summary of the images of the last `window` seconds (up to kMemory).
   CameraView view(double now, double window = 1.0) const;
@@ -41,6 +42,7 @@ class CameraMonitor {
   };
 
   std::deque<Image> images_;
+  double arrival_ = 0.0;  // of the latest image [s]
   Eigen::Vector2d first_blob_ = Eigen::Vector2d::Zero();
 };
 

@@ -120,7 +120,7 @@ void CameraInputs::onBlobs(const std::string& name,
     camera.optical_frame = message.header.frame_id;
     capture::applyMasks(masks_, &image);
     order_.add(std::move(image), [this, &lock](const capture::Image& next) {
-      cameras_[next.camera].monitor.add(next.stamp, next.spots);
+      cameras_[next.camera].monitor.add(next.stamp, next.spots, ros::Time::now().toSec());
       for (const OnImage& call : on_image_)
         call(next, lock);
     });

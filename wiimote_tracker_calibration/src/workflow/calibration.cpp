@@ -2,7 +2,6 @@
 
 #include "square/error.h"
 #include "wave/error.h"
-#include "workflow/taped_lengths.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -170,7 +169,7 @@ void Calibration::update(double now) {
   busy_.reset();
   updateStep();
   if (captured_.square.outcome()->success) {
-    dropLengthsTo(captured_.square.currentCorner(), &captured_);
+    captured_.dropLengthsTo(captured_.square.currentCorner());
     ++captures_;
   }
   shown(*captured_.square.outcome());
@@ -180,7 +179,7 @@ Reply Calibration::undo() {
   if (busy_)
     return refuse(occupied());
   just_solved_ = false;
-  if (dropLastPlace(&captured_))
+  if (captured_.dropLastPlace())
     return changed({true, "the last known place was dropped: solve again"});
   if (captured_.wave) {
     captured_.wave.reset();
@@ -188,7 +187,7 @@ Reply Calibration::undo() {
   }
   const Reply reply = captured_.square.undo();
   if (reply.success)
-    dropLengthsTo(captured_.square.corners().size(), &captured_);
+    captured_.dropLengthsTo(captured_.square.corners().size());
   return changed(reply);
 }
 

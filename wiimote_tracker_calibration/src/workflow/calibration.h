@@ -90,10 +90,10 @@ class Calibration {
   /// Advances the time when no image does.
   void update(double now);
 
-  /// Takes a length by tape; see takeLength(). A corner that is captured again loses its lengths.
+  /// Takes a length by tape; see Captured. A corner that is captured again loses its lengths.
   Reply measureLength(const square::TapedLength& taped, double placement);
 
-  /// Takes a known place, while kMeasuring; see takePlace(). Refused while the rig in use is not
+  /// Takes a known place, while kMeasuring; see Captured. Refused while the rig in use is not
   /// the solution of what was captured: a camera may have moved since the corners were.
   Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
 

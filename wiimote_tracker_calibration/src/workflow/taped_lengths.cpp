@@ -1,5 +1,3 @@
-#include "workflow/taped_lengths.h"
-
 #include "workflow/calibration.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -27,19 +25,19 @@ bool drop(std::vector<square::TapedLength>* lengths, Condition condition) {
 
 }  // namespace
 
-Reply takeLength(const square::TapedLength& taped, double placement, Captured* captured) {
-  if (!captured->layout)
-    return {false, captured->cameras.empty()
+Reply Captured::takeLength(const square::TapedLength& taped, double placement) {
+  if (!layout)
+    return {false, cameras.empty()
                        ? "no calibration is started: start one first"
                        : "this calibration has no square to measure: start one with a square"};
-  const std::size_t count = captured->square.corners().size();
+  const std::size_t count = square.corners().size();
   if (taped.from >= count || taped.to >= count || taped.from == taped.to)
     return {false, format("a length is between two captured corners: %zu are captured, and corner "
                           "%zu to corner %zu was asked for",
                           count, taped.from + 1, taped.to + 1)};
   const std::string name = format("corner %zu to corner %zu", taped.from + 1, taped.to + 1);
   const auto same = [&](const square::TapedLength& other) { return taped.hasCornersOf(other); };
-  std::vector<square::TapedLength>& lengths = captured->layout->lengths;
+  std::vector<square::TapedLength>& lengths = layout->lengths;
   if (taped.length == 0.0) {
     const bool dropped = drop(&lengths, same);
     return {dropped, (dropped ? "the length from " : "there is no length from ") + name +
@@ -48,7 +46,7 @@ Reply takeLength(const square::TapedLength& taped, double placement, Captured* c
   if (!(taped.length > 0.0 && std::isfinite(taped.length) && taped.stddev > 0.0 &&
         std::isfinite(taped.stddev)))
     return {false, "a length and its standard deviation must be above 0: give them in metres"};
-  const double by_sides = captured->layout->lengthBetween(taped.from, taped.to);
+  const double by_sides = layout->lengthBetween(taped.from, taped.to);
   const double most = kMostDeviation * std::hypot(M_SQRT2 * placement, taped.stddev);
   if (std::abs(taped.length - by_sides) > most)
     return {false, format("%s is %.3f m by the sides, at most %.0f mm more or less, but the tape "
@@ -60,30 +58,28 @@ Reply takeLength(const square::TapedLength& taped, double placement, Captured* c
                        name.c_str(), taped.length, 1e3 * (taped.length - by_sides))};
 }
 
-void dropLengthsTo(std::size_t corner, Captured* captured) {
-  drop(&captured->layout->lengths, [&](const square::TapedLength& taped) {
+void Captured::dropLengthsTo(std::size_t corner) {
+  drop(&layout->lengths, [&](const square::TapedLength& taped) {
     return taped.from == corner || taped.to == corner;
   });
 }
 
-Reply takePlace(const square::KnownPlace& known,
-                const capture::CapturedCorner& seen,
-                Captured* captured) {
-  if (!captured->layout || !captured->square.isComplete())
+Reply Captured::takePlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
+  if (!layout || !square.isComplete())
     return {false,
             "a known place is solved together with a square: capture its four corners first"};
-  captured->layout->places.push_back(known);
-  captured->places.push_back(seen);
+  layout->places.push_back(known);
+  places.push_back(seen);
   return {true, format("place %zu at (%.3f, %.3f, %.3f) m is captured by %zu cameras: solve again",
-                       captured->places.size(), known.position.x(), known.position.y(),
-                       known.position.z(), seen.size())};
+                       places.size(), known.position.x(), known.position.y(), known.position.z(),
+                       seen.size())};
 }
 
-bool dropLastPlace(Captured* captured) {
-  if (captured->places.empty())
+bool Captured::dropLastPlace() {
+  if (places.empty())
     return false;
-  captured->places.pop_back();
-  captured->layout->places.pop_back();
+  places.pop_back();
+  layout->places.pop_back();
   return true;
 }
 
@@ -91,7 +87,7 @@ Reply Calibration::measureLength(const square::TapedLength& taped, double placem
   if (busy_)
     return refuse(occupied());
   just_solved_ = false;
-  return changed(takeLength(taped, placement, &captured_));
+  return changed(captured_.takeLength(taped, placement));
 }
 
 Reply Calibration::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
@@ -99,7 +95,7 @@ Reply Calibration::addPlace(const square::KnownPlace& known, const capture::Capt
     return refuse(
         "the rig in use is not the solution of the captured corners: solve first or, if a camera "
         "was changed since they were captured, calibrate again to use known places");
-  return changed(takePlace(known, seen, &captured_));
+  return changed(captured_.takePlace(known, seen));
 }
 
 }  // namespace wiimote_tracker::workflow

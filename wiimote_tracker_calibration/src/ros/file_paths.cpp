@@ -22,8 +22,6 @@ fs::path withoutLinks(const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();  // "folder/" is "folder"
 }
 
-}  // namespace
-
 std::string permittedPath(const std::string& requested, const Parameters& parameters) {
   // Answers repeat the path; those that are not UTF-8 cannot be read in Python.
   if (boost::locale::conv::utf_to_utf<char>(requested) != requested)
@@ -38,6 +36,8 @@ std::string permittedPath(const std::string& requested, const Parameters& parame
         ": choose a file there, or start the node with the parameter file_folder, such as /");
   return requested;
 }
+
+}  // namespace
 
 std::string rigPath(const std::string& requested, const Parameters& parameters) {
   return requested.empty() ? parameters.rig_file : permittedPath(requested, parameters);

@@ -7,15 +7,13 @@
 
 namespace wiimote_tracker {
 
-/// The file of a request, since whoever reaches the master can send one. Links are followed.
-/// @param requested absolute, or relative to the node's working folder.
-/// @throws Refusal: it is not below Parameters::file_folder, or not UTF-8.
-std::string permittedPath(const std::string& requested, const Parameters& parameters);
-
-/// The rig file of a request. @param requested as above; empty: that of the parameter rig_file.
+/// The rig file of a request. Whoever reaches the master can send one: it must lie below
+/// Parameters::file_folder. Links are followed.
+/// @param requested absolute, or relative to the node's working folder; empty: that of the
+/// parameter rig_file. @throws Refusal: it lies elsewhere, or is not UTF-8.
 std::string rigPath(const std::string& requested, const Parameters& parameters);
 
-/// The samples of a request. @param requested as above; empty: samples.yaml beside the rig file.
+/// The same for samples. @param requested empty: samples.yaml beside the rig file.
 std::string samplesPath(const std::string& requested, const Parameters& parameters);
 
 }  // namespace wiimote_tracker

@@ -6,6 +6,7 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
+#include <map>
 #include <optional>
 #include <set>
 #include <string>
@@ -46,22 +47,20 @@ class HealthMonitor {
       const std::string id = rig ? rig->id() : "";
       if (id != rig_id_) {
         rig_id_ = id;
-        if (watch_) {
-          for (const auto& camera : watch_->cameras())
-            context_.setHealth(camera.first, "", lock);
-        }
         watch_.reset();
         unknown_cameras_.clear();
         if (rig)
           watch_.emplace(*rig, context_.parameters(lock).health);
       }
+      std::map<std::string, std::string> texts;
       if (watch_) {
         for (const auto& camera : watch_->cameras())
-          context_.setHealth(camera.first, camera.second.text, lock);
+          texts[camera.first] = camera.second.text;
         for (const std::string& news : watch_->takeNews())
           ROS_WARN_STREAM(news);
         warnOfUnknownCameras(*rig, lock);
       }
+      context_.setHealth(texts, lock);
     }
     diagnostics_.update();
   }

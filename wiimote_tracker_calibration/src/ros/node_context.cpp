@@ -209,10 +209,6 @@ bool NodeContext::setMasks(const capture::Masks& masks, const Lock& lock) {
   return true;
 }
 
-void NodeContext::setHealth(const std::string& camera, const std::string& text, const Lock&) {
-  health_[camera] = text;
-}
-
 std::string NodeContext::health(const std::string& camera, const Lock&) const {
   const auto found = health_.find(camera);
   const std::string finding = found != health_.end() ? found->second : "";

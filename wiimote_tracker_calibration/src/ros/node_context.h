@@ -129,8 +129,8 @@ class NodeContext {
   /// @returns whether there is a rig and it changed.
   bool setMasks(const capture::Masks& masks, const Lock& lock);
 
-  /// What is found of a camera's health from now on; empty: all is well.
-  void setHealth(const std::string& camera, const std::string& text, const Lock&);
+  /// What is found of the cameras' health from now on, by their names; empty or none: all is well.
+  void setHealth(const std::map<std::string, std::string>& texts, const Lock&) { health_ = texts; }
 
   /// What continuous calibration proposes to change, shown with the camera's health; no text:
   /// nothing.

@@ -43,9 +43,8 @@ struct Captured {
   /// Facts from a samples file; empty: this run is captured live.
   std::map<std::string, CameraFacts> restored_facts;
 
-  bool hasWand() const { return wave && wave->wand(); }
   /// Whether it can be solved: four corners, or without a square a wand.
-  bool isComplete() const { return layout ? square.isComplete() : hasWand(); }
+  bool isComplete() const { return layout ? square.isComplete() : wave && wave->wand(); }
   /// What it lacks for that, or contradicts itself in, and what to do; empty: it can be solved.
   std::string whyNotSolvable() const;
 

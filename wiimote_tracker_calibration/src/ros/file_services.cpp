@@ -106,9 +106,10 @@ class FileServices {
 
   Reply join(const JoinRig::Request& request, JoinRig::Response* response) {
     Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
+    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
+    Reply reply = context_.answer(&lock, [&] {
       const geometry::Rig second = context_.existingRig("to join", lock);
-      const std::vector<session::CommonPlace> places = commonPlaces(second.id(), lock);
+      const std::vector<session::CommonPlace> places = commonPlaces(lock);
       const std::string path = rigPath(request.path, context_.parameters(lock));
       session::JoinedRigs joined = context_.compute(
           &lock, [&] { return session::joinRigs(geometry::readRigFile(path), second, places); });
@@ -118,6 +119,8 @@ class FileServices {
       context_.setRig(joined.rig, joined.message, lock);
       return Reply{true, joined.message};
     });
+    reply.message += dropped;
+    return reply;
   }
 
   Reply loadRig(const std::string& path) {
@@ -138,12 +141,10 @@ class FileServices {
     });
   }
 
-  /// The known places that were measured with this rig.
-  std::vector<session::CommonPlace> commonPlaces(const std::string& rig_id, const Lock& lock) {
-    place::KnownPlaces& known = context_.knownPlaces(lock);
-    known.useRig(rig_id);
+  /// The known places that were measured with the rig in use.
+  std::vector<session::CommonPlace> commonPlaces(const Lock& lock) {
     std::vector<session::CommonPlace> places;
-    for (const remap::KnownPoint& place : known.places())
+    for (const remap::KnownPoint& place : context_.knownPlaces(lock).places())
       places.push_back({place.known, place.measured,
                         context_.parameters(lock).solve.square.uncertainty.placement});
     return places;

@@ -169,6 +169,14 @@ const geometry::Rig& NodeContext::existingRig(const std::string& purpose, const 
   return *calibration_.rig();
 }
 
+std::string NodeContext::dropPlacesOfOtherRigs(const Lock&) {
+  const std::size_t dropped =
+      known_places_.useRig(calibration_.rig() ? calibration_.rig()->id() : "");
+  return dropped == 0 ? ""
+                      : "; " + std::to_string(dropped) +
+                            " places that were measured with another calibration were dropped";
+}
+
 void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
   if (!calibration_.rig() || calibration_.rig()->id() != id)
     throw Refusal("the rig was replaced meanwhile: send the request again");

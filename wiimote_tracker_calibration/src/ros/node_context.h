@@ -98,7 +98,9 @@ class NodeContext {
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
   /// Forgets what the cameras saw of a carried LED, and collects it also for the rig in use.
   void beginWalk(const Lock&);
-  /// Measured with the current rig after useRig(); before that perhaps with another.
+  /// Drops known places that another rig measured. @returns what to say about that.
+  std::string dropPlacesOfOtherRigs(const Lock&);
+  /// Measured with the current rig after dropPlacesOfOtherRigs(); before that perhaps with another.
   place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
 
   /// Shows a reply in the status at once. @returns it.

@@ -127,7 +127,7 @@ class PlaceServices {
   Reply add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response) {
     response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
     Lock lock(context_.mutex());
-    const std::string dropped = dropPlacesOfOtherRigs(lock);
+    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     place::KnownPlaces& places = context_.knownPlaces(lock);
     Reply reply = context_.answer(&lock, [&] {
       const Eigen::Vector3d known = vectorOf(request.known);
@@ -151,7 +151,7 @@ class PlaceServices {
 
   Reply undo() {
     const Lock lock(context_.mutex());
-    const std::string dropped = dropPlacesOfOtherRigs(lock);
+    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     place::KnownPlaces& places = context_.knownPlaces(lock);
     const bool success = places.undo();
     return context_.show(
@@ -172,7 +172,7 @@ class PlaceServices {
     response->uncorrected_error = kUnknown;
     response->expected_error = kUnknown;
     Lock lock(context_.mutex());
-    const std::string dropped = dropPlacesOfOtherRigs(lock);
+    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
       const std::string rig_id = context_.existingRig("to correct", lock).id();
       const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).places();
@@ -239,15 +239,6 @@ class PlaceServices {
     if (context_.isCancelled(Step::kMeasuring, *lock) || capture_->state() != State::kDone)
       throw Refusal(capture_->message());
     return capture_->result();
-  }
-
-  /// Drops places that another calibration measured. @returns what to say about that.
-  std::string dropPlacesOfOtherRigs(const Lock& lock) {
-    const auto& rig = context_.rig(lock);
-    const std::size_t dropped = context_.knownPlaces(lock).useRig(rig ? rig->id() : "");
-    return dropped == 0 ? ""
-                        : "; " + std::to_string(dropped) +
-                              " places that were measured with another calibration were dropped";
   }
 
   NodeContext& context_;

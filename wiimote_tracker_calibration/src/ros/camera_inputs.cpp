@@ -54,7 +54,8 @@ void CameraInputs::discover() {
   const std::string suffix = kSuffix;
   for (const ros::master::TopicInfo& topic : topics) {
     const std::string& name = topic.name;
-    if (topic.datatype != "wiimote_tracker_msgs/IrBlobArray" || name.size() <= suffix.size() ||
+    if (topic.datatype != "wiimote_tracker_msgs/IrBlobArray" ||
+        name.size() <= own_namespace.size() + suffix.size() ||
         name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0 ||
         name.compare(0, own_namespace.size(), own_namespace) != 0)
       continue;

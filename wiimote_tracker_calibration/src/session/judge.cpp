@@ -98,14 +98,6 @@ double meanDistance(const geometry::Rig& rig, const Eigen::Vector3d& place) {
   return sum / static_cast<double>(rig.cameras.size());
 }
 
-/// The largest finite value; NaN when there is none.
-double largest(std::vector<double>::const_iterator begin, std::vector<double>::const_iterator end) {
-  double result = kNan;
-  for (auto value = begin; value != end; ++value)
-    result = std::fmax(result, *value);
-  return result;
-}
-
 /// How accurate points are.
 struct Accuracy {
   double share = kNan;  ///< Largest error as a share of the distance.
@@ -133,12 +125,14 @@ Accuracy accuracyOf(const Session& session,
                     "rays of the image_center model are not those of the calibrated lenses";
     return accuracy;
   }
-  for (std::size_t i = 0; i < verdict.predicted_at.size(); ++i)
-    accuracy.share = std::fmax(
-        accuracy.share, verdict.predicted_stddev[i] / meanDistance(rig, verdict.predicted_at[i]));
-  const auto middle = verdict.predicted_stddev.begin() + 4;
-  const double below = largest(verdict.predicted_stddev.begin(), middle);
-  const double above = largest(middle, verdict.predicted_stddev.end());
+  double below = kNan;
+  double above = kNan;
+  for (std::size_t i = 0; i < verdict.predicted_at.size(); ++i) {
+    const double stddev = verdict.predicted_stddev[i];
+    double& largest = i < 4 ? below : above;
+    largest = std::fmax(largest, stddev);
+    accuracy.share = std::fmax(accuracy.share, stddev / meanDistance(rig, verdict.predicted_at[i]));
+  }
   if (std::isfinite(below))
     accuracy.text = "points are known to " + millimetres(below) + " at the corners";
   if (std::isfinite(above))

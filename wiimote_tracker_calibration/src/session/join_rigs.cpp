@@ -88,21 +88,12 @@ void checkPlaces(const std::vector<CommonPlace>& places) {
     throw Error("the common places are on one line: measure one beside it, too");
 }
 
-/// The motion that brings the places of the second world nearest to those of the first.
-Eigen::Isometry3d startOver(const std::vector<CommonPlace>& places) {
-  std::vector<Eigen::Vector3d> in_first;
-  std::vector<Eigen::Vector3d> in_second;
-  for (const CommonPlace& place : places) {
-    in_first.push_back(place.in_first);
-    in_second.push_back(place.in_second);
-  }
-  return geometry::rigidAlignment(in_first, in_second);
-}
-
 JoinedRigs joinOver(const std::vector<CommonPlace>& places,
                     const geometry::Rig& first,
                     const geometry::Rig& second) {
   checkPlaces(places);
+  std::vector<Eigen::Vector3d> in_first;
+  std::vector<Eigen::Vector3d> in_second;
   std::vector<Shared> shared;
   for (const CommonPlace& place : places) {
     const auto derivative = geometry::pointByParameters(
@@ -114,8 +105,10 @@ JoinedRigs joinOver(const std::vector<CommonPlace>& places,
                       Eigen::Isometry3d(Eigen::Translation3d(place.in_second)),
                       Eigen::MatrixXd::Zero(3, first.covariance.cols()), *derivative,
                       Eigen::Vector3d::Constant(place.stddev)});
+    in_first.push_back(place.in_first);
+    in_second.push_back(place.in_second);
   }
-  const Eigen::Isometry3d start = startOver(places);
+  const Eigen::Isometry3d start = geometry::rigidAlignment(in_first, in_second);
   const RigMotion motion = fitMotion(first, second, shared, start);
   if (motion.contradicts()) {
     if (places.size() == 3)

@@ -2,6 +2,7 @@
 
 #include "bodies/body_message.h"
 #include "bodies/inertial_message.h"
+#include "camera_fault.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
@@ -52,36 +53,6 @@ void checkFrames(const geometry::Rig& rig, const std::vector<std::string>& label
   refuseLabel(rig.world_frame);
   for (const geometry::RigCamera& camera : rig.cameras)
     refuseLabel(geometry::opticalFrame(camera.camera.name));
-}
-
-/// One sentence that says what to do.
-std::string describe(const tracking::CameraFault& fault, const std::string& camera) {
-  const double seconds = std::fabs(fault.clock_ahead);
-  const char* name = camera.c_str();
-  switch (fault.kind) {
-    case tracking::CameraFault::Kind::kMisfit:
-      return format(
-          "the spots of %s are not where other cameras see LEDs, and its images are "
-          "ignored: if it was moved or exchanged, put it back or calibrate again; mask "
-          "lamps and reflections",
-          name);
-    case tracking::CameraFault::Kind::kCorrectedClock:
-      return format(
-          "the times of the images of %s are %.3g s too %s, by the motion of the LEDs, and "
-          "are corrected: run chrony on all computers, or calibrate again",
-          name, seconds, fault.clock_ahead > 0.0 ? "late" : "early");
-    case tracking::CameraFault::Kind::kWrongClock:
-      break;
-  }
-  if (std::isnan(seconds))
-    return format(
-        "the clocks of the cameras' computers disagree and no group of them is the "
-        "largest, so images of %s are ignored: run chrony on all computers",
-        name);
-  return format(
-      "the clock of the computer of %s is %.3g s %s most cameras' clocks, and its images "
-      "are ignored: run chrony on all computers",
-      name, seconds, fault.clock_ahead > 0.0 ? "ahead of" : "(or its network) behind");
 }
 
 /// Inserts points that the message does not have, in the order of their ids.
@@ -285,7 +256,7 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   if (!parameters_.output.on_update)
     return;
   if (parameters_.output.predict_to_now)
-    publishPredicted(std::max(snapshot.time, snapshot.latest_arrival));
+    publishAt(std::max(snapshot.time, snapshot.latest_arrival));
   else
     publish(newest_);
 }
@@ -358,13 +329,13 @@ void MessageTracker::publishTicksUntil(double now) {
   while (*newest_tick_ < last) {
     ++*newest_tick_;
     if (parameters_.output.predict_to_now)
-      publishPredicted(static_cast<double>(*newest_tick_) / rate);
+      publishAt(static_cast<double>(*newest_tick_) / rate);
     else
       publish(newest_);
   }
 }
 
-void MessageTracker::publishPredicted(double time) {
+void MessageTracker::publishAt(double time) {
   if (time < newest_.snapshot.time || !estimator_->predictTo(time, &predicted_))
     return;
   correction_.apply(predicted_, &corrected_);

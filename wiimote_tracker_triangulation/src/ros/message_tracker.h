@@ -128,7 +128,7 @@ class MessageTracker {
   void publishZoneEvents(const tracking::Snapshot& snapshot);
   void answerTriggers();
   void publishTicksUntil(double now);
-  void publishPredicted(double time);
+  void publishAt(double time);
   void publish(const CorrectedSnapshot& corrected);
   wiimote_tracker_msgs::TrackedPointArray messageOf(const CorrectedSnapshot& corrected) const;
 

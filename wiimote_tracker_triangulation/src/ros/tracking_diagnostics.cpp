@@ -103,7 +103,7 @@ void TrackingDiagnostics::report(Status& status) {
   status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));
   const tracking::Counters& counters = tracker_->counters();
   status.add("images late", counters.late);
-  status.add("images dropped as too late", counters.dropped);
+  status.add("images dropped: too late, or by a wrong clock", counters.dropped);
   status.add("images dropped because they waited", shedding_->dropped());
   status.add("images repeated", counters.repeated);
   status.add("images out of the order of arrival", counters.disordered);

@@ -55,7 +55,7 @@ void Tracker::useRig(const geometry::Rig& rig) {
   const auto partners = association::sharedViews(rig_, options_.maximum_range);
   for (const std::vector<std::size_t>& members : groupsOf(partners)) {
     for (std::size_t i = 0; i < members.size(); ++i)
-      places_[members[i]] = {groups_.size(), i};
+      places_[members[i]] = Place{groups_.size(), i};
     groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, options_));
   }
   time_watch_ = std::make_unique<TimeWatch>(rig_.cameras.size(),
@@ -85,7 +85,7 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 void Tracker::add(std::size_t camera, const CameraImage& image) {
   const geometry::RigCamera& calibration = rig_.cameras.at(camera);
   const double offset = calibration.timeOffsetIn(image.clock_epoch).value_or(0.0);
-  const Place& place = places_[camera];
+  Place& place = places_[camera];
   CameraGroup& group = *groups_[place.group];
   const bool offset_known = !calibration.hasNewClock(image.clock_epoch);
   const ClockOffset::Estimate clock =
@@ -118,6 +118,8 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
       return;
     case CameraGroup::Outcome::kDropped:
       ++counters_.dropped;
+      ++place.late_in_a_row;
+      place.age = newest_time_ - time;
       return;
     case CameraGroup::Outcome::kLate:
       ++counters_.late;
@@ -125,6 +127,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     case CameraGroup::Outcome::kAdded:
       break;
   }
+  place.late_in_a_row = 0;
   newest_time_ = std::max(newest_time_, time);
   newest_arrival_ = std::max(newest_arrival_, image.arrival);
   ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
@@ -202,7 +205,11 @@ void Tracker::describeImages(Snapshot* snapshot) const {
 std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
   if (const std::optional<double> ahead = time_watch_->ahead(camera))
     return CameraFault{CameraFault::Kind::kWrongClock, *ahead};
+  // More than a driver reads at once after a pause.
+  constexpr std::size_t kManyLate = 100;
   const Place& place = places_[camera];
+  if (place.late_in_a_row >= kManyLate)
+    return CameraFault{CameraFault::Kind::kLate, -place.age};
   const CameraGroup& group = *groups_[place.group];
   if (group.isMisfit(place.member))
     return CameraFault{CameraFault::Kind::kMisfit, 0.0};

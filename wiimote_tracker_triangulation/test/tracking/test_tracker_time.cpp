@@ -100,6 +100,21 @@ TEST(Tracker, OnlyTheLastImageOfABurstOfOneStampCounts) {
   EXPECT_GT(compared, 150u);
 }
 
+/// Its images arrive with the others', so that its clock seems right.
+TEST(Tracker, ACameraWhoseImagesAreAlwaysTooOldIsNamed) {
+  std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 10), {}, 600);
+  Tracker tracker(paperRig(), exactOptions());
+  for (SceneImage& image : images) {
+    image.image.stamp -= image.camera == 3 ? 0.5 : 0.0;
+    tracker.add(image.camera, image.image);
+  }
+  const auto fault = tracker.cameraFault(3);
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(CameraFault::Kind::kLate, fault->kind);
+  EXPECT_NEAR(-0.5, fault->clock_ahead, 0.02);
+  EXPECT_FALSE(tracker.cameraFault(0));
+}
+
 TEST(Tracker, RestartsWhenABagStartsOver) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
   Tracker tracker(paperRig(), exactOptions());

@@ -24,12 +24,14 @@ struct Counters {
 struct CameraFault {
   enum class Kind {
     kWrongClock,      ///< Its images are left out.
+    kLate,            ///< Its images are older than the history, and are left out.
     kCorrectedClock,  ///< The times of its images are corrected.
     kMisfit,          ///< Its spots are not where the others see LEDs; its images are left out.
   };
   Kind kind;
 
-  /// How far its clock is ahead of most cameras' [s]; NaN if no group of clocks is the largest.
+  /// How far its clock is ahead of most cameras' [s]; NaN if no group of clocks is the largest. Of
+  /// kLate: the time of its last image less that of the newest of all.
   double clock_ahead;
 };
 

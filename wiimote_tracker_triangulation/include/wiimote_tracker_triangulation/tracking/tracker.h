@@ -57,6 +57,8 @@ class Tracker : public Estimator {
   struct Place {
     std::size_t group;
     std::size_t member;
+    std::size_t late_in_a_row = 0;  // images
+    double age = 0.0;               // of the last one, if it was late [s]
   };
 
   void useRig(const geometry::Rig& rig);

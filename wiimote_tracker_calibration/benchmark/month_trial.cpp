@@ -75,7 +75,6 @@ void Month::runHour(MonthFigures* figures) {
   const std::uint64_t points = figures->points;
   const double due = rig_.cameras.size() * kRate * (part_ - kSettling);
   led_.skipTo(begin);
-  next_acceleration_ = begin;
   for (double time = begin; time < begin + part_; time += kReadings) {
     led_.truth[kDrifting].time_offset = offset + kDrift * (time - begin);
     if (hour_ == kLeapHour && clock_step_ == 0.0 && time >= begin + part_ / 2.0) {

@@ -59,8 +59,7 @@ class Month {
   health::HealthWatch health_;
   std::vector<std::uint32_t> epochs_;
   int hour_ = 0;
-  double clock_step_ = 0.0;         // of all clocks [s]
-  double next_acceleration_ = 0.0;  // [s]
+  double clock_step_ = 0.0;  // of all clocks [s]
   std::int64_t highest_id_ = -1;
   std::set<std::uint32_t> ids_;  // of the newest snapshot
 };

@@ -230,6 +230,7 @@ geometry::Rig withDrift(geometry::Rig rig, double time) {
   const double age = std::abs(time - rig.solved_at);
   return withTurns(std::move(rig), std::min(kLeastTurn + kTurnRate * age, kMostTurn));
 }
+
 bool isWithinDrift(const geometry::Rig& rig, const geometry::Rig& adjusted) {
   const Eigen::MatrixXd all = withTurns(rig, kMostTurn).covariance;
   const auto cameras = static_cast<Eigen::Index>(rig.cameras.size());

@@ -24,14 +24,14 @@ std::string driftText(const Drift& drift) {
   if (!drift.together.empty())
     return "drifted, or " + drift.together + " did: their rays miss each other by " + size +
            " on average; see which of both was moved, put it back or recalibrate it";
-  return "drifted: its images are " + std::string(size) +
-         " on average off what the other cameras see; " + kAdvice;
+  return "drifted: its images are " + size + " on average off what the other cameras see; " +
+         kAdvice;
 }
 
 }  // namespace
 
 HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
-    : options_(options), drift_(rig, options.drift) {
+    : drift_(rig, options.drift) {
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const std::string& name = rig_camera.camera.name;
     order_.push_back(name);

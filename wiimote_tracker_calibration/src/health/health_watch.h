@@ -59,7 +59,6 @@ class HealthWatch {
 
   void describe(const std::string& name);
 
-  HealthOptions options_;
   std::vector<std::string> order_;  // Of the rig.
   std::map<std::string, Camera> cameras_;
   std::map<std::string, CameraHealth> healths_;

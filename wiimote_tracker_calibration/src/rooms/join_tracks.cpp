@@ -21,7 +21,7 @@ Eigen::Vector3d positionAt(const PathPoint& a, const PathPoint& b, double time) 
   return a.position + share * (b.position - a.position);
 }
 
-/// Mean distance over the times of both [m].
+/// Whether the mean distance over the times of both is small.
 bool goesAlong(const Path& path, const Path& other) {
   double sum = 0.0;
   std::size_t count = 0;

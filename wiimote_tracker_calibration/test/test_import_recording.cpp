@@ -125,7 +125,7 @@ TEST_F(MultiCamSelfCal, BadNumbersAreNamedByLineAndColumn) {
   folder.write("points.dat", "1 2\n1 2\n1 1\n3 4\n3\n1 1\n");
   expectRefusal("points.dat line 5 has 1 column, but the first has 2");
   folder.write("points.dat", "1 2\n1 2\n1 1\n3 4\n3 4\n1 0.5\n");
-  expectRefusal("points.dat line 6 column 2 must be 1, 0 or NaN");
+  expectRefusal("points.dat row 6 column 2 must be 1, 0 or NaN");
   folder.write("points.dat", "\n");
   expectRefusal("points.dat is empty");
 }
@@ -158,7 +158,7 @@ TEST_F(MultiCamSelfCal, ABadLensIsNamed) {
 
 TEST_F(MultiCamSelfCal, ImageSizesMustBeWholePixels) {
   folder.write("Res.dat", "640 480\n656 -1\n");
-  expectRefusal("Res.dat line 2 must hold the width and height");
+  expectRefusal("Res.dat row 2 must hold the width and height");
 }
 
 /// Two cameras in flydra's layout; camera 2 misses a point and sees one that camera 1 does not.
@@ -202,7 +202,10 @@ TEST_F(Flydra, BadFilesAreNamed) {
   expectRefusal("Pmatrices.dat has 3 rows, but must have 6");
   folder.remove("Pmatrices.dat");
   folder.write("cam2.points4cal.dat", "1 2 3 1 30 40 1\n5 5 5 1 31 41 0\n");
-  expectRefusal("cam2.points4cal.dat line 2 must have 1 in the columns 4 and 7");
+  expectRefusal("cam2.points4cal.dat row 2 must have 1 in the columns 4 and 7");
+  // Headers are no rows.
+  folder.write("cam2.points4cal.dat", "# rows: 2\n\n1 2 3 1 30 40 1\n5 5 5 1 31 41 0\n");
+  expectRefusal("cam2.points4cal.dat row 2 must have 1 in the columns 4 and 7");
   folder.write("cam2.points4cal.dat", "1 2 3 1 30 NaN 1\n");
   expectRefusal("cam2.points4cal.dat must not hold NaN");
   folder.remove("cam2.points4cal.dat");

@@ -165,7 +165,7 @@ void readFrames(const std::string& folder, Recording* recording) {
       if (visible[camera][frame] == 0.0 || std::isnan(weight) || weight == 0.0)
         continue;
       if (weight != 1.0)
-        throw ImportError(path + " line " + std::to_string(3 * camera + 3) + " column " +
+        throw ImportError(path + " row " + std::to_string(3 * camera + 3) + " column " +
                           std::to_string(frame + 1) + " must be 1, 0 or NaN");
       pixels[camera] = pixelOf(points[3 * camera][frame], points[3 * camera + 1][frame]);
     }
@@ -191,7 +191,7 @@ void readCorrespondences(const std::string& folder, double meters_per_unit, Reco
     for (std::size_t row = 0; row < table.size(); ++row) {
       const std::vector<double>& v = table[row];
       if (v[3] != 1.0 || v[6] != 1.0)
-        throw ImportError(path + " line " + std::to_string(row + 1) +
+        throw ImportError(path + " row " + std::to_string(row + 1) +
                           " must have 1 in the columns 4 and 7");
       const auto [entry, is_new] = by_point.try_emplace({v[0], v[1], v[2]}, next);
       if (is_new)
@@ -222,7 +222,7 @@ Recording readRecording(const std::string& folder, bool intrinsics_required) {
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     for (const double length : sizes[i]) {
       if (!(length >= 1.0 && length <= 1e5 && length == std::floor(length)))
-        throw ImportError(sizes_path + " line " + std::to_string(i + 1) +
+        throw ImportError(sizes_path + " row " + std::to_string(i + 1) +
                           " must hold the width and height of an image [px]");
     }
     RecordedCamera camera;

@@ -8,17 +8,16 @@
 
 namespace wiimote_tracker::import {
 
-/// A recording cannot be read or used. what() names the file, and line and column where there are
-/// any, in one sentence.
+/// A recording cannot be read or used. what() names the file, and line or row and column where there
+/// are any, in one sentence.
 struct ImportError : Error {
   using Error::Error;
 };
 
 using NumberTable = std::vector<std::vector<double>>;  ///< Rows of equal length.
 
-/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines and what
-/// follows a # (the headers of Octave) are skipped. The size
-/// must be rows x columns; 0 allows any.
+/// Numbers separated by blanks, one row per line; NaN is allowed, empty lines and what follows a #
+/// (the headers of Octave) are skipped. The size must be rows x columns; 0 allows any.
 /// @throws ImportError: missing, empty, not a number, infinite, rows of different length, another
 /// size.
 NumberTable readNumberTable(const std::string& path, std::size_t rows = 0, std::size_t columns = 0);

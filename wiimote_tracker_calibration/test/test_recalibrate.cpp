@@ -110,6 +110,17 @@ TEST(Recalibrate, FindsAMovedCamera) {
   EXPECT_NE(result.rig.id(), rig.id());
 }
 
+TEST(Recalibrate, NamesEachCameraOnceInTheMethod) {
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  rig.method = "wave+recalibrated camera_22";
+  WavedLed led(rig.cameras, 12);
+  const Request request = record(&led, "camera_2");
+  for (int i = 0; i < 2; ++i) {
+    rig = recalibrateCamera(rig, request, {}).rig;
+    EXPECT_EQ(rig.method, "wave+recalibrated camera_22+recalibrated camera_2");
+  }
+}
+
 // With right covariances the mean of the normalised squared error is 1, and 95 % are within the
 // 95 % region.
 TEST(Recalibrate, HasTheStatedUncertainty) {

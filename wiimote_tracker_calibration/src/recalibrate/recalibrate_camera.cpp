@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace wiimote_tracker::recalibrate {
 
@@ -44,10 +45,8 @@ constexpr Eigen::Index kHeldSize = adjust::kDistortionSize;
 constexpr std::size_t kDerivatives = 200;
 
 std::size_t indexOf(const geometry::Rig& rig, const std::string& name) {
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    if (rig.cameras[i].camera.name == name)
-      return i;
-  }
+  if (const geometry::RigCamera* const camera = rig.find(name))
+    return static_cast<std::size_t>(camera - rig.cameras.data());
   std::vector<std::string> names;
   for (const geometry::RigCamera& camera : rig.cameras)
     names.push_back(camera.camera.name);
@@ -75,9 +74,11 @@ bool sameDevice(const geometry::RigCamera& calibrated, const Request& request) {
 }
 
 /// The prior of the camera: its lens is the rig's, unless it is another device.
+/// @param images of the camera
 Prior priorOf(const geometry::Rig& rig,
               std::size_t index,
               const Request& request,
+              const std::vector<capture::Image>& images,
               const Options& options) {
   const geometry::RigCamera& calibrated = rig.cameras[index];
   const bool same = sameDevice(calibrated, request);
@@ -88,13 +89,9 @@ Prior priorOf(const geometry::Rig& rig,
   if (same && geometry::hasCovariance(rig))
     prior.lens_covariance =
         rig.covariance.block<adjust::kLensSize, adjust::kLensSize>(first, first);
-  for (const capture::Image& image : request.images) {
-    if (same && image.camera == request.camera) {
-      // A start value; the offset is estimated again.
-      prior.time_offset = calibrated.timeOffsetIn(image.clock_epoch).value_or(0.0);
-      break;
-    }
-  }
+  // A start value; the offset is estimated again.
+  if (same && !images.empty())
+    prior.time_offset = calibrated.timeOffsetIn(images.front().clock_epoch).value_or(0.0);
   return prior;
 }
 
@@ -250,6 +247,7 @@ void checkCertainty(const Fit& fit,
 /// The camera as it is now.
 geometry::RigCamera rigCamera(const geometry::RigCamera& before,
                               const Request& request,
+                              std::uint32_t clock_epoch,
                               const Fit& fit) {
   geometry::RigCamera camera = before;
   camera.camera = fit.camera;
@@ -258,10 +256,7 @@ geometry::RigCamera rigCamera(const geometry::RigCamera& before,
   camera.gravity = request.gravity;
   camera.time_offset = fit.time_offset;
   camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
-  for (const capture::Image& image : request.images) {
-    if (image.camera == request.camera)
-      camera.time_offset_epoch = image.clock_epoch;
-  }
+  camera.time_offset_epoch = clock_epoch;
   camera.observations = static_cast<std::uint32_t>(fit.expected);
   camera.inliers = static_cast<std::uint32_t>(fit.matches.size());
   double squared_px = 0.0;
@@ -290,10 +285,11 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   checkInput(rig, request, options);
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
-  const Prior prior = priorOf(rig, index, request, options);
+  const std::vector<capture::Image> images = movingLights(request.images, request.camera);
+  const Prior prior = priorOf(rig, index, request, images, options);
   geometry::Camera start = rig.cameras[index].camera;
   start.intrinsics = prior.lens;
-  const Fit fit = resect(path, movingLights(request.images, request.camera), start, prior, options);
+  const Fit fit = resect(path, images, start, prior, options);
   checkFit(fit);
 
   Recalibration result;
@@ -305,7 +301,8 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   result.position_stddev = std::sqrt(covariance.diagonal().segment<3>(kPosition).sum());
   result.offset_stddev = std::sqrt(covariance(kTimeOffset, kTimeOffset));
   checkCertainty(fit, exact_others, result, options);
-  result.rig.cameras[index] = rigCamera(rig.cameras[index], request, fit);
+  result.rig.cameras[index] =
+      rigCamera(rig.cameras[index], request, images.back().clock_epoch, fit);
   const Eigen::Isometry3d& before = rig.cameras[index].camera.world_from_camera;
   const Eigen::Isometry3d& now = fit.camera.world_from_camera;
   result.moved = (now.translation() - before.translation()).norm();
@@ -319,7 +316,8 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
           1000.0 * result.moved, result.turned * kDegrees, 1000.0 * result.position_stddev,
           result.rotation_stddev * kDegrees, result.images);
   const std::string how = "+recalibrated " + request.camera;
-  if (result.rig.method.find(how) == std::string::npos)
+  // The name of a camera may begin with that of another one.
+  if ((rig.method + "+").find(how + "+") == std::string::npos)
     result.rig.method += how;
   result.rig.verdict += (rig.verdict.empty() ? "" : "; ") + result.message;
   result.rig.check();

@@ -4,6 +4,7 @@
 #include "fit_model.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/remap/convex_hull.h>
 #include <wiimote_tracker_triangulation/remap/model_math.h>
@@ -52,31 +53,20 @@ bool keepsOrientation(const Remap& remap) {
   });
 }
 
-/// A fitted model.
-struct Candidate {
-  Remap remap;
-  std::vector<double> left_out_errors;
-};
-
 /// @returns nothing, and the reason, if the model cannot be used.
-std::optional<Candidate> tryModel(Model model,
-                                  const std::vector<KnownPoint>& points,
-                                  std::string* reason) {
-  const std::optional<Remap> remap = fitModel(model, points);
-  if (!remap) {
+std::optional<FittedModel> tryModel(Model model,
+                                    const std::vector<KnownPoint>& points,
+                                    std::string* reason) {
+  auto fitted = fitModel(model, points);
+  if (!fitted)
     *reason = "the points do not determine it: spread them through the whole volume";
-    return std::nullopt;
-  }
-  if (!keepsOrientation(*remap)) {
+  else if (!keepsOrientation(fitted->remap))
     *reason = "it would fold the volume: check the points, and add some";
-    return std::nullopt;
-  }
-  const auto errors = leftOutErrors(model, points);
-  if (!errors) {
+  else if (fitted->left_out_errors.empty())
     *reason = "without one of the points it is not determined: add points";
-    return std::nullopt;
-  }
-  return Candidate{*remap, *errors};
+  else
+    return fitted;
+  return std::nullopt;
 }
 
 /// Whether the squared errors are smaller by more than the standard error of the difference.
@@ -94,7 +84,7 @@ bool isBetter(const std::vector<double>& errors, const std::vector<double>& than
 }
 
 /// Index of the best candidate; nothing if no correction is as good.
-std::optional<std::size_t> choose(const std::vector<std::optional<Candidate>>& candidates,
+std::optional<std::size_t> choose(const std::vector<std::optional<FittedModel>>& candidates,
                                   const std::vector<KnownPoint>& points) {
   std::optional<std::size_t> best;
   std::vector<double> least = uncorrectedErrors(points);
@@ -117,7 +107,7 @@ double nestedError(const std::vector<KnownPoint>& points, const std::vector<Mode
     std::vector<KnownPoint> held_out;
     for (std::size_t i = 0; i < points.size(); ++i)
       (i % folds == fold ? held_out : inside).push_back(points[i]);
-    std::vector<std::optional<Candidate>> candidates;
+    std::vector<std::optional<FittedModel>> candidates;
     std::string reason;
     for (const Model model : models)
       candidates.push_back(tryModel(model, inside, &reason));
@@ -130,9 +120,8 @@ double nestedError(const std::vector<KnownPoint>& points, const std::vector<Mode
 }
 
 std::vector<std::string> suspectPoints(const std::vector<double>& errors) {
-  std::vector<double> sorted = errors;
-  std::sort(sorted.begin(), sorted.end());
-  const double median = sorted[sorted.size() / 2];
+  std::vector<double> values = errors;
+  const double median = medianOf(&values);
   std::vector<std::string> warnings;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     if (errors[i] > kOutlier * median && errors[i] > 1e-6)
@@ -165,7 +154,7 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
   FitResult result;
   result.uncorrected_error = rms(uncorrectedErrors(points));
   std::vector<Model> usable;
-  std::vector<std::optional<Candidate>> candidates;
+  std::vector<std::optional<FittedModel>> candidates;
   for (const Model model : models) {
     ModelReport report;
     report.model = model;

@@ -25,6 +25,12 @@ Remap emptyRemap(Model model, const std::vector<KnownPoint>& points) {
   return remap;
 }
 
+/// Appends a matrix to the parameters, row by row.
+void append(const Eigen::MatrixX3d& rows, std::vector<double>* parameters) {
+  const Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> by_row = rows;
+  parameters->insert(parameters->end(), by_row.data(), by_row.data() + by_row.size());
+}
+
 /// Least squares solution; nothing when a parameter is not determined.
 std::optional<Eigen::MatrixXd> solve(const Eigen::MatrixXd& matrix, const Eigen::MatrixXd& right) {
   if (matrix.rows() < matrix.cols())
@@ -51,10 +57,7 @@ std::optional<Remap> fitPolynomial(Model model, const std::vector<KnownPoint>& p
   const auto coefficients = solve(matrix, displacements);
   if (!coefficients)
     return std::nullopt;
-  for (Eigen::Index row = 0; row < terms; ++row) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis)
-      remap.parameters.push_back((*coefficients)(row, axis));
-  }
+  append(*coefficients, &remap.parameters);
   return remap;
 }
 
@@ -145,16 +148,11 @@ std::optional<Remap> fitProjective(const std::vector<KnownPoint>& points) {
 
 /// A smoothed thin plate in three dimensions: least sum of squared distances plus smoothing times
 /// bending, whose kernel is -r (Duchon 1977; Wahba, Spline Models for Observational Data, 1990).
-struct ThinPlate {
-  Remap remap;
-  std::vector<double> left_out_errors;  ///< As leftOutErrors().
-};
-
 /// With the smoothing whose leave-one-out errors are least. Nothing if the points do not determine
 /// it.
-std::optional<ThinPlate> fitThinPlate(const std::vector<KnownPoint>& points) {
+std::optional<FittedModel> fitThinPlate(const std::vector<KnownPoint>& points) {
   const auto n = static_cast<Eigen::Index>(points.size());
-  ThinPlate best;
+  FittedModel best;
   best.remap = emptyRemap(Model::kThinPlate, points);
   const Frame frame = frameOf(best.remap.support);
 
@@ -188,18 +186,30 @@ std::optional<ThinPlate> fitThinPlate(const std::vector<KnownPoint>& points) {
     least = squared;
     best.left_out_errors.assign(left_out.data(), left_out.data() + n);
     best.remap.parameters.clear();
-    for (Eigen::Index row = 0; row < kAffineTerms; ++row) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        best.remap.parameters.push_back(weights(n + row, axis));
-    }
-    for (Eigen::Index row = 0; row < n; ++row) {
-      for (Eigen::Index axis = 0; axis < 3; ++axis)
-        best.remap.parameters.push_back(-weights(row, axis));
-    }
+    append(weights.bottomRows(kAffineTerms), &best.remap.parameters);
+    append(-weights.topRows(n), &best.remap.parameters);
   }
   if (best.left_out_errors.empty())
     return std::nullopt;
   return best;
+}
+
+std::optional<Remap> fitParameters(Model model, const std::vector<KnownPoint>& points) {
+  return model == Model::kProjective ? fitProjective(points) : fitPolynomial(model, points);
+}
+
+/// As FittedModel::left_out_errors, of the models with a fixed number of parameters.
+std::vector<double> leftOutErrors(Model model, const std::vector<KnownPoint>& points) {
+  std::vector<double> errors;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    std::vector<KnownPoint> others = points;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto remap = fitParameters(model, others);
+    errors.push_back(remap ? errorOf(*remap, points[i]) : std::numeric_limits<double>::infinity());
+    if (!std::isfinite(errors.back()))
+      return {};
+  }
+  return errors;
 }
 
 }  // namespace
@@ -217,37 +227,13 @@ std::size_t minimumPoints(Model model) {
   }
 }
 
-std::optional<Remap> fitModel(Model model, const std::vector<KnownPoint>& points) {
-  if (model == Model::kProjective)
-    return fitProjective(points);
-  if (model != Model::kThinPlate)
-    return fitPolynomial(model, points);
-  const auto thin_plate = fitThinPlate(points);
-  if (!thin_plate)
+std::optional<FittedModel> fitModel(Model model, const std::vector<KnownPoint>& points) {
+  if (model == Model::kThinPlate)
+    return fitThinPlate(points);
+  const auto remap = fitParameters(model, points);
+  if (!remap)
     return std::nullopt;
-  return thin_plate->remap;
-}
-
-std::optional<std::vector<double>> leftOutErrors(Model model,
-                                                 const std::vector<KnownPoint>& points) {
-  if (model == Model::kThinPlate) {
-    const auto thin_plate = fitThinPlate(points);
-    if (!thin_plate)
-      return std::nullopt;
-    return thin_plate->left_out_errors;
-  }
-  std::vector<double> errors;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    std::vector<KnownPoint> others = points;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    const auto remap = fitModel(model, others);
-    if (!remap)
-      return std::nullopt;
-    errors.push_back(errorOf(*remap, points[i]));
-    if (!std::isfinite(errors.back()))
-      return std::nullopt;
-  }
-  return errors;
+  return FittedModel{*remap, leftOutErrors(model, points)};
 }
 
 double errorOf(const Remap& remap, const KnownPoint& point) {

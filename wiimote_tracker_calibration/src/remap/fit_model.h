@@ -12,13 +12,15 @@ namespace wiimote_tracker::remap {
 /// Least number of points with which a model can be fitted, and judged by leaving some out.
 std::size_t minimumPoints(Model model);
 
-/// Least squares over the points, without rig id. Nothing when they do not determine the model.
-std::optional<Remap> fitModel(Model model, const std::vector<KnownPoint>& points);
+struct FittedModel {
+  Remap remap;  ///< Without rig id.
+  /// Distance of each point from where the model puts it that is fitted to all others [m]. Empty
+  /// when the others do not determine it.
+  std::vector<double> left_out_errors;
+};
 
-/// Distance of each point from where the model puts it that is fitted to all others [m]. Nothing
-/// when the others do not determine it.
-std::optional<std::vector<double>> leftOutErrors(Model model,
-                                                 const std::vector<KnownPoint>& points);
+/// Least squares over the points. Nothing when they do not determine the model.
+std::optional<FittedModel> fitModel(Model model, const std::vector<KnownPoint>& points);
 
 /// Distance of a point, corrected, from where it is known to be [m]; infinite where the model has
 /// no value.

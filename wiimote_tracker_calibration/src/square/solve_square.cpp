@@ -88,17 +88,6 @@ void refuseUndecided(const RigModel& model,
              apart, both[0].reprojection_error, both[1].reprojection_error));
 }
 
-/// Ratio of the residuals to those expected from the uncertainties; about 1 when all is well.
-double misfit(double cost, const RigModel& model) {
-  return std::sqrt(cost / std::max(1, model.degreesOfFreedom()));
-}
-
-/// Whether chance explains a larger chi-squared in fewer than one of 1000 calibrations.
-bool isSignificant(double chi_squared, int degrees_of_freedom) {
-  return degrees_of_freedom > 0 &&
-         chi_squared > place::chiSquaredQuantile(degrees_of_freedom, place::kThreeNines);
-}
-
 /// Whether the best solution is implausible: a lens far from its starting value, or a corner behind
 /// the camera or in its centre.
 bool isAbsurd(const RigModel& model, const RigState& state) {
@@ -128,9 +117,13 @@ void checkGravity(const RigModel& model,
 
 /// Warns about, or refuses, residuals that the uncertainties do not explain.
 void checkMisfit(const RigModel& model, const BranchChoice& choice, SquareSolution* solution) {
-  solution->misfit = misfit(choice.cost, model);
+  const int freedom = model.degreesOfFreedom();
+  solution->misfit = std::sqrt(choice.cost / std::max(1, freedom));
   const bool absurd = isAbsurd(model, choice.state);
-  solution->contradicts = absurd || isSignificant(choice.cost, model.degreesOfFreedom());
+  // By chance it is in fewer than one of 1000 calibrations.
+  const bool is_significant =
+      freedom > 0 && choice.cost > place::chiSquaredQuantile(freedom, place::kThreeNines);
+  solution->contradicts = absurd || is_significant;
   if (!solution->contradicts)
     return;
   const std::string reason =

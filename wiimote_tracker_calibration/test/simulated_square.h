@@ -6,40 +6,21 @@
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
 
 #include <cmath>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::square {
 
-/// How far the truth is from what the solver starts from (standard deviations).
-struct Errors {
-  double pixel = 0.0;                   // [px]
-  double placement = 0.0;               // [m] per horizontal axis
-  double focal = 0.0;                   // relative
-  double aspect = 0.0;                  // relative
-  double principal_point = 0.0;         // of each camera by itself [px]
-  double shared_principal_point = 0.0;  // of all cameras alike [px]
-  double k1 = 0.0;
-  double gravity = 0.0;  // [rad] per axis
-};
-
-/// As large as the solver assumes.
-inline Errors errorsOf(const Uncertainty& assumed) {
-  Errors errors;
-  errors.pixel = assumed.pixel;
-  errors.placement = assumed.placement;
-  errors.focal = assumed.focal;
-  errors.aspect = assumed.aspect;
-  errors.principal_point = assumed.principal_point;
-  errors.shared_principal_point = assumed.shared_principal_point;
-  errors.k1 = assumed.k1;
-  errors.gravity = assumed.gravity;
-  return errors;
+/// How far the truth is from what the solver starts from: not at all.
+inline Uncertainty noErrors() {
+  return {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, std::nullopt};
 }
 
 /// True cameras and what they saw of a square.
@@ -59,10 +40,11 @@ inline double normal(Random& random, double stddev) {
 }
 
 /// Cameras with the given poses in front of the square; their starting intrinsics are the default.
+/// @param errors of what the solver starts from and measures
 inline SimulatedSquare simulateSquare(const std::vector<Eigen::Isometry3d>& world_from_camera,
                                       const SquareLayout& layout,
                                       bool z_up,
-                                      const Errors& errors,
+                                      const Uncertainty& errors,
                                       bool with_gravity,
                                       Random& random) {
   SimulatedSquare result;
@@ -143,11 +125,7 @@ inline std::vector<Eigen::Isometry3d> paperRig() {
 }
 
 inline double rotationBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  const Eigen::Matrix3d difference = a.linear().transpose() * b.linear();
-  const Eigen::Vector3d vector(difference(2, 1) - difference(1, 2),
-                               difference(0, 2) - difference(2, 0),
-                               difference(1, 0) - difference(0, 1));
-  return std::atan2(0.5 * vector.norm(), 0.5 * (difference.trace() - 1.0));
+  return geometry::so3::log(a.linear().transpose() * b.linear()).norm();
 }
 
 }  // namespace wiimote_tracker::square

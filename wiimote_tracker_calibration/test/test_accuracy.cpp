@@ -60,7 +60,7 @@ TEST(Accuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
   const SquareLayout layout = paperSquare();
   const Corners corners = layout.corners(true);
   Random random(11);
-  Errors errors;
+  Uncertainty errors = noErrors();
   errors.pixel = kPixel;
   double squared = 0.0;
   double opencv_squared = 0.0;
@@ -168,7 +168,7 @@ Nees neesOf(Method method, const Uncertainty& uncertainty, int rigs) {
     const auto count = static_cast<std::size_t>(2 + trial % 3);
     const auto poses = posesAround(layout, true, count, random);
     const SimulatedSquare simulated =
-        simulateSquare(poses, layout, true, errorsOf(uncertainty), true, random);
+        simulateSquare(poses, layout, true, uncertainty, true, random);
     const geometry::Rig rig = solveSquare(layout, simulated.sightings, options).rig;
     EXPECT_EQ(rig.covariance.rows(), static_cast<Eigen::Index>(16 * count));
     EXPECT_EQ(rig.covariance, rig.covariance.transpose());
@@ -283,7 +283,7 @@ TEST(Accuracy, JointIsMoreAccurateThanPerCameraAndBothStateTheirError) {
       std::vector<Eigen::Isometry3d> poses = paperRig();
       poses.resize(count);
       const SimulatedSquare simulated =
-          simulateSquare(poses, paperSquare(), true, errorsOf(Uncertainty()), true, random);
+          simulateSquare(poses, paperSquare(), true, Uncertainty(), true, random);
       for (const Method method : {Method::kJoint, Method::kPerCamera}) {
         SolveOptions options;
         options.method = method;

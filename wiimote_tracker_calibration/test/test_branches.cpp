@@ -53,7 +53,7 @@ TEST(Branches, BothAreFoundAndTheOtherIsTheMirrorImageAtTheLineOfSight) {
   Random random(1);
   const SquareLayout layout = squareOf(0.3);
   const Eigen::Isometry3d pose = poseFrom(layout, 5.0, 40.0 * kDegree, 0.3);
-  const SimulatedSquare simulated = simulateSquare({pose}, layout, true, Errors(), false, random);
+  const SimulatedSquare simulated = simulateSquare({pose}, layout, true, noErrors(), false, random);
   const RigModel model(simulated.sightings, layout, true, Uncertainty());
   const std::vector<Branch> branches = findBranches(model, 0);
   ASSERT_EQ(branches.size(), 2U);
@@ -76,7 +76,7 @@ TEST(Branches, EveryFitIsAStationaryPointOfTheReprojectionError) {
   for (int trial = 0; trial < 50; ++trial) {
     const Eigen::Isometry3d pose = poseFrom(layout, uniform(random, 2.0, 6.0),
                                             uniform(random, 0.2, 1.1), uniform(random, -3, 3));
-    Errors errors;
+    Uncertainty errors = noErrors();
     errors.pixel = 0.3;
     const SimulatedSquare simulated = simulateSquare({pose}, layout, true, errors, false, random);
     const RigModel model(simulated.sightings, layout, true, Uncertainty());
@@ -104,7 +104,7 @@ TEST(Branches, EveryFitIsAStationaryPointOfTheReprojectionError) {
 TEST(Branches, AmbiguousCamerasWithoutGravityAreRefusedWithAnExplanation) {
   Random random(3);
   const SquareLayout layout = squareOf(0.2);
-  Errors errors;
+  Uncertainty errors = noErrors();
   errors.pixel = 0.2;
   const SimulatedSquare simulated = simulateSquare(
       {poseFrom(layout, 6.0, 25.0 * kDegree, 0.0), poseFrom(layout, 6.0, 30.0 * kDegree, 1.5)},
@@ -118,7 +118,7 @@ TEST(Branches, AmbiguousCamerasWithoutGravityAreRefusedWithAnExplanation) {
 TEST(Branches, GravityResolvesWhatTheSquareCannot) {
   Random random(4);
   const SquareLayout layout = squareOf(0.3);
-  Errors errors;
+  Uncertainty errors = noErrors();
   errors.pixel = 0.2;
   errors.gravity = 2.0 * kDegree;
   for (int trial = 0; trial < 30; ++trial) {
@@ -140,7 +140,7 @@ TEST(Branches, TheOtherCamerasResolveACameraThatCannotTell) {
   const std::vector<Eigen::Isometry3d> poses = {far, poseFrom(layout, 1.5, 50.0 * kDegree, 1.0),
                                                 poseFrom(layout, 1.5, 50.0 * kDegree, 3.0),
                                                 poseFrom(layout, 1.5, 50.0 * kDegree, 5.0)};
-  Errors errors;
+  Uncertainty errors = noErrors();
   errors.placement = 0.007;
   errors.pixel = 0.05;
   int misled_alone = 0;
@@ -170,7 +170,7 @@ TEST(Branches, AWrongBranchIsNotReturned) {
   // All sorts of far and near, steep and flat cameras, with and without gravity: right or refused.
   // At odds of 100 a wrong choice among those that are close is possible, but rare.
   Random random(7);
-  Errors errors;
+  Uncertainty errors = noErrors();
   errors.pixel = 0.2;
   errors.placement = 0.005;
   errors.focal = 0.03;

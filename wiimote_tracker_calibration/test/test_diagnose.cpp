@@ -52,7 +52,7 @@ class SquareMistake : public ::testing::Test {
   SquareMistake() {
     square::SquareLayout layout;
     layout.side_x = layout.side_y = 2.5;
-    square::Errors errors;
+    square::Uncertainty errors = square::noErrors();
     errors.pixel = 0.2;
     errors.placement = 0.005;
     square::Random random(3);

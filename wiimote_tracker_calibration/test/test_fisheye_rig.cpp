@@ -20,8 +20,8 @@ namespace {
 constexpr double kLargest = 2.33;
 
 /// A lens as uncertain as the board leaves it.
-square::Errors small() {
-  square::Errors errors;
+square::Uncertainty small() {
+  square::Uncertainty errors = square::noErrors();
   errors.pixel = 0.2;
   errors.placement = 0.002;
   errors.focal = 0.002;
@@ -31,15 +31,11 @@ square::Errors small() {
   return errors;
 }
 
-square::SolveOptions optionsFor(const square::Errors& errors) {
+square::SolveOptions optionsFor(const square::Uncertainty& errors) {
   square::SolveOptions options;
-  options.uncertainty.pixel = errors.pixel;
-  options.uncertainty.placement = errors.placement;
-  options.uncertainty.focal = errors.focal;
-  options.uncertainty.aspect = errors.aspect;
-  options.uncertainty.principal_point = errors.principal_point;
-  options.uncertainty.shared_principal_point = 0.0;
-  options.uncertainty.k1 = errors.k1;
+  const double gravity = options.uncertainty.gravity;
+  options.uncertainty = errors;
+  options.uncertainty.gravity = gravity;
   return options;
 }
 

@@ -96,7 +96,7 @@ TEST(LensPopulations, ErrorsOfASquareAreAsPredicted) {
     Session session;
     session.recording.square = layout;
     for (const auto& sightings :
-         square::simulateSquare(poses, layout, true, square::errorsOf({}), true, random)
+         square::simulateSquare(poses, layout, true, square::Uncertainty(), true, random)
              .sightings) {
       session.recording.cameras.emplace_back();
       session.recording.cameras.back().sightings = sightings;

@@ -81,8 +81,7 @@ square::SimulatedSquare paperScene(std::size_t cameras,
                                    const square::Uncertainty& uncertainty = {}) {
   std::vector<Eigen::Isometry3d> poses = square::paperRig();
   poses.resize(cameras);
-  return square::simulateSquare(poses, paperSquare(), true, square::errorsOf(uncertainty), true,
-                                random);
+  return square::simulateSquare(poses, paperSquare(), true, uncertainty, true, random);
 }
 
 Session sessionOf(const square::SquareLayout& layout,

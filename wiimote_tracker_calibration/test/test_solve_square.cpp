@@ -39,7 +39,7 @@ class FourCameras : public ::testing::Test {
  protected:
   void SetUp() override {
     Random random(5);
-    simulated_ = simulateSquare(paperRig(), layout_, true, Errors(), false, random);
+    simulated_ = simulateSquare(paperRig(), layout_, true, noErrors(), false, random);
   }
 
   SquareLayout layout_ = rectangle(2.5, 2.5);
@@ -65,7 +65,7 @@ TEST_P(NoiseFree, RandomRigsAreSolvedExactly) {
     const auto count = static_cast<std::size_t>(2 + trial % 7);
     const auto poses = posesAround(layout, GetParam().z_up, count, random);
     const SimulatedSquare simulated =
-        simulateSquare(poses, layout, GetParam().z_up, Errors(), true, random);
+        simulateSquare(poses, layout, GetParam().z_up, noErrors(), true, random);
     const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
     ASSERT_EQ(solution.rig.cameras.size(), count);
     EXPECT_EQ(solution.z_up, GetParam().z_up);
@@ -139,7 +139,7 @@ TEST_P(ThreeCorners, PlaceACameraThatHasAnAccelerometer) {
     const SquareLayout layout = rectangle(uniform(random, 1.0, 2.5), uniform(random, 1.0, 2.5));
     const bool z_up = trial % 2 == 0;
     const auto poses = posesAround(layout, z_up, 3, random);
-    SimulatedSquare simulated = simulateSquare(poses, layout, z_up, Errors(), true, random);
+    SimulatedSquare simulated = simulateSquare(poses, layout, z_up, noErrors(), true, random);
     simulated.sightings[1].corners[static_cast<std::size_t>(trial % 4)].reset();
     const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
     const auto warning = std::find_if(
@@ -175,7 +175,7 @@ TEST(ThreeCornersWithErrors, AreKnownAsWellAsTheirCovarianceSays) {
   Random random(37);
   const SquareLayout layout = rectangle(2.5, 2.0);
   const Uncertainty assumed;
-  Errors errors;
+  Uncertainty errors = noErrors();
   errors.pixel = assumed.pixel;
   errors.placement = assumed.placement;
   errors.gravity = assumed.gravity;

@@ -8,9 +8,6 @@
 #include "continuous/approach.h"
 #include "continuous/continuous_calibration.h"
 
-#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
-
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -47,23 +44,6 @@ Eigen::Vector3d anyAxis(square::Random& random) {
 void turn(geometry::RigCamera* camera, double angle, const Eigen::Vector3d& axis) {
   camera->camera.world_from_camera.linear() =
       camera->camera.world_from_camera.linear() * Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-
-/// NEES of the cameras' poses.
-std::vector<double> poseErrors(const std::vector<geometry::RigCamera>& truth,
-                               const geometry::Rig& rig) {
-  std::vector<double> result;
-  for (std::size_t i = 0; i < truth.size(); ++i) {
-    const geometry::Camera& estimate = rig.cameras[i].camera;
-    const Eigen::AngleAxisd turned(truth[i].camera.world_from_camera.linear() *
-                                   estimate.world_from_camera.linear().transpose());
-    Eigen::Matrix<double, 6, 1> error;
-    error << turned.angle() * turned.axis(), truth[i].camera.center() - estimate.center();
-    const Eigen::Index first = geometry::firstParameter(i);
-    const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(first, first);
-    result.push_back(geometry::squaredMahalanobis(error, covariance));
-  }
-  return result;
 }
 
 /// What is known after an hour, over all runs.
@@ -131,9 +111,10 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
     }
     at.kept += std::pow(volumeError(led.truth, first), 2);
     at.corrected += std::pow(volumeError(led.truth, rig), 2);
-    for (const double error : poseErrors(led.truth, rig)) {
-      at.covered.count(error < kChiSquared);
-      at.nees += error;
+    for (std::size_t i = 0; i < led.truth.size(); ++i) {
+      const double nees = square::poseNees(rig, i, led.truth[i].camera);
+      at.covered.count(nees < kChiSquared);
+      at.nees += nees;
     }
   }
 }

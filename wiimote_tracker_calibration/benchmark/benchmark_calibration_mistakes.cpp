@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
@@ -193,14 +194,10 @@ Spoilt recordingFor(const Mistake& mistake, std::uint64_t seed) {
 /// Largest error of a point of the cube, in standard deviations as stated.
 double largestDeviation(const std::vector<geometry::Camera>& truth, const geometry::Rig& rig) {
   const std::vector<Eigen::Vector3d> points = wave::cubePoints(truth);
-  std::vector<geometry::Camera> estimate;
-  std::vector<std::size_t> all;
-  for (const geometry::RigCamera& camera : rig.cameras) {
-    all.push_back(estimate.size());
-    estimate.push_back(camera.camera);
-  }
+  std::vector<std::size_t> all(rig.cameras.size());
+  std::iota(all.begin(), all.end(), 0);
   const geometry::CalibrationUncertainty uncertainty(rig);
-  const Eigen::Matrix3Xd errors = wave::pointErrors(truth, estimate, points);
+  const Eigen::Matrix3Xd errors = wave::pointErrors(truth, wave::camerasOf(rig.cameras), points);
   double worst = 0.0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (const auto covariance = uncertainty.covarianceOf(points[i], all.data(), all.size()))

@@ -12,13 +12,7 @@ namespace wiimote_tracker {
 
 namespace {
 
-std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras) {
-  std::vector<geometry::Camera> result;
-  result.reserve(cameras.size());
-  for (const geometry::RigCamera& camera : cameras)
-    result.push_back(camera.camera);
-  return result;
-}
+using wave::camerasOf;
 
 double rmsLength(const Eigen::Matrix3Xd& columns) {
   return std::sqrt(columns.colwise().squaredNorm().mean());

@@ -13,15 +13,12 @@ namespace wiimote_tracker::session {
 namespace {
 
 double rms(const wave::SimulatedWave& truth, const Solution& solution) {
-  std::vector<geometry::Camera> estimate;
-  for (const geometry::RigCamera& camera : solution.rig.cameras)
-    estimate.push_back(camera.camera);
   std::vector<Eigen::Vector3d> places;
   for (std::size_t i = 0; i < solution.verdict.predicted_at.size(); ++i) {
     if (std::isfinite(solution.verdict.predicted_stddev[i]))
       places.push_back(solution.verdict.predicted_at[i]);
   }
-  return wave::pointErrors(truth.cameras, estimate, places).norm() /
+  return wave::pointErrors(truth.cameras, wave::camerasOf(solution.rig.cameras), places).norm() /
          std::sqrt(static_cast<double>(places.size()));
 }
 

@@ -2,7 +2,6 @@
 
 #include "simulated_rig.h"
 
-#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -179,14 +178,7 @@ Eigen::Matrix<double, 6, 1> TwoRooms::errorOf(const rooms::JoinedRooms& joined) 
 
 double TwoRooms::nees(const rooms::JoinedRooms& joined) const {
   const std::size_t index = first.cameras.size();
-  const Eigen::Isometry3d truth = trueCameras()[index].camera.world_from_camera;
-  const Eigen::Isometry3d& pose = joined.rig.cameras[index].camera.world_from_camera;
-  Eigen::Matrix<double, 6, 1> error;
-  error << geometry::so3::log(truth.linear() * pose.linear().transpose()),
-      truth.translation() - pose.translation();
-  const Eigen::Index at = geometry::firstParameter(index);
-  const Eigen::Matrix<double, 6, 6> covariance = joined.rig.covariance.block<6, 6>(at, at);
-  return geometry::squaredMahalanobis(error, covariance);
+  return square::poseNees(joined.rig, index, trueCameras()[index].camera);
 }
 
 RoomErrors errorsOfRooms(int pairs,

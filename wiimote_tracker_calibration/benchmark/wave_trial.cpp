@@ -1,14 +1,15 @@
 #include "wave_trial.h"
 
-#include "wiimote_tracker_calibration/bundle/similarity.h"
+#include "simulated_square.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+#include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -18,58 +19,9 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-constexpr Eigen::Index kMessageSize = 16;
 // 95 % of a normal distribution, and of chi squared with three degrees of freedom.
 constexpr double kInterval = 1.959964;
 constexpr double kRegion = 7.814728;
-
-/// True minus estimated parameters of one camera, in the order of RigCalibration.msg.
-Eigen::Matrix<double, kMessageSize, 1> difference(const geometry::Camera& truth,
-                                                  double true_offset,
-                                                  const geometry::RigCamera& estimate) {
-  Eigen::Matrix<double, kMessageSize, 1> result = Eigen::Matrix<double, kMessageSize, 1>::Zero();
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(
-      truth.world_from_camera.linear() * estimate.camera.world_from_camera.linear().transpose()));
-  const geometry::Intrinsics& a = truth.intrinsics;
-  const geometry::Intrinsics& b = estimate.camera.intrinsics;
-  result.head<3>() = turn.angle() * turn.axis();
-  result.segment<3>(3) = truth.center() - estimate.camera.center();
-  result.segment<4>(6) << a.fx - b.fx, a.fy - b.fy, a.cx - b.cx, a.cy - b.cy;
-  result(10) = a.distortion[0] - b.distortion[0];
-  result(15) = true_offset - estimate.time_offset;
-  return result;
-}
-
-/// Derivative of triangulated points by the cameras' parameters, numerically.
-Eigen::MatrixXd pointsByParameters(const std::vector<geometry::Camera>& cameras,
-                                   const std::vector<Eigen::Vector3d>& points) {
-  Eigen::MatrixXd result =
-      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(points.size()),
-                            kMessageSize * static_cast<Eigen::Index>(cameras.size()));
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    for (Eigen::Index k = 0; k <= 10; ++k) {
-      const double step = k >= 6 && k < 10 ? 1e-2 : 1e-5;
-      const auto moved = [&](double by) {
-        std::vector<geometry::Camera> result = cameras;
-        geometry::Camera& camera = result[i];
-        geometry::Intrinsics& lens = camera.intrinsics;
-        if (k < 3)
-          camera.world_from_camera.linear() =
-              Eigen::AngleAxisd(by, Eigen::Vector3d::Unit(k)) * camera.world_from_camera.linear();
-        else if (k < 6)
-          camera.world_from_camera.translation()[k - 3] += by;
-        else
-          *std::array<double*, 5>{&lens.fx, &lens.fy, &lens.cx, &lens.cy,
-                                  &lens.distortion[0]}[static_cast<std::size_t>(k - 6)] += by;
-        return pointErrors(cameras, result, points);
-      };
-      const Eigen::Matrix3Xd slope = (moved(step) - moved(-step)) / (2.0 * step);
-      result.col(kMessageSize * static_cast<Eigen::Index>(i) + k) =
-          Eigen::Map<const Eigen::VectorXd>(slope.data(), slope.size());
-    }
-  }
-  return result;
-}
 
 void countCoverage(const std::vector<geometry::Camera>& truth,
                    const SimulatedWave& wave,
@@ -77,37 +29,31 @@ void countCoverage(const std::vector<geometry::Camera>& truth,
                    WaveTrial* trial) {
   const Eigen::MatrixXd& covariance = solution.rig.covariance;
   for (std::size_t i = 0; i < truth.size(); ++i) {
-    const auto error = difference(truth[i], wave.offsets[i], solution.rig.cameras[i]);
-    for (Eigen::Index k = 0; k < kMessageSize; ++k) {
-      const Eigen::Index at = kMessageSize * static_cast<Eigen::Index>(i) + k;
+    const geometry::RigCamera& estimate = solution.rig.cameras[i];
+    auto error = square::parameterDifference(estimate.camera, truth[i]);
+    error[geometry::kTimeOffset] = wave.offsets[i] - estimate.time_offset;
+    for (Eigen::Index k = 0; k < error.size(); ++k) {
+      const Eigen::Index at = geometry::firstParameter(i) + k;
       if (covariance(at, at) > 0.0)
         trial->intervals.count(std::abs(error(k)) < kInterval * std::sqrt(covariance(at, at)));
     }
   }
-  std::vector<geometry::Camera> estimate;
-  for (const geometry::RigCamera& camera : solution.rig.cameras)
-    estimate.push_back(camera.camera);
+  const std::vector<geometry::Camera> estimate = camerasOf(solution.rig.cameras);
   // Some points of the volume, in the solution's world.
-  std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < solution.path.size(); i += solution.path.size() / 10)
-    points.push_back(solution.path[i]);
-  std::vector<Eigen::Vector3d> seen;
-  for (const Eigen::Vector3d& point : points) {
-    int views = 0;
-    for (std::size_t i = 0; i < truth.size(); ++i)
-      views += truth[i].sees(point) && estimate[i].sees(point) ? 1 : 0;
-    if (views == static_cast<int>(truth.size()))
-      seen.push_back(point);
-  }
-  if (seen.empty())
-    return;
-  const Eigen::Matrix3Xd errors = pointErrors(truth, estimate, seen);
-  const Eigen::MatrixXd slopes = pointsByParameters(estimate, seen);
-  for (std::size_t p = 0; p < seen.size(); ++p) {
-    const auto rows = slopes.middleRows<3>(3 * static_cast<Eigen::Index>(p));
-    const Eigen::Matrix3d region = rows * covariance * rows.transpose();
-    const Eigen::Vector3d error = errors.col(static_cast<Eigen::Index>(p));
-    trial->regions.count(error.dot(region.inverse() * error) < kRegion);
+  for (std::size_t p = 0; p < solution.path.size(); p += solution.path.size() / 10) {
+    const Eigen::Vector3d& point = solution.path[p];
+    const std::vector<std::size_t> seeing = geometry::camerasSeeing(solution.rig, point);
+    const bool all_see =
+        seeing.size() == truth.size() &&
+        std::all_of(truth.begin(), truth.end(),
+                    [&](const geometry::Camera& camera) { return camera.sees(point); });
+    if (!all_see)
+      continue;
+    const Eigen::Vector3d error = pointErrors(truth, estimate, {point});
+    const Eigen::MatrixXd by_parameters =
+        geometry::pointByParameters(solution.rig, point, seeing).value();
+    trial->regions.count(geometry::squaredMahalanobis(
+                             error, geometry::propagated(by_parameters, covariance)) < kRegion);
   }
 }
 
@@ -151,14 +97,10 @@ class Measurements {
     }
     const std::vector<Eigen::Vector3d> from(measured.begin(), measured.begin() + kAlignment);
     const std::vector<Eigen::Vector3d> to(points_.begin(), points_.begin() + kAlignment);
-    // Least squares of a rigid motion turns as that of a similarity does.
-    const Eigen::Matrix3d rotation = bundle::fitSimilarity(from, to).rotation;
-    Eigen::Vector3d shift = Eigen::Vector3d::Zero();
-    for (std::size_t i = 0; i < kAlignment; ++i)
-      shift += (to[i] - rotation * from[i]) / static_cast<double>(kAlignment);
+    const Eigen::Isometry3d to_from = geometry::rigidAlignment(to, from);
     double sum = 0.0;
     for (std::size_t i = kAlignment; i < points_.size(); ++i)
-      sum += (rotation * measured[i] + shift - points_[i]).squaredNorm();
+      sum += (to_from * measured[i] - points_[i]).squaredNorm();
     return std::sqrt(sum / static_cast<double>(points_.size() - kAlignment));
   }
 
@@ -176,18 +118,23 @@ double squareAlone(const SimulatedWave& wave,
   square::SolveOptions square_options;
   square_options.uncertainty = options.uncertainty;
   try {
-    std::vector<geometry::Camera> cameras;
-    for (const geometry::RigCamera& camera :
-         square::solveSquare(*wave.recording.square, wave.recording.sightings(), square_options)
-             .rig.cameras)
-      cameras.push_back(camera.camera);
-    return measurements.rms(cameras);
+    const auto solution =
+        square::solveSquare(*wave.recording.square, wave.recording.sightings(), square_options);
+    return measurements.rms(camerasOf(solution.rig.cameras));
   } catch (const geometry::Error&) {
     return std::numeric_limits<double>::quiet_NaN();
   }
 }
 
 }  // namespace
+
+std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras) {
+  std::vector<geometry::Camera> result;
+  result.reserve(cameras.size());
+  for (const geometry::RigCamera& camera : cameras)
+    result.push_back(camera.camera);
+  return result;
+}
 
 std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth) {
   std::vector<Eigen::Vector3d> points;
@@ -250,9 +197,7 @@ Eigen::Isometry3d trueFromSolved(const WaveScene& scene,
 std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const SimulatedWave& wave,
                                           const WaveSolution& solution) {
-  std::vector<geometry::Camera> cameras;
-  for (const geometry::RigCamera& camera : solution.rig.cameras)
-    cameras.push_back(camera.camera);
+  std::vector<geometry::Camera> cameras = camerasOf(solution.rig.cameras);
   const Eigen::Isometry3d move = trueFromSolved(scene, wave, solution);
   for (geometry::Camera& camera : cameras)
     camera.world_from_camera = move * camera.world_from_camera;

@@ -46,6 +46,9 @@ struct WaveTrial {
 /// @param with_positions fills `position`, too.
 WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_positions);
 
+/// The cameras alone.
+std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& cameras);
+
 /// Points of the cube [0, 2.5]^3 m that all true cameras see.
 std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth);
 

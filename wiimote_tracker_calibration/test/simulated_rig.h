@@ -4,8 +4,8 @@
 #include "simulated_square.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
-
 #include <wiimote_tracker_triangulation/geometry/rig.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
@@ -88,9 +88,7 @@ inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras =
 inline geometry::RigCamera displaced(geometry::RigCamera camera, const Eigen::VectorXd& delta) {
   geometry::Camera& c = camera.camera;
   const Eigen::Vector3d w = delta.segment<3>(geometry::kRotation);
-  if (w.norm() > 0.0)
-    c.world_from_camera.linear() =
-        Eigen::AngleAxisd(w.norm(), w.normalized()) * c.world_from_camera.linear();
+  c.world_from_camera.linear() = geometry::so3::exp(w) * c.world_from_camera.linear();
   c.world_from_camera.translation() += delta.segment<3>(geometry::kPosition);
   c.intrinsics.fx += delta[geometry::kLens];
   c.intrinsics.fy += delta[geometry::kLens + 1];

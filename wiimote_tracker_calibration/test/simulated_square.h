@@ -6,6 +6,9 @@
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
@@ -126,6 +129,33 @@ inline std::vector<Eigen::Isometry3d> paperRig() {
 
 inline double rotationBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   return geometry::so3::log(a.linear().transpose() * b.linear()).norm();
+}
+
+/// What has to be added to the parameters of one camera to get those of another, in the order of a
+/// rig's covariance; the time offset is left at 0.
+inline Eigen::Matrix<double, geometry::kParameters, 1> parameterDifference(
+    const geometry::Camera& from,
+    const geometry::Camera& to) {
+  const geometry::Intrinsics& a = from.intrinsics;
+  const geometry::Intrinsics& b = to.intrinsics;
+  Eigen::Matrix<double, geometry::kParameters, 1> delta;
+  delta << geometry::so3::log(to.world_from_camera.linear() *
+                              from.world_from_camera.linear().transpose()),
+      to.center() - from.center(), b.fx - a.fx, b.fy - a.fy, b.cx - a.cx, b.cy - a.cy,
+      Eigen::Map<const Eigen::Matrix<double, 5, 1>>(b.distortion.data()) -
+          Eigen::Map<const Eigen::Matrix<double, 5, 1>>(a.distortion.data()),
+      0.0;
+  return delta;
+}
+
+/// NEES of a camera's pose in a rig with covariance: 6 if that is right.
+inline double poseNees(const geometry::Rig& rig,
+                       std::size_t camera,
+                       const geometry::Camera& truth) {
+  const Eigen::Index first = geometry::firstParameter(camera);
+  return geometry::squaredMahalanobis(
+      parameterDifference(rig.cameras[camera].camera, truth).head<6>(),
+      rig.covariance.block<6, 6>(first, first));
 }
 
 }  // namespace wiimote_tracker::square

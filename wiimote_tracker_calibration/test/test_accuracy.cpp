@@ -1,5 +1,6 @@
 // How near the solution is to the truth, and whether its covariance says so. All simulated.
 
+#include "adjust/opencv_pose.h"
 #include "square/expected_error.h"
 #include "wiimote_tracker_calibration/square/branches.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
@@ -87,14 +88,12 @@ TEST(Accuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
     }
     const geometry::Intrinsics lens;
     const cv::Matx33d matrix(lens.fx, 0, lens.cx, 0, lens.fy, lens.cy, 0, 0, 1);
-    cv::Vec3d rotation;
-    cv::Vec3d translation;
+    cv::Mat rotation;
+    cv::Mat translation;
     ASSERT_TRUE(cv::solvePnP(points, pixels, matrix, cv::noArray(), rotation, translation, false,
                              cv::SOLVEPNP_ITERATIVE));
-    cv::Matx33d turned;
-    cv::Rodrigues(rotation, turned);
-    const cv::Vec3d center = -(turned.t() * translation);
-    opencv_squared += (Eigen::Vector3d(center[0], center[1], center[2]) - truth).squaredNorm();
+    const Eigen::Isometry3d pose = adjust::poseFromCv(rotation, translation).inverse();
+    opencv_squared += (pose.translation() - truth).squaredNorm();
   }
   const double rms = std::sqrt(squared / kTrials);
   const double opencv_rms = std::sqrt(opencv_squared / kTrials);
@@ -112,20 +111,9 @@ TEST(Accuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
 /// True minus estimated parameters of all cameras, in the order of the covariance.
 Eigen::VectorXd parameterErrors(const SimulatedSquare& simulated, const geometry::Rig& rig) {
   Eigen::VectorXd errors(11 * static_cast<Eigen::Index>(rig.cameras.size()));
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    const geometry::Camera& truth = simulated.truth[i];
-    const geometry::Camera& estimate = rig.cameras[i].camera;
-    const Eigen::AngleAxisd turn(Eigen::Matrix3d(truth.world_from_camera.linear() *
-                                                 estimate.world_from_camera.linear().transpose()));
-    auto part = errors.segment<11>(11 * static_cast<Eigen::Index>(i));
-    part.head<3>() = turn.angle() * turn.axis();
-    part.segment<3>(3) = truth.center() - estimate.center();
-    part[6] = truth.intrinsics.fx - estimate.intrinsics.fx;
-    part[7] = truth.intrinsics.fy - estimate.intrinsics.fy;
-    part[8] = truth.intrinsics.cx - estimate.intrinsics.cx;
-    part[9] = truth.intrinsics.cy - estimate.intrinsics.cy;
-    part[10] = truth.intrinsics.distortion[0] - estimate.intrinsics.distortion[0];
-  }
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    errors.segment<11>(11 * static_cast<Eigen::Index>(i)) =
+        parameterDifference(rig.cameras[i].camera, simulated.truth[i]).head<11>();
   return errors;
 }
 

@@ -37,11 +37,7 @@ Request record(WavedLed* led, const std::string& camera, double duration = 15.0)
 
 /// The same camera after it was moved.
 geometry::RigCamera knocked(const geometry::RigCamera& camera, Random& random) {
-  geometry::RigCamera result = camera;
-  const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0));
-  result.camera.world_from_camera.linear() =
-      camera.camera.world_from_camera.linear() *
-      Eigen::AngleAxisd(3.0 * kDegree, axis.normalized()).toRotationMatrix();
+  geometry::RigCamera result = turned(camera, 3.0 * kDegree, random);
   result.camera.world_from_camera.translation() += 0.05 * Eigen::Vector3d::Random().normalized();
   result.time_offset = uniform(random, -0.02, 0.02);
   return result;
@@ -50,12 +46,9 @@ geometry::RigCamera knocked(const geometry::RigCamera& camera, Random& random) {
 /// Estimated less true pose and time offset, as RigCalibration.msg counts them.
 Eigen::Matrix<double, 7, 1> errorOf(const geometry::RigCamera& estimate,
                                     const geometry::RigCamera& truth) {
-  const Eigen::AngleAxisd turn(truth.camera.world_from_camera.linear() *
-                               estimate.camera.world_from_camera.linear().transpose());
   Eigen::Matrix<double, 7, 1> error;
-  error.head<3>() = turn.angle() * turn.axis();
-  error.segment<3>(3) = truth.camera.center() - estimate.camera.center();
-  error[6] = truth.time_offset - estimate.time_offset;
+  error << square::parameterDifference(estimate.camera, truth.camera).head<6>(),
+      truth.time_offset - estimate.time_offset;
   return error;
 }
 

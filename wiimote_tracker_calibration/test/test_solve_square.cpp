@@ -1,8 +1,6 @@
 #include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
-#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
-
 #include "expect_says.h"
 #include "simulated_square.h"
 
@@ -194,13 +192,7 @@ TEST(ThreeCornersWithErrors, AreKnownAsWellAsTheirCovarianceSays) {
     const geometry::Rig rig = solveSquare(layout, simulated.sightings, options).rig;
     if (rig.cameras.size() < 3)
       continue;
-    const Eigen::Isometry3d& estimate = rig.cameras[2].camera.world_from_camera;
-    const Eigen::AngleAxisd turn(
-        Eigen::Matrix3d(poses[2].linear() * estimate.linear().transpose()));
-    Eigen::Matrix<double, 6, 1> error;
-    error << turn.angle() * turn.axis(), poses[2].translation() - estimate.translation();
-    const Eigen::Matrix<double, 6, 6> covariance = rig.covariance.block<6, 6>(32, 32);
-    sum += geometry::squaredMahalanobis(error, covariance);
+    sum += poseNees(rig, 2, simulated.truth[2]);
     ++count;
   }
   ASSERT_GT(count, 80);

@@ -1,46 +1,41 @@
 #include "paper_procedure.h"
 
+#include "simulated_square.h"
+
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
-#include <cmath>
-#include <random>
 #include <string>
 
 namespace wiimote_tracker::principal_point {
 
 namespace {
 
-using Random = std::mt19937_64;
+using square::normal;
+using square::Random;
 
-double normal(Random& random, double stddev) {
-  return stddev > 0.0 ? std::normal_distribution<double>(0.0, stddev)(random) : 0.0;
-}
+constexpr double kPrincipalPoint[] = {512.0, 384.0};  // Mean of the cameras' [px].
+constexpr double kPrincipalPointStddev = 5.0;         // Among the cameras, per axis [px].
+constexpr double kFocalStddev = 0.01;                 // Among the cameras, relative.
+constexpr double kCornerPixel = 0.2;                  // Of a captured corner, per axis [px].
+constexpr double kPointPixel = 0.3;                   // Of a measured point, per axis [px].
+constexpr double kPlacement = 0.005;  // Of the LED on the corners, per horizontal axis [m].
 
 Eigen::Vector2d pixelNoise(Random& random, double stddev) {
   const double u = normal(random, stddev);
   return Eigen::Vector2d(u, normal(random, stddev));
 }
 
-/// One camera on a diagonal of the cube, 4.5 m from its edge and 2 m high, that looks at the middle
-/// of the cube, a little below its centre (the paper's Fig. 1; z up).
-geometry::Camera trueCamera(const PaperSession& session, std::size_t index, Random& random) {
-  const double angle = M_PI / 4.0 + static_cast<double>(index) * M_PI / 2.0;
-  const double distance = 4.5 + 1.25 * std::sqrt(2.0);
-  const Eigen::Vector3d position(1.25 + distance * std::cos(angle),
-                                 1.25 + distance * std::sin(angle), 2.0);
+geometry::Camera trueCamera(std::size_t index, Random& random) {
   geometry::Camera camera;
   camera.name = "camera_" + std::to_string(index + 1);
-  camera.world_from_camera =
-      geometry::lookAt(position, Eigen::Vector3d(1.25, 1.25, 1.0), Eigen::Vector3d::UnitZ());
-  const double scale = 1.0 + normal(random, session.focal_stddev);
+  camera.world_from_camera = square::paperRig()[index];
+  const double scale = 1.0 + normal(random, kFocalStddev);
   camera.intrinsics.fx *= scale;
   camera.intrinsics.fy *= scale;
-  const Eigen::Vector2d principal_point =
-      session.true_principal_point + pixelNoise(random, session.principal_point_stddev);
-  camera.intrinsics.cx = principal_point.x();
-  camera.intrinsics.cy = principal_point.y();
-  camera.intrinsics.distortion = session.distortion;
+  const Eigen::Vector2d noise = pixelNoise(random, kPrincipalPointStddev);
+  camera.intrinsics.cx = kPrincipalPoint[0] + noise.x();
+  camera.intrinsics.cy = kPrincipalPoint[1] + noise.y();
   return camera;
 }
 
@@ -85,25 +80,19 @@ PaperResult runPaperSession(const PaperSession& session) {
   layout.side_y = 2.5;
   square::Corners corners = layout.corners(true);
   for (Eigen::Vector3d& corner : corners)
-    corner.head<2>() += pixelNoise(random, session.placement);
+    corner.head<2>() += pixelNoise(random, kPlacement);
 
   const std::vector<Eigen::Vector3d> points = tenPoints();
   std::vector<std::vector<Eigen::Vector2d>> pixels(points.size());
   std::vector<square::CameraSightings> cameras;
   for (const std::size_t index : session.cameras) {
-    const geometry::Camera truth = trueCamera(session, index, random);
+    const geometry::Camera truth = trueCamera(index, random);
     square::CameraSightings sightings;
     sightings.name = truth.name;
-    sightings.intrinsics.cx = session.assumed_principal_point.x();
-    sightings.intrinsics.cy = session.assumed_principal_point.y();
-    if (session.distortion_known)
-      sightings.intrinsics.distortion = session.distortion;
     for (std::size_t c = 0; c < corners.size(); ++c)
-      sightings.corners[c] =
-          truth.project(corners[c]).value() + pixelNoise(random, session.corner_pixel);
+      sightings.corners[c] = truth.project(corners[c]).value() + pixelNoise(random, kCornerPixel);
     for (std::size_t p = 0; p < points.size(); ++p)
-      pixels[p].push_back(truth.project(points[p]).value() +
-                          pixelNoise(random, session.point_pixel));
+      pixels[p].push_back(truth.project(points[p]).value() + pixelNoise(random, kPointPixel));
     // Up, which every Wiimote measures.
     sightings.gravity =
         9.81 * (truth.world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ());

@@ -3,7 +3,6 @@
 
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -11,19 +10,10 @@
 namespace wiimote_tracker::principal_point {
 
 /// A simulated measurement session of the paper (section V.B): its cube, cameras, square and ten
-/// points.
+/// points. The cameras start from the default intrinsics.
 struct PaperSession {
   /// Of the four cameras round the cube, in their order: {0, 1} adjacent, {0, 2} diagonal.
   std::vector<std::size_t> cameras = {0, 1};
-  Eigen::Vector2d true_principal_point{512.0, 384.0};     ///< Mean of the cameras' [px].
-  double principal_point_stddev = 5.0;                    ///< Among the cameras, per axis [px].
-  double focal_stddev = 0.01;                             ///< Among the cameras, relative.
-  std::array<double, 5> distortion{};                     ///< Of all cameras.
-  bool distortion_known = true;                           ///< By the cameras' starting intrinsics.
-  Eigen::Vector2d assumed_principal_point{535.0, 401.7};  ///< Start: the paper's K (2) [px].
-  double corner_pixel = 0.2;     ///< Error of a captured corner, per axis [px].
-  double point_pixel = 0.3;      ///< Error of a measured point, per axis [px].
-  double placement = 0.005;      ///< Of the LED on the corners, per horizontal axis [m].
   CorrectionOptions correction;  ///< Ray model, rounds, step, points, method.
   std::uint64_t seed = 1;
 };

@@ -2,6 +2,8 @@
 
 #include "pose_trial.h"
 
+#include "adjust/opencv_pose.h"
+
 #include <opencv2/calib3d.hpp>
 
 #include <Eigen/LU>
@@ -91,31 +93,23 @@ using Solver = std::function<std::optional<Eigen::Isometry3d>(const PoseTrial&)>
 std::optional<Eigen::Isometry3d> solveWithOpenCv(const PoseTrial& trial, int method) {
   // SOLVEPNP_IPPE_SQUARE wants the corners in this order.
   static const std::array<std::size_t, 4> order = {3, 2, 1, 0};
-  std::array<cv::Point3d, 4> corners;
-  std::array<cv::Point2d, 4> pixels;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector3d& corner = trial.corners[order[i]];
-    corners[i] = cv::Point3d(corner.x(), corner.y(), corner.z());
-    pixels[i] = cv::Point2d(trial.pixels[order[i]].x(), trial.pixels[order[i]].y());
+  std::vector<cv::Point3d> corners;
+  std::vector<cv::Point2d> pixels;
+  for (const std::size_t c : order) {
+    corners.emplace_back(trial.corners[c].x(), trial.corners[c].y(), trial.corners[c].z());
+    pixels.emplace_back(trial.pixels[c].x(), trial.pixels[c].y());
   }
   const geometry::Intrinsics& lens = trial.truth.intrinsics;
   const cv::Matx33d matrix(lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0);
-  cv::Vec3d rotation;
-  cv::Vec3d translation;
+  cv::Mat rotation;
+  cv::Mat translation;
   try {
-    if (!cv::solvePnP(cv::Mat(4, 1, CV_64FC3, corners.data()),
-                      cv::Mat(4, 1, CV_64FC2, pixels.data()), matrix, cv::noArray(), rotation,
-                      translation, false, method))
+    if (!cv::solvePnP(corners, pixels, matrix, cv::noArray(), rotation, translation, false, method))
       return std::nullopt;
   } catch (const cv::Exception&) {
     return std::nullopt;
   }
-  const Eigen::Vector3d vector(rotation[0], rotation[1], rotation[2]);
-  Eigen::Isometry3d camera_from_world = Eigen::Isometry3d::Identity();
-  if (vector.norm() > 0.0)
-    camera_from_world.linear() =
-        Eigen::AngleAxisd(vector.norm(), vector.normalized()).toRotationMatrix();
-  camera_from_world.translation() = Eigen::Vector3d(translation[0], translation[1], translation[2]);
+  const Eigen::Isometry3d camera_from_world = adjust::poseFromCv(rotation, translation);
   if (!camera_from_world.matrix().allFinite())
     return std::nullopt;
   return camera_from_world.inverse();
@@ -138,9 +132,8 @@ void runMethods(int runs, const RowCallback& row) {
   methods.push_back({"this package, both branches", [](const PoseTrial& trial) {
                        const auto poses =
                            square::planarPoses(trial.truth.intrinsics, trial.pixels, trial.corners);
-                       return poses.empty()
-                                  ? std::nullopt
-                                  : std::optional<Eigen::Isometry3d>(poses[0].world_from_camera);
+                       return poses.empty() ? std::nullopt
+                                            : std::optional(poses[0].world_from_camera);
                      }});
   const std::vector<std::pair<std::string, int>> opencv = {
     {"ITERATIVE", cv::SOLVEPNP_ITERATIVE},
@@ -153,11 +146,10 @@ void runMethods(int runs, const RowCallback& row) {
     {"SQPNP", cv::SOLVEPNP_SQPNP},
 #endif
   };
-  for (const auto& [name, method] : opencv) {
-    const int flag = method;
-    methods.push_back({"cv::solvePnP " + name,
-                       [flag](const PoseTrial& trial) { return solveWithOpenCv(trial, flag); }});
-  }
+  for (const auto& [name, method] : opencv)
+    methods.push_back({"cv::solvePnP " + name, [flag = method](const PoseTrial& trial) {
+                         return solveWithOpenCv(trial, flag);
+                       }});
 
   Random random(kBins + 2);
   const int poses = kPosesPerRun * runs;

@@ -1,5 +1,7 @@
 #include "pose_trial.h"
 
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -32,12 +34,9 @@ Eigen::Vector3d unitVector(Random& random) {
 
 /// Turned and displaced in the optical frame, about the world's origin.
 geometry::Camera moved(const geometry::Camera& camera, const Vector6& step) {
-  const double angle = step.head<3>().norm();
-  const Eigen::Vector3d axis =
-      angle > 0.0 ? Eigen::Vector3d(step.head<3>() / angle) : Eigen::Vector3d::UnitX();
   const Eigen::Isometry3d camera_from_world = camera.world_from_camera.inverse();
   Eigen::Isometry3d result;
-  result.linear() = Eigen::AngleAxisd(angle, axis) * camera_from_world.linear();
+  result.linear() = geometry::so3::exp(step.head<3>()) * camera_from_world.linear();
   result.translation() = camera_from_world.translation() + step.tail<3>();
   geometry::Camera next = camera;
   next.world_from_camera = result.inverse();
@@ -198,9 +197,9 @@ PoseTrial drawPoseTrial(Random& random,
 Vector6 poseError(const PoseTrial& trial, const Eigen::Isometry3d& world_from_camera) {
   const Eigen::Isometry3d truth = trial.truth.world_from_camera.inverse();
   const Eigen::Isometry3d estimate = world_from_camera.inverse();
-  const Eigen::AngleAxisd turn(Eigen::Matrix3d(estimate.linear() * truth.linear().transpose()));
   Vector6 error;
-  error << turn.angle() * turn.axis(), estimate.translation() - truth.translation();
+  error << geometry::so3::log(estimate.linear() * truth.linear().transpose()),
+      estimate.translation() - truth.translation();
   return error;
 }
 

@@ -75,9 +75,7 @@ double meanError(const geometry::Rig& rig,
 
 PaperResult runPaperSession(const PaperSession& session) {
   Random random(session.seed);
-  square::SquareLayout layout;
-  layout.side_x = 2.5;
-  layout.side_y = 2.5;
+  const square::SquareLayout layout = square::paperSquare();
   square::Corners corners = layout.corners(true);
   for (Eigen::Vector3d& corner : corners)
     corner.head<2>() += pixelNoise(random, kPlacement);

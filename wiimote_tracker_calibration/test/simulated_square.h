@@ -86,6 +86,17 @@ inline SimulatedSquare simulateSquare(const std::vector<Eigen::Isometry3d>& worl
   return result;
 }
 
+inline SquareLayout rectangle(double side_x, double side_y) {
+  SquareLayout layout;
+  layout.side_x = side_x;
+  layout.side_y = side_y;
+  return layout;
+}
+
+inline SquareLayout paperSquare() {
+  return rectangle(2.5, 2.5);
+}
+
 /// Poses round the square, above the floor, that look at its middle.
 inline std::vector<Eigen::Isometry3d> posesAround(const SquareLayout& layout,
                                                   bool z_up,

@@ -19,13 +19,6 @@
 namespace wiimote_tracker::square {
 namespace {
 
-SquareLayout paperSquare() {
-  SquareLayout layout;
-  layout.side_x = 2.5;
-  layout.side_y = 2.5;
-  return layout;
-}
-
 /// Cramer-Rao bound of a pose with known lens and corners (6x6: position, rotation), by numerical
 /// differentiation of the projection.
 Eigen::Matrix<double, 6, 6> poseBound(const geometry::Camera& camera,

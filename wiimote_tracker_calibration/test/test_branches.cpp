@@ -15,10 +15,7 @@ namespace {
 constexpr double kDegree = M_PI / 180.0;
 
 SquareLayout squareOf(double side) {
-  SquareLayout layout;
-  layout.side_x = side;
-  layout.side_y = side;
-  return layout;
+  return rectangle(side, side);
 }
 
 /// Looks at the middle of the square from this far, at this angle from the vertical.

@@ -50,8 +50,7 @@ TEST(ClockLag, IsFoundBesideCamerasThatSeeALampOrNothing) {
 class SquareMistake : public ::testing::Test {
  protected:
   SquareMistake() {
-    square::SquareLayout layout;
-    layout.side_x = layout.side_y = 2.5;
+    const square::SquareLayout layout = square::paperSquare();
     square::Uncertainty errors = square::noErrors();
     errors.pixel = 0.2;
     errors.placement = 0.005;

@@ -77,8 +77,7 @@ TEST(FisheyeRig, ALensFromTheBoardMeasuresPointsAsWellAsPredicted) {
   const intrinsics::IntrinsicsSolution lens = intrinsics::solveIntrinsics(
       intrinsics::fisheyeSamples(intrinsics::fisheye(), 16, 0.3, 5), lens_options);
 
-  square::SquareLayout layout;
-  layout.side_x = layout.side_y = 2.5;
+  const square::SquareLayout layout = square::paperSquare();
   const std::vector<Eigen::Vector3d> points = square::boxOver(layout.corners(true), true);
   for (std::uint32_t seed = 1; seed <= 5; ++seed) {
     square::Random random(seed);

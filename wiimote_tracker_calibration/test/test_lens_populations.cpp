@@ -88,8 +88,7 @@ void expectPredicted(const char* name,
 
 TEST(LensPopulations, ErrorsOfASquareAreAsPredicted) {
   for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
-    square::SquareLayout layout;
-    layout.side_x = layout.side_y = 2.5;
+    const square::SquareLayout layout = square::paperSquare();
     auto poses = square::paperRig();
     poses.resize(count);
     square::Random random(8);

@@ -6,6 +6,7 @@
 
 #include "expect_says.h"
 #include "paper_procedure.h"
+#include "simulated_square.h"
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -17,6 +18,8 @@
 
 namespace wiimote_tracker::principal_point {
 namespace {
+
+using square::paperSquare;
 
 PaperSession imageCenter(const std::vector<std::size_t>& cameras) {
   PaperSession session;
@@ -64,13 +67,6 @@ std::vector<square::CameraSightings> exactSightings(const geometry::Intrinsics& 
     cameras.push_back(sightings);
   }
   return cameras;
-}
-
-square::SquareLayout layout() {
-  square::SquareLayout layout;
-  layout.side_x = 2.5;
-  layout.side_y = 2.5;
-  return layout;
 }
 
 TEST(PrincipalPoint, ConsistentModelIsGoodToTwoCentimetresAndHardlyChanges) {
@@ -135,12 +131,12 @@ TEST(PrincipalPoint, TheOppositeSignDiverges) {
 // the other camera lets it, and the rays' principal point is where it ends.
 TEST(PrincipalPoint, TheGapClosesUntilTheOriginIsWhereItShouldBe) {
   geometry::Intrinsics lens;
-  const auto cameras = exactSightings(lens, layout().corners(true));
+  const auto cameras = exactSightings(lens, paperSquare().corners(true));
   CorrectionOptions options;
   options.ray_model = geometry::RayModel::kImageCenter;
   options.rounds = 60;
   options.limit = 1e-4;
-  const CorrectionResult result = correctPrincipalPoints(layout(), cameras, options);
+  const CorrectionResult result = correctPrincipalPoints(paperSquare(), cameras, options);
   EXPECT_EQ(result.outcome, Outcome::kLimitReached);
   EXPECT_LT(result.trace.rounds.back().origin_error, 1e-4);
   EXPECT_GT(result.trace.rounds.front().origin_error, 0.05);
@@ -154,17 +150,17 @@ TEST(PrincipalPoint, TheGapClosesUntilTheOriginIsWhereItShouldBe) {
 TEST(PrincipalPoint, TheDifferenceIsTakenInDistortedPixels) {
   geometry::Intrinsics lens;
   lens.distortion = {-0.15, 0.0, 0.0, 0.0, 0.0};
-  auto cameras = exactSightings(lens, layout().corners(true));
+  auto cameras = exactSightings(lens, paperSquare().corners(true));
   CorrectionOptions options;
   options.rounds = 0;
   // Exact lens: nothing to correct, although every corner is displaced by many pixels.
-  const CorrectionResult exact = correctPrincipalPoints(layout(), cameras, options);
+  const CorrectionResult exact = correctPrincipalPoints(paperSquare(), cameras, options);
   EXPECT_LT(exact.trace.rounds[0].corner_error, 1e-5);
 
   for (auto& camera : cameras)
     camera.intrinsics.cx += 20.0;
   options.rounds = 1;
-  const CorrectionResult moved = correctPrincipalPoints(layout(), cameras, options);
+  const CorrectionResult moved = correctPrincipalPoints(paperSquare(), cameras, options);
   EXPECT_GT(moved.trace.rounds[0].origin_error, 1e-4);
   EXPECT_EQ(moved.trace.rounds.size(), 2U);
   for (std::size_t i = 0; i < 2; ++i) {
@@ -175,7 +171,7 @@ TEST(PrincipalPoint, TheDifferenceIsTakenInDistortedPixels) {
 
   // The difference once more, with k1 written out.
   options.rounds = 0;
-  const CorrectionResult before = correctPrincipalPoints(layout(), cameras, options);
+  const CorrectionResult before = correctPrincipalPoints(paperSquare(), cameras, options);
   std::vector<geometry::Observation> observations;
   for (std::size_t i = 0; i < 2; ++i)
     observations.push_back({&before.rig.cameras[i].camera, *cameras[i].corners[0]});
@@ -189,7 +185,7 @@ TEST(PrincipalPoint, TheDifferenceIsTakenInDistortedPixels) {
       const Eigen::Vector2d distorted = q * (1.0 - 0.15 * q.squaredNorm());
       return Eigen::Vector2d(lens.fx * distorted.x(), lens.fy * distorted.y());
     };
-    const Eigen::Vector2d difference = pixel(layout().corners(true)[0]) - pixel(measured);
+    const Eigen::Vector2d difference = pixel(paperSquare().corners(true)[0]) - pixel(measured);
     EXPECT_GT(difference.norm(), 0.01);
     EXPECT_LT((before.trace.rounds[0].differences[i] - difference).norm(), 1e-9);
   }
@@ -198,23 +194,23 @@ TEST(PrincipalPoint, TheDifferenceIsTakenInDistortedPixels) {
 TEST(PrincipalPoint, ImageCenterWithDistortionIsWarnedOf) {
   geometry::Intrinsics lens;
   lens.distortion = {-0.05, 0.0, 0.0, 0.0, 0.0};
-  const auto cameras = exactSightings(lens, layout().corners(true));
+  const auto cameras = exactSightings(lens, paperSquare().corners(true));
   CorrectionOptions options;
   options.ray_model = geometry::RayModel::kImageCenter;
   options.rounds = 1;
-  const CorrectionResult result = correctPrincipalPoints(layout(), cameras, options);
+  const CorrectionResult result = correctPrincipalPoints(paperSquare(), cameras, options);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_SAYS(result.warnings.back(), "know no distortion");
   EXPECT_SAYS(result.rig.verdict, "know no distortion");
 }
 
 TEST(PrincipalPoint, ProgressSeesEveryRoundAndCanStopIt) {
-  const auto cameras = exactSightings({}, layout().corners(true));
+  const auto cameras = exactSightings({}, paperSquare().corners(true));
   CorrectionOptions options;
   options.ray_model = geometry::RayModel::kImageCenter;
   std::vector<int> seen;
   const CorrectionResult result =
-      correctPrincipalPoints(layout(), cameras, options, [&](int done, const Trace& trace) {
+      correctPrincipalPoints(paperSquare(), cameras, options, [&](int done, const Trace& trace) {
         EXPECT_EQ(trace.rounds.size(), static_cast<std::size_t>(done) + 1);
         seen.push_back(done);
         return done < 2;
@@ -228,10 +224,10 @@ TEST(PrincipalPoint, ProgressSeesEveryRoundAndCanStopIt) {
 }
 
 TEST(PrincipalPoint, TheTableNamesTheCamerasAndHasALinePerRound) {
-  const auto cameras = exactSightings({}, layout().corners(true));
+  const auto cameras = exactSightings({}, paperSquare().corners(true));
   CorrectionOptions options;
   options.rounds = 2;
-  const std::string text = table(correctPrincipalPoints(layout(), cameras, options).trace);
+  const std::string text = table(correctPrincipalPoints(paperSquare(), cameras, options).trace);
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 4);
   EXPECT_SAYS(text, "left cx, cy [px]");
   EXPECT_SAYS(text, "535.0,  401.7");
@@ -256,9 +252,9 @@ TEST(PrincipalPoint, ACornerThatOneCameraSawIsNamed) {
 }
 
 TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {
-  auto cameras = exactSightings({}, layout().corners(true));
+  auto cameras = exactSightings({}, paperSquare().corners(true));
   const auto refused = [&](const CorrectionOptions& options) {
-    EXPECT_THROW(correctPrincipalPoints(layout(), cameras, options), Error);
+    EXPECT_THROW(correctPrincipalPoints(paperSquare(), cameras, options), Error);
   };
   CorrectionOptions options;
   options.rounds = -1;
@@ -275,7 +271,7 @@ TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {
   options.virtual_hfov = 4.0;
   refused(options);
   cameras.pop_back();
-  EXPECT_THROW(correctPrincipalPoints(layout(), cameras, {}), square::SquareError);
+  EXPECT_THROW(correctPrincipalPoints(paperSquare(), cameras, {}), square::SquareError);
 }
 
 }  // namespace

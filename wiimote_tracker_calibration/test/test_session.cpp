@@ -68,12 +68,7 @@ Session throughFile(const Session& session) {
   return read;
 }
 
-square::SquareLayout paperSquare() {
-  square::SquareLayout layout;
-  layout.side_x = 2.5;
-  layout.side_y = 2.5;
-  return layout;
-}
+using square::paperSquare;
 
 /// The paper's four cameras, or the first two, before the square.
 square::SimulatedSquare paperScene(std::size_t cameras,

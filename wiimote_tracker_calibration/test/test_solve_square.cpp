@@ -14,13 +14,6 @@
 namespace wiimote_tracker::square {
 namespace {
 
-SquareLayout rectangle(double side_x, double side_y) {
-  SquareLayout layout;
-  layout.side_x = side_x;
-  layout.side_y = side_y;
-  return layout;
-}
-
 std::string refusalOf(const SquareLayout& layout,
                       const std::vector<CameraSightings>& sightings,
                       const SolveOptions& options = SolveOptions()) {

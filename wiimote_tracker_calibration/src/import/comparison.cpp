@@ -6,7 +6,9 @@
 
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -148,10 +150,9 @@ std::optional<bundle::Reconstruction> withLenses(const Recording& recording,
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const geometry::Intrinsics& lens = recording.cameras[i].intrinsics;
     const Pinhole& pinhole = shipped.rectifications[i].pinhole();
-    const Eigen::Matrix<double, 5, 1> difference =
-        (Eigen::Matrix<double, 5, 1>() << pinhole.fx - lens.fx, pinhole.fy - lens.fy,
-         pinhole.cx - lens.cx, pinhole.cy - lens.cy, pinhole.skew)
-            .finished();
+    Eigen::Matrix<double, 5, 1> difference;
+    difference << pinhole.fx - lens.fx, pinhole.fy - lens.fy, pinhole.cx - lens.cx,
+        pinhole.cy - lens.cy, pinhole.skew;
     if (difference.norm() > kEqual * lens.fx)
       return std::nullopt;
     result.cameras[i].intrinsics = lens;
@@ -180,19 +181,21 @@ std::optional<Comparison> compare(const Recording& recording,
     return std::nullopt;
   const bundle::Reconstruction& own = solution.reconstruction;
   Comparison comparison;
+  const auto compareWith = [&](const bundle::Reconstruction& shipped) {
+    comparison.own = errorsOf(own);
+    comparison.shipped = errorsOf(shipped);
+    comparePoints(own, shipped, solution.expected_shape_error, &comparison);
+  };
   if (all([](const RecordedCamera& camera) { return camera.projection.has_value(); })) {
     const ShippedCameras shipped = shippedCameras(recording, options);
     if (const auto same_pixels = withLenses(recording, shipped, own, options)) {
       comparison.what = "shipped lenses and poses; errors in pixels as recorded";
-      comparison.own = errorsOf(own);
-      comparison.shipped = errorsOf(*same_pixels);
-      comparePoints(own, *same_pixels, solution.expected_shape_error, &comparison);
+      compareWith(*same_pixels);
       return comparison;
     }
     comparison.what = "shipped projection matrices; errors in undistorted pixels";
+    compareWith(shipped.reconstruction);
     comparison.own = rectifiedErrors(own, shipped, options.maximum_error);
-    comparison.shipped = errorsOf(shipped.reconstruction);
-    comparePoints(own, shipped.reconstruction, solution.expected_shape_error, &comparison);
     return comparison;
   }
   bundle::Reconstruction shipped = own;
@@ -205,9 +208,7 @@ std::optional<Comparison> compare(const Recording& recording,
     return comparison;
   }
   comparison.what = "shipped intrinsics, poses solved with them; errors in pixels as recorded";
-  comparison.own = errorsOf(own);
-  comparison.shipped = errorsOf(shipped);
-  comparePoints(own, shipped, solution.expected_shape_error, &comparison);
+  compareWith(shipped);
   return comparison;
 }
 

@@ -2,10 +2,13 @@
 
 #include "wiimote_tracker_calibration/import/number_table.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker::import {
 
@@ -107,7 +110,7 @@ ShippedCameras shippedCameras(const Recording& recording, const bundle::Options&
         std::count(reconstruction.inliers.begin(), reconstruction.inliers.end(), true));
     if (inliers > most) {
       most = inliers;
-      best = shipped;
+      best = std::move(shipped);
     }
   }
   if (most == 0)

@@ -150,10 +150,12 @@ void print(const Report& report, bool points, std::FILE* file) {
   printPoses(reconstruction, file);
   if (report.comparison)
     printComparison(report, file);
-  for (std::size_t i = 0; points && i < reconstruction.points.size(); ++i) {
+  if (!points)
+    return;
+  std::fputc('\n', file);
+  for (std::size_t i = 0; i < reconstruction.points.size(); ++i) {
     if (const auto& point = reconstruction.points[i])
-      std::fprintf(file, "%sframe %zu: %.6f %.6f %.6f\n", i == 0 ? "\n" : "", i, point->x(),
-                   point->y(), point->z());
+      std::fprintf(file, "frame %zu: %.6f %.6f %.6f\n", i, point->x(), point->y(), point->z());
   }
 }
 

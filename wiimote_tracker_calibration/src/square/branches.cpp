@@ -18,19 +18,14 @@ constexpr double kClear = 60.0;
 // time.
 constexpr std::size_t kExhaustive = 4;
 
-struct Combination {
-  std::vector<std::size_t> chosen;
-  RigState state;
-  double cost;
-};
-
-std::optional<Combination> evaluate(const RigModel& model,
-                                    const std::vector<std::vector<Branch>>& branches,
-                                    const std::vector<std::size_t>& chosen) {
+/// The rig on these branches; which cameras are undecided is open.
+std::optional<BranchChoice> evaluate(const RigModel& model,
+                                     const std::vector<std::vector<Branch>>& branches,
+                                     const std::vector<std::size_t>& chosen) {
   std::vector<Eigen::Isometry3d> poses;
   for (std::size_t i = 0; i < branches.size(); ++i)
     poses.push_back(branches[i][chosen[i]].world_from_camera);
-  Combination combination{chosen, model.start(poses), 0.0};
+  BranchChoice combination{model.start(poses), 0.0, chosen, {}};
   const std::optional<double> cost =
       model.refineAll(&combination.state, RigModel::Precision::kCoarse);
   if (!cost)
@@ -39,10 +34,10 @@ std::optional<Combination> evaluate(const RigModel& model,
   return combination;
 }
 
-std::vector<Combination> allCombinations(const RigModel& model,
-                                         const std::vector<std::vector<Branch>>& branches,
-                                         const std::vector<std::size_t>& ambiguous) {
-  std::vector<Combination> combinations;
+std::vector<BranchChoice> allCombinations(const RigModel& model,
+                                          const std::vector<std::vector<Branch>>& branches,
+                                          const std::vector<std::size_t>& ambiguous) {
+  std::vector<BranchChoice> combinations;
   for (std::size_t bits = 0; bits < std::size_t{1} << ambiguous.size(); ++bits) {
     std::vector<std::size_t> chosen(branches.size(), 0);
     for (std::size_t k = 0; k < ambiguous.size(); ++k)
@@ -55,10 +50,10 @@ std::vector<Combination> allCombinations(const RigModel& model,
 
 /// Changes one camera at a time for as long as that helps. Contains the best combination that was
 /// found, and all that differ from it in one camera.
-std::vector<Combination> singleChanges(const RigModel& model,
-                                       const std::vector<std::vector<Branch>>& branches,
-                                       const std::vector<std::size_t>& ambiguous) {
-  std::vector<Combination> combinations;
+std::vector<BranchChoice> singleChanges(const RigModel& model,
+                                        const std::vector<std::vector<Branch>>& branches,
+                                        const std::vector<std::size_t>& ambiguous) {
+  std::vector<BranchChoice> combinations;
   std::vector<std::size_t> chosen(branches.size(), 0);
   double least = std::numeric_limits<double>::infinity();
   if (auto start = evaluate(model, branches, chosen)) {
@@ -112,20 +107,20 @@ BranchChoice chooseBranches(const RigModel& model,
     if (branches[i].size() > 1 && branches[i][1].cost - branches[i][0].cost < kClear)
       ambiguous.push_back(i);
   }
-  const std::vector<Combination> combinations = ambiguous.size() <= kExhaustive
-                                                    ? allCombinations(model, branches, ambiguous)
-                                                    : singleChanges(model, branches, ambiguous);
+  const std::vector<BranchChoice> combinations = ambiguous.size() <= kExhaustive
+                                                     ? allCombinations(model, branches, ambiguous)
+                                                     : singleChanges(model, branches, ambiguous);
   if (combinations.empty())
     throw SquareError("the cameras cannot be solved together: capture the corners again");
-  const Combination& best =
+  const BranchChoice& best =
       *std::min_element(combinations.begin(), combinations.end(),
                         [](const auto& a, const auto& b) { return a.cost < b.cost; });
 
-  BranchChoice choice{best.state, best.cost, best.chosen, {}};
+  BranchChoice choice = best;
   choice.cost = model.refineAll(&choice.state).value_or(best.cost);
   for (const std::size_t i : ambiguous) {
     double other = std::numeric_limits<double>::infinity();
-    for (const Combination& combination : combinations) {
+    for (const BranchChoice& combination : combinations) {
       // Two branches may converge to one when the intrinsics are free; then there is no choice.
       if (combination.chosen[i] != best.chosen[i] &&
           !isSamePose(combination.state.cameras[i].world_from_camera,

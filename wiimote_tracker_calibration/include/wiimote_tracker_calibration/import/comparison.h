@@ -31,7 +31,7 @@ struct Comparison {
   std::optional<double> expected;
 };
 
-/// Nothing when neither projection matrices nor intrinsics were shipped.
+/// Nothing when no intrinsics were shipped, without which nothing is known of the distortion.
 ///
 /// If matrices and intrinsics agree, errors are in recorded pixels. Other matrices: errors of both
 /// are in the undistorted pixels of the matrices. Intrinsics only: the shipped solution is that of

@@ -49,10 +49,8 @@ bool DriftWatch::add(const capture::Image& image) {
     frame.pixel = image.spots.front();
   if (!std::isfinite(frame.time))
     return false;
-  if (!started_ || std::abs(frame.time - newest_) > options_.window + kJump ||
-      frame.time < newest_ - kJump) {
+  if (frame.time - newest_ > options_.window + kJump || frame.time < newest_ - kJump) {
     restart();
-    started_ = true;
     newest_ = frame.time;
     next_sample_ = frame.time;
     next_judgement_ = frame.time + options_.window / kJudgements;

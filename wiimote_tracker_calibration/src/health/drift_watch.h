@@ -11,6 +11,7 @@
 
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <optional>
 #include <string>
 #include <utility>
@@ -86,10 +87,9 @@ class DriftWatch {
   DriftOptions options_;
   std::vector<Camera> cameras_;
   std::deque<DriftSample> samples_;
-  bool started_ = false;
-  double newest_ = 0.0;       // Latest exposure [s].
-  double next_sample_ = 0.0;  // [s]
-  double next_judgement_ = 0.0;
+  double newest_ = -std::numeric_limits<double>::infinity();  // Latest exposure [s].
+  double next_sample_ = 0.0;                                  // [s]
+  double next_judgement_ = 0.0;                               // [s]
   std::vector<std::optional<Drift>> drifts_;
 };
 

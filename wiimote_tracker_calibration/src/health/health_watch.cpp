@@ -3,6 +3,7 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker::health {
 
@@ -86,29 +87,24 @@ void HealthWatch::addAcceleration(const std::string& name,
 }
 
 std::vector<std::string> HealthWatch::takeNews() {
-  std::vector<std::string> news;
-  news.swap(news_);
-  return news;
+  return std::exchange(news_, {});
 }
 
 void HealthWatch::describe(const std::string& name) {
   const Camera& camera = cameras_.at(name);
   CameraHealth& health = healths_.at(name);
   const bool was_well = health.text.empty();
-  std::string text;
-  const auto add = [&](const std::string& sentence) {
-    text += (text.empty() ? "" : "; ") + sentence;
-  };
+  std::vector<std::string> findings;
   if (!camera.other_device.empty())
-    add("is another device (" + camera.other_device + ") than was calibrated (" +
-        camera.calibrated_identity + "): recalibrate this camera");
-  if (camera.tilt_alarm.on() && health.tilt)
-    add(tiltText(*health.tilt));
-  if (camera.drift_alarm.on() && health.drift)
-    add(driftText(*health.drift));
-  health.text = text;
-  if (was_well && !text.empty())
-    news_.push_back(name + " " + text);
+    findings.push_back("is another device (" + camera.other_device + ") than was calibrated (" +
+                       camera.calibrated_identity + "): recalibrate this camera");
+  if (camera.tilt_alarm.on())
+    findings.push_back(tiltText(*health.tilt));
+  if (camera.drift_alarm.on())
+    findings.push_back(driftText(*health.drift));
+  health.text = joined(findings, "; ");
+  if (was_well && !health.text.empty())
+    news_.push_back(name + " " + health.text);
 }
 
 }  // namespace wiimote_tracker::health

@@ -9,10 +9,10 @@ namespace wiimote_tracker::health {
 
 std::optional<Tilt> TiltWatch::add(double time, const Eigen::Vector3d& specific_force) {
   std::optional<Tilt> tilt;
-  if (started_ && time >= last_ && time - start_ >= options_.window)
+  const bool is_over = time - start_ >= options_.window;
+  if (time >= last_ && is_over)
     tilt = judge();
-  if (!started_ || time < last_ || time - start_ >= options_.window) {
-    started_ = true;
+  if (time < last_ || is_over) {
     start_ = time;
     window_ = capture::RestGravity();
   }

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <optional>
 
 namespace wiimote_tracker::health {
@@ -42,9 +43,8 @@ class TiltWatch {
 
   Eigen::Vector3d gravity_;
   TiltOptions options_;
-  bool started_ = false;
-  double start_ = 0.0;
-  double last_ = 0.0;
+  double start_ = -std::numeric_limits<double>::infinity();  // Of the window [s].
+  double last_ = start_;                                     // Reading [s].
   capture::RestGravity window_;
 };
 

@@ -44,10 +44,10 @@ std::optional<Eigen::Vector2d> pixelAt(const std::vector<Image>& images, double 
   const auto after =
       std::lower_bound(images.begin(), images.end(), stamp,
                        [](const Image& image, double time) { return image.stamp < time; });
-  if (after == images.end())
+  if (after != images.end() && after->stamp == stamp)
+    return after->pixel;
+  if (after == images.end() || after == images.begin())
     return std::nullopt;
-  if (after->stamp == stamp || after == images.begin())
-    return after->stamp == stamp ? after->pixel : std::nullopt;
   const auto before = std::prev(after);
   const double gap = after->stamp - before->stamp;
   if (!before->pixel || !after->pixel || gap > kLongestGap)

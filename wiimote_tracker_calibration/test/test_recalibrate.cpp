@@ -103,6 +103,22 @@ TEST(Recalibrate, FindsAMovedCamera) {
   EXPECT_NE(result.rig.id(), rig.id());
 }
 
+TEST(Recalibrate, FindsTheClockOfACameraThatReconnectsMeanwhile) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(rig.cameras, 13);
+  Request request = record(&led, "camera_2", 11.0);
+  led.truth[1].time_offset = -0.015;
+  const Request rest = record(&led, "camera_2", 19.0);
+  for (capture::Image image : rest.images) {
+    image.clock_epoch += image.camera == "camera_2" ? 1 : 0;
+    request.images.push_back(image);
+  }
+  const geometry::RigCamera camera = recalibrateCamera(rig, request, {}).rig.cameras[1];
+  EXPECT_EQ(camera.time_offset_epoch, 8u);
+  EXPECT_NEAR(camera.time_offset, -0.015, 5e-4);
+  EXPECT_LT((camera.camera.center() - led.truth[1].camera.center()).norm(), 0.02);
+}
+
 TEST(Recalibrate, NamesEachCameraOnceInTheMethod) {
   geometry::Rig rig = paperRigWith(wellCalibrated());
   rig.method = "wave+recalibrated camera_22";

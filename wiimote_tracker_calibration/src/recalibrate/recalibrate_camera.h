@@ -22,7 +22,8 @@ struct Request {
   /// Its starting values, when it is another device than was calibrated.
   geometry::Intrinsics intrinsics;
   std::optional<Eigen::Vector3d> gravity;  ///< As it reads now, optical frame [m/s^2].
-  std::vector<capture::Image> images;      ///< Of each camera in the order of their stamps.
+  /// Of each camera in the order of their stamps. Those of the camera's latest epoch are used.
+  std::vector<capture::Image> images;
 };
 
 struct Options {

@@ -35,17 +35,6 @@ constexpr double kPause = 540.0;                // Without images before each st
 constexpr double kDriftPerHour = 0.5 / 1300.0;  // 0.5 px [rad].
 constexpr double kChiSquared = 12.592;          // 95 %, six degrees of freedom.
 
-Eigen::Vector3d anyAxis(square::Random& random) {
-  return Eigen::Vector3d(square::normal(random, 1.0), square::normal(random, 1.0),
-                         square::normal(random, 1.0))
-      .normalized();
-}
-
-void turn(geometry::RigCamera* camera, double angle, const Eigen::Vector3d& axis) {
-  camera->camera.world_from_camera.linear() =
-      camera->camera.world_from_camera.linear() * Eigen::AngleAxisd(angle, axis).toRotationMatrix();
-}
-
 /// What is known after an hour, over all runs.
 struct Hour {
   double kept = 0.0;       // Mean squared error of the volume with the first rig [m^2].
@@ -70,14 +59,15 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
   // Each camera drifts in one direction all day.
   std::vector<Eigen::Vector3d> axes;
   for (std::size_t i = 0; i < led.truth.size(); ++i)
-    axes.push_back(anyAxis(random));
+    axes.push_back(square::anyDirection(random));
   double time = 0.0;
   double pauses = 0.0;
   for (int hour = 0; hour <= kHours; ++hour) {
     Hour& at = (*hours)[static_cast<std::size_t>(hour)];
     for (int step = 0; hour > 0 && step < kStepsPerHour; ++step) {
       for (std::size_t i = 0; i < led.truth.size(); ++i)
-        turn(&led.truth[i], kDriftPerHour / kStepsPerHour, axes[i]);
+        led.truth[i].camera.world_from_camera.rotate(
+            Eigen::AngleAxisd(kDriftPerHour / kStepsPerHour, axes[i]));
       const auto any = static_cast<std::size_t>(square::uniform(random, 0.0, 3.999));
       if (step == 0 && (hour == 2 || hour == 4 || hour == 6))
         led.truth[any] =

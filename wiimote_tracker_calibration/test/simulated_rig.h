@@ -104,11 +104,7 @@ inline geometry::RigCamera displaced(geometry::RigCamera camera, const Eigen::Ve
 inline geometry::RigCamera turned(geometry::RigCamera camera,
                                   double angle,
                                   square::Random& random) {
-  const Eigen::Vector3d axis(square::normal(random, 1.0), square::normal(random, 1.0),
-                             square::normal(random, 1.0));
-  camera.camera.world_from_camera.linear() =
-      camera.camera.world_from_camera.linear() *
-      Eigen::AngleAxisd(angle, axis.normalized()).toRotationMatrix();
+  camera.camera.world_from_camera.rotate(Eigen::AngleAxisd(angle, square::anyDirection(random)));
   return camera;
 }
 

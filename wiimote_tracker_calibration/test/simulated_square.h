@@ -42,6 +42,11 @@ inline double normal(Random& random, double stddev) {
   return stddev > 0.0 ? std::normal_distribution<double>(0.0, stddev)(random) : 0.0;
 }
 
+inline Eigen::Vector3d anyDirection(Random& random) {
+  return Eigen::Vector3d(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0))
+      .normalized();
+}
+
 /// Cameras with the given poses in front of the square; their starting intrinsics are the default.
 /// @param errors of what the solver starts from and measures
 inline SimulatedSquare simulateSquare(const std::vector<Eigen::Isometry3d>& world_from_camera,

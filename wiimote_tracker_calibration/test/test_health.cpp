@@ -37,12 +37,9 @@ std::set<std::string> drifted(const geometry::Rig& rig, const DriftWatch& watch)
 }
 
 /// A camera that is turned about its own axes [rad].
-geometry::RigCamera turned(const geometry::RigCamera& camera, const Eigen::Vector3d& rotation) {
-  geometry::RigCamera result = camera;
-  result.camera.world_from_camera.linear() =
-      camera.camera.world_from_camera.linear() *
-      Eigen::AngleAxisd(rotation.norm(), rotation.normalized()).toRotationMatrix();
-  return result;
+geometry::RigCamera turned(geometry::RigCamera camera, const Eigen::Vector3d& rotation) {
+  camera.camera.world_from_camera.rotate(geometry::so3::exp(rotation));
+  return camera;
 }
 
 TEST(Alarm, DoesNotFlap) {
@@ -86,12 +83,8 @@ double shareNoticed(double angle, double noise, double step, const TiltOptions& 
   const int kTrials = 400;
   int noticed = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
-    const auto direction = [&] {
-      return Eigen::Vector3d(normal(random, 1.0), normal(random, 1.0), normal(random, 1.0))
-          .normalized();
-    };
-    const Eigen::Vector3d before = 9.81 * direction();
-    const Eigen::Vector3d axis = before.cross(direction()).normalized();
+    const Eigen::Vector3d before = 9.81 * square::anyDirection(random);
+    const Eigen::Vector3d axis = before.cross(square::anyDirection(random)).normalized();
     const Eigen::Vector3d after = Eigen::AngleAxisd(angle, axis) * before;
     capture::RestGravity calibrated;
     for (int i = 0; i < 200; ++i)

@@ -167,8 +167,9 @@ void ContinuousCalibration::addAcceleration(const std::string& camera,
 
 std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) const {
   const std::vector<capture::Image>& check = evidence.images.to_check;
+  const std::size_t index = evidence.camera;
   recalibrate::Request request;
-  request.camera = evidence.camera;
+  request.camera = rig_.cameras[index].camera.name;
   request.images = evidence.images.to_solve;
   request.gravity = evidence.gravity;
   recalibrate::Recalibration result;
@@ -179,7 +180,6 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
   }
   if (result.moved > kFarthest)
     return std::nullopt;
-  const auto index = static_cast<std::size_t>(rig_.find(evidence.camera) - rig_.cameras.data());
   const Drifts before = driftsOf(rig_, check);
   const Drifts after = driftsOf(result.rig, check);
   const bool was_off = evidence.new_clock || (before[index] && before[index]->ratio >= 1.0);
@@ -190,7 +190,7 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
   unchecked.maximum_offset_stddev = std::numeric_limits<double>::infinity();
   result = recalibrate::recalibrateCamera(withDrift(rig_, check.back().stamp), request, unchecked);
   const std::string message =
-      evidence.camera + (evidence.new_clock ? " reconnected with another clock and" : "") +
+      request.camera + (evidence.new_clock ? " reconnected with another clock and" : "") +
       format(
           " was turned by %.2f degrees and moved by %.1f mm (+- %.2f degrees, %.1f mm): with "
           "its new pose its images are %.2f px off what the other cameras see",
@@ -198,7 +198,7 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
           1000.0 * result.position_stddev, after[index]->bias.norm()) +
       (before[index] && !evidence.new_clock ? format(", before %.2f px", before[index]->bias.norm())
                                             : "");
-  return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, evidence.camera, rig_,
+  return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, request.camera, rig_,
                     result.rig, message, check);
 }
 

@@ -17,12 +17,9 @@ std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
       camera->hasNewClock(image.clock_epoch);
   if (watch_.add(image))
     judge();
-  if (!suspect_)
+  if (!suspect_ || !motion_.add(image, rig_.cameras[*suspect_].camera.name))
     return std::nullopt;
-  const std::string& name = rig_.cameras[*suspect_].camera.name;
-  if (!motion_.add(image, name))
-    return std::nullopt;
-  return Evidence{name, new_clocks_[*suspect_], motion_.images(), gravity_.mean()};
+  return Evidence{*suspect_, new_clocks_[*suspect_], motion_.images(), gravity_.mean()};
 }
 
 void SuspectWatch::addAcceleration(const std::string& camera,

@@ -26,7 +26,7 @@ struct SuspectOptions {
 
 /// What was seen since a camera is off.
 struct Evidence {
-  std::string camera;
+  std::size_t camera = 0;  ///< As the rig counts them.
   bool new_clock = false;  ///< Its time offset is unknown since it reconnected.
   MotionImages images;
   std::optional<Eigen::Vector3d> gravity;  ///< Of the camera at rest, optical frame [m/s^2].

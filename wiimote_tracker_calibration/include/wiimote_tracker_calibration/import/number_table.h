@@ -8,8 +8,8 @@
 
 namespace wiimote_tracker::import {
 
-/// A recording cannot be read or used. what() names the file, and line or row and column where there
-/// are any, in one sentence.
+/// A recording cannot be read or used. what() names the file, and line or row and column where
+/// there are any, in one sentence.
 struct ImportError : Error {
   using Error::Error;
 };

@@ -2,7 +2,7 @@
 
 #include "pose_trial.h"
 
-#include "adjust/opencv_pose.h"
+#include "adjust/opencv.h"
 
 #include <opencv2/calib3d.hpp>
 

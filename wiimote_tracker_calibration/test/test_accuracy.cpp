@@ -1,6 +1,6 @@
 // How near the solution is to the truth, and whether its covariance says so. All simulated.
 
-#include "adjust/opencv_pose.h"
+#include "adjust/opencv.h"
 #include "square/expected_error.h"
 #include "wiimote_tracker_calibration/square/branches.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"

@@ -245,23 +245,16 @@ std::vector<std::pair<std::string, YamlMap>> entriesOf(YamlMap* file, const std:
   return entries;
 }
 
-template <typename Things>
-const typename Things::value_type* find(const Things& things, const std::string& name) {
-  const auto found = std::find_if(things.begin(), things.end(),
-                                  [&](const auto& thing) { return thing.name == name; });
-  return found == things.end() ? nullptr : &*found;
-}
-
 /// Checks that an LED turns about an existing LED that does not turn, and that its carrier exists.
 void checkHolders(const std::string& name, const YamlMap& section, const Description& description) {
-  const LedDescription& led = *find(description.leds, name);
+  const LedDescription& led = *findNamed(description.leds, name);
   if (led.turns) {
-    const LedDescription* around = find(description.leds, led.turns->around);
+    const LedDescription* around = findNamed(description.leds, led.turns->around);
     if (!around || around->turns)
       throw section.error("turns/around", "must be the name of an LED that does not turn itself");
   }
-  if (!led.carried_by.empty() && !find(description.people, led.carried_by) &&
-      !find(description.bodies, led.carried_by))
+  if (!led.carried_by.empty() && !findNamed(description.people, led.carried_by) &&
+      !findNamed(description.bodies, led.carried_by))
     throw section.error("carried_by", "must be the name of one of the people or bodies");
 }
 

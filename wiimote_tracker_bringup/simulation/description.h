@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -47,13 +48,13 @@ struct Blink {
   }
 };
 
-/// The initial state of an LED; simulation/set_led changes it.
+/// An LED; simulation/set_led changes how it moves and whether it is lit.
 struct LedDescription {
   std::string name;
   LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Ignored with `turns`.
   std::optional<TurnDescription> turns;
 
-  /// Name of a person or rigid body in whose axes (see Person, RigidBody) the motion is; or empty.
+  /// Name of a person or rigid body in whose axes (see carriers.h) the motion is; or empty.
   std::string carried_by;
   std::optional<double> size;  ///< As of a Lamp [0..15].
   double brightness = 1.0;     ///< As of a Lamp [>= 0].
@@ -61,7 +62,8 @@ struct LedDescription {
   std::optional<Blink> blink;  ///< While lit; not set: steady light.
 };
 
-/// A person standing or walking on the floor: an upright cylinder that occludes LEDs.
+/// A person standing or walking on the floor: an upright cylinder that occludes LEDs. While they
+/// are not present, the LEDs that they carry are not seen.
 struct PersonDescription {
   std::string name;
   LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< z is ignored.
@@ -79,7 +81,7 @@ struct TurningDescription {
   double sway_rate = 1.0;  ///< [rad/s]
 };
 
-/// A moving rigid body with LEDs.
+/// A moving rigid body with LEDs, which are seen while it is present. It occludes nothing.
 struct RigidBodyDescription {
   std::string name;
   LedMotion motion = LedMotion(Eigen::Vector3d::Zero());  ///< Of its origin.
@@ -104,6 +106,14 @@ struct BoardDescription {
   double row_spacing = 0.08;     ///< [m]
   double size = 3.0;             ///< Of each LED, as of a Lamp [0..15].
 };
+
+/// The thing of this name; null: there is none.
+template <typename Things>
+auto findNamed(Things& things, const std::string& name) {
+  const auto found = std::find_if(things.begin(), things.end(),
+                                  [&](const auto& thing) { return thing.name == name; });
+  return found == things.end() ? nullptr : &*found;
+}
 
 /// A simulated rig. z points up in the world.
 struct Description {

@@ -1,31 +1,19 @@
 #include "rig.h"
 
-#include <algorithm>
 #include <cmath>
 #include <utility>
 
 namespace wiimote_tracker::simulation {
-
-Eigen::Isometry3d RigidBody::worldFromBody(double time) const {
-  const TurningDescription& turning = description_.turning;
-  // The rates have no small common multiple, so that the motion does not repeat.
-  const double phase = turning.sway_rate * time;
-  return Eigen::Translation3d(motion.position(time)) *
-         Eigen::AngleAxisd(turning.rate * time, turning.axis.normalized()) *
-         Eigen::AngleAxisd(turning.sway * std::sin(phase), Eigen::Vector3d::UnitZ()) *
-         Eigen::AngleAxisd(0.6 * turning.sway * std::sin(1.89 * phase), Eigen::Vector3d::UnitX());
-}
 
 Rig::Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth body_truth)
     : deliver_(std::move(deliver)),
       truth_(std::move(truth)),
       body_truth_(std::move(body_truth)),
       truth_period_(1.0 / description.truth_rate),
-      people_(description.people.begin(), description.people.end()),
-      rigid_bodies_(description.bodies.begin(), description.bodies.end()),
+      leds_(description.leds),
+      people_(description.people),
+      rigid_bodies_(description.bodies),
       reflections_(description.reflections) {
-  for (const LedDescription& led : description.leds)
-    leds_.push_back({led, led.motion, led.lit});
   for (const CameraDescription& camera : description.cameras) {
     // Separate seeds for each camera's pixels and link.
     const auto number = static_cast<std::uint32_t>(cameras_.size());
@@ -65,62 +53,21 @@ void Rig::runUntil(double time) {
   }
 }
 
-Rig::Led* Rig::findLed(const std::string& name) {
-  for (Led& led : leds_) {
-    if (led.description.name == name)
-      return &led;
-  }
-  return nullptr;
+bool Rig::isInRoom(const LedDescription& led) const {
+  const PersonDescription* person = findNamed(people_, led.carried_by);
+  const RigidBodyDescription* body = findNamed(rigid_bodies_, led.carried_by);
+  return (!person || person->present) && (!body || body->present);
 }
 
-Person* Rig::findPerson(const std::string& name) {
-  for (Person& person : people_) {
-    if (person.name() == name)
-      return &person;
-  }
-  return nullptr;
-}
-
-RigidBody* Rig::findBody(const std::string& name) {
-  for (RigidBody& body : rigid_bodies_) {
-    if (body.name() == name)
-      return &body;
-  }
-  return nullptr;
-}
-
-ReflectionDescription* Rig::findReflection(const std::string& name) {
-  for (ReflectionDescription& reflection : reflections_) {
-    if (reflection.name == name)
-      return &reflection;
-  }
-  return nullptr;
-}
-
-bool Rig::isInRoom(const Led& led) const {
-  const auto isAwayWith = [&](const auto& carrier) {
-    return carrier.name() == led.description.carried_by && !carrier.present;
-  };
-  return std::none_of(people_.begin(), people_.end(), isAwayWith) &&
-         std::none_of(rigid_bodies_.begin(), rigid_bodies_.end(), isAwayWith);
-}
-
-Eigen::Vector3d Rig::positionOf(const Led& led, double time) const {
-  for (const Person& person : people_) {
-    if (person.name() == led.description.carried_by)
-      return person.worldFromPerson(time) * led.motion.position(time);
-  }
-  for (const RigidBody& body : rigid_bodies_) {
-    if (body.name() == led.description.carried_by)
-      return body.worldFromBody(time) * led.motion.position(time);
-  }
-  if (!led.description.turns)
+Eigen::Vector3d Rig::positionOf(const LedDescription& led, double time) const {
+  if (const PersonDescription* person = findNamed(people_, led.carried_by))
+    return worldFrom(*person, time) * led.motion.position(time);
+  if (const RigidBodyDescription* body = findNamed(rigid_bodies_, led.carried_by))
+    return worldFrom(*body, time) * led.motion.position(time);
+  if (!led.turns)
     return led.motion.position(time);
-  const TurnDescription& turns = *led.description.turns;
-  const auto around = std::find_if(leds_.begin(), leds_.end(), [&](const Led& other) {
-    return other.description.name == turns.around;
-  });
-  const Eigen::Vector3d center = positionOf(*around, time);
+  const TurnDescription& turns = *led.turns;
+  const Eigen::Vector3d center = positionOf(*findNamed(leds_, turns.around), time);
   if (center.z() <= 0.0)
     return center + turns.distance * Eigen::Vector3d::UnitX();
   constexpr double kNod = 0.618;     // irrational, so that turns do not repeat
@@ -140,19 +87,17 @@ void Rig::expose(std::size_t number) {
   Camera& camera = cameras_[number];
   const double time = camera.next.exposure;
   lamps_.clear();
-  for (const Led& led : leds_) {
-    const std::optional<Blink>& blink = led.description.blink;
-    const double light = blink ? blink->light(time) : 1.0;
+  for (const LedDescription& led : leds_) {
+    const double light = led.blink ? led.blink->light(time) : 1.0;
     if ((led.lit || led.motion.isDrawing(time)) && isInRoom(led) && light > 0.0)
-      lamps_.push_back(
-          {positionOf(led, time), led.description.size, light * led.description.brightness});
+      lamps_.push_back({positionOf(led, time), led.size, light * led.brightness});
   }
   if (board_)
     board_->addLamps(time, &lamps_);
   bodies_.clear();
-  for (const Person& person : people_) {
+  for (const PersonDescription& person : people_) {
     if (person.present)
-      bodies_.push_back(person.body(time));
+      bodies_.push_back(cylinderOf(person, time));
   }
   reflected_.clear();
   for (const ReflectionDescription& reflection : reflections_) {
@@ -172,7 +117,7 @@ void Rig::tellTruth(double time) {
   for (std::size_t i = 0; i < leds_.size(); ++i)
     truth_(i, time, positionOf(leds_[i], time));
   for (std::size_t i = 0; body_truth_ && i < rigid_bodies_.size(); ++i)
-    body_truth_(i, time, rigid_bodies_[i].worldFromBody(time));
+    body_truth_(i, time, worldFrom(rigid_bodies_[i], time));
   push(static_cast<double>(++truths_) * truth_period_, Event::kTruth, 0);
 }
 

@@ -3,8 +3,6 @@
 
 #include "description.h"
 #include "led_board.h"
-#include "led_motion.h"
-#include "person.h"
 #include "virtual_camera.h"
 
 #include <Eigen/Geometry>
@@ -21,24 +19,6 @@ namespace wiimote_tracker::simulation {
 /// Input of a camera's sensor for one image.
 struct Image : virtual_wiimote::Senses {
   double exposure;  ///< Time [s since the start].
-};
-
-/// A moving rigid body with LEDs. It occludes nothing.
-class RigidBody {
- public:
-  explicit RigidBody(const RigidBodyDescription& description)
-      : motion(description.motion), present(description.present), description_(description) {}
-
-  const std::string& name() const { return description_.name; }
-
-  /// Its axes are parallel to the world's at time 0.
-  Eigen::Isometry3d worldFromBody(double time) const;
-
-  LedMotion motion;  ///< Of its origin.
-  bool present;      ///< If absent, its LEDs are not seen.
-
- private:
-  RigidBodyDescription description_;
 };
 
 /// A queue of the events of a description: exposures, deliveries of reports, instants of truth.
@@ -63,26 +43,14 @@ class Rig {
   /// Time of the next event [s].
   double nextEvent() const { return events_.top().time; }
 
-  /// State of an LED. Call runUntil() with the time of a change first. Null if there is no such
-  /// LED.
-  struct Led {
-    LedDescription description;
-    LedMotion motion;  ///< Ignored for an LED that turns; in the carrier's axes if carried.
-    bool lit;
-  };
-  Led* findLed(const std::string& name);
-
-  /// A person, or null. Call runUntil() with the time of a change first.
-  Person* findPerson(const std::string& name);
-
-  /// A rigid body, or null. Call runUntil() with the time of a change first.
-  RigidBody* findBody(const std::string& name);
-
-  /// A reflection, or null; its `lit` may be changed. Call runUntil() with the time of a change
-  /// first.
-  ReflectionDescription* findReflection(const std::string& name);
-
-  /// The board, or null. Call runUntil() with the time of a change first.
+  /// These may be changed in how they move, and whether they are lit or present; null: there is no
+  /// such thing. Call runUntil() with the time of a change first.
+  LedDescription* findLed(const std::string& name) { return findNamed(leds_, name); }
+  PersonDescription* findPerson(const std::string& name) { return findNamed(people_, name); }
+  RigidBodyDescription* findBody(const std::string& name) { return findNamed(rigid_bodies_, name); }
+  ReflectionDescription* findReflection(const std::string& name) {
+    return findNamed(reflections_, name);
+  }
   LedBoard* board() { return board_ ? &*board_ : nullptr; }
 
  private:
@@ -106,8 +74,8 @@ class Rig {
     std::queue<Image> travelling;
   };
 
-  Eigen::Vector3d positionOf(const Led& led, double time) const;
-  bool isInRoom(const Led& led) const;
+  Eigen::Vector3d positionOf(const LedDescription& led, double time) const;
+  bool isInRoom(const LedDescription& led) const;
   void push(double time, Event::Kind kind, std::size_t camera);
   void expose(std::size_t number);
   void tellTruth(double time);
@@ -118,9 +86,9 @@ class Rig {
   double truth_period_;
   std::uint64_t truths_ = 0;
   std::vector<Camera> cameras_;
-  std::vector<Led> leds_;
-  std::vector<Person> people_;
-  std::vector<RigidBody> rigid_bodies_;
+  std::vector<LedDescription> leds_;
+  std::vector<PersonDescription> people_;
+  std::vector<RigidBodyDescription> rigid_bodies_;
   std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
   std::vector<Lamp> lamps_;  // reused, as are bodies_ and reflected_

@@ -84,39 +84,45 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     return true;
 
   const std::lock_guard<std::mutex> lock(mutex_);
+  const double time = now();
+  rig_.runUntil(time);
   if (request.led == "board" && rig_.board())
-    return setBoard(request, response);
+    return setBoard(request, time, response);
   if (ReflectionDescription* reflection = rig_.findReflection(request.led))
-    return setReflection(request, reflection, response);
-  Rig::Led* led = rig_.findLed(request.led);
-  Person* person = rig_.findPerson(request.led);
-  RigidBody* body = rig_.findBody(request.led);
+    return setReflection(request, reflection, time, response);
+  LedDescription* led = rig_.findLed(request.led);
+  PersonDescription* person = rig_.findPerson(request.led);
+  RigidBodyDescription* body = rig_.findBody(request.led);
   if (!led && !person && !body) {
     response.message = "there is no LED, person, body or reflection '" + request.led +
                        "' in the rig's description";
     return true;
   }
-  const std::string holder = led && led->description.turns ? led->description.turns->around
-                             : led                         ? led->description.carried_by
-                                                           : std::string();
+  const std::string holder = led && led->turns ? led->turns->around
+                             : led             ? led->carried_by
+                                               : std::string();
   if (!holder.empty() && request.motion != SetLed::Request::HOLD) {
     response.message = "LED '" + request.led + "' goes where '" + holder + "' goes: move that one";
     return true;
   }
-  const double time = now();
-  rig_.runUntil(time);
   double arrival = time;
   if (holder.empty())
     arrival = move(request, time, led ? &led->motion : person ? &person->motion : &body->motion);
   (led ? led->lit : person ? person->present : body->present) = request.on;
 
-  response.success = true;
-  response.arrival = stamp(arrival);
   std::ostringstream text;
   text << "'" << request.led << "' "
        << (led ? (request.on ? "shines" : "is dark") : (request.on ? "is there" : "is away"))
        << ", arrives in " << arrival - time << " s";
-  response.message = text.str();
+  return accept(arrival, text.str(), response);
+}
+
+bool SimulatedRig::accept(double arrival,
+                          const std::string& message,
+                          SetLed::Response& response) const {
+  response.success = true;
+  response.arrival = stamp(arrival);
+  response.message = message;
   return true;
 }
 
@@ -142,34 +148,28 @@ double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion
 
 bool SimulatedRig::setReflection(const SetLed::Request& request,
                                  ReflectionDescription* reflection,
-                                 SetLed::Response& response) {
+                                 double time,
+                                 SetLed::Response& response) const {
   if (request.motion != SetLed::Request::HOLD) {
     response.message = "reflection '" + request.led + "' can only be switched (HOLD)";
     return true;
   }
-  const double time = now();
-  rig_.runUntil(time);
   reflection->lit = request.on;
-  response.success = true;
-  response.arrival = stamp(time);
-  response.message = "reflection '" + request.led + (request.on ? "' shines" : "' is dark");
-  return true;
+  return accept(time, "reflection '" + request.led + (request.on ? "' shines" : "' is dark"),
+                response);
 }
 
-bool SimulatedRig::setBoard(const SetLed::Request& request, SetLed::Response& response) {
+bool SimulatedRig::setBoard(const SetLed::Request& request,
+                            double time,
+                            SetLed::Response& response) {
   if (request.motion != SetLed::Request::HOLD && request.motion != SetLed::Request::SHOW) {
     response.message = "the board can only HOLD or be shown (SHOW)";
     return true;
   }
-  const double time = now();
-  rig_.runUntil(time);
   if (request.motion == SetLed::Request::SHOW)
     rig_.board()->show(request.path);
   rig_.board()->setLit(request.on);
-  response.success = true;
-  response.arrival = stamp(time);
-  response.message = std::string("the board ") + (request.on ? "shines" : "is dark");
-  return true;
+  return accept(time, std::string("the board ") + (request.on ? "shines" : "is dark"), response);
 }
 
 /// Why a request is refused; empty if it is not.

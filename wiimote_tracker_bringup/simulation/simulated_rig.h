@@ -34,10 +34,15 @@ class SimulatedRig {
   bool setLed(wiimote_tracker_msgs::SetLed::Request& request,
               wiimote_tracker_msgs::SetLed::Response& response);
   bool setBoard(const wiimote_tracker_msgs::SetLed::Request& request,
+                double time,
                 wiimote_tracker_msgs::SetLed::Response& response);
   bool setReflection(const wiimote_tracker_msgs::SetLed::Request& request,
                      ReflectionDescription* reflection,
-                     wiimote_tracker_msgs::SetLed::Response& response);
+                     double time,
+                     wiimote_tracker_msgs::SetLed::Response& response) const;
+  bool accept(double arrival,
+              const std::string& message,
+              wiimote_tracker_msgs::SetLed::Response& response) const;
   double move(const wiimote_tracker_msgs::SetLed::Request& request,
               double time,
               LedMotion* motion) const;

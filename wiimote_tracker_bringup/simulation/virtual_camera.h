@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H
 
-#include "person.h"
+#include "carriers.h"
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"

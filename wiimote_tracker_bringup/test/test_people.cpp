@@ -182,13 +182,12 @@ TEST(RigidBody, carries_leds_and_turns_with_them) {
 }
 
 TEST(RigidBody, sways_and_returns) {
-  RigidBodyDescription description;
-  description.turning.sway = 0.5;
-  description.turning.sway_rate = M_PI;
-  const RigidBody body(description);
-  EXPECT_LT((body.worldFromBody(0.0).linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  RigidBodyDescription body;
+  body.turning.sway = 0.5;
+  body.turning.sway_rate = M_PI;
+  EXPECT_LT((worldFrom(body, 0.0).linear() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   // After half a second, the full angle about z: nodding does not change the azimuth of x.
-  const Vector3d x = body.worldFromBody(0.5).linear().col(0);
+  const Vector3d x = worldFrom(body, 0.5).linear().col(0);
   EXPECT_NEAR(std::atan2(x.y(), x.x()), 0.5, 1e-9);
   EXPECT_NEAR(x.z(), 0.0, 1e-9);
 }
@@ -200,10 +199,10 @@ TEST(RigidBody, body_rig_has_the_body_that_is_known) {
   EXPECT_EQ(std::count_if(description.leds.begin(), description.leds.end(),
                           [](const LedDescription& led) { return led.carried_by == "wand"; }),
             4);
-  const RigidBody body(description.bodies[0]);
+  const RigidBodyDescription& body = description.bodies[0];
   for (int i = 0; i < 600; ++i) {
     for (const CameraDescription& camera : description.cameras)
-      EXPECT_TRUE(camera.camera.sees(body.worldFromBody(0.1 * i).translation()));
+      EXPECT_TRUE(camera.camera.sees(worldFrom(body, 0.1 * i).translation()));
   }
 }
 
@@ -233,17 +232,16 @@ TEST(Reflection, stands_still_in_one_camera_until_it_is_switched_off) {
 
 class PeopleRig : public testing::Test {
  protected:
-  PeopleRig() : people_(description_.people.begin(), description_.people.end()) {}
-
   Vector3d placeOf(const LedDescription& led, double time) const {
-    const Person& carrier = people_[led.carried_by == people_[0].name() ? 0 : 1];
-    return carrier.worldFromPerson(time) * led.motion.position(time);
+    return worldFrom(*findNamed(description_.people, led.carried_by), time) *
+           led.motion.position(time);
   }
 
   bool isHidden(const geometry::Camera& camera, const Vector3d& place, double time) const {
-    return std::any_of(people_.begin(), people_.end(), [&](const Person& person) {
-      return person.body(time).hides(camera.center(), place);
-    });
+    return std::any_of(description_.people.begin(), description_.people.end(),
+                       [&](const PersonDescription& person) {
+                         return cylinderOf(person, time).hides(camera.center(), place);
+                       });
   }
 
   bool isSeen(const geometry::Camera& camera, const Vector3d& place, double time) const {
@@ -251,14 +249,13 @@ class PeopleRig : public testing::Test {
   }
 
   const Description description_ = readDescription(SIMULATION_FOLDER "/people_rig.yaml");
-  const std::vector<Person> people_;
   static constexpr double kStep = 0.02;  // [s]
   static constexpr int kSteps = 6000;    // two minutes
 };
 
 TEST_F(PeopleRig, four_leds_stay_in_the_papers_cube_and_are_sometimes_hidden) {
   ASSERT_EQ(description_.leds.size(), 4u);
-  ASSERT_EQ(people_.size(), 2u);
+  ASSERT_EQ(description_.people.size(), 2u);
   int hidden = 0;
   for (int i = 0; i < kSteps; ++i) {
     for (const LedDescription& led : description_.leds) {

@@ -1,4 +1,4 @@
-#include "person.h"
+#include "carriers.h"
 
 #include <algorithm>
 #include <cmath>
@@ -29,15 +29,25 @@ bool Cylinder::hides(const Eigen::Vector3d& from, const Eigen::Vector3d& to) con
          std::min(level(first), level(last)) <= height;
 }
 
-Eigen::Isometry3d Person::worldFromPerson(double time) const {
-  Eigen::Vector3d place = motion.position(time);
+Eigen::Isometry3d worldFrom(const PersonDescription& carrier, double time) {
+  Eigen::Vector3d place = carrier.motion.position(time);
   place.z() = 0.0;
   return Eigen::Translation3d(place) *
-         Eigen::AngleAxisd(description_.turn_rate * time, Eigen::Vector3d::UnitZ());
+         Eigen::AngleAxisd(carrier.turn_rate * time, Eigen::Vector3d::UnitZ());
 }
 
-Cylinder Person::body(double time) const {
-  return {worldFromPerson(time).translation(), description_.radius, description_.height};
+Eigen::Isometry3d worldFrom(const RigidBodyDescription& carrier, double time) {
+  const TurningDescription& turning = carrier.turning;
+  // The rates have no small common multiple, so that the motion does not repeat.
+  const double phase = turning.sway_rate * time;
+  return Eigen::Translation3d(carrier.motion.position(time)) *
+         Eigen::AngleAxisd(turning.rate * time, turning.axis.normalized()) *
+         Eigen::AngleAxisd(turning.sway * std::sin(phase), Eigen::Vector3d::UnitZ()) *
+         Eigen::AngleAxisd(0.6 * turning.sway * std::sin(1.89 * phase), Eigen::Vector3d::UnitX());
+}
+
+Cylinder cylinderOf(const PersonDescription& person, double time) {
+  return {worldFrom(person, time).translation(), person.radius, person.height};
 }
 
 }  // namespace wiimote_tracker::simulation

@@ -54,6 +54,8 @@ void Rig::runUntil(double time) {
 }
 
 bool Rig::isInRoom(const LedDescription& led) const {
+  if (led.turns)
+    return isInRoom(*findNamed(leds_, led.turns->around));
   const PersonDescription* person = findNamed(people_, led.carried_by);
   const RigidBodyDescription* body = findNamed(rigid_bodies_, led.carried_by);
   return (!person || person->present) && (!body || body->present);

@@ -151,6 +151,20 @@ TEST(Person, an_absent_person_hides_nothing_and_takes_their_leds_along) {
   EXPECT_EQ(watched.rig.findPerson("ben"), nullptr);
 }
 
+TEST(Person, an_absent_person_takes_the_other_end_of_their_wand_along) {
+  Description description = carriedLed();
+  LedDescription end;
+  end.name = "end";
+  end.turns = TurnDescription{"led", 0.4, 0.0};
+  description.leds.push_back(end);
+  Watched watched(description);
+  watched.rig.runUntil(0.005);
+  ASSERT_EQ(watched.lights[0].size(), 2u);
+  watched.rig.findPerson("anna")->present = false;
+  watched.rig.runUntil(0.015);
+  EXPECT_TRUE(watched.lights[0].empty());
+}
+
 TEST(RigidBody, carries_leds_and_turns_with_them) {
   Description description = carriedLed();
   description.people.clear();

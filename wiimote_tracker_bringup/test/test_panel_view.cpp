@@ -158,6 +158,20 @@ TEST_F(View, AKnockedCameraSaysWhatTheHealthWatchSays) {
   EXPECT_EQ(words("a"), status.cameras[0].health);
 }
 
+TEST_F(View, ACameraThatTheCalibrationNodeNoLongerWatchesIsNotKnockedAnyMore) {
+  view_.onRig(rigOf({"a"}), now_);
+  run(0.1, {"a"}, {});
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.cameras.emplace_back();
+  status.cameras[0].name = "a";
+  status.cameras[0].health = "it was tilted by 3 degrees: calibrate it again";
+  view_.onStatus(status, now_);
+  ASSERT_EQ(state("a"), CameraState::kKnocked);
+  status.cameras.clear();
+  view_.onStatus(status, now_);
+  EXPECT_EQ(state("a"), CameraState::kFine);
+}
+
 TEST_F(View, ACameraOfTheCalibrationNodeStays) {
   wiimote_tracker_msgs::CalibrationStatus status;
   status.cameras.emplace_back();

@@ -50,7 +50,7 @@ class CameraView {
   /// Spots outside of the masks.
   std::vector<wiimote_tracker_msgs::IrBlob> visible() const;
 
-  /// Images a second, lost ones not counted; NaN until known [Hz].
+  /// Images a second, also those that were lost on the way; NaN until known [Hz].
   double rate(double now) const;
 
   std::string name;

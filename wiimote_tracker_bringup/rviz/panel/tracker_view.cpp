@@ -82,6 +82,8 @@ void TrackerView::onBattery(const std::string& name, double charge, double now) 
 
 void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now) {
   in_status_.clear();
+  for (CameraView& camera : cameras_)
+    camera.status = {};
   for (const auto& status : message.cameras) {
     in_status_.insert(status.name);
     camera(status.name, now).status = status;

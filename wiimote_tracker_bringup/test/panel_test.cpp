@@ -196,6 +196,19 @@ TEST_F(Panel, NamesTheBagThatItRecords) {
       << label("recording").toStdString();
 }
 
+TEST_F(Panel, SaysWhatBecameOfARecordingThatIsStoppedAtOnce) {
+  open(2);
+  const QTemporaryDir folder;
+  find<QLineEdit>("path")->setText(folder.filePath("take"));
+  auto* record = find<QPushButton>("record");
+  record->click();
+  record->click();
+  EXPECT_TRUE(waitFor([&] {
+    return label("recording") == "Nothing was recorded." ||
+           label("recording").startsWith("Recorded to ");
+  })) << label("recording").toStdString();
+}
+
 TEST_F(Panel, AsksForTheWandOnTheFloor) {
   open(1);
   auto* again = find<QPushButton>("Start again");

@@ -9,6 +9,7 @@ namespace wiimote_tracker::panel {
 namespace {
 
 constexpr int kLongestEnd = 5000;  // until the bag is closed [ms]
+const char* const kStarts = "The recording starts.";
 
 }  // namespace
 
@@ -20,7 +21,7 @@ Recorder::~Recorder() {
 
 void Recorder::start(const QString& prefix) {
   is_wanted_ = true;
-  words_ = "The recording starts.";
+  words_ = kStarts;
   // The folder where roslaunch was called: nodes run elsewhere.
   prefix_ = QDir(qEnvironmentVariable("PWD")).absoluteFilePath(prefix);
   started_ = QDateTime::currentDateTime();
@@ -51,8 +52,8 @@ QString Recorder::words() {
   } else if (is_wanted_) {
     is_wanted_ = false;
     words_ = "The recording has ended by itself: see the terminal in which rviz was started.";
-  } else if (words_.startsWith("Recording")) {
-    words_ = "Recorded to " + bag();
+  } else if (words_ == kStarts || words_.startsWith("Recording")) {
+    words_ = bag().isEmpty() ? "Nothing was recorded." : "Recorded to " + bag();
   }
   return words_;
 }

@@ -295,6 +295,15 @@ TEST_F(Served, RemoteGoesAwayAndComesBackByItself) {
   EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
 }
 
+TEST_F(Served, GarbageIsNoDataReport) {
+  Faults faults;
+  faults.garbage = 1.0;
+  faults.lost_data = 1.0;
+  server_->setFaults(faults);
+  for (int i = 0; i < 50; ++i)
+    EXPECT_FALSE(server_->sample(Senses()));
+}
+
 TEST_F(Served, BatteryNunchukAndMotor) {
   const auto host = connect();
   const auto next = [&] {

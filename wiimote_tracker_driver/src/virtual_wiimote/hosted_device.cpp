@@ -1,15 +1,11 @@
 #include "wiimote_tracker_driver/virtual_wiimote/hosted_device.h"
 
+#include "data_report.h"
 #include "virtual_wiimote/faulty_device.h"
 
 #include <algorithm>
 
 namespace wiimote_tracker::virtual_wiimote {
-namespace {
-
-constexpr std::uint8_t kFirstDataReport = 0x30;
-
-}  // namespace
 
 HostedDevice::HostedDevice(const Device::Options& options, bool present)
     : device_(std::make_unique<FaultyDevice>(options)), present_(present) {}
@@ -24,7 +20,7 @@ bool HostedDevice::sample(const Senses& senses) {
   setReachable(!device_->away());
   send(reports);
   return std::any_of(reports.begin(), reports.end(),
-                     [](const Bytes& report) { return report.at(0) >= kFirstDataReport; });
+                     [](const Bytes& report) { return isDataReport(report.at(0)); });
 }
 
 void HostedDevice::setFaults(const Faults& faults) {

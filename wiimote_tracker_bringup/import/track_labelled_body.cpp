@@ -7,13 +7,13 @@
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <optional>
@@ -45,10 +45,13 @@ struct Image {
   std::vector<Eigen::Vector2d> pixels;                     // in the order of the body's lights
 };
 
+/// ",1,2,3"
 template <typename Numbers>
-void printNumbers(const Numbers& numbers, std::FILE* file) {
+std::string cellsOf(const Numbers& numbers) {
+  std::string cells;
   for (Eigen::Index i = 0; i < numbers.size(); ++i)
-    std::fprintf(file, ",%.9g", numbers(i));
+    cells += format(",%.9g", numbers(i));
+  return cells;
 }
 
 /// What a camera saw last, and before.
@@ -92,9 +95,10 @@ class LabelledBody {
       start(image.time);
   }
 
-  void print(double time, std::FILE* file) const {
+  /// A line of the table; empty while the body is lost.
+  std::string line(double time) const {
     if (!filter_)
-      return;
+      return "";
     body::PoseFilter now = *filter_;
     now.predict(time);
     const body::PoseState& state = now.state();
@@ -107,11 +111,8 @@ class LabelledBody {
     if (const auto more = uncertainty_.covarianceOf(state.position, cameras.data(), cameras.size()))
       covariance.topLeftCorner<3, 3>() += *more;
     // One camera alone hardly tells how far away a small body is.
-    std::fprintf(file, "%.9f,%s", time, cameras.size() >= 2 ? "tracked" : "predicted");
-    printNumbers(state.position, file);
-    printNumbers(state.rotation.coeffs(), file);
-    printNumbers(covariance, file);
-    std::fputc('\n', file);
+    return format("%.9f,%s", time, cameras.size() >= 2 ? "tracked" : "predicted") +
+           cellsOf(state.position) + cellsOf(state.rotation.coeffs()) + cellsOf(covariance) + "\n";
   }
 
  private:
@@ -202,25 +203,28 @@ int run(const std::string& rig_file,
   std::ifstream input(images_file);
   const std::vector<Eigen::Vector3d> lights = readLights(&input);
   LabelledBody body(rig, lights, pixel_stddev);
-  std::FILE* const output = std::fopen(table.c_str(), "w");
+  std::ofstream output(table);
   if (!input || !output)
     throw Error(images_file + " cannot be read, or " + table + " not written");
-  std::fputs("time [s],state,x [m],y [m],z [m],qx,qy,qz,qw", output);
+  output << "time [s],state,x [m],y [m],z [m],qx,qy,qz,qw";
   for (int i = 0; i < 36; ++i)
-    std::fprintf(output, ",cov_%d", i);  // position [m], then rotation about the world axes [rad]
-  std::fputc('\n', output);
-  std::size_t camera;
+    output << ",cov_" << i;  // position [m], then rotation about the world axes [rad]
+  output << '\n';
+  std::size_t camera = 0;
   Image image;
   image.pixels.resize(lights.size());
-  while (input >> camera >> image.time && camera < rig.cameras.size()) {
+  for (std::string line; std::getline(input, line);) {
+    std::istringstream numbers(line);
+    numbers >> camera >> image.time;
     for (Eigen::Vector2d& pixel : image.pixels)
-      input >> pixel.x() >> pixel.y();
+      numbers >> pixel.x() >> pixel.y();
+    if (!numbers || camera >= rig.cameras.size())
+      throw Error(images_file + " has a line that is not camera, time, and x and y of each LED");
     body.add(camera, image);
-    body.print(image.time, output);
+    output << body.line(image.time);
   }
-  std::fclose(output);
-  if (!input.eof())
-    throw Error(images_file + " has a line that is not camera, time, and x and y of each LED");
+  if (!output.flush())
+    throw Error(table + " cannot be written to its end: make room on the disk");
   return 0;
 }
 

@@ -178,6 +178,12 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
     assert figures['rms_mm'] < 1.9
     assert figures['coverage_95'] > 0.9
 
+    images = tmp_path / 'images.txt'  # of that track, now cut off in its last line
+    images.write_text(images.read_text().rsplit(' ', 2)[0])
+    with pytest.raises(ExperimentError, match='has a line that is not camera, time'):
+        ordinary.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)), images,
+                     tmp_path / 'body.csv')
+
 
 def test_the_images_are_of_the_sweeps_own_times(flight):
     views = lighthouse.read(str(flight))

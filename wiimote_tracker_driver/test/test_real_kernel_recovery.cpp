@@ -69,5 +69,12 @@ TEST(LongestPause, BeginsBeforeTheFirstImageAndEndsAtTheLast) {
   EXPECT_EQ(0.0, longestPause({}, 1.0, 2.0));
 }
 
+TEST(ImagesBetween, CountsThoseAtBothEnds) {
+  const std::vector<double> images{0.1, 1.5, 1.6, 1.9, 9.0};
+  EXPECT_EQ(3u, imagesBetween(images, 1.5, 1.9));
+  EXPECT_EQ(0u, imagesBetween(images, 2.0, 8.0));
+  EXPECT_EQ(0u, imagesBetween({}, 1.0, 2.0));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::real_kernel

@@ -1,5 +1,6 @@
-#include "another_program.h"
+#include "scenarios.h"
 
+#include "file_descriptor.h"
 #include "kernel.h"
 #include "streaming.h"
 
@@ -67,11 +68,11 @@ std::vector<Word> words() {
 
 void anotherProgram(Checks& checks) {
   Streaming streaming(checks);
-  const int fd = ::open(hidrawOf(kAddress).c_str(), O_RDWR | O_CLOEXEC);
+  const FileDescriptor node(::open(hidrawOf(kAddress).c_str(), O_RDWR | O_CLOEXEC));
   for (const Word& word : words()) {
     const auto say = [&] {
       const Bytes& report = word.report;
-      if (::write(fd, report.data(), report.size()) != static_cast<ssize_t>(report.size()))
+      if (::write(node.get(), report.data(), report.size()) != static_cast<ssize_t>(report.size()))
         throw std::runtime_error("cannot write to the hidraw node");
     };
     const std::string name = std::string("another program ") + word.what;
@@ -81,7 +82,6 @@ void anotherProgram(Checks& checks) {
     if (word.stops)
       checks.recovers(name, streaming.driver, say, 5);
   }
-  ::close(fd);
   checks.check("the clock epoch is the same", streaming.driver.link().clock_epoch == 0,
                std::to_string(streaming.driver.link().clock_epoch));
 }

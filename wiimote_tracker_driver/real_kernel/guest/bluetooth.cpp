@@ -1,12 +1,11 @@
-#include "bluetooth.h"
+#include "scenarios.h"
 
 #include "air/air.h"
 #include "bluez.h"
 #include "clock.h"
 #include "kernel.h"
 #include "process.h"
-#include "recovery.h"
-#include "running_driver.h"
+#include "streaming.h"
 
 #include <algorithm>
 #include <deque>
@@ -26,16 +25,12 @@ constexpr double kLookInterval = 0.3;  // [s] Between looks at the output of `pa
 constexpr double kConnection = 5.0;    // [s]
 constexpr char kRefusedPin[] = "the remote refused the PIN, as it does when 1 and 2 were pressed";
 
-std::string airAddress(int number) {
-  return "00:1f:32:00:00:0" + std::to_string(number);
-}
-
 /// A computer with one adapter, and remotes 1 to `count` in the air; the fourth is a -TR.
 struct Room {
   explicit Room(int count) {
     for (int i = 1; i <= count; ++i) {
       scenes.emplace_back(i);
-      air.addRemote(airAddress(i), scenes.back(), i == 4);
+      air.addRemote(addressOf(i), scenes.back(), i == 4);
     }
     air.addAdapter(kAdapter);
   }
@@ -52,7 +47,7 @@ struct Outcome {
 
 /// Runs `pair`, and presses the remote's buttons when asked to.
 Outcome pair(Air& air, int remote, Press press, std::vector<std::string> arguments = {}) {
-  std::vector<std::string> command{"pair", "--timeout", "30", "--address", airAddress(remote)};
+  std::vector<std::string> command{"pair", "--timeout", "30", "--address", addressOf(remote)};
   command.insert(command.end(), arguments.begin(), arguments.end());
   Process program(command);
   Outcome outcome;
@@ -64,7 +59,7 @@ Outcome pair(Air& air, int remote, Press press, std::vector<std::string> argumen
     if (asked == std::string::npos)
       continue;
     heard = asked + 1;
-    air.press(airAddress(remote), press);
+    air.press(addressOf(remote), press);
   }
   std::replace(outcome.said.begin(), outcome.said.end(), '\n', ' ');
   return outcome;
@@ -86,8 +81,8 @@ void checkList(Checks& checks, int remotes) {
   std::string said = list.output();
   bool all = true;
   for (int i = 1; i <= remotes; ++i)
-    all = all && said.find(airAddress(i)) != std::string::npos;
-  all = all && said.find(airAddress(remotes + 1)) == std::string::npos;
+    all = all && said.find(addressOf(i)) != std::string::npos;
+  all = all && said.find(addressOf(remotes + 1)) == std::string::npos;
   std::replace(said.begin(), said.end(), '\n', ' ');
   checks.check("list_wiimotes shows " + std::to_string(remotes) + " free ones",
                status == 0 && all && said.find(kAdapter) != std::string::npos, said);
@@ -100,35 +95,25 @@ void fourInTheAir(Checks& checks, const std::string& kernels_parent) {
   for (int i = 1; i <= 4; ++i)
     checkPaired(checks, room.air, i);
   checkList(checks, 4);
-  const std::string path = sysfsPathOf(airAddress(1));
+  const std::string path = sysfsPathOf(addressOf(1));
   checks.check("reports pass the expected part of the kernel",
                path.find(kernels_parent) != std::string::npos, path);
   for (int i = 1; i <= 4; ++i)
-    drivers.emplace_back(airAddress(i), room.scenes[static_cast<std::size_t>(i - 1)],
-                         checks.images);
+    drivers.emplace_back(addressOf(i), room.scenes[static_cast<std::size_t>(i - 1)], checks.images);
   for (int i = 1; i <= 4; ++i)
     checks.recoversFrom("remote " + std::to_string(i) + " streams", drivers[i - 1], now());
-  constexpr double kDuration = 5.0;
-  const double begin = now();
-  sleepFor(kDuration);
-  for (int i = 1; i <= 4; ++i) {
-    const std::vector<double> images = drivers[i - 1].images();
-    const auto in_time =
-        std::count_if(images.begin(), images.end(), [&](double t) { return t >= begin; });
-    checks.check("remote " + std::to_string(i) + ": 5 s at 90 Hz or more", in_time >= 450,
-                 std::to_string(in_time) + " images");
-  }
+  checks.streamForLong(drivers);
 
   const auto comes_back = [&](const std::string& name, int remote) {
     const RunningDriver& driver = drivers[remote - 1];
     checks.check(name + ": the driver searches", driver.waitForState(State::kSearching, 3.0),
                  driver.link().error);
-    room.air.press(airAddress(remote), Press::kOther);
-    waitFor([&] { return !hidrawOf(airAddress(remote)).empty(); }, kConnection);
+    room.air.press(addressOf(remote), Press::kOther);
+    waitFor([&] { return !hidrawOf(addressOf(remote)).empty(); }, kConnection);
     checks.recoversFrom(name + ": a button brings remote " + std::to_string(remote) + " back",
                         driver, now());
   };
-  room.air.cutPower(airAddress(2));
+  room.air.cutPower(addressOf(2));
   comes_back("loss of power", 2);
   checks.recovers("the others stream on", drivers[0], [] {});
   room.bluez.restart();
@@ -142,7 +127,7 @@ void pairScenario(Checks& checks) {
   Room room(2);
   checkPaired(checks, room.air, 1);
   checkList(checks, 1);
-  const RunningDriver driver(airAddress(1), room.scenes[0], checks.images);
+  const RunningDriver driver(addressOf(1), room.scenes[0], checks.images);
   checks.recoversFrom("it streams", driver, now());
 
   const Outcome again = pair(room.air, 1, Press::kSync);
@@ -150,7 +135,7 @@ void pairScenario(Checks& checks) {
                again.status == 0 && says(again, "old pairing, which is now removed"), again.said);
   checks.recoversFrom("and it streams again", driver, now());
 
-  room.air.cutPower(airAddress(1));
+  room.air.cutPower(addressOf(1));
   driver.waitForState(State::kSearching, 3.0);
   const Outcome known = pair(room.air, 1, Press::kOther);
   checks.check("a known remote that connects by a button is told from a new one",
@@ -178,8 +163,8 @@ void twoAdapters(Checks& checks) {
     const std::string& adapter = adapters[static_cast<std::size_t>(i - 1)];
     const Outcome outcome = pair(room.air, i, Press::kSync, {"--adapter", adapter});
     checks.check("paired with adapter " + adapter, outcome.status == 0, outcome.said);
-    checks.check("it is connected to that one", adapterOf(airAddress(i)) == adapter,
-                 adapterOf(airAddress(i)));
+    checks.check("it is connected to that one", adapterOf(addressOf(i)) == adapter,
+                 adapterOf(addressOf(i)));
   }
 }
 

@@ -101,6 +101,16 @@ void Checks::recoversFrom(const std::string& name, const RunningDriver& driver, 
   check(name, recovery.time <= kLongestRecovery, describe(recovery, driver));
 }
 
+void Checks::streamForLong(const std::deque<RunningDriver>& drivers) {
+  const double begin = now();
+  sleepFor(5.0);
+  for (std::size_t i = 0; i < drivers.size(); ++i) {
+    const std::size_t in_time = imagesBetween(drivers[i].images(), begin, now());
+    check("remote " + std::to_string(i + 1) + ": 5 s at 90 Hz or more", in_time >= 450,
+          count(in_time, "images"));
+  }
+}
+
 std::string count(std::size_t number, const std::string& things) {
   return std::to_string(number) + " " + things;
 }

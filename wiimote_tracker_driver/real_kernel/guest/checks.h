@@ -4,6 +4,7 @@
 #include "running_driver.h"
 
 #include <cstddef>
+#include <deque>
 #include <functional>
 #include <string>
 
@@ -31,6 +32,9 @@ class Checks {
 
   /// Checks that images are back within 1 s of a disturbance that began at `since` [s].
   void recoversFrom(const std::string& name, const RunningDriver& driver, double since);
+
+  /// Checks that the drivers of remotes 1, 2, ... get images for 5 s at 90 Hz or more.
+  void streamForLong(const std::deque<RunningDriver>& drivers);
 
   /// All images that the drivers have published.
   ImageTotals images;

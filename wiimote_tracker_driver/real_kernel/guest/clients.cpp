@@ -1,4 +1,4 @@
-#include "clients.h"
+#include "scenarios.h"
 
 #include "air/air.h"
 #include "bluez.h"

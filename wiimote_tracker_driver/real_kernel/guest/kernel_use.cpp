@@ -1,15 +1,14 @@
-#include "kernel_use.h"
+#include "scenarios.h"
 
 #include "clock.h"
+#include "file_descriptor.h"
 #include "kernel.h"
 #include "recovery.h"
 #include "streaming.h"
 
 #include <fcntl.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -25,21 +24,13 @@ Bytes kernelsMode() {
   return {0x12, 0x00, 0x30};
 }
 
-/// Holds a file open.
-class OpenFile {
- public:
-  explicit OpenFile(const std::string& path)
-      : fd_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {
-    if (fd_ < 0)
-      throw std::runtime_error("cannot open '" + path + "'");
-  }
-  ~OpenFile() { ::close(fd_); }
-  OpenFile(const OpenFile&) = delete;
-  OpenFile& operator=(const OpenFile&) = delete;
-
- private:
-  int fd_;
-};
+/// @returns a file descriptor.
+int openFile(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  if (fd < 0)
+    throw std::runtime_error("cannot open '" + path + "'");
+  return fd;
+}
 
 }  // namespace
 
@@ -68,10 +59,9 @@ void evdev(Checks& checks) {
        {"Nintendo Wii Remote IR", "Nintendo Wii Remote Accelerometer", "Nintendo Wii Remote"}) {
     const std::string node = inputNodeOf(kAddress, name);
     const std::string thing = std::string("input device ") + name;
-    std::unique_ptr<OpenFile> file;
+    FileDescriptor file;
     const double begin = now();
-    checks.recovers(thing + " opened", streaming.driver,
-                    [&] { file = std::make_unique<OpenFile>(node); });
+    checks.recovers(thing + " opened", streaming.driver, [&] { file.reset(openFile(node)); });
     checks.recovers(thing + " closed", streaming.driver, [&] { file.reset(); });
     if (std::string(name) == "Nintendo Wii Remote IR") {
       checks.check("the kernel had taken the camera",
@@ -83,7 +73,7 @@ void evdev(Checks& checks) {
       "all input devices opened and closed", streaming.driver,
       [] {
         for (const std::string& node : inputNodes())
-          OpenFile file(node);
+          const FileDescriptor file(openFile(node));
       },
       20);
 }
@@ -116,8 +106,7 @@ void otherFormats(Checks& checks) {
     sleepFor(kDuration);
     const double end = now();
     const std::vector<double> images = streaming.driver.images();
-    const auto in_time = static_cast<std::size_t>(std::count_if(
-        images.begin(), images.end(), [&](double t) { return t >= begin && t <= end; }));
+    const std::size_t in_time = imagesBetween(images, begin, end);
     const double wanted = kDuration * streaming.driver.recoveryRate();
     checks.check(name + " format: 10 s at nine tenths of its rate or more",
                  static_cast<double>(in_time) >= wanted, count(in_time, "images"));
@@ -127,10 +116,10 @@ void otherFormats(Checks& checks) {
     const std::string file = batteryFileOf(kAddress);
     checks.recovers(
         name + " format: battery read", streaming.driver, [&] { readLine(file); }, 10);
-    std::unique_ptr<OpenFile> node;
+    FileDescriptor node;
     const std::string ir = inputNodeOf(kAddress, "Nintendo Wii Remote IR");
     checks.recovers(name + " format: input device of the camera opened", streaming.driver,
-                    [&] { node = std::make_unique<OpenFile>(ir); });
+                    [&] { node.reset(openFile(ir)); });
     checks.recovers(name + " format: and closed", streaming.driver, [&] { node.reset(); });
   }
 }

@@ -1,4 +1,4 @@
-#include "mute_remote.h"
+#include "scenarios.h"
 
 #include "clock.h"
 #include "kernel.h"
@@ -7,7 +7,7 @@
 namespace wiimote_tracker::real_kernel {
 
 void muteRemote(Checks& checks) {
-  const std::string mute_address = "00:1f:32:00:00:01", address = "00:1f:32:00:00:02";
+  const std::string mute_address = addressOf(1), address = addressOf(2);
   Scene scene;
   PluggedRemote mute(mute_address, scene);
   mute.mute();

@@ -27,4 +27,9 @@ double longestPause(const std::vector<double>& images, double begin, double end)
   return longest;
 }
 
+std::size_t imagesBetween(const std::vector<double>& images, double begin, double end) {
+  return static_cast<std::size_t>(std::upper_bound(images.begin(), images.end(), end) -
+                                  std::lower_bound(images.begin(), images.end(), begin));
+}
+
 }  // namespace wiimote_tracker::real_kernel

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H
 #define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H
 
+#include <cstddef>
 #include <vector>
 
 /// Time until a stream has recovered, from the arrival times of its images [s], in order.
@@ -15,6 +16,9 @@ double recoveryTime(const std::vector<double>& images, double since, double rate
 
 /// The longest time without an image from `begin` to the last one before `end` [s].
 double longestPause(const std::vector<double>& images, double begin, double end);
+
+/// Number of images from `begin` to `end` [s].
+std::size_t imagesBetween(const std::vector<double>& images, double begin, double end);
 
 }  // namespace wiimote_tracker::real_kernel
 

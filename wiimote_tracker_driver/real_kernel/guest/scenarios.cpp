@@ -1,22 +1,18 @@
 #include "scenarios.h"
 
-#include "another_program.h"
-#include "bluetooth.h"
-#include "clients.h"
 #include "clock.h"
 #include "kernel.h"
-#include "kernel_use.h"
-#include "mute_remote.h"
 #include "recovery.h"
 #include "streaming.h"
 #include "transport/transport.h"
+
+#include <wiimote_tracker_msgs/text.h>
 
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <deque>
 #include <iterator>
 #include <map>
@@ -33,17 +29,15 @@ using Bytes = PluggedRemote::Bytes;
 using Model = PluggedRemote::Model;
 using State = wiimote::Link::State;
 
+/// The first `count` bytes.
 std::string hex(const Bytes& bytes, std::size_t count) {
   std::string text;
-  char byte[3];
-  for (std::size_t i = 0; i < std::min(count, bytes.size()); ++i) {
-    std::snprintf(byte, sizeof(byte), "%02x", static_cast<unsigned>(bytes[i]));
-    text += byte;
-  }
+  for (std::size_t i = 0; i < std::min(count, bytes.size()); ++i)
+    text += format("%02x", static_cast<unsigned>(bytes[i]));
   return text;
 }
 
-/// The kernel's reports to a remote without extension during setup: the first eight bytes of each
+/// The kernel's reports to a remote without extension during setup: the first seven bytes of each
 /// in the order of first appearance, without the motor's bit.
 void kernelTraffic(Checks& checks) {
   const double plugged = now();
@@ -65,14 +59,11 @@ void kernelTraffic(Checks& checks) {
       "1604a600f00155",  // is there a Motion Plus?
       "1704a600fa0006", "1704a400fa0006",
   };
-  std::string all;
-  for (const std::string& text : said)
-    all += (all.empty() ? "" : " ") + text;
   // The kernel's workers may swap neighbouring reports.
   checks.check("the kernel sets the virtual remote up as it does a real one",
                std::set<std::string>(said.begin(), said.end()) ==
                    std::set<std::string>(expected.begin(), expected.end()),
-               all);
+               joined(said, " "));
   checks.check("the kernel sets its mode after each status", times["120030"] == times["1500"],
                count(static_cast<std::size_t>(times["1500"]), "status requests"));
   checks.check("hid-wiimote is bound", kernelDriverOf(kAddress) == "wiimote",
@@ -123,8 +114,7 @@ void stream(Checks& checks) {
   sleepFor(kDuration);
   const double end = now();
   const std::vector<double> images = streaming.driver.images();
-  const auto in_time = static_cast<std::size_t>(std::count_if(
-      images.begin(), images.end(), [&](double t) { return t >= begin && t <= end; }));
+  const std::size_t in_time = imagesBetween(images, begin, end);
   checks.check("20 s at 90 Hz or more", static_cast<double>(in_time) >= 90.0 * kDuration,
                count(in_time, "images"));
   checks.check("no pause of 0.1 s or more", longestPause(images, begin, end) < 0.1,
@@ -160,10 +150,6 @@ void replug(Checks& checks) {
   }
 }
 
-std::string addressOf(int number) {
-  return "00:1f:32:00:00:0" + std::to_string(number);
-}
-
 void fourAtOnce(Checks& checks) {
   // Each remote has its own scene, which exposes a driver at the wrong remote.
   std::deque<Scene> scenes;
@@ -183,15 +169,7 @@ void fourAtOnce(Checks& checks) {
     checks.recovers("remote " + std::to_string(i) + " streams to its driver", drivers[i - 1],
                     [] {});
 
-  const double begin = now();
-  sleepFor(5.0);
-  for (int i = 1; i <= 4; ++i) {
-    const std::vector<double> images = drivers[i - 1].images();
-    const auto in_time = static_cast<std::size_t>(
-        std::count_if(images.begin(), images.end(), [&](double t) { return t >= begin; }));
-    checks.check("remote " + std::to_string(i) + ": 5 s at 90 Hz or more", in_time >= 450,
-                 count(in_time, "images"));
-  }
+  checks.streamForLong(drivers);
 
   // They come back in another order, so at other nodes.
   std::vector<std::string> before;

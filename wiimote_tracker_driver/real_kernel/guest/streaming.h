@@ -11,6 +11,10 @@
 
 namespace wiimote_tracker::real_kernel {
 
+/// Of the virtual remote with this number, 1 to 9.
+inline std::string addressOf(int number) {
+  return "00:1f:32:00:00:0" + std::to_string(number);
+}
 constexpr char kAddress[] = "00:1f:32:00:00:01";
 
 // Time after the kernel's request for the battery without further reports: setup is complete [s].

@@ -167,9 +167,8 @@ void Adapter::search(double end, int search_number) {
     if (search_number != searches_)
       return;
     for (const Remote& remote : remotes_) {
-      if (!remote.answers() || found_[&remote])
+      if (!remote.answers() || !found_.insert(&remote).second)
         continue;
-      found_[&remote] = true;
       const Bytes clock_offset{0x12, 0x34};
       const Bytes strength{0xc8};
       if (strength_in_results_)

@@ -10,6 +10,7 @@
 #include <deque>
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 
 namespace wiimote_tracker::real_kernel {
@@ -62,7 +63,7 @@ class Adapter {
   int searches_ = 0;                         // a search ends when this changes
   bool strength_in_results_ = false;
   bool answers_calls_ = false;
-  std::map<const Remote*, bool> found_;
+  std::set<const Remote*> found_;  // by this search
   std::uint8_t keys_ = 0;
 };
 

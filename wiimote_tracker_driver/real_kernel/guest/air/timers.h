@@ -3,6 +3,7 @@
 
 #include "clock.h"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <utility>

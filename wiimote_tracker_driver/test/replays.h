@@ -4,11 +4,11 @@
 
 #include "recording/recorder.h"
 #include "recording/replay.h"
+#include "temporary_folder.h"
 #include "virtual_wiimote/faulty_device.h"
 #include "wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -140,18 +140,6 @@ inline void expectSame(const std::vector<Frame>& recorded,
 
 class Replays : public testing::Test {
  protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/wiimote_tracker_replay_XXXXXX";
-    ASSERT_NE(nullptr, ::mkdtemp(pattern));
-    directory_ = pattern;
-    path_ = directory_ + "/a.wiirec";
-  }
-  void TearDown() override {
-    for (const char* name : {"/a.wiirec", "/b.wiirec", "/remote.sock"})
-      ::unlink((directory_ + name).c_str());
-    ::rmdir(directory_.c_str());
-  }
-
   /// Lets the driver's core run with a simulated remote and records it.
   std::vector<Frame> recordSimulation(const Faults& faults,
                                       double duration,
@@ -208,14 +196,14 @@ class Replays : public testing::Test {
 
   /// Another file with these bytes.
   std::string write(const std::string& bytes) const {
-    const std::string path = directory_ + "/b.wiirec";
+    const std::string path = folder_ / "b.wiirec";
     ::unlink(path.c_str());  // some file systems write through when a file is replaced
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
 
-  std::string directory_;
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_ / "a.wiirec";
 };
 
 }  // namespace wiimote_tracker::recording

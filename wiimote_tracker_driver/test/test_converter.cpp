@@ -1,13 +1,12 @@
 // A converter (DolphinBar) shows four remotes, most of them empty slots: device "" finds the real
 // ones. In place of the kernel, this program has hidapi's functions, four slots, and fake time.
 #include "fake_remote.h"
+#include "temporary_folder.h"
 #include "transport/transport.h"
 #include "wiimote/wiimote.h"
 
 #include <gtest/gtest.h>
 #include <hidapi/hidapi.h>
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -101,17 +100,11 @@ Wiimote anyRemote() {
 class AConverter : public testing::Test {
  protected:
   void SetUp() override {
-    ASSERT_NE(nullptr, ::mkdtemp(directory_));
     bar = Converter();
     for (std::size_t i = 0; i < bar.paths.size(); ++i) {
-      bar.paths[i] = directory_ + ("/hidraw" + std::to_string(i));
+      bar.paths[i] = folder_ / ("hidraw" + std::to_string(i));
       std::ofstream(bar.paths[i]) << "";
     }
-  }
-  void TearDown() override {
-    for (const std::string& path : bar.paths)
-      ::unlink(path.c_str());
-    ::rmdir(directory_);
   }
 
   /// Runs the drivers in turn. @returns the images of each.
@@ -124,7 +117,7 @@ class AConverter : public testing::Test {
     return images;
   }
 
-  char directory_[32] = "/tmp/test_converter_XXXXXX";
+  const TemporaryFolder folder_;
 };
 
 TEST_F(AConverter, SlotsThatRefuseWritesArePassed) {

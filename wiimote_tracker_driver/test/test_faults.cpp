@@ -1,16 +1,15 @@
 // Faults on demand between the virtual remote and its host.
+#include "temporary_folder.h"
 #include "virtual_remote_bytes.h"
 #include "virtual_wiimote/faulty_device.h"
 #include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdlib>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -254,24 +253,14 @@ TEST(Faults, AreSetByName) {
 
 class Served : public testing::Test {
  protected:
-  Served() {
-    char name[] = "/tmp/test_faults_XXXXXX";
-    directory_ = ::mkdtemp(name);
-    path_ = directory_ + "/remote.sock";
-    server_ = std::make_unique<Server>(path_, "00:1f:32:00:00:01", Device::Options());
-  }
-  ~Served() override {
-    server_.reset();
-    ::rmdir(directory_.c_str());
-  }
-
   std::unique_ptr<transport::Transport> connect() const {
     return transport::open(transport::parseDeviceName("virtual:" + path_));
   }
 
-  std::string directory_;
-  std::string path_;
-  std::unique_ptr<Server> server_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_ / "remote.sock";
+  const std::unique_ptr<Server> server_ =
+      std::make_unique<Server>(path_, "00:1f:32:00:00:01", Device::Options());
 };
 
 TEST_F(Served, RemoteGoesAwayAndComesBackByItself) {

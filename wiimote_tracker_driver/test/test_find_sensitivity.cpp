@@ -1,11 +1,10 @@
 // The program find_sensitivity, with a driver and a virtual remote in a room with a lamp.
 #include "driver_fixture.h"
+#include "temporary_folder.h"
 
 #include <gtest/gtest.h>
-#include <stdlib.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdio>
 #include <fstream>
@@ -24,17 +23,14 @@ const virtual_wiimote::Light kLed{700.0, 300.0, {}, 0.02};
 class Program {
  public:
   explicit Program(const std::string& command) {
-    char folder[] = "/tmp/test_find_sensitivity.XXXXXX";
-    folder_ = ::mkdtemp(folder);
-    ::mkfifo((folder_ + "/answers").c_str(), 0600);
-    output_ = ::popen((command + " <" + folder_ + "/answers 2>&1").c_str(), "r");
-    answers_.open(folder_ + "/answers");
+    const std::string answers = folder_ / "answers";
+    ::mkfifo(answers.c_str(), 0600);
+    output_ = ::popen((command + " <" + answers + " 2>&1").c_str(), "r");
+    answers_.open(answers);
   }
   ~Program() {
     if (output_ != nullptr)
       end();
-    ::unlink((folder_ + "/answers").c_str());
-    ::rmdir(folder_.c_str());
   }
 
   /// Reads on until a line contains the part. @returns whether one did.
@@ -61,7 +57,7 @@ class Program {
   std::string said;
 
  private:
-  std::string folder_;
+  TemporaryFolder folder_;
   FILE* output_;
   std::ofstream answers_;
 };

@@ -2,10 +2,10 @@
 #include "contains.h"
 #include "recording/reader.h"
 #include "recording/recorder.h"
+#include "temporary_folder.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/resource.h>
 #include <unistd.h>
 
@@ -177,18 +177,6 @@ TEST(RecordingFormat, NoBytesMakeItCrash) {
 /// A separate directory for the recordings of each test.
 class Recording : public testing::Test {
  protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/wiimote_tracker_recording_XXXXXX";
-    ASSERT_NE(nullptr, ::mkdtemp(pattern));
-    directory_ = pattern;
-    path_ = directory_ + "/a.wiirec";
-  }
-  void TearDown() override {
-    for (const char* name : {"/a.wiirec", "/a_2.wiirec", "/a_3.wiirec"})
-      ::unlink((directory_ + name).c_str());
-    ::rmdir(directory_.c_str());
-  }
-
   static Contents readFile(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return read(in);
@@ -205,8 +193,8 @@ class Recording : public testing::Test {
     return true;
   }
 
-  std::string directory_;
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_ / "a.wiirec";
 };
 
 TEST_F(Recording, HoldsAllRecordsAtTheirTimes) {
@@ -248,12 +236,12 @@ TEST_F(Recording, KeepsEarlierOnes) {
   const Recorder first(path_, 0.0, 0.0);
   const Recorder second(path_, 0.0, 0.0);
   const Recorder third(path_, 0.0, 0.0);
-  EXPECT_EQ(directory_ + "/a_2.wiirec", second.path());
-  EXPECT_EQ(directory_ + "/a_3.wiirec", third.path());
+  EXPECT_EQ(folder_ / "a_2.wiirec", second.path());
+  EXPECT_EQ(folder_ / "a_3.wiirec", third.path());
 }
 
 TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
-  const std::string path = directory_ + "/none/a.wiirec";
+  const std::string path = folder_ / "none/a.wiirec";
   try {
     const Recorder recorder(path, 0.0, 0.0);
     ADD_FAILURE() << "not refused";

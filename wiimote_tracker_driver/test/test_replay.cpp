@@ -208,8 +208,8 @@ TEST_F(Replays, FilesThatCannotBePlayedAreRefusedByName) {
     }
     return "";
   };
-  EXPECT_TRUE(contains(refusal(directory_ + "/none.wiirec"), directory_ + "/none.wiirec"));
-  EXPECT_TRUE(contains(refusal(directory_), directory_));
+  EXPECT_TRUE(contains(refusal(folder_ / "none.wiirec"), folder_ / "none.wiirec"));
+  EXPECT_TRUE(contains(refusal(folder_.path()), folder_.path()));
   EXPECT_TRUE(contains(refusal(write("#ROSBAG V2.0")), "not a recording"));
   { const Recorder recorder(path_, 0.0, 0.0); }
   EXPECT_TRUE(contains(refusal(path_), "no connection"));
@@ -264,7 +264,7 @@ class ArrivalClock : public transport::Transport {
 
 // The same over a real socket, in real time, with a remote that goes away in between.
 TEST_F(Replays, SocketSession) {
-  const std::string socket = directory_ + "/remote.sock";
+  const std::string socket = folder_ / "remote.sock";
   std::vector<Frame> recorded;
   double begin = 0.0;
   {

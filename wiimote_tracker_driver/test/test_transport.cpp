@@ -1,12 +1,12 @@
 // Device names, error sentences, and the socket transport against the virtual remote.
 #include "contains.h"
+#include "temporary_folder.h"
 #include "transport/hidraw_transport.h"
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -74,7 +74,8 @@ TEST(DeviceNames, RemotesAreTriedInTurn) {
 }
 
 TEST(SocketTransport, OnlyTheOwnerMayConnect) {
-  const std::string path = "/tmp/wiimote_tracker_owner_" + std::to_string(getpid()) + ".sock";
+  const TemporaryFolder folder;
+  const std::string path = folder / "remote.sock";
   const Server server(path, "00:1f:32:00:00:01", {});
   struct stat info {};
   ASSERT_EQ(0, stat(path.c_str(), &info));
@@ -82,9 +83,8 @@ TEST(SocketTransport, OnlyTheOwnerMayConnect) {
 }
 
 TEST(SocketTransport, RemoteThatReadsNoMoreDoesNotBlock) {
-  char name[] = "/tmp/test_transport_XXXXXX";
-  const std::string directory = ::mkdtemp(name);
-  const std::string path = directory + "/remote.sock";
+  const TemporaryFolder folder;
+  const std::string path = folder / "remote.sock";
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::strcpy(address.sun_path, path.c_str());
@@ -105,8 +105,6 @@ TEST(SocketTransport, RemoteThatReadsNoMoreDoesNotBlock) {
   EXPECT_TRUE(contains(sentenceOf<Disconnected>(fill), "reads no reports any more"));
   ::close(remote);
   ::close(listener);
-  ::unlink(path.c_str());
-  ::rmdir(directory.c_str());
 }
 
 TEST(DeviceNames, MalformedOnesAreRefusedByName) {
@@ -148,17 +146,6 @@ TEST(OpenErrors, HidrawThatIsNotThere) {
 /// A separate directory for the sockets of each test.
 class Sockets : public testing::Test {
  protected:
-  void SetUp() override {
-    char pattern[] = "/tmp/wiimote_tracker_transport_XXXXXX";
-    ASSERT_NE(nullptr, ::mkdtemp(pattern));
-    directory_ = pattern;
-    path_ = directory_ + "/remote.sock";
-  }
-  void TearDown() override {
-    ::unlink(path_.c_str());
-    ::rmdir(directory_.c_str());
-  }
-
   std::unique_ptr<Server> serve() const {
     return std::make_unique<Server>(path_, "00:1f:32:00:00:01", virtual_wiimote::Device::Options());
   }
@@ -182,8 +169,8 @@ class Sockets : public testing::Test {
     return true;
   }
 
-  std::string directory_;
-  std::string path_;
+  const TemporaryFolder folder_;
+  const std::string path_ = folder_ / "remote.sock";
 };
 
 TEST_F(Sockets, ReportsPassInBothDirections) {
@@ -316,7 +303,7 @@ TEST_F(Sockets, StaleFileIsReplacedALiveOneIsNot) {
 }
 
 TEST_F(Sockets, DirectoryThatIsNotThere) {
-  EXPECT_THROW(Server(directory_ + "/none/remote.sock", "a", virtual_wiimote::Device::Options()),
+  EXPECT_THROW(Server(folder_ / "none/remote.sock", "a", virtual_wiimote::Device::Options()),
                std::system_error);
 }
 

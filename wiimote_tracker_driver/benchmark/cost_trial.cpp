@@ -2,21 +2,17 @@
 
 #include "folder.h"
 #include "own_master.h"
+#include "process.h"
 #include "virtual_remotes.h"
 
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
-#include <signal.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <array>
 #include <cstdint>
-#include <functional>
 #include <stdexcept>
 #include <string>
 
@@ -29,38 +25,6 @@ constexpr int kTurns = 4;             // without and with a subscriber
 constexpr double kSettling = 2.0;     // [s] After the subscription has changed.
 constexpr double kLearning = 30.0;    // [s] Until the exposure clock has learned.
 constexpr double kStartsWithin = 60;  // [s]
-
-/// A child process, ended with this object.
-class Process {
- public:
-  explicit Process(const std::function<void()>& run) : id_(::fork()) {
-    if (id_ < 0)
-      throw std::runtime_error("no process can be started: end others, and try again");
-    if (id_ != 0)
-      return;
-    ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-    run();
-    ::_exit(127);
-  }
-  ~Process() {
-    ::kill(id_, SIGTERM);
-    ::waitpid(id_, nullptr, 0);
-  }
-  Process(const Process&) = delete;
-  Process& operator=(const Process&) = delete;
-
-  /// Of all its threads [s].
-  double processorTime() const {
-    clockid_t clock{};
-    timespec time{};
-    if (::clock_getcpuclockid(id_, &clock) != 0 || ::clock_gettime(clock, &time) != 0)
-      throw std::runtime_error("a node under test has ended: see its messages above");
-    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-  }
-
- private:
-  pid_t id_;
-};
 
 /// As in the tutorials of ROS.
 void publishOnly() {

@@ -4,10 +4,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
-#include <signal.h>
-#include <sys/prctl.h>
 #include <sys/socket.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -35,34 +32,26 @@ int freePort() {
   return ntohs(address.sin_port);
 }
 
-}  // namespace
-
-OwnMaster::OwnMaster() {
+/// Makes this process and its children use a master at a free port. @returns the port.
+std::string chooseMaster() {
   const std::string port = std::to_string(freePort());
   ::setenv("ROS_IP", "127.0.0.1", 1);
   ::unsetenv("ROS_HOSTNAME");
   ::setenv("ROS_MASTER_URI", ("http://127.0.0.1:" + port + "/").c_str(), 1);
-  process_ = ::fork();
-  if (process_ != 0)
-    return;
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  ::execlp("rosmaster", "rosmaster", "--core", "-p", port.c_str(), nullptr);
-  ::_exit(127);
+  return port;
 }
 
-OwnMaster::~OwnMaster() {
-  if (process_ <= 0)
-    return;
-  ::kill(process_, SIGTERM);
-  ::waitpid(process_, nullptr, 0);
-}
+}  // namespace
+
+OwnMaster::OwnMaster()
+    : process_([port = chooseMaster()] {
+        ::execlp("rosmaster", "rosmaster", "--core", "-p", port.c_str(), nullptr);
+      }) {}
 
 void OwnMaster::connect() {
   ros::init(ros::M_string(), "benchmark_driver", ros::init_options::NoRosout);
   for (double waited = 0.0; !ros::master::check(); waited += 0.1) {
-    if (process_ > 0 && ::waitpid(process_, nullptr, WNOHANG) == process_)
-      process_ = 0;
-    if (process_ <= 0 || waited > kMasterLimit)
+    if (process_.hasEnded() || waited > kMasterLimit)
       throw std::runtime_error(
           "no ROS master could be started: source ROS's setup.bash, so that rosmaster is found");
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H
 #define WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H
 
-#include <sys/types.h>
+#include "process.h"
 
 namespace wiimote_tracker {
 
@@ -11,16 +11,13 @@ class OwnMaster {
   /// Starts it for this process and its children. Returns at once.
   /// @throws std::runtime_error when no port is free.
   OwnMaster();
-  ~OwnMaster();
-  OwnMaster(const OwnMaster&) = delete;
-  OwnMaster& operator=(const OwnMaster&) = delete;
 
   /// Initialises ROS in this process and waits for the master; no thread is started.
   /// @throws std::runtime_error when there is no program rosmaster.
   void connect();
 
  private:
-  pid_t process_;
+  Process process_;
 };
 
 }  // namespace wiimote_tracker

@@ -6,8 +6,6 @@
 
 #include <signal.h>
 #include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -26,38 +24,27 @@ using SteadyClock = std::chrono::steady_clock;
 
 namespace {
 
-[[noreturn]] void fail(const char* what) {
-  throw std::system_error(errno, std::generic_category(), what);
-}
-
 std::size_t sharedSize(int count) {
   return sizeof(std::int64_t) * static_cast<std::size_t>(count) * VirtualRemotes::kMostSamples;
 }
 
-}  // namespace
-
-double steadyNow() {
-  return std::chrono::duration<double>(SteadyClock::now().time_since_epoch()).count();
-}
-
-VirtualRemotes::VirtualRemotes(int count, const std::string& folder)
-    : count_(count), folder_(folder) {
+/// All zeros.
+std::atomic<std::int64_t>* sharedMemory(int count) {
   static_assert(std::atomic<std::int64_t>::is_always_lock_free, "it is shared between processes");
   void* memory =
       ::mmap(nullptr, sharedSize(count), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
-    fail("memory shared with the virtual remotes");
-  sent_ = static_cast<std::atomic<std::int64_t>*>(memory);  // all zeros
-  process_ = ::fork();
-  if (process_ < 0)
-    fail("a process for the virtual remotes");
-  if (process_ == 0)
-    serve();
+    throw std::system_error(errno, std::generic_category(),
+                            "memory shared with the virtual remotes");
+  return static_cast<std::atomic<std::int64_t>*>(memory);
 }
 
+}  // namespace
+
+VirtualRemotes::VirtualRemotes(int count, const std::string& folder)
+    : count_(count), folder_(folder), sent_(sharedMemory(count)), process_([this] { serve(); }) {}
+
 VirtualRemotes::~VirtualRemotes() {
-  ::kill(process_, SIGTERM);
-  ::waitpid(process_, nullptr, 0);
   ::munmap(sent_, sharedSize(count_));
 }
 
@@ -71,7 +58,6 @@ double VirtualRemotes::sentAt(int remote, std::uint32_t sample) const {
 
 void VirtualRemotes::serve() {
   using std::chrono::nanoseconds;
-  ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   ::signal(SIGINT, SIG_IGN);  // the benchmark ends this process
   try {
     std::vector<std::unique_ptr<virtual_wiimote::Server>> servers;

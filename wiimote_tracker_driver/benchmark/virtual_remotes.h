@@ -1,7 +1,9 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H
 #define WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H
 
-#include <sys/types.h>
+#include "process.h"
+
+#include "ros/clock_reading.h"
 
 #include <atomic>
 #include <cstdint>
@@ -9,8 +11,7 @@
 
 namespace wiimote_tracker {
 
-/// The clock that both processes share [s].
-double steadyNow();
+using driver::steadyNow;  // the clock that both processes share
 
 /// Virtual remotes in their own process, so that their work does not count as the driver's. Each
 /// samples 100 times a second, evenly spread over the period; the place of one light encodes the
@@ -22,7 +23,7 @@ class VirtualRemotes {
   static constexpr std::uint32_t kMostSamples = 1u << 16;
 
   /// Forks; call it while this process has one thread. The sockets are made in `folder`.
-  /// @throws std::system_error.
+  /// @throws std::runtime_error.
   VirtualRemotes(int count, const std::string& folder);
   ~VirtualRemotes();
   VirtualRemotes(const VirtualRemotes&) = delete;
@@ -43,8 +44,8 @@ class VirtualRemotes {
 
   const int count_;
   const std::string folder_;
-  std::atomic<std::int64_t>* sent_;  ///< [ns] A row for each remote; both processes see it.
-  pid_t process_;
+  std::atomic<std::int64_t>* const sent_;  ///< [ns] A row for each remote; both processes see it.
+  const Process process_;
 };
 
 }  // namespace wiimote_tracker

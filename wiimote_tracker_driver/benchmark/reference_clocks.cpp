@@ -39,6 +39,33 @@ double kalman(const SimulatedSession& session, const LinkModel& link) {
   return first.arrival + static_cast<double>(frame - first.frame) * kNominalPeriod + time;
 }
 
+/// Likelihood of a report that is this much later than its frame could arrive [s], by a hard edge.
+double likelihoodOf(const virtual_wiimote::FrameTime& report, const LinkModel& link, double late) {
+  const auto readyBefore = [&](double time) {
+    return time > 0.0 ? -std::expm1(-time / link.jitter) : 0.0;
+  };
+  if (report.queued)
+    return readyBefore(late);
+  if (link.slot > 0.0)
+    return readyBefore(late) - readyBefore(late - link.slot);
+  return late > 0.0 ? std::exp(-late / link.jitter) : 0.0;
+}
+
+/// Spreads masses by a normal error of this many cells; `spare` is of the same size.
+void blur(double stddev, std::vector<double>* masses, std::vector<double>* spare) {
+  const int reach = static_cast<int>(std::ceil(4.0 * stddev));
+  if (reach == 0)
+    return;
+  const int size = static_cast<int>(masses->size());
+  std::fill(spare->begin(), spare->end(), 0.0);
+  for (int d = -reach; d <= reach; ++d) {
+    const double weight = std::exp(-0.5 * d * d / (stddev * stddev));
+    for (int i = std::max(0, -d); i < std::min(size, size - d); ++i)
+      (*spare)[static_cast<std::size_t>(i + d)] += weight * (*masses)[static_cast<std::size_t>(i)];
+  }
+  masses->swap(*spare);
+}
+
 // Histogram of the phase around the true first one; the period is known.
 double pointMass(const SimulatedSession& session, const LinkModel& link) {
   constexpr double kCell = 10e-6;
@@ -47,36 +74,17 @@ double pointMass(const SimulatedSession& session, const LinkModel& link) {
   std::vector<double> mass(kCells, 1.0), spread(kCells);
   const virtual_wiimote::FrameTime& first = session.reports.front();
   const double start = first.exposure + link.delay;
-  const auto readyBefore = [&](double late) {
-    return late > 0.0 ? -std::expm1(-late / link.jitter) : 0.0;
-  };
   std::int64_t frame = first.frame;
   for (const virtual_wiimote::FrameTime& report : session.reports) {
-    const double sd = link.wander *
-                      std::sqrt(static_cast<double>(report.frame - frame) * kNominalPeriod / 10.0) /
-                      kCell;
+    blur(link.wander *
+             std::sqrt(static_cast<double>(report.frame - frame) * kNominalPeriod / 10.0) / kCell,
+         &mass, &spread);
     frame = report.frame;
-    if (sd > 0.0) {
-      const int reach = static_cast<int>(std::ceil(4.0 * sd));
-      std::fill(spread.begin(), spread.end(), 0.0);
-      for (int d = -reach; d <= reach; ++d) {
-        const double weight = std::exp(-0.5 * d * d / (sd * sd));
-        for (int i = std::max(0, -d); i < std::min(kCells, kCells - d); ++i)
-          spread[i + d] += weight * mass[i];
-      }
-      mass.swap(spread);
-    }
     const double base =
         start + static_cast<double>(frame - first.frame) * session.period - kHalf * kCell;
     double sum = 0.0;
     for (int i = 0; i < kCells; ++i) {
-      const double late = report.arrival - base - i * kCell;
-      if (report.queued)
-        mass[i] *= readyBefore(late);
-      else if (link.slot > 0.0)
-        mass[i] *= readyBefore(late) - readyBefore(late - link.slot);
-      else
-        mass[i] *= late > 0.0 ? std::exp(-late / link.jitter) : 0.0;
+      mass[i] *= likelihoodOf(report, link, report.arrival - base - i * kCell);
       sum += mass[i];
     }
     for (double& m : mass)
@@ -109,19 +117,8 @@ class ExposureGrid {
     mass_.swap(next_);
   }
 
-  void blur(double stddev) {
-    const double sd = stddev / cell_;
-    const int reach = static_cast<int>(std::ceil(4.0 * sd));
-    if (reach == 0)
-      return;
-    std::fill(next_.begin(), next_.end(), 0.0);
-    for (int d = -reach; d <= reach; ++d) {
-      const double weight = std::exp(-0.5 * d * d / (sd * sd));
-      for (int i = std::max(0, -d); i < std::min(kSize, kSize - d); ++i)
-        next_[static_cast<std::size_t>(i + d)] += weight * mass_[static_cast<std::size_t>(i)];
-    }
-    mass_.swap(next_);
-  }
+  /// By a normal error [s].
+  void blur(double stddev) { exposure_clock::blur(stddev / cell_, &mass_, &next_); }
 
   /// `likelihood` of a time after the true one [s].
   template <typename Likelihood>
@@ -225,9 +222,6 @@ double oracle(const SimulatedSession& session, const LinkModel& link) {
 double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link) {
   ExposureGrid grid(session.period);
   const virtual_wiimote::FrameTime& first = session.reports.front();
-  const auto readyBefore = [&](double late) {
-    return late > 0.0 ? -std::expm1(-late / link.jitter) : 0.0;
-  };
   double base = 0.0;
   std::int64_t frame = first.frame;
   for (const virtual_wiimote::FrameTime& report : session.reports) {
@@ -237,14 +231,8 @@ double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& li
               std::sqrt(static_cast<double>(report.frame - frame) * session.period / 10.0));
     frame = report.frame;
     base = first.exposure + link.delay + static_cast<double>(frame - first.frame) * session.period;
-    grid.weigh([&](double offset) {
-      const double late = report.arrival - base - offset;
-      if (report.queued)
-        return readyBefore(late);
-      if (link.slot > 0.0)
-        return readyBefore(late) - readyBefore(late - link.slot);
-      return late > 0.0 ? std::exp(-late / link.jitter) : 0.0;
-    });
+    grid.weigh(
+        [&](double offset) { return likelihoodOf(report, link, report.arrival - base - offset); });
   }
   return base + grid.estimate();
 }

@@ -5,21 +5,79 @@
 
 #include <cmath>
 #include <ctime>
-#include <numeric>
+#include <vector>
 
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-double mean(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-double rmsAboutMean(const std::vector<double>& values) {
-  const double m = mean(values);
+
+/// One session: errors of the last report's exposure time [s], named as in TimingScore.
+struct Trial {
+  double arrival = 0.0, oracle = 0.0, blind_oracle = 0.0;
+  double least_squares = 0.0, convex_hull = 0.0, olson = 0.0;
+  double least_squares_own = 0.0, convex_hull_own = 0.0;
+  double clock = 0.0, total = 0.0;
+  bool wrong_frame = false, blind_oracle_wrong_frame = false;
+  double clock_stddev = 0.0, stddev = 0.0;
+  double seconds = 0.0;     ///< CPU time of the clock.
+  std::size_t reports = 0;  ///< That it took.
+};
+
+double mean(const std::vector<Trial>& trials, double Trial::*error) {
   double sum = 0.0;
-  for (double v : values)
-    sum += (v - m) * (v - m);
-  return std::sqrt(sum / (static_cast<double>(values.size()) - 1.0));
+  for (const Trial& trial : trials)
+    sum += trial.*error;
+  return sum / static_cast<double>(trials.size());
 }
+double rmsAboutMean(const std::vector<Trial>& trials, double Trial::*error) {
+  const double m = mean(trials, error);
+  double sum = 0.0;
+  for (const Trial& trial : trials)
+    sum += (trial.*error - m) * (trial.*error - m);
+  return std::sqrt(sum / (static_cast<double>(trials.size()) - 1.0));
+}
+
+Trial run(const LinkModel& link, double duration, bool blind_oracle, std::uint64_t seed) {
+  const SimulatedSession session = simulate(link, duration, seed);
+  Trial trial;
+  ExposureClock ours;
+  Estimate estimate;
+  SimulatedSession numbered = session;
+  auto own = numbered.reports.begin();
+  const std::clock_t begin = std::clock();
+  for (const virtual_wiimote::FrameTime& report : session.reports) {
+    estimate = ours.update(report.arrival);
+    (own++)->frame = estimate.frame;
+  }
+  trial.seconds = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+  trial.reports = session.reports.size();
+
+  const double truth = session.reports.back().exposure + link.delay;
+  const auto toNearest = [&](double error) {
+    return error - session.period * std::round(error / session.period);
+  };
+  trial.arrival = session.reports.back().arrival - truth;
+  trial.least_squares = leastSquares(session) - truth;
+  trial.convex_hull = convexHull(session) - truth;
+  trial.least_squares_own = toNearest(leastSquares(numbered) - truth);
+  trial.convex_hull_own = toNearest(convexHull(numbered) - truth);
+  trial.olson = olson(session) - truth;
+  trial.oracle = oracle(session, link) - truth;
+  if (blind_oracle && link.core == LinkModel::Core::kHardEdge) {
+    const double error = oracleWithoutNumbers(session, link) - truth;
+    trial.blind_oracle = toNearest(error);
+    trial.blind_oracle_wrong_frame = std::abs(error) > 0.5 * session.period;
+  }
+  // The reference of a bell is its mean less a typical spread.
+  const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.jitter - 0.0024 : 0.0;
+  trial.total = estimate.exposure - truth - bell;
+  trial.clock = toNearest(trial.total);
+  trial.wrong_frame = std::round(trial.total / session.period) != 0.0;
+  trial.stddev = estimate.stddev;
+  trial.clock_stddev = estimate.clock_stddev;
+  return trial;
+}
+
 }  // namespace
 
 TimingScore runTiming(const LinkModel& link,
@@ -27,80 +85,36 @@ TimingScore runTiming(const LinkModel& link,
                       int sessions,
                       bool blind_oracle,
                       std::uint64_t first_seed) {
-  std::vector<double> arrival, squares, hull, olsons, own_squares, own_hull, best, blind, clock,
-      total, clock_stddev, stddev;
-  double seconds = 0.0;
+  std::vector<Trial> trials;
+  for (int i = 0; i < sessions; ++i)
+    trials.push_back(run(link, duration, blind_oracle, first_seed + static_cast<std::uint64_t>(i)));
+  TimingScore score{};
+  const double bias = mean(trials, &Trial::clock);
+  double ratio = 0.0, total_square = 0.0;
   std::size_t reports = 0;
-  int wrong = 0, blind_wrong = 0;
-  for (int i = 0; i < sessions; ++i) {
-    const SimulatedSession session =
-        simulate(link, duration, first_seed + static_cast<std::uint64_t>(i));
-    ExposureClock ours;
-    Estimate estimate;
-    SimulatedSession numbered = session;
-    auto own = numbered.reports.begin();
-    const std::clock_t begin = std::clock();
-    for (const virtual_wiimote::FrameTime& report : session.reports) {
-      estimate = ours.update(report.arrival);
-      (own++)->frame = estimate.frame;
-    }
-    seconds += static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-    reports += session.reports.size();
-
-    const double truth = session.reports.back().exposure + link.delay;
-    arrival.push_back(session.reports.back().arrival - truth);
-    squares.push_back(leastSquares(session) - truth);
-    hull.push_back(convexHull(session) - truth);
-    const auto toNearest = [&](double error) {
-      return error - session.period * std::round(error / session.period);
-    };
-    own_squares.push_back(toNearest(leastSquares(numbered) - truth));
-    own_hull.push_back(toNearest(convexHull(numbered) - truth));
-    olsons.push_back(olson(session) - truth);
-    best.push_back(oracle(session, link) - truth);
-    if (blind_oracle && link.core == LinkModel::Core::kHardEdge) {
-      const double error = oracleWithoutNumbers(session, link) - truth;
-      blind.push_back(toNearest(error));
-      blind_wrong += std::abs(error) > 0.5 * session.period;
-    }
-    // The reference of a bell is its mean less a typical spread.
-    const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.jitter - 0.0024 : 0.0;
-    const double error = estimate.exposure - truth - bell;
-    const double frames = std::round(error / session.period);
-    wrong += frames != 0.0;
-    total.push_back(error);
-    clock.push_back(error - frames * session.period);
-    stddev.push_back(estimate.stddev);
-    clock_stddev.push_back(estimate.clock_stddev);
+  for (const Trial& trial : trials) {
+    const double total = trial.total - bias;
+    ratio += std::pow((trial.clock - bias) / trial.clock_stddev, 2) / sessions;
+    total_square += total * total / sessions;
+    score.covered += (std::abs(total) < 2.0 * trial.stddev) / static_cast<double>(sessions);
+    score.wrong_frames += trial.wrong_frame / static_cast<double>(sessions);
+    score.blind_oracle_wrong_frames +=
+        trial.blind_oracle_wrong_frame / static_cast<double>(sessions);
+    score.update_seconds += trial.seconds;
+    reports += trial.reports;
   }
-  const double bias = mean(clock);
-  double ratio = 0.0;
-  int covered = 0;
-  for (std::size_t i = 0; i < clock.size(); ++i) {
-    ratio += std::pow((clock[i] - bias) / clock_stddev[i], 2) / sessions;
-    total[i] -= bias;
-    covered += std::abs(total[i]) < 2.0 * stddev[i];
-  }
-  double total_square = 0.0;
-  for (double t : total)
-    total_square += t * t / sessions;
-
-  TimingScore score;
-  score.arrival = rmsAboutMean(arrival);
-  score.least_squares = rmsAboutMean(squares);
-  score.convex_hull = rmsAboutMean(hull);
-  score.least_squares_own = rmsAboutMean(own_squares);
-  score.convex_hull_own = rmsAboutMean(own_hull);
-  score.olson = rmsAboutMean(olsons);
-  score.oracle = rmsAboutMean(best);
-  score.blind_oracle = blind.empty() ? 0.0 : rmsAboutMean(blind);
-  score.blind_oracle_wrong_frames = static_cast<double>(blind_wrong) / sessions;
-  score.clock = rmsAboutMean(clock);
-  score.total = std::sqrt(total_square);
-  score.wrong_frames = static_cast<double>(wrong) / sessions;
   score.clock_ratio = std::sqrt(ratio);
-  score.covered = static_cast<double>(covered) / sessions;
-  score.update_seconds = seconds / static_cast<double>(reports);
+  score.total = std::sqrt(total_square);
+  score.update_seconds /= static_cast<double>(reports);
+  score.arrival = rmsAboutMean(trials, &Trial::arrival);
+  score.least_squares = rmsAboutMean(trials, &Trial::least_squares);
+  score.convex_hull = rmsAboutMean(trials, &Trial::convex_hull);
+  score.least_squares_own = rmsAboutMean(trials, &Trial::least_squares_own);
+  score.convex_hull_own = rmsAboutMean(trials, &Trial::convex_hull_own);
+  score.olson = rmsAboutMean(trials, &Trial::olson);
+  score.oracle = rmsAboutMean(trials, &Trial::oracle);
+  score.blind_oracle = rmsAboutMean(trials, &Trial::blind_oracle);
+  score.clock = rmsAboutMean(trials, &Trial::clock);
   return score;
 }
 

@@ -12,13 +12,6 @@
 
 namespace wiimote_tracker::wiimote {
 
-inline protocol::Report reportOf(const virtual_wiimote::Bytes& bytes) {
-  protocol::Report report;
-  report.size = bytes.size();
-  std::copy(bytes.begin(), bytes.end(), report.bytes.begin());
-  return report;
-}
-
 constexpr double kPeriod = 0.01;    // [s]
 constexpr double kLatency = 0.012;  // [s] Of output reports; input reports arrive at once.
 
@@ -73,14 +66,13 @@ class RemoteTransport : public transport::Transport {
     remote_->passUntil(remote_->now + timeout);
     if (remote_->heard.empty())
       return false;
-    report = reportOf(remote_->heard.front());
+    report = {remote_->heard.front().data(), remote_->heard.front().size()};
     remote_->heard.pop_front();
     return true;
   }
   void write(const protocol::Report& report) override {
-    const auto begin = report.bytes.begin();
     remote_->said.emplace_back(remote_->now + kLatency,
-                               virtual_wiimote::Bytes(begin, begin + report.size));
+                               virtual_wiimote::Bytes(report.begin(), report.end()));
   }
   std::string description() const override { return "device"; }
   std::string identity() const override { return ""; }

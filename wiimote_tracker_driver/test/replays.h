@@ -78,8 +78,7 @@ struct SimulatedRemote {
       if (!under_way.empty() && next_arrival <= until) {
         now = std::max(now, next_arrival);
         next_arrival = now + 0.001 * (random() % 5000) * 0.001;
-        report.size = under_way.front().size();
-        std::copy(under_way.front().begin(), under_way.front().end(), report.bytes.begin());
+        report = Report(under_way.front().data(), under_way.front().size());
         under_way.pop_front();
         return true;
       }
@@ -100,8 +99,7 @@ class SimulatedTransport : public transport::Transport {
   void write(const Report& report) override {
     if (remote_->device.away())
       throw transport::Disconnected("the remote is out of reach");
-    const auto begin = report.bytes.begin();
-    remote_->take(remote_->device.handleOutput(Bytes(begin, begin + report.size)));
+    remote_->take(remote_->device.handleOutput(Bytes(report.begin(), report.end())));
   }
   std::string description() const override { return "simulated"; }
   std::string identity() const override { return "00:1f:32:00:00:07"; }

@@ -34,15 +34,12 @@ class FaultyTransport : public transport::Transport {
     }
     if (arrived_.empty())
       return false;
-    const Bytes& bytes = arrived_.front();
-    report.size = bytes.size();
-    std::copy(bytes.begin(), bytes.end(), report.bytes.begin());
+    report = protocol::Report(arrived_.front().data(), arrived_.front().size());
     arrived_.pop_front();
     return true;
   }
   void write(const protocol::Report& report) override {
-    const auto begin = report.bytes.begin();
-    add(device_->handleOutput(Bytes(begin, begin + static_cast<std::ptrdiff_t>(report.size))));
+    add(device_->handleOutput(Bytes(report.begin(), report.end())));
   }
   std::string description() const override { return "device"; }
   std::string identity() const override { return ""; }

@@ -3,25 +3,12 @@
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
-#include <algorithm>
-
 namespace wiimote_tracker::fuzz {
 
 using protocol::Report;
 
-namespace {
-
-Report reportOf(const std::uint8_t* data, std::size_t size) {
-  Report report;
-  report.size = std::min(size, Report::kCapacity);
-  std::copy_n(data, report.size, report.bytes.begin());
-  return report;
-}
-
-}  // namespace
-
 void fuzzReports(const std::uint8_t* data, std::size_t size) {
-  const Report report = reportOf(data, size);
+  const Report report(data, size);
   int meanings = 0;
   if (const auto image = protocol::decodeDataReport(report)) {
     ++meanings;
@@ -43,8 +30,8 @@ void fuzzReports(const std::uint8_t* data, std::size_t size) {
   require(meanings <= 1, "a report has one meaning");
   require((protocol::decodeButtons(report) & ~0x1f9f) == 0, "only buttons are in the buttons");
 
-  const std::size_t second = std::min(size, Report::kCapacity);
-  const auto pair = protocol::decodeInterleaved(report, reportOf(data + second, size - second));
+  const auto pair =
+      protocol::decodeInterleaved(report, Report(data + report.size, size - report.size));
   if (pair)
     requireImage(*pair, protocol::IrFormat::kFull);
 

@@ -113,7 +113,7 @@ class HostileWorld {
       case 8: {  // twice
         auto report = remote_.next(now, until);
         if (report)
-          remote_.say(Bytes(report->bytes.begin(), report->bytes.begin() + report->size), now);
+          remote_.say(Bytes(report->begin(), report->end()), now);
         return report;
       }
       case 9:

@@ -15,8 +15,7 @@ HonestRemote::HonestRemote() {
 }
 
 void HonestRemote::hear(const Report& output, double now) {
-  const Bytes bytes(output.bytes.begin(), output.bytes.begin() + output.size);
-  for (const Bytes& answer : device.handleOutput(bytes))
+  for (const Bytes& answer : device.handleOutput(Bytes(output.begin(), output.end())))
     say(answer, now + kAnswerDelay);
 }
 
@@ -41,10 +40,7 @@ std::optional<Report> HonestRemote::next(double& now, double until) {
         say(*sampled, now);
       continue;
     }
-    Report report;
-    const Bytes& bytes = spoken.front().bytes;
-    report.size = std::min(bytes.size(), Report::kCapacity);
-    std::copy_n(bytes.begin(), report.size, report.bytes.begin());
+    const Report report(spoken.front().bytes.data(), spoken.front().bytes.size());
     spoken.pop_front();
     return report;
   }

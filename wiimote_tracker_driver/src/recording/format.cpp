@@ -45,12 +45,10 @@ void append(const FileHeader& header, std::vector<std::uint8_t>& bytes) {
 void append(const Record& record, std::vector<std::uint8_t>& bytes) {
   switch (record.kind) {
     case Record::Kind::kReceived:
-    case Record::Kind::kSent: {
+    case Record::Kind::kSent:
       appendRecordHeader(record, record.report.size, bytes);
-      const auto begin = record.report.bytes.begin();
-      bytes.insert(bytes.end(), begin, begin + record.report.size);
+      bytes.insert(bytes.end(), record.report.begin(), record.report.end());
       break;
-    }
     case Record::Kind::kConnected: {
       const std::string text = textOf(record.remote);
       appendRecordHeader(record, text.size(), bytes);

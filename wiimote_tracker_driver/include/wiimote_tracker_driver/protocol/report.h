@@ -19,15 +19,18 @@ struct Report {
 
   Report() = default;
   /// At most kCapacity bytes; more are cut off.
-  Report(std::initializer_list<std::uint8_t> values) : size(std::min(values.size(), kCapacity)) {
-    std::copy_n(values.begin(), size, bytes.begin());
+  Report(std::initializer_list<std::uint8_t> values) : Report(values.begin(), values.size()) {}
+  Report(const std::uint8_t* data, std::size_t count) : size(std::min(count, kCapacity)) {
+    std::copy_n(data, size, bytes.begin());
   }
 
   std::uint8_t id() const { return size > 0 ? bytes[0] : 0; }
 
+  const std::uint8_t* begin() const { return bytes.data(); }
+  const std::uint8_t* end() const { return bytes.data() + size; }
+
   friend bool operator==(const Report& a, const Report& b) {
-    return a.size == b.size &&
-           std::equal(a.bytes.begin(), a.bytes.begin() + a.size, b.bytes.begin());
+    return std::equal(a.begin(), a.end(), b.begin(), b.end());
   }
 };
 

@@ -13,11 +13,9 @@
 namespace wiimote_tracker::transport {
 namespace {
 
-constexpr char kVirtualPrefix[] = "virtual:";
-constexpr char kReplayPrefix[] = "replay:";
-
-bool startsWith(const std::string& text, const std::string& prefix) {
-  return text.compare(0, prefix.size(), prefix) == 0;
+/// What follows a prefix; empty: the text does not begin with it, or ends there.
+std::string after(const std::string& prefix, const std::string& text) {
+  return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : "";
 }
 
 bool isAddress(const std::string& text) {
@@ -32,10 +30,9 @@ bool isAddress(const std::string& text) {
 }
 
 bool isHidrawPath(const std::string& text) {
-  static const std::string prefix = "/dev/hidraw";
-  return startsWith(text, prefix) && text.size() > prefix.size() &&
-         std::all_of(text.begin() + static_cast<std::ptrdiff_t>(prefix.size()), text.end(),
-                     [](unsigned char c) { return std::isdigit(c) != 0; });
+  const std::string number = after("/dev/hidraw", text);
+  return !number.empty() && std::all_of(number.begin(), number.end(),
+                                        [](unsigned char c) { return std::isdigit(c) != 0; });
 }
 
 }  // namespace
@@ -47,18 +44,16 @@ DeviceName parseDeviceName(const std::string& text) {
     return {DeviceName::Kind::kAddress, lowerCase(text)};
   if (isHidrawPath(text))
     return {DeviceName::Kind::kPath, text};
-  const std::size_t prefix = sizeof(kVirtualPrefix) - 1;
-  if (startsWith(text, kVirtualPrefix) && text.size() > prefix) {
+  if (const std::string path = after("virtual:", text); !path.empty()) {
     const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;
-    if (text.size() - prefix > longest)
+    if (path.size() > longest)
       throw BadDeviceName("the socket path in device '" + text +
                           "' is too long: use one of at most " + std::to_string(longest) +
                           " characters");
-    return {DeviceName::Kind::kVirtual, text.substr(prefix)};
+    return {DeviceName::Kind::kVirtual, path};
   }
-  const std::size_t replay_prefix = sizeof(kReplayPrefix) - 1;
-  if (startsWith(text, kReplayPrefix) && text.size() > replay_prefix)
-    return {DeviceName::Kind::kReplay, text.substr(replay_prefix)};
+  if (const std::string file = after("replay:", text); !file.empty())
+    return {DeviceName::Kind::kReplay, file};
   throw BadDeviceName("device '" + text +
                       "' must be empty (the first free Wii Remote), a Bluetooth address such as "
                       "00:1f:32:12:34:56, a path such as /dev/hidraw0, virtual:SOCKET_PATH, or "

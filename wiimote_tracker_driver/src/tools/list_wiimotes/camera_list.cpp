@@ -4,7 +4,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -15,12 +14,6 @@ namespace wiimote_tracker::list_wiimotes {
 namespace {
 
 constexpr char kPrefix[] = "wiimote_";
-
-bool isCameraName(const std::string& name) {
-  return !name.empty() && std::isalpha(static_cast<unsigned char>(name[0])) != 0 &&
-         std::all_of(name.begin(), name.end(),
-                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '_'; });
-}
 
 bool isBlankOrComment(const std::string& line) {
   const std::size_t first = line.find_first_not_of(" \t\r");
@@ -79,7 +72,7 @@ CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
     const YAML::Mark mark = pair.first.Mark();
     Camera camera;
     camera.entry.name = pair.first.as<std::string>("");
-    if (!isCameraName(camera.entry.name))
+    if (!isWord(camera.entry.name))
       refuse(mark, lines_, "a camera's name must be letters, digits and _, a letter first");
     if (find(camera.entry.name) != nullptr)
       refuse(mark, lines_, "camera " + camera.entry.name + " is there already; remove one of them");

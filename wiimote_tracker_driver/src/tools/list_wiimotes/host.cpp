@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
-#include <sstream>
 
 namespace wiimote_tracker::list_wiimotes {
 namespace {
@@ -17,11 +16,17 @@ namespace fs = std::filesystem;
 // A Bluetooth adapter has at most this many devices.
 constexpr std::size_t kRemotesPerAdapter = 7;
 
-std::string contentOf(const fs::path& path) {
+std::vector<std::string> linesOfFile(const fs::path& path) {
   std::ifstream file(path);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(file, line);)
+    lines.push_back(line);
+  return lines;
+}
+
+/// Whether this is all that the file holds.
+bool says(const fs::path& path, const std::string& line) {
+  return linesOfFile(path) == std::vector<std::string>{line};
 }
 
 std::vector<fs::path> entriesOf(const fs::path& folder) {
@@ -36,9 +41,7 @@ std::vector<fs::path> entriesOf(const fs::path& folder) {
 /// The KEY=VALUE lines of a uevent file.
 std::map<std::string, std::string> valuesOf(const fs::path& path) {
   std::map<std::string, std::string> values;
-  std::istringstream text(contentOf(path));
-  std::string line;
-  while (std::getline(text, line)) {
+  for (const std::string& line : linesOfFile(path)) {
     const std::size_t equals = line.find('=');
     if (equals != std::string::npos)
       values[line.substr(0, equals)] = line.substr(equals + 1);
@@ -93,13 +96,12 @@ std::vector<BluetoothAdapter> readAdapters(const fs::path& root) {
       adapters.push_back({name, BluetoothAdapter::Block::kNone});
   }
   for (const fs::path& entry : entriesOf(root / "sys/class/rfkill")) {
-    const std::string name = contentOf(entry / "name");
     for (BluetoothAdapter& adapter : adapters) {
-      if (name != adapter.name + "\n")
+      if (!says(entry / "name", adapter.name))
         continue;
-      if (contentOf(entry / "hard") == "1\n")
+      if (says(entry / "hard", "1"))
         adapter.block = BluetoothAdapter::Block::kHard;
-      else if (contentOf(entry / "soft") == "1\n")
+      else if (says(entry / "soft", "1"))
         adapter.block = BluetoothAdapter::Block::kSoft;
     }
   }
@@ -110,9 +112,8 @@ bool hasUdevRule(const fs::path& root) {
   for (const char* folder : {"etc/udev/rules.d", "run/udev/rules.d", "lib/udev/rules.d",
                              "usr/lib/udev/rules.d", "usr/local/lib/udev/rules.d"}) {
     for (const fs::path& file : entriesOf(root / folder)) {
-      std::istringstream text(lowerCase(contentOf(file)));
-      std::string line;
-      while (std::getline(text, line)) {
+      for (const std::string& rule : linesOfFile(file)) {
+        const std::string line = lowerCase(rule);
         if (line.find('#') != 0 && line.find("hidraw") != std::string::npos &&
             line.find("057e:0306") != std::string::npos)
           return true;
@@ -123,10 +124,9 @@ bool hasUdevRule(const fs::path& root) {
 }
 
 std::optional<bool> readBondedOnly(const fs::path& root) {
-  std::istringstream text(lowerCase(contentOf(root / "etc/bluetooth/input.conf")));
   std::optional<bool> bonded_only;
-  std::string line;
-  while (std::getline(text, line)) {
+  for (const std::string& setting : linesOfFile(root / "etc/bluetooth/input.conf")) {
+    std::string line = lowerCase(setting);
     line.erase(
         std::remove_if(line.begin(), line.end(), [](unsigned char c) { return std::isspace(c); }),
         line.end());

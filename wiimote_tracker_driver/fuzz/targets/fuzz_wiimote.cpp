@@ -35,7 +35,19 @@ class HostileWorld {
     remote_.device.setNunchuk(false);
   }
 
-  std::unique_ptr<transport::Transport> open();
+  std::unique_ptr<transport::Transport> open() {
+    remote_.spoken.clear();
+    switch (hostile_ ? in_.byte() : 0) {
+      case 1:
+        throw transport::NoSuchDevice("not there");
+      case 2:
+        throw transport::PermissionDenied("not allowed");
+      case 3:
+        throw transport::DeviceTaken("taken");
+      default:
+        return std::make_unique<Transport>(this);
+    }
+  }
 
   bool read(Report& report, double timeout) {
     const double until = now + timeout;
@@ -66,23 +78,17 @@ class HostileWorld {
     remote_.hear(report, now);
   }
 
-  void openOrRefuse() {
-    remote_.spoken.clear();
-    if (!hostile_)
-      return;
-    switch (in_.byte()) {
-      case 1:
-        throw transport::NoSuchDevice("not there");
-      case 2:
-        throw transport::PermissionDenied("not allowed");
-      case 3:
-        throw transport::DeviceTaken("taken");
-      default:
-        return;
-    }
-  }
-
  private:
+  struct Transport : transport::Transport {
+    explicit Transport(HostileWorld* hostile_world) : world(hostile_world) {}
+    bool read(Report& report, double timeout) override { return world->read(report, timeout); }
+    void write(const Report& report) override { world->write(report); }
+    std::string description() const override { return "hostile"; }
+    std::string identity() const override { return "00:1f:32:00:00:01"; }
+
+    HostileWorld* world;
+  };
+
   std::optional<Report> hostileRead(double until) {
     switch (in_.byte() % 16) {
       case 1:
@@ -154,23 +160,6 @@ class HostileWorld {
   bool hostile_ = true;
   HonestRemote remote_;
 };
-
-class HostileTransport : public transport::Transport {
- public:
-  explicit HostileTransport(HostileWorld* world) : world_(world) {}
-  bool read(Report& report, double timeout) override { return world_->read(report, timeout); }
-  void write(const Report& report) override { world_->write(report); }
-  std::string description() const override { return "hostile"; }
-  std::string identity() const override { return "00:1f:32:00:00:01"; }
-
- private:
-  HostileWorld* world_;
-};
-
-std::unique_ptr<transport::Transport> HostileWorld::open() {
-  openOrRefuse();
-  return std::make_unique<HostileTransport>(this);
-}
 
 wiimote::Options optionsOf(Decisions& in) {
   wiimote::Options options;

@@ -1,7 +1,10 @@
 #include "link.h"
 
+#include <ros/master.h>
+#include <ros/this_node.h>
 #include <sensor_msgs/BatteryState.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 

@@ -4,7 +4,9 @@
 #include "views.h"
 
 #include <ros/callback_queue.h>
-#include <ros/ros.h>
+#include <ros/message_event.h>
+#include <ros/node_handle.h>
+#include <ros/subscriber.h>
 
 #include <condition_variable>
 #include <functional>

@@ -1,6 +1,7 @@
 #include "requests.h"
 
 #include <actionlib/client/simple_action_client.h>
+#include <ros/node_handle.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/CaptureCornerAction.h>
@@ -14,6 +15,7 @@
 #include <wiimote_tracker_msgs/StartCalibration.h>
 #include <wiimote_tracker_msgs/StartWave.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <iterator>

@@ -3,7 +3,7 @@
 
 #include "guide.h"
 
-#include <ros/ros.h>
+#include <ros/service_client.h>
 
 #include <atomic>
 #include <list>

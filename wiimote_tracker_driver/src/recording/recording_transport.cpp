@@ -14,33 +14,20 @@ class RecordingTransport : public transport::Transport {
     recorder_->connected(
         {transport_->identity(), transport_->description(), transport_->kernelDriver()}, clock_());
   }
-  ~RecordingTransport() override {
-    if (!lost_)
-      recorder_->disconnected("", clock_());
-  }
+  ~RecordingTransport() override { lose(""); }
   RecordingTransport(const RecordingTransport&) = delete;
   RecordingTransport& operator=(const RecordingTransport&) = delete;
 
   bool read(protocol::Report& report, double timeout) override {
     bool received = false;
-    try {
-      received = transport_->read(report, timeout);
-    } catch (const transport::TransportError& e) {
-      lose(e.what());
-      throw;
-    }
+    orLose([&] { received = transport_->read(report, timeout); });
     if (received)
       recorder_->received(report, clock_());
     return received;
   }
 
   void write(const protocol::Report& report) override {
-    try {
-      transport_->write(report);
-    } catch (const transport::TransportError& e) {
-      lose(e.what());
-      throw;
-    }
+    orLose([&] { transport_->write(report); });
     recorder_->sent(report, clock_());
   }
 
@@ -49,6 +36,16 @@ class RecordingTransport : public transport::Transport {
   std::string kernelDriver() const override { return transport_->kernelDriver(); }
 
  private:
+  template <typename Action>
+  void orLose(Action action) {
+    try {
+      action();
+    } catch (const transport::TransportError& e) {
+      lose(e.what());
+      throw;
+    }
+  }
+
   void lose(const std::string& reason) {
     if (!lost_)
       recorder_->disconnected(reason, clock_());

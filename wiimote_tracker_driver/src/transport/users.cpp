@@ -4,15 +4,13 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <dirent.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
-#include <memory>
 #include <sstream>
 #include <vector>
 
@@ -65,23 +63,15 @@ std::string programName(pid_t process, const std::vector<std::string>& arguments
   return name;
 }
 
-using Directory = std::unique_ptr<DIR, int (*)(DIR*)>;
-
-Directory openDirectory(const std::string& path) {
-  return Directory(::opendir(path.c_str()), &::closedir);
-}
-
 /// The numbers among the names in a directory: processes of /proc, descriptors of /proc/PID/fd.
 std::vector<int> numbersIn(const std::string& path) {
   std::vector<int> numbers;
-  const Directory directory = openDirectory(path);
-  if (!directory)
-    return numbers;
-  while (const dirent* entry = ::readdir(directory.get())) {
-    char* end = nullptr;
-    const long number = std::strtol(entry->d_name, &end, 10);
-    if (end != entry->d_name && *end == '\0')
-      numbers.push_back(static_cast<int>(number));
+  std::error_code error;
+  for (std::filesystem::directory_iterator i(path, error), end; !error && i != end;
+       i.increment(error)) {
+    const std::string name = i->path().filename().string();
+    if (name.find_first_not_of("0123456789") == std::string::npos)
+      numbers.push_back(std::stoi(name));
   }
   return numbers;
 }

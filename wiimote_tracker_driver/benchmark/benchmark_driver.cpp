@@ -1,7 +1,5 @@
 // Cost and reliability of the driver: processor time, 32 remotes at once, a month of reports.
-#include "cost_trial.h"
-#include "load_trial.h"
-#include "soak_trial.h"
+#include "trials.h"
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 

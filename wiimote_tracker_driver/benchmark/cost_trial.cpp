@@ -1,4 +1,4 @@
-#include "cost_trial.h"
+#include "trials.h"
 
 #include "folder.h"
 #include "own_master.h"

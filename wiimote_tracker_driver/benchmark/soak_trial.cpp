@@ -1,4 +1,4 @@
-#include "soak_trial.h"
+#include "trials.h"
 
 #include "allocation_counter.h"
 #include "soak_stamps.h"

@@ -1,5 +1,5 @@
 // Ten days whose hours are short; benchmark_driver --section soak runs whole ones.
-#include "soak_trial.h"
+#include "trials.h"
 
 #include <gtest/gtest.h>
 

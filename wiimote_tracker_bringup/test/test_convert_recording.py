@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import numpy as np
-import pytest
+import scipy.io
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PROGRAM = os.path.join(HERE, '..', 'import', 'convert_recording')
@@ -52,12 +52,11 @@ def test_a_broken_project_is_refused(tmp_path):
 
 
 def test_the_dinosaur(tmp_path):
-    io = pytest.importorskip('scipy.io')
     matrices = np.random.RandomState(1).randn(3, 3, 4)
     cells = np.empty((1, 3), dtype=object)
     for i, matrix in enumerate(matrices):
         cells[0, i] = matrix
-    io.savemat(str(tmp_path / 'dino_Ps.mat'), {'P': cells}, do_compression=True)
+    scipy.io.savemat(str(tmp_path / 'dino_Ps.mat'), {'P': cells}, do_compression=True)
     np.savetxt(str(tmp_path / 'viff.xy'), [[1.5, 2.5, -1, -1, 5, 6]])
     folder = tmp_path / 'converted'
     done = convert('dinosaur', tmp_path, folder)

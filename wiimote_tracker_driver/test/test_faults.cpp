@@ -2,6 +2,7 @@
 #include "temporary_folder.h"
 #include "virtual_remote_bytes.h"
 #include "virtual_wiimote/faulty_device.h"
+#include "waiting.h"
 #include "wiimote/wiimote.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
@@ -320,15 +321,11 @@ TEST_F(Served, DriverStreamsAgainEachTimeTheRemoteIsBack) {
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     }
   });
-  const auto now = [] {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  };
   wiimote::Wiimote wiimote(
-      wiimote::Options(), [this] { return connect(); }, now);
-  const double deadline = now() + 60.0;
+      wiimote::Options(), [this] { return connect(); }, steadyNow);
+  const double deadline = steadyNow() + 60.0;
   bool seen = false;
-  while (!(seen && wiimote.link().clock_epoch == 2) && now() < deadline) {
+  while (!(seen && wiimote.link().clock_epoch == 2) && steadyNow() < deadline) {
     std::this_thread::sleep_for(std::chrono::duration<double>(wiimote.idleTime()));
     const auto image = wiimote.step(0.05);
     seen = image && image->spots[0].seen;

@@ -6,11 +6,11 @@
 #include "tools/list_wiimotes/host.h"
 #include "tools/list_wiimotes/remote_check.h"
 #include "tools/list_wiimotes/replacement.h"
+#include "waiting.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <filesystem>
 #include <string>
 #include <thread>
@@ -319,13 +319,7 @@ class RemoteTest : public testing::Test {
   }
   // The server handles reports in its own thread.
   bool showsLeds(std::uint8_t leds) const {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (server_.leds() != leds) {
-      if (std::chrono::steady_clock::now() > end)
-        return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
+    return eventually([&] { return server_.leds() == leds; });
   }
 
   const TemporaryFolder folder_;

@@ -3,6 +3,7 @@
 #include "recording/reader.h"
 #include "recording/recorder.h"
 #include "temporary_folder.h"
+#include "waiting.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -10,11 +11,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <fstream>
 #include <random>
 #include <sstream>
-#include <thread>
 
 namespace wiimote_tracker::recording {
 namespace {
@@ -180,17 +179,6 @@ class Recording : public testing::Test {
   static Contents readFile(const std::string& path) {
     std::ifstream in(path, std::ios::binary);
     return read(in);
-  }
-
-  template <typename Condition>
-  static bool eventually(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline)
-        return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(5));
-    }
-    return true;
   }
 
   const TemporaryFolder folder_;

@@ -2,6 +2,7 @@
 #include "contains.h"
 #include "recording/reader.h"
 #include "replays.h"
+#include "waiting.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
@@ -226,15 +227,11 @@ TEST_F(Replays, PaceGetsTheRecordedTimes) {
 }
 
 TEST_F(Replays, PlaysInRealTime) {
-  const auto steady = [] {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-  };
   const Pace pace = realTime(4.0);
-  const double begin = steady();
+  const double begin = steadyNow();
   pace(100.0);
   pace(100.4);
-  EXPECT_LE(0.1, steady() - begin);
+  EXPECT_LE(0.1, steadyNow() - begin);
   EXPECT_THROW(realTime(0.0), std::invalid_argument);
 }
 
@@ -245,17 +242,12 @@ class ArrivalClock : public transport::Transport {
       : transport_(std::move(transport)), now_(now) {}
   bool read(Report& report, double timeout) override {
     const bool received = transport_->read(report, timeout);
-    *now_ = steady();
+    *now_ = steadyNow();
     return received;
   }
   void write(const Report& report) override { transport_->write(report); }
   std::string description() const override { return transport_->description(); }
   std::string identity() const override { return transport_->identity(); }
-
-  static double steady() {
-    using namespace std::chrono;
-    return duration<double>(steady_clock::now().time_since_epoch()).count();
-  }
 
  private:
   std::unique_ptr<transport::Transport> transport_;
@@ -276,7 +268,7 @@ TEST_F(Replays, SocketSession) {
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
       }
     });
-    std::atomic<double> now{ArrivalClock::steady()};
+    std::atomic<double> now{steadyNow()};
     begin = now;
     const auto clock = [&] { return now.load(); };
     const auto recorder = std::make_shared<Recorder>(path_, now, 1.7e9);
@@ -292,7 +284,7 @@ TEST_F(Replays, SocketSession) {
       while (recorded.size() < enough && now < deadline) {
         if (wiimote.idleTime() > 0.0) {
           std::this_thread::sleep_for(std::chrono::milliseconds(2));
-          now = ArrivalClock::steady();
+          now = steadyNow();
         } else if (const auto image = wiimote.step(0.1)) {
           recorded.push_back({now, wiimote.link().clock_epoch, *image});
         }

@@ -3,6 +3,7 @@
 #include "temporary_folder.h"
 #include "transport/hidraw_transport.h"
 #include "transport/transport.h"
+#include "waiting.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <gtest/gtest.h>
@@ -156,17 +157,6 @@ class Sockets : public testing::Test {
     Report report;
     EXPECT_TRUE(transport.read(report, 10.0));
     return report;
-  }
-
-  template <typename Condition>
-  static bool eventually(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline)
-        return false;
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
   }
 
   const TemporaryFolder folder_;

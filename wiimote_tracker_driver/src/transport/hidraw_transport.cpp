@@ -10,9 +10,9 @@
 #include <algorithm>
 #include <cctype>
 #include <cerrno>
-#include <climits>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -75,13 +75,10 @@ std::vector<Found> enumerate() {
 
 std::string kernelDriverOf(const std::string& path) {
   const std::string name = path.substr(path.rfind('/') + 1);
-  const std::string link = "/sys/class/hidraw/" + name + "/device/driver";
-  char target[PATH_MAX];
-  const ssize_t size = ::readlink(link.c_str(), target, sizeof(target));
-  if (size <= 0)
-    return "";
-  const std::string driver(target, static_cast<std::size_t>(size));
-  return driver.substr(driver.rfind('/') + 1);
+  std::error_code none;  // then the path is empty
+  return std::filesystem::read_symlink("/sys/class/hidraw/" + name + "/device/driver", none)
+      .filename()
+      .string();
 }
 
 class HidrawTransport : public Transport {

@@ -110,18 +110,6 @@ void Intervals::add(double interval) {
     ++gaps_;
 }
 
-double Intervals::mean() const {
-  return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_);
-}
-
-double Intervals::longest() const {
-  return longest_;
-}
-
-std::uint64_t Intervals::gaps() const {
-  return gaps_;
-}
-
 double Intervals::quantile(double share) const {
   std::uint64_t below = 0;
   for (std::size_t bin = 0; bin < histogram_.size(); ++bin) {

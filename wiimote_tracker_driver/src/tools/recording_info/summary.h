@@ -17,10 +17,11 @@ class Intervals {
   void add(double interval);
 
   std::uint64_t count() const { return count_; }
-  double mean() const;                  ///< [s]; 0 without any.
-  double longest() const;               ///< [s]; 0 without any.
-  std::uint64_t gaps() const;           ///< Longer than kGap.
-  double quantile(double share) const;  ///< [s], to 0.1 ms, at most 1 s; 0 without any.
+  /// [s]; 0 without any.
+  double mean() const { return count_ == 0 ? 0.0 : sum_ / static_cast<double>(count_); }
+  double longest() const { return longest_; }   ///< [s]; 0 without any.
+  std::uint64_t gaps() const { return gaps_; }  ///< Longer than kGap.
+  double quantile(double share) const;          ///< [s], to 0.1 ms, at most 1 s; 0 without any.
 
   static constexpr double kGap = 0.05;  ///< [s] About five lost reports.
 

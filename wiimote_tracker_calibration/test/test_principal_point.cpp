@@ -237,10 +237,10 @@ TEST(PrincipalPoint, ACornerThatOneCameraSawIsNamed) {
   // Where three corners and the accelerometer leave two places, solveSquare() refuses earlier.
   std::size_t named = 0;
   for (std::size_t corner = 0; corner < 4; ++corner) {
-    auto cameras = exactSightings({}, layout().corners(true));
+    auto cameras = exactSightings({}, paperSquare().corners(true));
     cameras[1].corners[corner].reset();
     try {
-      correctPrincipalPoints(layout(), cameras, {});
+      correctPrincipalPoints(paperSquare(), cameras, {});
       ADD_FAILURE() << "not refused";
     } catch (const Error& error) {
       const std::string text = error.what();

@@ -340,6 +340,7 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   rig.cameras[2].time_offset = 0.01;
   rig.cameras[2].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
   rig.cameras[2].time_offset_epoch = 5;
+  rig.cameras[3].masks = {{{1000.0, 20.0}, 5.0}};
   load(rig);
   cameras_->waveLed(true);
   ASSERT_TRUE(
@@ -360,7 +361,9 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   EXPECT_LT(continuous::movementOf(rig, result, middle), 0.00022);
   EXPECT_EQ(result.cameras[2].time_offset_epoch, 0U);
   EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.002);
-  // Back, once.
+  // Back, once, though the masks were cleared meanwhile; they stay so.
+  ASSERT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
+  rig.cameras[3].masks.clear();
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
   EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
   EXPECT_FALSE(call<std_srvs::Trigger>("calibration/continuous/revert").success);

@@ -17,6 +17,7 @@
 namespace wiimote_tracker {
 
 using continuous::Cause;
+using continuous::idWithoutMasks;
 using workflow::Reply;
 using workflow::Step;
 
@@ -76,7 +77,7 @@ class ContinuousServices {
     capture::Image image;
     std::optional<Eigen::Vector3d> specific_force;
   };
-  /// A rig that was changed: its id now, and as it was.
+  /// A rig that was changed: its idWithoutMasks() now, and as it was.
   struct Change {
     std::string id;
     geometry::Rig before;
@@ -108,7 +109,7 @@ class ContinuousServices {
     if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
     if (!proposal || idInUse(lock) != in_use_ || !isCalibrated(lock) ||
-        (approach_ && approach_->goal().id() != watched_))
+        (approach_ && idWithoutMasks(approach_->goal()) != watched_))
       return;
     const bool applies = in_use_ != reverted_to_ && appliesItself(proposal->cause);
     if (!applies && proposal->cause == Cause::kDrift && proposal->gain < continuous::kWorthAsking) {
@@ -132,10 +133,10 @@ class ContinuousServices {
            (policy_ == ContinuousPolicy::kKnocked && cause != Cause::kDrift);
   }
 
-  /// Empty: there is none.
+  /// idWithoutMasks() of the rig in use. Empty: there is none.
   std::string idInUse(const Lock& lock) const {
     const auto& rig = context_.rig(lock);
-    return rig ? rig->id() : "";
+    return rig ? idWithoutMasks(*rig) : "";
   }
 
   /// Watches the rig in use from now on, or the one that it approaches.
@@ -143,7 +144,7 @@ class ContinuousServices {
     if (idInUse(lock) != in_use_)
       approach_.reset();  // Someone has replaced it.
     in_use_ = idInUse(lock);
-    const std::string id = approach_ ? approach_->goal().id() : in_use_;
+    const std::string id = approach_ ? idWithoutMasks(approach_->goal()) : in_use_;
     if (id == watched_)
       return;
     watched_ = id;
@@ -162,7 +163,7 @@ class ContinuousServices {
     if (!next)
       return;
     const geometry::Rig rig = continuous::appliedRig(*next, before);
-    in_use_ = changes_.back().id = rig.id();
+    in_use_ = changes_.back().id = idWithoutMasks(rig);
     const bool is_reached = approach_->isReached();
     if (is_reached)
       approach_.reset();
@@ -200,12 +201,13 @@ class ContinuousServices {
           "nothing is proposed: a camera that no longer fits the others is solved while "
           "one LED moves where it and two others see it");
     const geometry::Rig before = context_.existingRig("to change", *lock);
-    context_.requireSameRig(in_use_, *lock);
+    if (idWithoutMasks(before) != in_use_)
+      throw Refusal(NodeContext::kReplaced);
     const continuous::Proposal proposal = *proposal_;
     const geometry::Rig rig = continuous::appliedRig(proposal.rig, before);
     forgetProposal(*lock);
     const bool at_once = proposal.places.empty();
-    changes_.push_back({before.id(), before});
+    changes_.push_back({in_use_, before});
     if (changes_.size() > kMostChanges)
       changes_.erase(changes_.begin());
     if (at_once)
@@ -226,7 +228,7 @@ class ContinuousServices {
         approach_
             ? continuous::appliedRig(approach_->changeGoal(rig, proposal.camera, before), before)
             : rig;
-    in_use_ = changes_.back().id = used.id();
+    in_use_ = changes_.back().id = idWithoutMasks(used);
     context_.setRig(used, proposal.message, lock);
   }
 
@@ -248,14 +250,15 @@ class ContinuousServices {
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {
       requireCalibrated(lock);
-      if (changes_.empty() || context_.existingRig("to change", lock).id() != changes_.back().id)
+      const geometry::Rig& in_use = context_.existingRig("to change", lock);
+      if (changes_.empty() || idWithoutMasks(in_use) != changes_.back().id)
         throw Refusal(
             "the rig in use is not one that continuous calibration has made: load the one that "
             "you want");
-      const geometry::Rig before = changes_.back().before;
+      const geometry::Rig before = continuous::withMasksOf(in_use, changes_.back().before);
       changes_.pop_back();
       approach_.reset();  // Perhaps before its first step.
-      reverted_to_ = before.id();
+      reverted_to_ = idWithoutMasks(before);
       const std::string message = "rig " + before.id() +
                                   " from before the last change is in use again; until there is "
                                   "another one, changes are only proposed";
@@ -272,14 +275,14 @@ class ContinuousServices {
   NodeContext& context_;
   ContinuousPolicy policy_;
   continuous::Options options_;
-  std::vector<Input> inputs_;                                    // Since the last update.
-  std::string in_use_;                                           // Id of the rig in use.
-  std::optional<continuous::Approach> approach_;                 // From the rig in use to another.
-  std::string watched_;                                          // Id of the rig that is watched.
+  std::vector<Input> inputs_;                     // Since the last update.
+  std::string in_use_;                            // idInUse() at the last update.
+  std::optional<continuous::Approach> approach_;  // From the rig in use to another.
+  std::string watched_;                           // idWithoutMasks() of the rig that is watched.
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
   std::optional<continuous::Proposal> proposal_;                 // For the rig that is watched.
   std::vector<Change> changes_;
-  std::string reverted_to_;  // Id of a rig that is not changed without being asked.
+  std::string reverted_to_;  // idWithoutMasks() of a rig that is not changed without being asked.
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
 };

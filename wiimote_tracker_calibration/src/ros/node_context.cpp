@@ -179,7 +179,7 @@ std::string NodeContext::dropPlacesOfOtherRigs(const Lock&) {
 
 void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
   if (!calibration_.rig() || calibration_.rig()->id() != id)
-    throw Refusal("the rig was replaced meanwhile: send the request again");
+    throw Refusal(kReplaced);
 }
 
 void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {

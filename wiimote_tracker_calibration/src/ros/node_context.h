@@ -119,6 +119,7 @@ class NodeContext {
   const std::optional<geometry::Rig>& rig(const Lock&) const { return calibration_.rig(); }
   /// @param purpose for the refusal, such as "to save". @throws Refusal: there is no rig.
   const geometry::Rig& existingRig(const std::string& purpose, const Lock&) const;
+  static constexpr char kReplaced[] = "the rig was replaced meanwhile: send the request again";
   /// @throws Refusal: the rig in use has another id.
   void requireSameRig(const std::string& id, const Lock&) const;
   /// Replaces the rig by a changed one, such as with a recalibrated camera or a correction of the

@@ -180,6 +180,32 @@ TEST(CornerCapture, SilenceBeforeTheFirstImageIsNoProblem) {
   EXPECT_SAYS(capture.problem("b"), "sends no images");
 }
 
+TEST(CornerCapture, NamesAClockThatIsBehind) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 10.0);
+  const Source sees = still(100, 200, 1);
+  for (double t = 10.0; t < 15.0 && capture.state() == State::kCollecting; t += kPeriod) {
+    capture.add(image("a", t, sees(t)));
+    capture.add(image("b", t, sees(t)));
+    capture.add(image("c", t - 7.0, sees(t)));
+  }
+  ASSERT_EQ(capture.state(), State::kDone);
+  EXPECT_SAYS(capture.message(),
+              "c sends images that are 7.0 s old by their stamps: set the clock");
+}
+
+TEST(CornerCapture, ACameraWhoseClockIsAheadOfTheTimeOutIsLeftOutAndNamed) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 10.0);
+  const Source sees = still(100, 200, 1);
+  for (double t = 10.0; t < 15.0 && capture.state() == State::kCollecting; t += kPeriod) {
+    capture.add(image("c", t + 3600.0, sees(t)));
+    capture.add(image("a", t, sees(t)));
+    capture.add(image("b", t, sees(t)));
+  }
+  ASSERT_EQ(capture.state(), State::kDone) << capture.message();
+  EXPECT_SAYS(capture.message(), "captured by 2 of 3 cameras");
+  EXPECT_SAYS(capture.message(), "c sends images that are 3600.0 s ahead of the time");
+}
+
 TEST(CornerCapture, OneCameraIsNotEnough) {
   CornerCaptureOptions options;
   options.timeout = 1.0;

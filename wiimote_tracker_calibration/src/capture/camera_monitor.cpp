@@ -9,8 +9,6 @@ namespace {
 // Least share of images with exactly one spot: at the edge of the field of view the LED is missed
 // now and then.
 constexpr double kShareWithOneSpot = 0.9;
-// An image that comes later after its stamp was stamped by another clock [s].
-constexpr double kLongestDelay = 1.0;
 
 }  // namespace
 
@@ -21,6 +19,17 @@ std::string spotCountProblem(std::size_t blobs) {
   if (blobs > 1)
     return "sees " + std::to_string(blobs) +
            " spots: switch off other lights and cover reflections until one is left";
+  return "";
+}
+
+std::string stampProblem(double stamp, double delay) {
+  if (stamp <= 0.0)
+    return "sends images without stamps: correct its driver";
+  if (delay > kLongestDelay)
+    return format(
+        "sends images that are %.1f s old by their stamps: set the clock of its computer, or "
+        "play a bag with --clock",
+        delay);
   return "";
 }
 
@@ -49,15 +58,10 @@ CameraView CameraMonitor::view(double now, double window) const {
     with_one_spot += image.blobs == 1;
   }
   if (count == 0) {
-    view.problem = kSendsNoImages;
-    const double delay = images_.empty() ? 0.0 : arrival_ - images_.back().time;
-    if (!images_.empty() && images_.back().time <= 0.0)
-      view.problem = "sends images without stamps: correct its driver";
-    else if (delay > kLongestDelay && arrival_ >= now - window)
-      view.problem = format(
-          "sends images that are %.1f s old by their stamps: set the clock of its computer, or "
-          "play a bag with --clock",
-          delay);
+    if (!images_.empty() && (images_.back().time <= 0.0 || arrival_ >= now - window))
+      view.problem = stampProblem(images_.back().time, arrival_ - images_.back().time);
+    if (view.problem.empty())
+      view.problem = kSendsNoImages;
     return view;
   }
 

@@ -46,6 +46,13 @@ class CameraMonitor {
   Eigen::Vector2d first_blob_ = Eigen::Vector2d::Zero();
 };
 
+/// An image that comes later after its stamp was stamped by another clock [s].
+inline constexpr double kLongestDelay = 1.0;
+
+/// What is wrong with the stamp [s] of an image that came so long after it [s], and what to do;
+/// empty when nothing is.
+std::string stampProblem(double stamp, double delay);
+
 /// Why a camera without images sees nothing, and what to do.
 inline constexpr char kSendsNoImages[] =
     "sends no images: check its battery, its connection and its driver";

@@ -31,9 +31,14 @@ CornerCapture::CornerCapture(const std::vector<std::string>& cameras,
 
 void CornerCapture::add(const Image& image) {
   const auto found = cameras_.find(image.camera);
-  if (found == cameras_.end() || state_ != State::kCollecting || image.stamp < start_time_)
+  if (found == cameras_.end() || state_ != State::kCollecting)
     return;
   Camera& camera = found->second;
+  const std::string clock = clockProblem(image.stamp);
+  if (camera.clock.empty())
+    camera.clock = clock;
+  if (!clock.empty() || image.stamp < start_time_)
+    return;
   camera.seen = true;
   camera.blobs = image.spots.size();
   camera.masked = image.masked.size();
@@ -103,6 +108,8 @@ std::string CornerCapture::problem(const std::string& name) const {
     return moved;
   if (isComplete(camera))
     return "";
+  if (!camera.clock.empty())
+    return camera.clock;
   const bool just_begun = now_ - start_time_ < std::min(kHold, options_.timeout);
   if (!camera.seen && !just_begun)
     return kSendsNoImages;
@@ -142,6 +149,20 @@ std::string CornerCapture::movement(const StillSpot& spot) const {
       spot.drift() > std::max(options_.drift_limit, 4.0 * chance))
     return "the LED moved slowly, its spot drifted by " + pixels(spot.drift()) + ", at most " +
            pixels(options_.drift_limit) + " are allowed" + advice;
+  return "";
+}
+
+/// By the clock that stamps the start: the capture begins before any of its images comes.
+std::string CornerCapture::clockProblem(double stamp) const {
+  if (stamp < start_time_)
+    return stampProblem(stamp, start_time_ - stamp);
+  // The other images, or update(), would have ended the capture before.
+  const double ahead = stamp - now_;
+  if (ahead > std::max(options_.timeout, kLongestDelay))
+    return format(
+        "sends images that are %.1f s ahead of the time by their stamps: set the clock of its "
+        "computer",
+        ahead);
   return "";
 }
 

@@ -32,8 +32,8 @@ struct CornerView {
 using CapturedCorner = std::map<std::string, CornerView>;
 
 /// Captures one corner: the LED lies still while every camera that sees it gives samples. A camera
-/// that does not see exactly one spot is left out, and named in the message. Times [s] are stamps
-/// of images.
+/// that does not see exactly one spot is left out, and named in the message. So is one whose stamps
+/// are later than the capture can last. Times [s] are stamps of images.
 class CornerCapture {
  public:
   enum class State { kCollecting, kDone, kRefused };
@@ -42,8 +42,9 @@ class CornerCapture {
                 const CornerCaptureOptions& options,
                 double start_time);
 
-  /// One image. Ignored for unknown cameras, when the capture has ended, and for a camera that has
-  /// its samples: the result does not depend on how long the others take.
+  /// One image that came after the start. Ignored for unknown cameras, when the capture has ended,
+  /// when its stamp is before the start or ahead by more than the time-out, and for a camera that
+  /// has its samples: the result does not depend on how long the others take.
   void add(const Image& image);
 
   /// Advances the time: the capture ends when every camera that sees the LED has its samples, or at
@@ -73,6 +74,7 @@ class CornerCapture {
   struct Camera {
     StillSpot spot;
     bool seen = false;          // any image came
+    std::string clock;          // what was wrong with the stamp of an image
     std::size_t blobs = 0;      // in the latest image, without masked ones
     std::size_t masked = 0;     // in the latest image
     double last_sample = -1e9;  // time of the latest image with exactly one spot [s]
@@ -80,6 +82,7 @@ class CornerCapture {
 
   bool isComplete(const Camera& camera) const;
   std::string movement(const StillSpot& spot) const;
+  std::string clockProblem(double stamp) const;
   std::string leftOut() const;
   void refuse(const std::string& message);
 

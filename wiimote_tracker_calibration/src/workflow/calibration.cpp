@@ -88,8 +88,7 @@ Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
 
 void Calibration::abandonCapture(const std::string& why) {
   captured_.square.abandon(why);
-  if (isBusyWith(Step::kCapturing))
-    update(0.0);
+  finishCapture();
 }
 
 void Calibration::setHandsFree(bool on) {
@@ -151,7 +150,7 @@ void Calibration::addImage(const capture::Image& image) {
     accept("the wand on the floor is captured: lift it, and wave it through the whole volume");
   }
   captured_.square.add(image);
-  update(image.stamp);
+  finishCapture();
   if (!hands_free_ || busy_ || captured_.square.isComplete())
     return;
   if (hands_free_->add(image, captured_.square.corners())) {
@@ -161,10 +160,12 @@ void Calibration::addImage(const capture::Image& image) {
 }
 
 void Calibration::update(double now) {
-  if (!isBusyWith(Step::kCapturing))
-    return;
   captured_.square.update(now);
-  if (captured_.square.capture())
+  finishCapture();
+}
+
+void Calibration::finishCapture() {
+  if (!isBusyWith(Step::kCapturing) || captured_.square.capture())
     return;
   busy_.reset();
   updateStep();

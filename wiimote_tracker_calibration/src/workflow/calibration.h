@@ -177,6 +177,8 @@ class Calibration {
 
  private:
   Reply startWith(Captured captured);
+  /// Takes what a capture that has ended gave.
+  void finishCapture();
   /// Why no step can begin now.
   std::string occupied() const;
   /// Shows a reply to what changes the captured data.

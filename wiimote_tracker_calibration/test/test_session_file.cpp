@@ -18,6 +18,7 @@
 #include <fstream>
 #include <limits>
 #include <random>
+#include <set>
 #include <string>
 
 namespace wiimote_tracker::session {
@@ -301,11 +302,13 @@ TEST_F(SessionFile, KeepsAnyNumberAndName) {
   session.recording.cameras[0].sightings.name = "/room 1/wiimote";
   session.recording.cameras[1].sightings.name = "~";
   session.recording.cameras[0].sightings.gravity = Eigen::Vector3d(any(), any(), -0.0);
+  std::set<double> stamps = {std::numeric_limits<double>::denorm_min()};
+  while (stamps.size() < 2001)
+    stamps.insert(any());
   session.recording.cameras[1].frames.clear();
-  for (int i = 0; i < 2000; ++i)
-    session.recording.cameras[1].frames.push_back({any(), {{any(), any()}, {any(), any()}}});
-  session.recording.cameras[1].frames.push_back(
-      {std::numeric_limits<double>::denorm_min(), {{-0.0, std::numeric_limits<double>::max()}}});
+  for (const double stamp : stamps)
+    session.recording.cameras[1].frames.push_back({stamp, {{any(), any()}, {any(), any()}}});
+  session.recording.cameras[1].frames[1000].spots = {{-0.0, std::numeric_limits<double>::max()}};
   writeSessionFile(session, path_);
   expectSameSession(readSessionFile(path_), session);
 }
@@ -382,6 +385,8 @@ TEST_F(SessionFile, SaysWhatIsWrongWithIt) {
   EXPECT_SAYS(refusal(), "line 59 is not the time of an image");
   write(with("512 384.5", "nan 384.5"));
   EXPECT_SAYS(refusal(), "line 59 is not the time of an image");
+  write(with("1700000000.14 5 6", "1700000000.13 5 6"));
+  EXPECT_SAYS(refusal(), "the images of wiimote_2 are not in the order of their times");
   write(with("name: \"wiimote_2\"", "name: \"wiimote_1\""));
   EXPECT_SAYS(refusal(), "two cameras are called wiimote_1");
   write(with("clock_epoch: 3", "clock_epoch: 3\n    colour: 4"));

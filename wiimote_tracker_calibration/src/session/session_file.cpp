@@ -4,10 +4,12 @@
 #include "session_yaml.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
 #include <cmath>
+#include <limits>
 #include <set>
 
 namespace wiimote_tracker::session {
@@ -43,8 +45,11 @@ void checkCamera(const wave::CameraRecording& camera,
   for (const geometry::ImageMask& mask : masks)
     require(mask.center.allFinite() && std::isfinite(mask.radius) && mask.radius > 0.0,
             "a mask of " + name + " is not finite or its radius not above 0");
+  double before = -std::numeric_limits<double>::infinity();
   for (const wave::Frame& frame : camera.frames) {
     require(std::isfinite(frame.stamp), "the time of an image of " + name + " is not finite");
+    require(frame.stamp > before, "the images of " + name + " are not in the order of their times");
+    before = frame.stamp;
     for (const Eigen::Vector2d& spot : frame.spots)
       require(spot.allFinite(), "a spot of " + name + " is not finite");
   }
@@ -83,6 +88,11 @@ void writeSessionFile(const Session& session, const std::string& path) {
     appendFrames(camera.frames, &text);
   }
   text += std::string(kEndLine) + "\n";
+  if (text.size() > kLargestFile)
+    throw Error(format(
+        "what was captured fills %.0f MB, but a samples file has %.0f MB at most: record the "
+        "wave again, for a shorter time",
+        1e-6 * static_cast<double>(text.size()), 1e-6 * static_cast<double>(kLargestFile)));
   geometry::writeFileAtomically(path, text);
 }
 

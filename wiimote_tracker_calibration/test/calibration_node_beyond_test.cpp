@@ -2,6 +2,8 @@
 
 #include "node_fixture.h"
 
+#include "../src/ros/rig_storage.h"
+
 #include <rosbag/bag.h>
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>
@@ -220,6 +222,18 @@ TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
   EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", request).message,
               "save the rig by another name");
   EXPECT_EQ(geometry::readRigFile(request.path).id(), status_->get()->rig_id);
+}
+
+TEST_F(Beyond, ALensDoesNotReplaceSamples) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "samples";
+  const std::string folder = folder_ + "/names";
+  const std::vector<std::string> warnings = saveRig(rig, folder + "/rig.yaml");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_SAYS(warnings[0], "samples.yaml is for samples, so the lens of samples has none");
+  EXPECT_TRUE(exists(folder + "/rig.yaml"));
+  EXPECT_FALSE(exists(folder + "/samples.yaml"));
 }
 
 class BagWriter : public Recorder {

@@ -46,7 +46,7 @@ std::string rigPath(const std::string& requested, const Parameters& parameters) 
 std::string samplesPath(const std::string& requested, const Parameters& parameters) {
   if (!requested.empty())
     return permittedPath(requested, parameters);
-  return fs::path(parameters.rig_file).replace_filename("samples.yaml").string();
+  return fs::path(parameters.rig_file).replace_filename(kSamplesFile).string();
 }
 
 }  // namespace wiimote_tracker

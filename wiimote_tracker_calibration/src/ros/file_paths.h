@@ -13,7 +13,10 @@ namespace wiimote_tracker {
 /// parameter rig_file. @throws Refusal: it lies elsewhere, or is not UTF-8.
 std::string rigPath(const std::string& requested, const Parameters& parameters);
 
-/// The same for samples. @param requested empty: samples.yaml beside the rig file.
+/// Name of the samples' file where a request names none.
+inline constexpr char kSamplesFile[] = "samples.yaml";
+
+/// The same for samples. @param requested empty: kSamplesFile beside the rig file.
 std::string samplesPath(const std::string& requested, const Parameters& parameters);
 
 }  // namespace wiimote_tracker

@@ -1,5 +1,7 @@
 #include "rig_storage.h"
 
+#include "file_paths.h"
+
 #include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
@@ -20,11 +22,15 @@ namespace wiimote_tracker {
 
 namespace {
 
+std::string beside(const std::string& rig_file, const std::string& name) {
+  return std::filesystem::path(rig_file).replace_filename(name).string();
+}
+
 /// <camera>.yaml in the folder of the rig file.
 std::string cameraFile(const std::string& rig_file, std::string camera) {
   camera.erase(0, camera.find_first_not_of('/'));
   std::replace(camera.begin(), camera.end(), '/', '_');
-  return std::filesystem::path(rig_file).replace_filename(camera + ".yaml").string();
+  return beside(rig_file, camera + ".yaml");
 }
 
 /// @returns why the driver does not know its lens now; empty when it does.
@@ -52,6 +58,11 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
     if (file == path) {
       warnings.push_back(file + " is the rig's file, so the lens of " + camera.name +
                          " has none: save the rig by another name");
+      continue;
+    }
+    if (file == beside(path, kSamplesFile)) {
+      warnings.push_back(file + " is for samples, so the lens of " + camera.name +
+                         " has none: rename the camera");
       continue;
     }
     try {

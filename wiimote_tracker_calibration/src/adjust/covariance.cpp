@@ -1,5 +1,7 @@
 #include "adjust/covariance.h"
 
+#include <wiimote_tracker_msgs/error.h>
+
 #include <ceres/crs_matrix.h>
 
 #include <Eigen/SparseCholesky>
@@ -17,6 +19,7 @@ namespace {
 constexpr double kOpen = 1e-13;
 
 /// J^T J by the blocks that are estimated, the wanted ones first.
+/// @throws Error: a block has fewer columns than parameters, which would shift those after it.
 Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
                                           const std::vector<double*>& wanted) {
   ceres::Problem::EvaluateOptions options;
@@ -24,12 +27,18 @@ Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
   problem->GetParameterBlocks(&all);
   all.insert(all.begin(), wanted.begin(), wanted.end());
   std::unordered_set<const double*> taken;
+  int parameters = 0;
   for (double* block : all) {
-    if (taken.insert(block).second && !problem->IsParameterBlockConstant(block))
+    if (taken.insert(block).second && !problem->IsParameterBlockConstant(block)) {
       options.parameter_blocks.push_back(block);
+      parameters += problem->ParameterBlockSize(block);
+    }
   }
   ceres::CRSMatrix rows;
-  problem->Evaluate(options, nullptr, nullptr, nullptr, &rows);
+  const bool is_defined = problem->Evaluate(options, nullptr, nullptr, nullptr, &rows);
+  // Not ParameterBlockTangentSize(), which Ceres 1.14 calls ParameterBlockLocalSize().
+  if (is_defined && rows.num_cols != parameters)
+    throw Error("the covariance of a block of which a part is held is not known: hold it whole");
   const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
       rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(),
       rows.cols.data(), rows.values.data());

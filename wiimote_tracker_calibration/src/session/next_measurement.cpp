@@ -47,7 +47,7 @@ Observation lengthBetween(const square::Corners& corners,
   const Eigen::RowVector2d direction =
       (corners[to] - corners[from]).normalized().head<2>().transpose();
   const auto at = [&](std::size_t corner) {
-    return parameters - 8 + 2 * static_cast<Eigen::Index>(corner);
+    return parameters - square::kCornerParameters + 2 * static_cast<Eigen::Index>(corner);
   };
   Observation length{Eigen::MatrixXd::Zero(1, parameters),
                      Eigen::MatrixXd::Constant(1, 1, std::pow(square::TapedLength().stddev, 2))};

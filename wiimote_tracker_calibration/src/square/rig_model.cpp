@@ -198,7 +198,8 @@ Eigen::MatrixXd RigModel::covarianceOfAll(const RigState& state) const {
 }
 
 CornerEstimates RigModel::cornerEstimates(const RigState& state) const {
-  const Eigen::MatrixXd covariance = covarianceOfAll(state).bottomRightCorner(8, 8);
+  const Eigen::MatrixXd covariance =
+      covarianceOfAll(state).bottomRightCorner(kCornerParameters, kCornerParameters);
   CornerEstimates estimates;
   for (std::size_t c = 0; c < 4; ++c) {
     const auto at = 2 * static_cast<Eigen::Index>(c);
@@ -213,7 +214,7 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   const auto cameras = static_cast<Eigen::Index>(sightings_.size());
   constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
   constexpr Eigen::Index kLens = adjust::kLensSize;
-  constexpr Eigen::Index kCorners = 8;
+  constexpr Eigen::Index kCorners = kCornerParameters;
   constexpr Eigen::Index kShared = 2;
   constexpr Eigen::Index kPixels = 8;
   // Estimated parameters as a linear function of independent unit errors: of all corners, of the

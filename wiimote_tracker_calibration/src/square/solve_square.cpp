@@ -202,7 +202,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   if (options.method == Method::kJoint) {
     rig.method = "square";
     solution.joint_covariance = model.covarianceOfAll(state);
-    const Eigen::Index cameras = solution.joint_covariance.rows() - 8;
+    const Eigen::Index cameras = solution.joint_covariance.rows() - kCornerParameters;
     rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
   } else {
     std::vector<Eigen::Isometry3d> poses;

@@ -141,7 +141,9 @@ WaveSolution solutionOf(const Recording& recording,
     rig.led_height = *recording.wand->led_height;
   }
   if (recording.square)
-    describeSquare(recording, options, state, joint.bottomRightCorner(8, 8), &solution);
+    describeSquare(recording, options, state,
+                   joint.bottomRightCorner(square::kCornerParameters, square::kCornerParameters),
+                   &solution);
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);
   solution.expected_error = square::expectedError(rig, points);
   solution.expected_shape_error = square::expectedShapeError(rig, points);

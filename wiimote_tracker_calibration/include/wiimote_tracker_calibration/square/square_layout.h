@@ -16,6 +16,10 @@ namespace wiimote_tracker::square {
 /// World points of the four corners, in the order of capture [m].
 using Corners = std::array<Eigen::Vector3d, 4>;
 
+/// Parameters of the corners in a joint covariance, after those of the cameras: the horizontal
+/// displacement of each, x and y.
+constexpr Eigen::Index kCornerParameters = 8;
+
 /// A length between two corners, by tape, from where the LED lay to where it lay.
 struct TapedLength {
   std::size_t from = 0;   ///< Corner, 0..3.

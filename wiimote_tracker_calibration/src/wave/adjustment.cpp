@@ -72,7 +72,7 @@ class WaveProblem {
       addWand(matches);
     if (const auto prior =
             square::addSharedOffset(options.uncertainty, shared_offset_.data(), &problem_))
-      priors_.push_back(*prior);
+      known_.push_back(*prior);
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
     if (recording.square)
@@ -120,7 +120,7 @@ class WaveProblem {
 
   Agreement agreement() {
     // Two directions differ by two angles, in three residuals.
-    return {squaresOf(priors_), adjust::degreesOfFreedom(&problem_, priors_) - accelerometers_};
+    return {squaresOf(known_), adjust::degreesOfFreedom(&problem_, known_) - accelerometers_};
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -198,7 +198,7 @@ class WaveProblem {
   }
 
   void addPrior(double mean, double stddev, double* value) {
-    priors_.push_back(
+    known_.push_back(
         problem_.AddResidualBlock(adjust::Prior<1>{{mean}, {stddev}}.cost(), nullptr, value));
   }
 
@@ -206,8 +206,8 @@ class WaveProblem {
   void addCamera(std::size_t i) {
     adjust::CameraBlocks& camera = cameras_[i];
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
-    priors_.push_back(square::addLensPrior(start, options_.uncertainty, camera.lens.data(),
-                                           shared_offset_.data(), &problem_));
+    known_.push_back(square::addLensPrior(start, options_.uncertainty, camera.lens.data(),
+                                          shared_offset_.data(), &problem_));
     addPrior(0.0, options_.offset, &camera.time_offset);
     problem_.SetParameterBlockConstant(camera.distortion.data());
   }
@@ -217,9 +217,9 @@ class WaveProblem {
     const square::SquareResiduals added =
         square::addSquare(layout, layout.corners(state_.z_up), recording_.sightings(),
                           options_.uncertainty, &cameras_, &square_, &problem_);
-    priors_.insert(priors_.end(), added.others.begin(), added.others.end());
+    known_.insert(known_.end(), added.others.begin(), added.others.end());
     for (const auto& of_camera : added.corner_pixels)
-      priors_.insert(priors_.end(), of_camera.begin(), of_camera.end());
+      known_.insert(known_.end(), of_camera.begin(), of_camera.end());
   }
 
   /// The wand at rest, whose LEDs define origin and x axis, and the accelerometers.
@@ -230,11 +230,11 @@ class WaveProblem {
         {{{0.0, 0.0, height}, {kExact, kExact, kExact}},
          {{state_.wand_length, 0.0, height}, {kUnknown, kExact, options_.uncertainty.placement}}}};
     for (std::size_t led = 0; led < places.size(); ++led) {
-      priors_.push_back(
+      known_.push_back(
           problem_.AddResidualBlock(places[led].cost(), nullptr, floor.leds[led].data()));
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
         if (floor.spots[i])
-          priors_.push_back(
+          known_.push_back(
               cameras_[i].addTo(&problem_,
                                 adjust::PixelError::of(state_.cameras[i], (*floor.spots[i])[led],
                                                        options_.uncertainty.pixel)
@@ -244,7 +244,7 @@ class WaveProblem {
     }
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       if (const auto& gravity = recording_.cameras[i].sightings.gravity) {
-        priors_.push_back(problem_.AddResidualBlock(
+        known_.push_back(problem_.AddResidualBlock(
             adjust::GravityError{gravity->normalized(), Eigen::Vector3d::UnitZ(),
                                  cameras_[i].world_from_start, options_.uncertainty.gravity}
                 .cost(),
@@ -272,7 +272,8 @@ class WaveProblem {
   square::SquareBlocks square_;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
-  std::vector<ceres::ResidualBlockId> priors_;  // and corners and places
+  // What is known besides the wave: corners, places, lengths, floor, accelerometers, and priors.
+  std::vector<ceres::ResidualBlockId> known_;
   int accelerometers_ = 0;
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };

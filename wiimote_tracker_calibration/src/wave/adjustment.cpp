@@ -15,6 +15,7 @@
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -154,7 +155,6 @@ class WaveProblem {
     ceres::LossFunction* const loss =
         std::isfinite(loss_scale) ? new ceres::CauchyLoss(loss_scale) : nullptr;
     Trajectory& path = state_.trajectory;
-    std::set<Eigen::Index> fitted;  // control points
     for (const Match& match : matches) {
       adjust::CameraBlocks& camera = cameras_[match.camera];
       const adjust::PixelError pixel{match.pixel, match.whitening, camera.world_from_start,
@@ -167,11 +167,10 @@ class WaveProblem {
           path.control(match.interval + 1, match.led), path.control(match.interval + 2, match.led),
           path.control(match.interval + 3, match.led)));
       for (Eigen::Index k = 0; k < 4; ++k)
-        fitted.insert(match.interval + k);
+        fitted_.insert(path.control(match.interval + k, match.led));
     }
     const int per_camera = adjust::kRotationSize + adjust::kPositionSize + adjust::kLensSize + 1;
-    freedom_ = residuals() -
-               3.0 * static_cast<double>(path.leds()) * static_cast<double>(fitted.size()) -
+    freedom_ = residuals() - 3.0 * static_cast<double>(fitted_.size()) -
                static_cast<double>(per_camera) * static_cast<double>(cameras_.size());
   }
 
@@ -188,11 +187,16 @@ class WaveProblem {
   void addWand(const std::vector<Match>& matches) {
     Trajectory& path = state_.trajectory;
     for (const Eigen::Index k : seenIntervals(matches)) {
-      problem_.AddResidualBlock(adjust::WandLengthError{kStickStddev}.cost(), nullptr,
-                                path.control(k, 0), path.control(k + 1, 0), path.control(k + 2, 0),
-                                path.control(k, 1), path.control(k + 1, 1), path.control(k + 2, 1),
+      const std::array<double*, 6> controls = {path.control(k, 0),     path.control(k + 1, 0),
+                                               path.control(k + 2, 0), path.control(k, 1),
+                                               path.control(k + 1, 1), path.control(k + 2, 1)};
+      problem_.AddResidualBlock(adjust::WandLengthError{kStickStddev}.cost(), nullptr, controls[0],
+                                controls[1], controls[2], controls[3], controls[4], controls[5],
                                 &state_.wand_length);
-      freedom_ += 1.0;
+      // Beside an LED that was not seen, the stick tells nothing of the one that was.
+      if (std::all_of(controls.begin(), controls.end(),
+                      [this](const double* control) { return fitted_.count(control) > 0; }))
+        freedom_ += 1.0;
     }
     addPrior(recording_.wand->length, recording_.wand->stddev, &state_.wand_length);
   }
@@ -272,6 +276,7 @@ class WaveProblem {
   square::SquareBlocks square_;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
+  std::set<const double*> fitted_;  // control points that matches tell of
   // What is known besides the wave: corners, places, lengths, floor, accelerometers, and priors.
   std::vector<ceres::ResidualBlockId> known_;
   int accelerometers_ = 0;

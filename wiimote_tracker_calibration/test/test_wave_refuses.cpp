@@ -1,4 +1,7 @@
 // What a wave is refused for, and the cause that the refusal names.
+#include "wave/error.h"
+#include "wave/start_poses.h"
+
 #include "expect_says.h"
 #include "wave_scenes.h"
 
@@ -36,6 +39,27 @@ TEST(WaveRefuses, ShortRecording) {
   WaveScene scene;
   scene.duration = 1.8;
   EXPECT_SAYS(refusalOf(simulateWave(scene, 1).recording, optionsFor(scene)), "15 s or more");
+}
+
+TEST(WaveRefuses, NoCameraOfALongWaveThatSharesFewSeconds) {
+  WaveScene scene;
+  scene.duration = 200.0;
+  scene.rate = 40.0;
+  scene.uncertainty.focal = 0.005;
+  SimulatedWave wave = simulateWave(scene, 1);
+  CameraRecording& rare = wave.recording.cameras[3];
+  rare.sightings.corners = {};
+  const double start = wave.recording.span().first;
+  rare.frames.erase(std::remove_if(rare.frames.begin(), rare.frames.end(),
+                                   [&](const Frame& frame) {
+                                     const double time = frame.stamp - start;
+                                     return time < 100.0 || time > 105.0;
+                                   }),
+                    rare.frames.end());
+  const StartPoses start_poses = startPoses(wave.recording, optionsFor(scene), 0);
+  EXPECT_LT((start_poses.cameras[3].center() - wave.cameras[3].center()).norm(), 0.5);
+  rare.frames.resize(40);  // one second
+  EXPECT_THROW(startPoses(wave.recording, optionsFor(scene), 0), WaveError);
 }
 
 TEST(WaveRefuses, CamerasThatShareNothing) {

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
+#include <utility>
 
 namespace wiimote_tracker::wave {
 
@@ -29,6 +30,11 @@ constexpr double kTolerances[] = {6.0, 12.0};
 constexpr double kShift = 0.29;
 // Times that two cameras must share for a relative pose.
 constexpr std::size_t kLeastCommon = 20;
+// From one to the next, where a camera shares too few of kInstants [s]; and how long it must share
+// them with one other. Less than a wave that is enough has (coverage.cpp), since an image with a
+// stray spot does not count here.
+constexpr double kRareStep = 0.05;
+constexpr double kLeastShared = 1.5;
 
 /// One point per frame: the LED's spot, or the middle between the wand's.
 std::optional<Eigen::Vector2d> middle(const Frame& frame, bool wand) {
@@ -53,42 +59,57 @@ std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double
   return *first + (time - before->stamp) / gap * (*second - *first);
 }
 
-/// What the cameras saw at common times.
-std::vector<bundle::Observation> commonViews(const Recording& recording, int attempt) {
-  const auto [start, end] = recording.span();
-  const std::size_t count = 4 * kInstants;
-  std::vector<std::vector<bundle::Observation>> instants;
-  for (std::size_t i = 0; i < count; ++i) {
-    const double time =
-        start + (end - start) * (static_cast<double>(i) + std::fmod(0.5 + kShift * attempt, 1.0)) /
-                    static_cast<double>(count);
-    std::vector<bundle::Observation> instant;
-    for (std::size_t c = 0; c < recording.cameras.size(); ++c) {
-      if (const auto pixel =
-              middleAt(recording.cameras[c].frames, time, recording.wand.has_value()))
-        instant.push_back({c, 0, *pixel});
-    }
-    if (instant.size() >= 2)
-      instants.push_back(instant);
+/// What the cameras saw at one time.
+using Views = std::vector<bundle::Observation>;
+
+Views viewsAt(const Recording& recording, double time) {
+  Views instant;
+  for (std::size_t c = 0; c < recording.cameras.size(); ++c) {
+    if (const auto pixel = middleAt(recording.cameras[c].frames, time, recording.wand.has_value()))
+      instant.push_back({c, 0, *pixel});
   }
-  std::vector<bundle::Observation> observations;
-  std::size_t point = 0;
+  return instant;
+}
+
+/// Appends about kInstants of them, each as one more point.
+void appendThinned(std::vector<Views> instants, std::vector<bundle::Observation>* observations) {
+  std::size_t point = observations->empty() ? 0 : observations->back().point + 1;
   const std::size_t stride = std::max<std::size_t>(1, instants.size() / kInstants);
   for (std::size_t i = 0; i < instants.size(); i += stride) {
     for (bundle::Observation& observation : instants[i]) {
       observation.point = point;
-      observations.push_back(observation);
+      observations->push_back(observation);
     }
     ++point;
   }
+}
+
+/// Of the instants of an attempt, in intervals.
+double shiftOf(int attempt) {
+  return std::fmod(0.5 + kShift * attempt, 1.0);
+}
+
+/// What the cameras saw at common times.
+std::vector<bundle::Observation> commonViews(const Recording& recording, int attempt) {
+  const auto [start, end] = recording.span();
+  const std::size_t count = 4 * kInstants;
+  std::vector<Views> instants;
+  for (std::size_t i = 0; i < count; ++i) {
+    const double time = start + (end - start) * (static_cast<double>(i) + shiftOf(attempt)) /
+                                    static_cast<double>(count);
+    const Views instant = viewsAt(recording, time);
+    if (instant.size() >= 2)
+      instants.push_back(instant);
+  }
+  std::vector<bundle::Observation> observations;
+  appendThinned(std::move(instants), &observations);
   return observations;
 }
 
-/// @throws WaveError: the cameras form groups without common views.
-void refuseStrangers(const Recording& recording,
-                     const std::vector<bundle::Observation>& observations,
-                     const std::vector<bool>& tied_by_square) {
-  const std::size_t cameras = recording.cameras.size();
+/// The cameras outside of the largest group that common views or the square tie together.
+std::vector<std::size_t> strangersIn(const std::vector<bundle::Observation>& observations,
+                                     const std::vector<bool>& tied_by_square) {
+  const std::size_t cameras = tied_by_square.size();
   std::vector<std::vector<std::size_t>> common(cameras, std::vector<std::size_t>(cameras, 0));
   for (std::size_t i = 0; i < observations.size(); ++i) {
     for (std::size_t j = i + 1;
@@ -105,17 +126,59 @@ void refuseStrangers(const Recording& recording,
       std::replace(group.begin(), group.end(), joined, group[i]);
     }
   }
-  // The name of a camera outside the largest group helps most.
   const auto size = [&](std::size_t g) { return std::count(group.begin(), group.end(), g); };
   std::size_t largest = group[0];
   for (std::size_t g : group)
     largest = size(g) > size(largest) ? g : largest;
+  std::vector<std::size_t> strangers;
   for (std::size_t i = 0; i < cameras; ++i) {
     if (group[i] != largest)
-      throw WaveError(recording.cameras[i].sightings.name +
-                      " and the other cameras hardly ever saw the LED at the same time: wave "
-                      "where it and another camera see the LED together");
+      strangers.push_back(i);
   }
+  return strangers;
+}
+
+/// Adds what a stranger and that camera of the group saw with which it shares most: in a long wave
+/// kInstants are too far apart for the few seconds that may take.
+void addRareViews(const Recording& recording,
+                  int attempt,
+                  const std::vector<std::size_t>& strangers,
+                  std::size_t stranger,
+                  std::vector<bundle::Observation>* observations) {
+  const auto [start, end] = recording.span();
+  std::vector<std::vector<Views>> shared(recording.cameras.size());
+  for (double time = start + kRareStep * shiftOf(attempt); time < end; time += kRareStep) {
+    const Views instant = viewsAt(recording, time);
+    const auto sees = [stranger](const bundle::Observation& seen) {
+      return seen.camera == stranger;
+    };
+    if (std::none_of(instant.begin(), instant.end(), sees))
+      continue;
+    for (const bundle::Observation& seen : instant) {
+      if (std::find(strangers.begin(), strangers.end(), seen.camera) == strangers.end())
+        shared[seen.camera].push_back(instant);
+    }
+  }
+  auto most = std::max_element(shared.begin(), shared.end(),
+                               [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  if (static_cast<double>(most->size()) * kRareStep >= kLeastShared)
+    appendThinned(std::move(*most), observations);
+}
+
+/// @throws WaveError: the cameras form groups without common views.
+void tieStrangers(const Recording& recording,
+                  int attempt,
+                  const std::vector<bool>& tied_by_square,
+                  std::vector<bundle::Observation>* observations) {
+  const std::vector<std::size_t> strangers = strangersIn(*observations, tied_by_square);
+  for (const std::size_t stranger : strangers)
+    addRareViews(recording, attempt, strangers, stranger, observations);
+  const std::vector<std::size_t> left = strangersIn(*observations, tied_by_square);
+  // The name of a camera outside the largest group helps most.
+  if (!left.empty())
+    throw WaveError(recording.cameras[left.front()].sightings.name +
+                    " and the other cameras hardly ever saw the LED at the same time: wave "
+                    "where it and another camera see the LED together");
 }
 
 /// Words a refusal of the reconstruction for a wave.
@@ -215,8 +278,8 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
     placed.assign(recording.cameras.size(), false);
 
   wave.observations = commonViews(recording, attempt);
+  tieStrangers(recording, attempt, placed, &wave.observations);
   wave.points.resize(wave.observations.empty() ? 0 : wave.observations.back().point + 1);
-  refuseStrangers(recording, wave.observations, placed);
   try {
     if (sightings.size() >= 2) {
       square::SolveOptions square_options;

@@ -31,6 +31,7 @@ void Recorder::start(const QString& prefix) {
 
 void Recorder::stop() {
   is_wanted_ = false;
+  asked_.start();
   if (isRunning() && process_.processId() > 0)
     ::kill(static_cast<pid_t>(process_.processId()), SIGINT);  // as Ctrl-C: the bag is closed
 }
@@ -49,6 +50,8 @@ QString Recorder::words() {
   if (isRunning()) {
     if (!bag().isEmpty())
       words_ = "Recording to " + bag();
+    if (!is_wanted_ && asked_.hasExpired(kLongestEnd))
+      stop();  // once more: roslaunch does not hear it while it starts
   } else if (is_wanted_) {
     is_wanted_ = false;
     words_ = "The recording has ended by itself: see the terminal in which rviz was started.";

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
 
 #include <QDateTime>
+#include <QElapsedTimer>
 #include <QProcess>
 #include <QString>
 
@@ -30,6 +31,7 @@ class Recorder {
   QDateTime started_;
   QString words_;
   bool is_wanted_ = false;
+  QElapsedTimer asked_;  // since it was last asked to end
 };
 
 }  // namespace wiimote_tracker::panel

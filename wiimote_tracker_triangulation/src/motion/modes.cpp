@@ -2,6 +2,8 @@
 
 #include "motion/transition.h"
 
+#include <iterator>
+
 namespace wiimote_tracker::motion {
 namespace {
 
@@ -14,20 +16,16 @@ int endOf(const MotionOptions& options) {
   return options.sudden_random_walk > 0.0 ? kModes : kSudden;
 }
 
+// In the order of ModeIndex.
+constexpr RestMode MotionOptions::*kRest[] = {&MotionOptions::fixed, &MotionOptions::swaying};
+constexpr SingerMode MotionOptions::*kSinger[] = {&MotionOptions::smooth, &MotionOptions::gentle,
+                                                  &MotionOptions::brisk, &MotionOptions::hard};
+static_assert(std::size(kRest) == kRestModes);
+static_assert(std::size(kRest) + std::size(kSinger) == kSudden);
+
 /// Null for the other modes.
 const SingerMode* singerMode(const MotionOptions& options, int mode) {
-  switch (mode) {
-    case kSmooth:
-      return &options.smooth;
-    case kGentle:
-      return &options.gentle;
-    case kBrisk:
-      return &options.brisk;
-    case kHard:
-      return &options.hard;
-    default:
-      return nullptr;
-  }
+  return isAtRest(mode) || mode == kSudden ? nullptr : &(options.*kSinger[mode - kRestModes]);
 }
 
 /// From each mode (row) to another (column): rates [1/s] or probabilities.
@@ -119,8 +117,8 @@ Modes initialModes(const MotionOptions& options,
 
 void predict(const MotionOptions& options, int mode, double duration, KinematicState* state) {
   if (isAtRest(mode)) {  // velocity and acceleration are zero
-    const RestMode& rest = mode == kFixed ? options.fixed : options.swaying;
-    state->covariance.diagonal().head<3>().array() += square(rest.drift) * duration;
+    const double drift = (options.*kRest[mode]).drift;
+    state->covariance.diagonal().head<3>().array() += square(drift) * duration;
   } else if (const SingerMode* moving = singerMode(options, mode)) {
     state->predict(singer(moving->stddev, moving->time, duration));
   } else {
@@ -150,9 +148,9 @@ void mixStops(const MotionOptions& options, double duration, Modes* modes) {
 void mixChanges(const MotionOptions& options, double duration, Modes* modes) {
   const int end = endOf(options);
   ModeTransitions rates = ModeTransitions::Zero();
-  for (int to = kRestModes; to < end; ++to) {
-    rates(kFixed, to) = options.fixed.start_rate / (end - kRestModes);
-    rates(kSwaying, to) = options.swaying.start_rate / (end - kRestModes);
+  for (int from = 0; from < kRestModes; ++from) {
+    for (int to = kRestModes; to < end; ++to)
+      rates(from, to) = (options.*kRest[from]).start_rate / (end - kRestModes);
   }
   for (int from = kRestModes; from < end; ++from) {
     for (int to = kRestModes; to < from; ++to)

@@ -3,6 +3,7 @@
 #include <Eigen/LU>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace wiimote_tracker::motion::test {
@@ -21,16 +22,20 @@ MatrixXd blocks(double pp, double vv, double aa) {
   return diagonal.asDiagonal();
 }
 
-/// Standard deviation of the acceleration of a moving mode.
+std::array<RestMode, kResting> restModes(const MotionOptions& options) {
+  return {options.fixed, options.swaying};
+}
+
+/// Standard deviation of the acceleration of a moving mode; 0 of the others.
 double acceleration(const MotionOptions& options, int model) {
-  switch (model) {
-    case 2:
+  switch (model - kResting) {
+    case 0:
       return options.smooth.stddev;
-    case 3:
+    case 1:
       return options.gentle.stddev;
-    case 4:
+    case 2:
       return options.brisk.stddev;
-    case 5:
+    case 3:
       return options.hard.stddev;
     default:
       return 0.0;
@@ -40,21 +45,20 @@ double acceleration(const MotionOptions& options, int model) {
 /// Of one axis.
 Transition transition(const MotionOptions& options, int model, double duration) {
   const MatrixXd zero = MatrixXd::Zero(3, 3);
-  switch (model) {
+  if (model < kResting) {
+    const double drift = restModes(options)[model].drift;
+    MatrixXd density = zero;
+    density(0, 0) = drift * drift;
+    return {zero, density, duration};
+  }
+  switch (model - kResting) {
     case 0:
-    case 1: {
-      const double drift = model == 0 ? options.fixed.drift : options.swaying.drift;
-      MatrixXd density = zero;
-      density(0, 0) = drift * drift;
-      return {zero, density, duration};
-    }
-    case 2:
       return singerTransition(options.smooth.stddev, options.smooth.time, duration);
-    case 3:
+    case 1:
       return singerTransition(options.gentle.stddev, options.gentle.time, duration);
-    case 4:
+    case 2:
       return singerTransition(options.brisk.stddev, options.brisk.time, duration);
-    case 5:
+    case 3:
       return singerTransition(options.hard.stddev, options.hard.time, duration);
     default: {
       MatrixXd A = zero, density = zero;
@@ -138,7 +142,8 @@ TextbookImm::TextbookImm(const MotionOptions& options,
                          const Eigen::Matrix3d& covariance)
     : options_(options), time_(time), models_(kModes) {
   for (int i = 0; i < kModes; ++i) {
-    models_[i].probability = 1.0 / (i < kResting ? 12.0 : 6.0);
+    // Rest as a whole is as probable as each moving mode.
+    models_[i].probability = 1.0 / ((kMoving + 1.0) * (i < kResting ? kResting : 1));
     models_[i].mean = VectorXd::Zero(9);
     models_[i].mean.head<3>() = position;
     const double a = acceleration(options, i);
@@ -165,8 +170,8 @@ void TextbookImm::stop(double duration) {
 
 void TextbookImm::change(double duration) {
   Rates rates = Rates::Zero();
-  rates.row(0).tail<kMoving>().setConstant(options_.fixed.start_rate / kMoving);
-  rates.row(1).tail<kMoving>().setConstant(options_.swaying.start_rate / kMoving);
+  for (int i = 0; i < kResting; ++i)
+    rates.row(i).tail<kMoving>().setConstant(restModes(options_)[i].start_rate / kMoving);
   for (int i = 0; i < kMoving; ++i) {
     for (int j = 0; j < kMoving; ++j) {
       double& rate = rates(kResting + i, kResting + j);

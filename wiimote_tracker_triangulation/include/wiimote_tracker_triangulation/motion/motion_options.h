@@ -29,7 +29,7 @@ struct MotionOptions {
   /// the random walk of the velocity [m/s/sqrt(s), >= 0]; 0: without this mode.
   double sudden_random_walk = 3.3;
 
-  double stop_rate = 0.1;       ///< From a moving mode to rest, half to each of the two modes at
+  double stop_rate = 0.1;       ///< From a moving mode to rest, in equal parts to the modes at
                                 ///< rest [1/s, >= 0]; 0: without the modes at rest.
   double rise_rate = 2.4;       ///< From a moving mode to the more agile ones [1/s, >= 0].
   double settle_rate = 0.0008;  ///< From a moving mode to the less agile ones [1/s, >= 0].

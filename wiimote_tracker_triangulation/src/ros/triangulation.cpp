@@ -46,6 +46,9 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       diagnostics_(nh, private_nh, &tracker_, &shedding_, parameters_.clock_tolerance) {
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
+  const std::string missing_bodies = describeMissingFile(parameters_.bodies.file);
+  if (!missing_bodies.empty())
+    ROS_INFO("%s.", missing_bodies.c_str());
   useBodies(parameters_.bodies.known);
   points_publisher_ = nh_.advertise<TrackedPointArray>("points", 100);
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);

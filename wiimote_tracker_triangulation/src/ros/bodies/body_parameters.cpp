@@ -64,6 +64,14 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   return p;
 }
 
+std::string describeMissingFile(const std::string& file) {
+  if (file.empty() || std::filesystem::exists(file))
+    return "";
+  return "There is no file " + file +
+         ", so tracking starts without bodies: learn one with the service learn_body, which "
+         "creates the file, or correct the parameter bodies/file";
+}
+
 std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& bodies) {
   std::vector<std::string> sentences;
   for (const body::Constellation& body : bodies) {

@@ -26,6 +26,10 @@ struct BodyParameters {
                              const std::vector<std::string>& labels);
 };
 
+/// Says that the file of bodies does not exist and what to do; empty when it exists or none is
+/// named. That is no error: the service learn_body creates it.
+std::string describeMissingFile(const std::string& file);
+
 /// What is wrong with bodies that are nearly symmetric, or have LEDs close together.
 std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& bodies);
 

@@ -191,6 +191,9 @@ void run(const Arguments& arguments) {
     checkForSmoothing(parameters);
   if (parameters.identity.codes)
     std::printf("%s.\n", describeIdentity(parameters).c_str());
+  const std::string missing_bodies = describeMissingFile(parameters.bodies.file);
+  if (!missing_bodies.empty())
+    std::fprintf(stderr, "%s.\n", missing_bodies.c_str());
   const Recording recording(arguments.input);
   if (recording.images() == 0)
     throw BagError(arguments.input + " holds no images: record the cameras' ir_blobs");

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -71,6 +72,13 @@ Camera Rig::rayCamera(const RigCamera& rig_camera) const {
   if (!std::isnan(virtual_hfov))
     intrinsics.fx = intrinsics.fy = 0.5 * intrinsics.width / std::tan(0.5 * virtual_hfov);
   return camera;
+}
+
+std::vector<std::string> Rig::frames() const {
+  std::vector<std::string> frames{world_frame};
+  for (const RigCamera& camera : cameras)
+    frames.push_back(opticalFrame(camera.camera.name));
+  return frames;
 }
 
 void Rig::check() const {

@@ -43,16 +43,20 @@ double tiltOf(const geometry::Rig& rig) {
   return std::atan2(up.head<2>().norm(), up.z());
 }
 
-/// @throws geometry::InvalidRigError: a frame of the rig has the name of an LED.
-void checkFrames(const geometry::Rig& rig, const std::vector<std::string>& labels) {
-  const auto refuseLabel = [&](const std::string& frame) {
+/// @throws geometry::InvalidRigError: a frame of the rig has the name of an LED or of a body.
+void checkFrames(const geometry::Rig& rig,
+                 const std::vector<std::string>& labels,
+                 const std::vector<body::Constellation>& bodies) {
+  for (const std::string& frame : rig.frames()) {
     if (std::find(labels.begin(), labels.end(), frame) != labels.end())
       throw geometry::InvalidRigError("its frame '" + frame +
                                       "' has the name of an LED: rename that LED in labels");
-  };
-  refuseLabel(rig.world_frame);
-  for (const geometry::RigCamera& camera : rig.cameras)
-    refuseLabel(geometry::opticalFrame(camera.camera.name));
+    if (std::any_of(bodies.begin(), bodies.end(),
+                    [&](const auto& body) { return body.name == frame; }))
+      throw geometry::InvalidRigError(
+          "its frame '" + frame +
+          "' has the name of a body: rename that body in its file (bodies/file)");
+  }
 }
 
 /// Inserts points that the message does not have, in the order of their ids.
@@ -86,7 +90,7 @@ MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink
 MessageTracker::RigChange MessageTracker::takeRig(
     const wiimote_tracker_msgs::RigCalibration& message) {
   const geometry::Rig rig = fromMessage(message);
-  checkFrames(rig, parameters_.allLabels());
+  checkFrames(rig, parameters_.allLabels(), bodies_.constellations());
   const std::string id = rig.id();
   RigChange change;
   if (!estimator_) {

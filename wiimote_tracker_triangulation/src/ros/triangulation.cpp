@@ -77,6 +77,7 @@ void Triangulation::takeRig(const RigCalibration& message) {
   if (change.cameras) {
     markers_.setRig(tracker_.rig());
     body_markers_.setRig(tracker_.rig());
+    learning_.setRig(tracker_.rig());
     diagnostics_.setRig();
     subscribeToCameras();
     ROS_INFO("Rig %s with %zu cameras is in use.", tracker_.rigId().c_str(),

@@ -177,6 +177,8 @@ class Bodies(unittest.TestCase):
         self.assertIn('name', service('no word', 1.0, []).message)
         self.assertIn('duration', service('wand', 0.1, []).message)
         self.assertIn('name of an LED', service('led', 1.0, []).message)
+        for frame in ('world', recording.NAMES[0] + '_optical_frame'):
+            self.assertIn('name of a frame of the rig', service(frame, 1.0, []).message)
         answers = []
         thread = threading.Thread(target=lambda: answers.append(service('wand', 1.0, [])))
         thread.start()

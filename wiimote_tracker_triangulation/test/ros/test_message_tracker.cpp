@@ -149,6 +149,13 @@ TEST_P(InBothModes, ABadRigIsRefusedAndTheOneBeforeStays) {
       conflict.cameras[1].name = "camera_9";
     EXPECT_THROW(tracker.takeRig(conflict), geometry::Error) << frame;
   }
+  for (const std::string& frame : studio.rig.frames()) {
+    Heard heard;
+    MessageTracker tracker(parametersOf(GetParam()), &heard);
+    const body::Constellation body{frame, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}};
+    tracker.setBodies({body});
+    EXPECT_THROW(tracker.takeRig(toMessage(studio.rig)), geometry::Error) << "body " << frame;
+  }
   studio.film(0.5, {onCircle});
   studio.expectNear("led", 1000.3, onCircle);
 }

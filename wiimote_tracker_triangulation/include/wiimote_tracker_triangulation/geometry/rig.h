@@ -89,6 +89,9 @@ struct Rig {
   /// Nothing when there is no camera of that name.
   const RigCamera* find(const std::string& name) const;
 
+  /// Names of its frames in TF: world_frame, then the cameras' optical frames.
+  std::vector<std::string> frames() const;
+
   /// The camera to build rays with: the calibrated one or, with RayModel::kImageCenter, the paper's
   /// virtual model at the same place: a pinhole without distortion whose principal point is the
   /// image centre (width / 2, height / 2) and whose focal length is the calibrated one, or

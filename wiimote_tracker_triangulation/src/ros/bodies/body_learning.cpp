@@ -76,6 +76,11 @@ BodyLearning::~BodyLearning() {
   spinner_.stop();
 }
 
+void BodyLearning::setRig(const geometry::Rig& rig) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  frames_ = rig.frames();
+}
+
 void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& points) {
   const std::lock_guard<std::mutex> lock(mutex_);
   if (!is_collecting_)
@@ -119,13 +124,18 @@ bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& r
   return true;
 }
 
-std::string BodyLearning::refusal(const LearnBody::Request& request) const {
+std::string BodyLearning::refusal(const LearnBody::Request& request) {
   if (file_.empty())
     return "there is no file for bodies; set the parameter bodies/file";
   if (request.duration != 0.0 && !(request.duration >= kShortest && request.duration <= kLongest))
     return "duration must be 0, or from 0.5 to 60 s";
   if (std::find(names_.begin(), names_.end(), request.name) != names_.end())
     return "'" + request.name + "' is the name of an LED; choose another one";
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    if (std::find(frames_.begin(), frames_.end(), request.name) != frames_.end())
+      return "'" + request.name + "' is the name of a frame of the rig; choose another one";
+  }
   try {
     // Checks only the name.
     Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();

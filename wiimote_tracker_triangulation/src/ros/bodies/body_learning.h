@@ -3,6 +3,7 @@
 
 #include "body/learn_constellation.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <ros/callback_queue.h>
 #include <ros/node_handle.h>
@@ -36,6 +37,9 @@ class BodyLearning {
   BodyLearning(const BodyLearning&) = delete;
   BodyLearning& operator=(const BodyLearning&) = delete;
 
+  /// A body must not have the name of a frame of the rig: TF would have it twice.
+  void setRig(const geometry::Rig& rig);
+
   void addPoints(const wiimote_tracker_msgs::TrackedPointArray& points);
 
   /// The bodies to track from now on, when they changed since the last call. A body is not tracked
@@ -46,7 +50,7 @@ class BodyLearning {
   using LearnBody = wiimote_tracker_msgs::LearnBody;
 
   bool onRequest(LearnBody::Request& request, LearnBody::Response& response);
-  std::string refusal(const LearnBody::Request& request) const;
+  std::string refusal(const LearnBody::Request& request);
   void collect(const LearnBody::Request& request);
   void learn(const LearnBody::Request& request, LearnBody::Response* response);
   void track(const std::vector<body::Constellation>& bodies);
@@ -61,6 +65,7 @@ class BodyLearning {
   bool is_collecting_ = false;
   bool has_change_ = false;
   bool is_over_ = false;
+  std::vector<std::string> frames_;              // of the rig
   double duration_ = 0.0;                        // [s]
   std::set<std::string> labels_;                 // empty: all
   std::vector<body::LedsInstant> instants_;      // collected

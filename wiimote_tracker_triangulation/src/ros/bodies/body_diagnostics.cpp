@@ -4,6 +4,7 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -57,6 +58,10 @@ void BodyDiagnostics::addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bo
       seen.residual.add(body.leds[i].residual);
     }
   }
+  for (auto& [name, seen] : seen_) {
+    if (seen.last_observed > bodies.header.stamp)  // time jumped back, as of a bag that starts over
+      seen.last_observed = ros::Time();
+  }
 }
 
 void BodyDiagnostics::report(const body::Constellation& body,
@@ -70,7 +75,7 @@ void BodyDiagnostics::report(const body::Constellation& body,
   else
     status.summaryf(DiagnosticStatus::WARN,
                     "not seen for %.1f s, its topics are silent: uncover it, or switch on its LEDs",
-                    (ros::Time::now() - seen.last_observed).toSec());
+                    std::max(0.0, (ros::Time::now() - seen.last_observed).toSec()));
   if (!warning.empty())
     status.mergeSummary(DiagnosticStatus::WARN, warning);
   status.addf("share of images in which it is tracked [%]", "%.1f",

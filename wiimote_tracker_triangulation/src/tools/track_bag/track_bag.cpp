@@ -43,7 +43,7 @@ class Player {
       : tracker_(parameters, sink), topics_(topics), sink_(sink) {
     for (const body::Constellation& body : parameters.bodies.known) {
       if (body.imu)
-        imus_[topics_.imu(body.imu->topic)] = body.name;
+        imus_.emplace(topics_.imu(body.imu->topic), body.name);
     }
   }
 
@@ -75,9 +75,11 @@ class Player {
         tracker_.takeImage(camera->second, *image);
         ++images_used_;
       }
-    } else if (const auto body = imus_.find(topic); body != imus_.end()) {
-      if (const auto imu = read<sensor_msgs::Imu>(message))
-        tracker_.takeInertial(body->second, *imu);
+    } else if (const auto bodies = imus_.equal_range(topic); bodies.first != bodies.second) {
+      if (const auto imu = read<sensor_msgs::Imu>(message)) {
+        for (auto body = bodies.first; body != bodies.second; ++body)
+          tracker_.takeInertial(body->second, *imu);
+      }
     }
   }
 
@@ -99,8 +101,8 @@ class Player {
   MessageTracker tracker_;
   Topics topics_;
   MessageSink* sink_;
-  std::map<std::string, std::string> cameras_;  // by image topic
-  std::map<std::string, std::string> imus_;     // bodies by their IMU's topic
+  std::map<std::string, std::string> cameras_;    // by image topic
+  std::multimap<std::string, std::string> imus_;  // bodies by their IMU's topic
   std::size_t images_used_ = 0;
   std::string refusal_;  // of the last rig that was refused
 };

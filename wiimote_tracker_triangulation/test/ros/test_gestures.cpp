@@ -319,6 +319,14 @@ TEST_F(ContinuousGesturesTest, AreFoundInContinuousMotion) {
   EXPECT_NEAR(last.end.toSec(), bench_->time_ - 0.4, 0.2);
 }
 
+/// Its node has a file of examples and a minimum_length above theirs.
+class RaisedMinimumLengthTest : public GesturesTest {};
+
+TEST_F(RaisedMinimumLengthTest, LeavesOutShorterExamples) {
+  EXPECT_TRUE(bench_->list().gestures.empty());
+  EXPECT_FALSE(gesture::readExamples(bench_->file_).empty());
+}
+
 }  // namespace
 }  // namespace wiimote_tracker
 

@@ -8,12 +8,14 @@
 
 #include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/GestureEvent.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 namespace wiimote_tracker {
 
@@ -28,6 +30,14 @@ constexpr double kJump = 1.0;  // [s]
 
 // LEDs that may draw at the same time; others are ignored.
 constexpr std::size_t kMostHands = 64;
+
+/// Whether an example is too short only for the minimum_length of now.
+bool isTooShort(const gesture::Example& example, gesture::ShapeOptions options) {
+  if (example.gesture.empty() || gesture::shapeOf(example.path, options))
+    return false;
+  options.minimum_length = 0.0;
+  return gesture::shapeOf(example.path, options).has_value();
+}
 
 }  // namespace
 
@@ -46,8 +56,7 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
       parameters_(GestureParameters::read(ParameterReader(private_nh))),
       recognizer_(parameters_.recognizer) {
   if (std::filesystem::exists(parameters_.file)) {
-    for (const gesture::Example& example : gesture::readExamples(parameters_.file))
-      recognizer_.add(example);
+    readExamples();
     ROS_INFO("%zu examples of gestures from %s.", recognizer_.examples().size(),
              parameters_.file.c_str());
   } else {
@@ -66,6 +75,32 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
   if (parameters_.segmenter.boundary == gesture::Boundary::kButton)
     joy_subscriber_ = subscribe<sensor_msgs::Joy>(
         nh_, "joy", 50, [this](const auto& event) { onJoy(*event.getConstMessage()); });
+}
+
+/// Leaves out examples that are shorter than minimum_length, which may have been raised since.
+void Gestures::readExamples() {
+  std::set<std::string> gestures;
+  for (const gesture::Example& example : gesture::readExamples(parameters_.file)) {
+    if (isTooShort(example, parameters_.recognizer.shape)) {
+      too_short_.push_back(example);
+      gestures.insert(example.gesture);
+    } else {
+      recognizer_.add(example);
+    }
+  }
+  if (!too_short_.empty())
+    ROS_WARN(
+        "%zu examples of gestures (%s) are not used, since they are shorter than minimum_length, "
+        "%g m: lower it, or remove these gestures and record them again, larger.",
+        too_short_.size(), joined(gestures).c_str(), parameters_.recognizer.shape.minimum_length);
+}
+
+/// Those that are too short stay in the file for a smaller minimum_length.
+void Gestures::writeExamples(const gesture::Recognizer& recognizer,
+                             const std::vector<gesture::Example>& too_short) const {
+  std::vector<gesture::Example> all = recognizer.examples();
+  all.insert(all.end(), too_short.begin(), too_short.end());
+  gesture::writeExamples(parameters_.file, all);
 }
 
 void Gestures::onRig(const wiimote_tracker_msgs::RigCalibration& message) {
@@ -180,7 +215,7 @@ void Gestures::keepExample(const gesture::Path& path, const Hand& hand) {
   example.path = path;
   try {
     with_it.add(example);
-    gesture::writeExamples(parameters_.file, with_it.examples());
+    writeExamples(with_it, too_short_);
   } catch (const FileError& e) {
     ROS_ERROR("The example of '%s' is not kept: %s", example.gesture.c_str(), e.what());
     wanted_.reset();
@@ -269,19 +304,25 @@ bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
 bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
                       wiimote_tracker_msgs::RemoveGesture::Response& response) {
   gesture::Recognizer without = recognizer_;
-  const std::size_t removed = without.remove(request.gesture);
+  std::vector<gesture::Example> too_short = too_short_;
+  too_short.erase(std::remove_if(too_short.begin(), too_short.end(),
+                                 [&](const auto& e) { return e.gesture == request.gesture; }),
+                  too_short.end());
+  const std::size_t removed =
+      without.remove(request.gesture) + too_short_.size() - too_short.size();
   response.success = false;
   if (removed == 0) {
     response.message = "there is no gesture '" + request.gesture + "'; see gestures/list";
     return true;
   }
   try {
-    gesture::writeExamples(parameters_.file, without.examples());
+    writeExamples(without, too_short);
   } catch (const geometry::Error& e) {
     response.message = e.what();
     return true;
   }
   recognizer_ = without;
+  too_short_ = too_short;
   response.success = true;
   response.message = std::to_string(removed) + " examples of '" + request.gesture + "' are removed";
   return true;

@@ -11,6 +11,21 @@
 #include <filesystem>
 
 namespace wiimote_tracker::measurements {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// @throws fs::filesystem_error.
+void keepPart(const std::string& part) {
+  if (!fs::is_regular_file(part) || fs::file_size(part) == 0)
+    return;
+  std::string kept = part + ".bak";
+  for (int i = 2; fs::exists(kept); ++i)
+    kept = part + ".bak" + std::to_string(i);
+  fs::rename(part, kept);
+}
+
+}  // namespace
 
 std::string partOf(const std::string& path) {
   return path + ".part";
@@ -22,11 +37,11 @@ void failToWrite(const std::string& path, int error) {
 }
 
 void createPart(const std::string& path) {
-  namespace fs = std::filesystem;
   try {
     fs::create_directories(fs::absolute(path).parent_path());
     if (fs::is_directory(path))
       failToWrite(path, EISDIR);
+    keepPart(partOf(path));
   } catch (const fs::filesystem_error& e) {
     failToWrite(path, e.code().value());
   }

@@ -8,7 +8,8 @@ namespace wiimote_tracker::measurements {
 /// Name of a file while it is being written.
 std::string partOf(const std::string& path);
 
-/// Creates the file's folder and an empty part. @throws Error.
+/// Creates the file's folder and an empty part. A part that a program left when it crashed is kept,
+/// unless empty, as path + ".part.bak", or ".part.bak2" and so on where that exists. @throws Error.
 void createPart(const std::string& path);
 
 /// Syncs the part to disk and renames it atomically; keeps an existing file as path + ".bak".

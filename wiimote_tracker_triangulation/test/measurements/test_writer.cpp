@@ -216,6 +216,17 @@ TEST_F(WriterTest, TheFileGetsItsNameWhenComplete) {
   EXPECT_LT(contentOf(path).size(), first.size());
 }
 
+TEST_F(WriterTest, KeepsWhatCrashedProgramsLeft) {
+  const std::string path = (folder_ / "out.csv").string();
+  for (const char* rows : {"first", "second", ""}) {
+    std::ofstream(path + ".part") << rows;
+    makeCsvWriter(path)->finish();
+  }
+  EXPECT_EQ("first", contentOf(path + ".part.bak"));
+  EXPECT_EQ("second", contentOf(path + ".part.bak2"));
+  EXPECT_FALSE(fs::exists(path + ".part.bak3")) << "nothing is lost with an empty one";
+}
+
 TEST_F(WriterTest, AdvisesWhenItCannotWrite) {
   std::ofstream(folder_ / "file").put('x');
   for (const fs::path& path : {folder_ / "file" / "out", folder_}) {

@@ -32,6 +32,7 @@ Output::Output(const OutputFiles& files,
       bag_(std::make_unique<rosbag::Bag>()),
       tables_(measurements::makeWriters(files.tables)),
       trajectories_(files.trajectories) {
+  ::unlink(measurements::partOf(path_).c_str());  // of an earlier run: can be computed again
   measurements::createPart(path_);
   try {
     bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);

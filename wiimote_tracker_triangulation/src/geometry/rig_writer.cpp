@@ -4,6 +4,8 @@
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <ctime>
 
 namespace wiimote_tracker::geometry {
@@ -107,6 +109,19 @@ std::string dateOf(double seconds) {
   return text;
 }
 
+/// @throws FileError: readRigFile would refuse the file.
+void checkReadable(const std::string& text, const Rig& rig, const std::string& path) {
+  if (text.size() > kLargestReadable)
+    throw FileError(format(
+        "cannot write %s: a rig of %zu cameras that takes %.0f MB could not be read, as no file "
+        "above %.0f MB; calibrate fewer cameras together",
+        path.c_str(), rig.cameras.size(), 1e-6 * static_cast<double>(text.size()),
+        1e-6 * static_cast<double>(kLargestReadable)));
+  if (text.find(kUnreadableText) != std::string::npos)
+    throw FileError("cannot write " + path + ": a name in it has '" + kUnreadableText +
+                    "' and could not be read; rename that zone, frame or camera");
+}
+
 }  // namespace
 
 void writeRigFile(const Rig& rig, const std::string& path) {
@@ -163,7 +178,9 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   // The last key: without it, the file was cut off.
   out << YAML::Key << "complete" << YAML::Value << true;
   out << YAML::EndMap;
-  writeFileAtomically(path, std::string(out.c_str()) + "\n");
+  const std::string text = std::string(out.c_str()) + "\n";
+  checkReadable(text, rig, path);
+  writeFileAtomically(path, text);
 }
 
 }  // namespace wiimote_tracker::geometry

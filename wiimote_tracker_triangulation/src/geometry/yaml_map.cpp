@@ -11,10 +11,10 @@ YamlMap YamlMap::load(const std::string& file, const char* advice) {
 }
 
 YamlMap YamlMap::parse(const std::string& text, const std::string& file, const char* advice) {
-  // yaml-cpp 0.6 fills the memory at ":]", and at a ":" that ends the text.
-  if (text.find(":]") != std::string::npos)
-    throw FileError(file + " is damaged: it has ':]'; " + advice);
+  if (text.find(kUnreadableText) != std::string::npos)
+    throw FileError(file + " is damaged: it has '" + kUnreadableText + "'; " + advice);
   try {
+    // With a line's end, since yaml-cpp 0.6 fills the memory also at a ":" that ends the text.
     return YamlMap(YAML::Load(text + '\n'), file, "", advice);
   } catch (const YAML::Exception& e) {
     throw FileError(file + " is not YAML (" + e.what() + "); " + advice);

@@ -27,6 +27,25 @@ TEST_F(RigFile, ListThatEndsWithAColonIsRefused) {
   EXPECT_NE(std::string::npos, complaint.find("':]'")) << complaint;
 }
 
+TEST_F(RigFile, ThatCouldNotBeReadIsNotWritten) {
+  write(fullRig());
+  const auto refusal = [&](const Rig& rig) {
+    try {
+      writeRigFile(rig, path_);
+    } catch (const FileError& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  Rig rig = fullRig();
+  rig.zones[0].name = "hall:]";
+  EXPECT_NE(std::string::npos, refusal(rig).find("':]'")) << refusal(rig);
+  rig = fullRig();
+  rig.verdict.assign(33000000, 'a');
+  EXPECT_NE(std::string::npos, refusal(rig).find("above 32 MB"));
+  EXPECT_EQ(written_, contentOf(path_));
+}
+
 TEST_F(RigFile, DamageNeverCrashes) {
   Rig rig = fullRig();
   rig.covariance.resize(0, 0);

@@ -11,9 +11,11 @@ namespace wiimote_tracker::geometry {
 /// Threads may write at the same time. @throws FileError; then the file at `path` is unchanged.
 void writeFileAtomically(const std::string& path, const std::string& content);
 
+constexpr std::size_t kLargestReadable = 32000000;  ///< File [bytes].
+
 /// @param largest size [bytes] that is read.
 /// @throws FileError: missing, unreadable, larger, or no regular file.
-std::string readFile(const std::string& path, std::size_t largest = 32000000);
+std::string readFile(const std::string& path, std::size_t largest = kLargestReadable);
 
 }  // namespace wiimote_tracker::geometry
 

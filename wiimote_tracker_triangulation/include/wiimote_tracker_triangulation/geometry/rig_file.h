@@ -14,7 +14,8 @@ Rig readRigFile(const std::string& path);
 
 /// Writes rig.yaml: to a new file that is then renamed, so that a reader never sees half a file; a
 /// file that was there is kept as path + ".bak". Folders are created.
-/// @throws FileError: cannot be written; then the old file is as it was. InvalidRigError.
+/// @throws FileError: cannot be written, or could not be read again (larger than kLargestReadable,
+/// or a name with kUnreadableText); then the old file is as it was. InvalidRigError.
 void writeRigFile(const Rig& rig, const std::string& path);
 
 /// Writes a standard camera-info YAML (keys of camera_calibration_parsers) for one camera, in the

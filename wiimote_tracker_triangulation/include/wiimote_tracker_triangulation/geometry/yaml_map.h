@@ -15,6 +15,9 @@
 
 namespace wiimote_tracker::geometry {
 
+/// Files with this are refused: yaml-cpp 0.6 fills the memory there, even inside quotes.
+constexpr const char* kUnreadableText = ":]";
+
 /// A map of a YAML file that is read strictly: a key that is missing, of the wrong type, out of
 /// range, there twice, or never asked for is a FileError that names the file and the key in full,
 /// such as "rig.yaml: cameras/left/image_width". All functions throw it.

@@ -254,6 +254,7 @@ TEST_F(GesturesTest, ZonesHaveTheirOwn) {
   bench_->publishRig(rig);
   ASSERT_TRUE(Bench::waitFor([&] { return bench_->record("lights", "kitchen").empty(); }));
   EXPECT_NE(bench_->record("lights", "cellar"), "");
+  EXPECT_NE(bench_->record("smile:]"), "") << "the file could not be read again";
   bench_->draw(circle, {2.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
   bench_->draw(circle, {12.0, 0.0, 1.0});

@@ -4,6 +4,7 @@
 #include "../marker_parts.h"
 #include "gesture/examples_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <visualization_msgs/MarkerArray.h>
@@ -286,6 +287,12 @@ bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
   if (request.gesture.empty()) {
     wanted_.reset();
     response.message = "recording is cancelled";
+    return true;
+  }
+  if (request.gesture.find(geometry::kUnreadableText) != std::string::npos) {
+    response.success = false;
+    response.message = "the file of examples cannot have a name with '" +
+                       std::string(geometry::kUnreadableText) + "'; choose another one";
     return true;
   }
   const bool known_zone = request.zone.empty() ||

@@ -36,15 +36,40 @@ inline bool staysRefused(const ParameterError& error) {
   return true;
 }
 
-/// Where the master says that a node answers: host and port. Nothing when it knows no such node.
+/// What a master or node answers to a call of its XML-RPC API. Nothing when it refuses, or does not
+/// answer within a second; ros::master::execute() would wait for ever for one that hangs.
+inline std::optional<XmlRpc::XmlRpcValue> answerOf(const std::string& host,
+                                                   std::uint32_t port,
+                                                   const char* method,
+                                                   const XmlRpc::XmlRpcValue& request) {
+  using XmlRpc::XmlRpcDispatch;
+  using XmlRpc::XmlRpcValue;
+  XmlRpc::XmlRpcClient client(host.c_str(), static_cast<int>(port), "/");
+  if (!client.executeNonBlock(method, request))
+    return std::nullopt;
+  XmlRpcDispatch dispatch;
+  dispatch.addSource(&client, XmlRpcDispatch::WritableEvent | XmlRpcDispatch::Exception);
+  dispatch.work(1.0);
+  // The answer is a status, a sentence and the value.
+  XmlRpcValue answer;
+  if (!client.executeCheckDone(answer) || answer.getType() != XmlRpcValue::TypeArray ||
+      answer.size() != 3 || answer[0].getType() != XmlRpcValue::TypeInt ||
+      static_cast<int>(answer[0]) != 1)
+    return std::nullopt;
+  return answer[2];
+}
+
+/// Where the master says that a node answers: host and port. Nothing when it knows no such node, or
+/// does not answer within a second.
 inline std::optional<std::pair<std::string, std::uint32_t>> serverOf(const std::string& node) {
-  XmlRpc::XmlRpcValue request, answer, uri;
+  XmlRpc::XmlRpcValue request;
   request[0] = ros::this_node::getName();
   request[1] = node;
   std::string host;
   std::uint32_t port = 0;
-  if (!ros::master::execute("lookupNode", request, answer, uri, false) ||
-      !ros::network::splitURI(uri, host, port))
+  auto uri = answerOf(ros::master::getHost(), ros::master::getPort(), "lookupNode", request);
+  if (!uri || uri->getType() != XmlRpc::XmlRpcValue::TypeString ||
+      !ros::network::splitURI(*uri, host, port))
     return std::nullopt;
   return std::make_pair(host, port);
 }
@@ -53,24 +78,15 @@ inline std::optional<std::pair<std::string, std::uint32_t>> serverOf(const std::
 /// not answer within a second. The master alone cannot tell: it remembers those that were killed.
 /// @param node its full name
 inline std::string runningProcess(const std::string& node) {
-  using XmlRpc::XmlRpcDispatch;
-  using XmlRpc::XmlRpcValue;
   const auto server = serverOf(node);
   if (!server)
     return "";
-  XmlRpc::XmlRpcClient client(server->first.c_str(), static_cast<int>(server->second), "/");
-  XmlRpcValue caller, answer;
+  XmlRpc::XmlRpcValue caller;
   caller[0] = node;
-  if (!client.executeNonBlock("getPid", caller))
+  auto process = answerOf(server->first, server->second, "getPid", caller);
+  if (!process || process->getType() != XmlRpc::XmlRpcValue::TypeInt)
     return "";
-  XmlRpcDispatch dispatch;
-  dispatch.addSource(&client, XmlRpcDispatch::WritableEvent | XmlRpcDispatch::Exception);
-  dispatch.work(1.0);
-  // The answer is a status, a sentence and the process.
-  if (!client.executeCheckDone(answer) || answer.getType() != XmlRpcValue::TypeArray ||
-      answer.size() != 3 || answer[2].getType() != XmlRpcValue::TypeInt)
-    return "";
-  return "process " + std::to_string(static_cast<int>(answer[2])) + " on " + server->first;
+  return "process " + std::to_string(static_cast<int>(*process)) + " on " + server->first;
 }
 
 /// Handles callbacks until the node ends, as ros::spin() does, but logs what they throw. Ours catch

@@ -27,10 +27,11 @@ def halted(name, what, node, **how):
 FAULTS = (
     killed('driver', 'a driver', DRIVER, quick=True),
     halted('driver', 'a driver', DRIVER),
-    killed('tracker', 'the tracker', TRACKER, quick=True),
     # The tracker then says that time jumped back, and tracks begin anew. Each LED waves nearer to
-    # its former place than to another's, so names stay, but after 5 s they are doubtful.
+    # its former place than to another's, so names stay, but after 5 s they are doubtful. This comes
+    # before the tracker is killed, after which they may be doubtful already.
     halted('tracker', 'the tracker', TRACKER, quick=True, named='labels were given again'),
+    killed('tracker', 'the tracker', TRACKER, quick=True),
     killed('calibration', 'the calibration node', CALIBRATION),
     halted('calibration', 'the calibration node', CALIBRATION),
     killed('gestures', 'the gestures node', GESTURES, 3.0),

@@ -40,6 +40,14 @@ wiimote_tracker_msgs::RigCalibration rigOf(const std::vector<std::string>& names
   return rig;
 }
 
+wiimote_tracker_msgs::CalibrationStatus statusOfKnocked(const std::string& camera) {
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.cameras.emplace_back();
+  status.cameras[0].name = camera;
+  status.cameras[0].health = "it was tilted by 3 degrees: calibrate it again";
+  return status;
+}
+
 class View : public testing::Test {
  protected:
   /// Every camera sends an image with one spot, or none, each period.
@@ -149,10 +157,7 @@ TEST_F(View, LateImagesAreLateAndAncientOnesARecording) {
 TEST_F(View, AKnockedCameraSaysWhatTheHealthWatchSays) {
   view_.onRig(rigOf({"a"}), now_);
   run(0.1, {"a"}, {});
-  wiimote_tracker_msgs::CalibrationStatus status;
-  status.cameras.emplace_back();
-  status.cameras[0].name = "a";
-  status.cameras[0].health = "it was tilted by 3 degrees: calibrate it again";
+  const wiimote_tracker_msgs::CalibrationStatus status = statusOfKnocked("a");
   view_.onStatus(status, now_);
   EXPECT_EQ(state("a"), CameraState::kKnocked);
   EXPECT_EQ(words("a"), status.cameras[0].health);
@@ -161,10 +166,7 @@ TEST_F(View, AKnockedCameraSaysWhatTheHealthWatchSays) {
 TEST_F(View, ACameraThatTheCalibrationNodeNoLongerWatchesIsNotKnockedAnyMore) {
   view_.onRig(rigOf({"a"}), now_);
   run(0.1, {"a"}, {});
-  wiimote_tracker_msgs::CalibrationStatus status;
-  status.cameras.emplace_back();
-  status.cameras[0].name = "a";
-  status.cameras[0].health = "it was tilted by 3 degrees: calibrate it again";
+  wiimote_tracker_msgs::CalibrationStatus status = statusOfKnocked("a");
   view_.onStatus(status, now_);
   ASSERT_EQ(state("a"), CameraState::kKnocked);
   status.cameras.clear();

@@ -12,8 +12,8 @@ namespace wiimote_tracker::adjust {
 
 /// Joint covariance of some parameter blocks of a problem at its present values, in this order:
 /// the inverse of J^T J, with the whitened residuals' Jacobian J by all blocks of the problem.
-/// Blocks that are held have zero rows; of no block may only a part be held. Nothing when the
-/// residuals do not determine some parameter. Uses a sparse Cholesky factor and solves only these
+/// A block is held as a whole or not at all; held blocks have zero rows. Nothing when the residuals
+/// do not determine some parameter. Uses a sparse Cholesky factor and solves only these
 /// blocks' columns: ceres::Covariance factors J itself (QR), which takes more than a minute for a
 /// long wave.
 /// @throws Error: only a part of a block is held (a subset parameterization or manifold).

@@ -60,7 +60,7 @@ ros::ServiceServer advertise(ros::NodeHandle nh,
       });
 }
 
-/// Calls something when it leaves scope, whatever was thrown.
+/// Scope guard: runs `call` at the end of its scope, also when an exception ends it.
 template <typename Call>
 struct AtEnd {
   Call call;

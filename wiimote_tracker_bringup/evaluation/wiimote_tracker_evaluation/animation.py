@@ -36,7 +36,8 @@ def draw(path, scene, recording, segments):
     axes.plot([0, side, side, 0, 0], [0, 0, side, side, 0], 0, color=ORANGE)
     for camera in scene.cameras:
         axes.plot(*frustum(camera).T, color=INK, linewidth=0.8)
-        axes.text(*camera.position, camera.name.strip('/'), color=INK, fontsize=9)
+        above = camera.position + [0, 0, 0.5 * FRUSTUM_DEPTH]
+        axes.text(*above, camera.name.strip('/'), ha='center', color=INK, fontsize=9)
     rays = [axes.plot([], [], [], color=SOFT, linewidth=0.7)[0] for _ in scene.cameras]
     trail, = axes.plot([], [], [], color=BLUE, linewidth=1.6)
     led, = axes.plot([], [], [], 'o', color=RED, markersize=7)

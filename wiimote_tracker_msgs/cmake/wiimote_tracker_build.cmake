@@ -139,6 +139,15 @@ function(wiimote_tracker_add_node_test name launch)
   add_dependencies(wiimote_tracker_node_tests ${name})
 endfunction()
 
+# wiimote_tracker_check_parameters(NAME): gives this test, which links yaml-cpp, the function of
+# documented_parameters.h, and the package's folder config as CONFIG_FOLDER.
+function(wiimote_tracker_check_parameters name)
+  set(support ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support)
+  target_sources(${name} PRIVATE ${support}/documented_parameters.cpp)
+  target_include_directories(${name} PRIVATE ${support})
+  target_compile_definitions(${name} PRIVATE CONFIG_FOLDER="${PROJECT_SOURCE_DIR}/config")
+endfunction()
+
 # wiimote_tracker_add_pytest(NAME FILE [REAL_TIME] [ENVIRONMENT VARIABLE=VALUE...]
 #   [DEPENDENCIES TARGET...])
 # REAL_TIME: it starts nodes, or waits for other programs, so nothing may delay it for long.

@@ -90,6 +90,7 @@ class ParameterReader {
   std::string choice(const std::string& key,
                      const std::string& default_value,
                      const std::vector<std::string>& words) {
+    choices_[key] = words;
     const std::string value = optional<std::string>(key, default_value);
     if (std::find(words.begin(), words.end(), value) == words.end())
       throw ParameterError(nameOf(key) + " is '" + value +
@@ -100,9 +101,11 @@ class ParameterReader {
   /// Full names of all values that are set.
   std::vector<std::string> fullNames() const { return tree_.fullNames(); }
 
-  /// Defaults as YAML and ranges of the keys that were read with one, for checks of documents.
+  /// Defaults as YAML, and ranges and words of the keys that were read with them, for checks of
+  /// documents.
   const std::map<std::string, std::string>& defaults() const { return defaults_; }
   const std::map<std::string, std::pair<double, double>>& ranges() const { return ranges_; }
+  const std::map<std::string, std::vector<std::string>>& choices() const { return choices_; }
 
   /// Declares a key, and everything below it, as known without reading it.
   void allow(const std::string& key) { used_.insert(nameOf(key)); }
@@ -173,6 +176,7 @@ class ParameterReader {
   std::set<std::string> used_;
   std::map<std::string, std::string> defaults_;
   std::map<std::string, std::pair<double, double>> ranges_;
+  std::map<std::string, std::vector<std::string>> choices_;
 };
 
 }  // namespace wiimote_tracker

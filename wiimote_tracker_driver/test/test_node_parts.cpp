@@ -5,20 +5,17 @@
 #include "ros/joy_publisher.h"
 #include "ros/link_diagnostics.h"
 
+#include <documented_parameters.h>
 #include <gtest/gtest.h>
 #include <wiimote_tracker_driver/DriverConfig.h>
 #include <wiimote_tracker_msgs/log_exceptions.h>
-#include <yaml-cpp/yaml.h>
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <map>
-#include <sstream>
 #include <stdexcept>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::driver {
@@ -113,65 +110,12 @@ TEST(Sensitivity, ByNameOrCustom) {
   EXPECT_THROW(sensitivity("07 00 00 71 01 00 72 00 20 1f 03", "", ""), std::invalid_argument);
 }
 
-/// Replaces a ParameterReader: checks that config/driver.yaml has each parameter with its default,
-/// below a comment with a sentence and the range.
-class DriverYaml {
- public:
-  DriverYaml() : values_(YAML::LoadFile(DRIVER_YAML)) {
-    std::ifstream file(DRIVER_YAML);
-    std::string comment;
-    for (std::string line; std::getline(file, line);) {
-      if (line.empty())
-        comment.clear();
-      else if (line[0] == '#')
-        comment += line.substr(1);
-      else
-        comments_[line.substr(0, line.find(':'))] = std::exchange(comment, "");
-    }
-  }
-
-  template <typename T>
-  T optional(const std::string& name, const T& value) {
-    ++read_;
-    EXPECT_NE(std::string::npos, comments_[name].find('.')) << name << " has a sentence";
-    if (values_[name])
-      EXPECT_EQ(value, values_[name].as<T>()) << name;
-    else
-      ADD_FAILURE() << name << " is missing";
-    return value;
-  }
-
-  template <typename T>
-  T bounded(const std::string& name, T value, T minimum, T maximum) {
-    std::ostringstream range;
-    range << minimum << ".." << maximum << ']';
-    EXPECT_NE(std::string::npos, comments_[name].find(range.str())) << name << " " << range.str();
-    return optional(name, value);
-  }
-
-  std::string choice(const std::string& name,
-                     const std::string& value,
-                     const std::vector<std::string>& words) {
-    for (const std::string& word : words)
-      EXPECT_TRUE(comments_[name].find(word) != std::string::npos || word.find("wii_") == 0)
-          << word;
-    return optional(name, value);
-  }
-
-  std::size_t read() const { return read_; }
-  std::size_t size() const { return values_.size(); }
-
- private:
-  YAML::Node values_;
-  std::map<std::string, std::string> comments_;
-  std::size_t read_ = 0;
-};
-
-TEST(Parameters, TheFileHasEachWithItsDefaultAndRange) {
-  DriverYaml file;
-  DriverParameters p;
-  declareParameters(file, p);
-  EXPECT_EQ(file.read(), file.size()) << "each key is a parameter";
+TEST(Parameters, TheFileDocumentsThem) {
+  XmlRpc::XmlRpcValue nothing;
+  nothing.begin();  // a struct without members
+  ParameterReader reader(ParameterTree("parameters", nothing));
+  readDriverParameters(&reader, "/wiimote_1");
+  expectDocumented(reader, CONFIG_FOLDER "/driver.yaml");
 }
 
 TEST(Parameters, TheLiveSettingsHaveTheSameDefaults) {

@@ -92,7 +92,7 @@ std::thread threadWithoutSignals(F f) {
 }  // namespace
 
 Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
-    : parameters_(readDriverParameters(nh, private_nh)),
+    : parameters_(readDriverParameters(ParameterReader(private_nh), nh.getNamespace())),
       optical_frame_(parameters_.camera_name + "_optical_frame"),
       source_(makeSource(parameters_, private_nh.resolveName("device"))),
       ir_format_(source_->irFormat().value_or(irFormat(parameters_.ir_mode))),

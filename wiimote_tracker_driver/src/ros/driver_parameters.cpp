@@ -2,8 +2,6 @@
 
 #include "transport/transport.h"
 
-#include <wiimote_tracker_msgs/parameter_reader.h>
-
 #include <array>
 #include <cctype>
 #include <cstddef>
@@ -30,43 +28,58 @@ std::string lastPart(const std::string& name_space) {
 }
 
 // Checks what a range cannot express.
-void check(const DriverParameters& p, const ros::NodeHandle& private_nh) {
+void check(const DriverParameters& p, const ParameterReader& reader) {
   transport::DeviceName device;
   try {
     device = transport::parseDeviceName(p.device);
   } catch (const transport::BadDeviceName& e) {
-    throw ParameterError(private_nh.resolveName("device") + ": " + e.what());
+    throw ParameterError(reader.nameOf("device") + ": " + e.what());
   }
   if (device.kind == transport::DeviceName::Kind::kReplay && !p.record.empty())
-    throw ParameterError(private_nh.resolveName("record") +
+    throw ParameterError(reader.nameOf("record") +
                          " is set, but a replay is not recorded again: leave it empty, or name a "
                          "remote as the device");
   if (p.replay_rate > 0.0 && p.replay_rate < kSlowestReplay)
-    throw ParameterError(private_nh.resolveName("replay_rate") +
+    throw ParameterError(reader.nameOf("replay_rate") +
                          " must be 0 (as fast as possible) or at least 0.1");
   if (!isCameraName(p.camera_name))
-    throw ParameterError(private_nh.resolveName("camera_name") + " is '" + p.camera_name +
+    throw ParameterError(reader.nameOf("camera_name") + " is '" + p.camera_name +
                          "', but must consist of letters, digits and underscores");
   try {
     sensitivity(p.ir_sensitivity, p.ir_sensitivity_block1, p.ir_sensitivity_block2);
   } catch (const std::invalid_argument& e) {
-    throw ParameterError(private_nh.resolveName("ir_sensitivity_block1") +
-                         " and _block2: " + e.what());
+    throw ParameterError(reader.nameOf("ir_sensitivity_block1") + " and _block2: " + e.what());
   }
 }
 
 }  // namespace
 
-DriverParameters readDriverParameters(const ros::NodeHandle& nh,
-                                      const ros::NodeHandle& private_nh) {
-  ParameterReader reader(private_nh);
+DriverParameters readDriverParameters(ParameterReader* reader, const std::string& name_space) {
   DriverParameters p;
-  declareParameters(reader, p);
-  reader.bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // used by diagnostic_updater
-  reader.refuseUnknown();
+  reader->read("device", &p.device);
+  reader->read("camera_name", &p.camera_name);
+  reader->read("camera_info_url", &p.camera_info_url);
+  reader->read("latency", &p.latency, 0.0, 1.0);
+  reader->read("estimate_exposure", &p.estimate_exposure);
+  p.ir_mode = reader->choice("ir_mode", p.ir_mode, {"basic", "extended", "full"});
+  p.ir_sensitivity = reader->choice("ir_sensitivity", p.ir_sensitivity, sensitivityNames());
+  reader->read("ir_sensitivity_block1", &p.ir_sensitivity_block1);
+  reader->read("ir_sensitivity_block2", &p.ir_sensitivity_block2);
+  reader->read("leds", &p.leds, -1, 15);
+  reader->read("battery_low", &p.battery_low, 0.0, 1.0);
+  reader->read("rumble_max", &p.rumble_max, 0.0, 10.0);
+  reader->read("linear_acceleration_stddev", &p.linear_acceleration_stddev, 1e-6, 100.0);
+  reader->read("record", &p.record);
+  reader->read("replay_rate", &p.replay_rate, 0.0, 1000.0);
+  reader->read("realtime_priority", &p.realtime_priority, 0, 99);
+  reader->read("reply_timeout", &p.reply_timeout, 0.05, 10.0);
+  reader->read("silence_timeout", &p.silence_timeout, 0.1, 60.0);
+  reader->read("status_interval", &p.status_interval, 1.0, 86400.0);
+  reader->bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // used by diagnostic_updater
+  reader->refuseUnknown();
   if (p.camera_name.empty())
-    p.camera_name = lastPart(nh.getNamespace());
-  check(p, private_nh);
+    p.camera_name = lastPart(name_space);
+  check(p, *reader);
   return p;
 }
 

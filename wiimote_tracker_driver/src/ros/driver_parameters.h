@@ -4,7 +4,7 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 
-#include <ros/node_handle.h>
+#include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <cstdint>
 #include <string>
@@ -38,34 +38,13 @@ struct DriverParameters {
 /// Allowed values of ir_sensitivity: the named settings, and custom.
 std::vector<std::string> sensitivityNames();
 
-/// Name, default and range of every parameter. `reader`: a ParameterReader.
-template <typename Reader>
-void declareParameters(Reader& reader, DriverParameters& p) {
-  p.device = reader.optional("device", p.device);
-  p.camera_name = reader.optional("camera_name", p.camera_name);
-  p.camera_info_url = reader.optional("camera_info_url", p.camera_info_url);
-  p.latency = reader.bounded("latency", p.latency, 0.0, 1.0);
-  p.estimate_exposure = reader.optional("estimate_exposure", p.estimate_exposure);
-  p.ir_mode = reader.choice("ir_mode", p.ir_mode, {"basic", "extended", "full"});
-  p.ir_sensitivity = reader.choice("ir_sensitivity", p.ir_sensitivity, sensitivityNames());
-  p.ir_sensitivity_block1 = reader.optional("ir_sensitivity_block1", p.ir_sensitivity_block1);
-  p.ir_sensitivity_block2 = reader.optional("ir_sensitivity_block2", p.ir_sensitivity_block2);
-  p.leds = reader.bounded("leds", p.leds, -1, 15);
-  p.battery_low = reader.bounded("battery_low", p.battery_low, 0.0, 1.0);
-  p.rumble_max = reader.bounded("rumble_max", p.rumble_max, 0.0, 10.0);
-  p.linear_acceleration_stddev =
-      reader.bounded("linear_acceleration_stddev", p.linear_acceleration_stddev, 1e-6, 100.0);
-  p.record = reader.optional("record", p.record);
-  p.replay_rate = reader.bounded("replay_rate", p.replay_rate, 0.0, 1000.0);
-  p.realtime_priority = reader.bounded("realtime_priority", p.realtime_priority, 0, 99);
-  p.reply_timeout = reader.bounded("reply_timeout", p.reply_timeout, 0.05, 10.0);
-  p.silence_timeout = reader.bounded("silence_timeout", p.silence_timeout, 0.1, 60.0);
-  p.status_interval = reader.bounded("status_interval", p.status_interval, 1.0, 86400.0);
-}
-
-/// Reads the parameters of the private namespace; `nh` is the camera's namespace.
+/// Reads the parameters of the driver; `name_space` is the camera's.
 /// @throws ParameterError for what can never work.
-DriverParameters readDriverParameters(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
+DriverParameters readDriverParameters(ParameterReader* reader, const std::string& name_space);
+inline DriverParameters readDriverParameters(ParameterReader reader,
+                                             const std::string& name_space) {
+  return readDriverParameters(&reader, name_space);
+}
 
 /// `ir_mode`: basic, extended or full.
 protocol::IrFormat irFormat(const std::string& ir_mode);

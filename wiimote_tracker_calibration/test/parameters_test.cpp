@@ -1,6 +1,7 @@
 #include "../src/ros/parameters.h"
 #include "../src/ros/square_frame.h"
 
+#include <documented_parameters.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
@@ -12,81 +13,36 @@
 namespace wiimote_tracker {
 namespace {
 
-void expectSame(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
-  EXPECT_EQ(a.width, b.width);
-  EXPECT_EQ(a.height, b.height);
-  EXPECT_EQ(a.fx, b.fx);
-  EXPECT_EQ(a.fy, b.fy);
-  EXPECT_EQ(a.cx, b.cx);
-  EXPECT_EQ(a.cy, b.cy);
-  EXPECT_EQ(a.distortion, b.distortion);
+TEST(Parameters, TheFileDocumentsThem) {
+  ParameterReader reader(ros::NodeHandle("~nothing"));
+  readParameters(&reader);
+  expectDocumented(reader, CONFIG_FOLDER "/calibration.yaml");
 }
 
-TEST(Parameters, TheFileSaysWhatTheDefaultsAre) {
+TEST(Parameters, TheFileIsTakenFromTheServer) {
   const Parameters file = readParameters(ParameterReader(ros::NodeHandle("~from_file")));
-  const Parameters none = readParameters(ParameterReader(ros::NodeHandle("~nothing")));
-  EXPECT_EQ(file.cameras, none.cameras);
-  EXPECT_EQ(file.side_length, none.side_length);
-  EXPECT_EQ(file.second_side_length, none.second_side_length);
-  EXPECT_EQ(file.rig_file, none.rig_file);
-  EXPECT_EQ(file.set_camera_info_timeout, none.set_camera_info_timeout);
-  EXPECT_EQ(file.hands_free, none.hands_free);
-  EXPECT_EQ(file.sounds, none.sounds);
-  EXPECT_EQ(file.button_remote, none.button_remote);
-  EXPECT_EQ(file.masks.share, capture::MaskOptions().share);
-  EXPECT_EQ(file.masks.margin, capture::MaskOptions().margin);
-  expectSame(file.intrinsics, none.intrinsics);
-  expectSame(none.intrinsics, geometry::Intrinsics());
   EXPECT_TRUE(file.own_intrinsics.empty());
+}
 
-  const workflow::CalibrationOptions& a = file.calibration;
-  const workflow::CalibrationOptions b;
-  EXPECT_EQ(a.capture.minimum_samples, b.capture.minimum_samples);
-  EXPECT_EQ(a.capture.minimum_cameras, b.capture.minimum_cameras);
-  EXPECT_EQ(a.capture.spread_limit, b.capture.spread_limit);
-  EXPECT_EQ(a.capture.drift_limit, b.capture.drift_limit);
-  EXPECT_EQ(a.capture.timeout, b.capture.timeout);
-  EXPECT_EQ(a.hands_free.hold, b.hands_free.hold);
-  EXPECT_EQ(a.hands_free.distance, b.hands_free.distance);
-  EXPECT_EQ(a.hands_free.minimum_cameras, b.hands_free.minimum_cameras);
-  EXPECT_EQ(a.coverage.seconds, b.coverage.seconds);
-  EXPECT_EQ(a.coverage.image_share, b.coverage.image_share);
-  EXPECT_EQ(a.coverage.image_speed, b.coverage.image_speed);
-  EXPECT_EQ(a.coverage.volume, b.coverage.volume);
-  EXPECT_EQ(a.coverage.speed, b.coverage.speed);
-  EXPECT_EQ(a.coverage.distraction, b.coverage.distraction);
-  const session::SolveOptions& s = file.solve;
-  const session::SolveOptions t;
-  EXPECT_EQ(s.use_gravity, t.use_gravity);
-  EXPECT_EQ(s.wave.pixel, t.wave.pixel);
-  EXPECT_EQ(s.wave.stamp, t.wave.stamp);
-  EXPECT_EQ(s.wave.wander, t.wave.wander);
-  EXPECT_EQ(s.wave.offset, t.wave.offset);
-  EXPECT_EQ(s.wave.knot_spacing, t.wave.knot_spacing);
-  EXPECT_EQ(s.wave.acceleration, t.wave.acceleration);
-  EXPECT_EQ(s.wave.maximum_offset_stddev, t.wave.maximum_offset_stddev);
-  EXPECT_EQ(s.correct_principal_points, t.correct_principal_points);
-  EXPECT_EQ(s.correction.points, t.correction.points);
-  EXPECT_EQ(s.correction.rounds, t.correction.rounds);
-  EXPECT_EQ(s.correction.limit, t.correction.limit);
-  EXPECT_EQ(s.ray_model, t.ray_model);
-  EXPECT_TRUE(std::isnan(s.virtual_hfov));
-  EXPECT_EQ(s.square.method, t.square.method);
-  EXPECT_EQ(s.square.branch_odds, t.square.branch_odds);
-  const square::Uncertainty& u = s.square.uncertainty;
-  const square::Uncertainty v;
-  EXPECT_EQ(u.pixel, v.pixel);
-  EXPECT_EQ(u.placement, v.placement);
-  EXPECT_EQ(u.focal, v.focal);
-  EXPECT_EQ(u.aspect, v.aspect);
-  EXPECT_EQ(u.principal_point, v.principal_point);
-  EXPECT_EQ(u.shared_principal_point, v.shared_principal_point);
-  EXPECT_EQ(u.k1, v.k1);
-  EXPECT_EQ(u.gravity, v.gravity);
-  EXPECT_EQ(a.led_height, b.led_height);
-  EXPECT_EQ(a.origin, b.origin);
-  EXPECT_EQ(a.yaw, b.yaw);
-  EXPECT_EQ(a.world_frame, b.world_frame);
+// These are not read straight into the options of the libraries.
+TEST(Parameters, WordsAndCopiesHaveTheDefaultsOfTheLibraries) {
+  const Parameters none = readParameters(ParameterReader(ros::NodeHandle("~nothing")));
+  const Parameters fresh;
+  EXPECT_EQ(none.cameras, fresh.cameras);
+  EXPECT_EQ(none.side_length, fresh.side_length);
+  EXPECT_EQ(none.second_side_length, fresh.second_side_length);
+  EXPECT_EQ(none.file_folder, fresh.file_folder);
+  EXPECT_EQ(none.button_remote, fresh.button_remote);
+  EXPECT_EQ(none.continuous_policy, fresh.continuous_policy);
+  EXPECT_EQ(none.calibration.hands_free.minimum_cameras,
+            fresh.calibration.hands_free.minimum_cameras);
+  EXPECT_EQ(none.solve.square.method, fresh.solve.square.method);
+  EXPECT_EQ(none.solve.correct_principal_points, fresh.solve.correct_principal_points);
+  EXPECT_EQ(none.solve.correction.points, fresh.solve.correction.points);
+  EXPECT_EQ(none.solve.ray_model, fresh.solve.ray_model);
+  EXPECT_TRUE(std::isnan(none.solve.virtual_hfov));
+  EXPECT_EQ(none.intrinsics.distortion_model, fresh.intrinsics.distortion_model);
+  EXPECT_EQ(none.intrinsics.distortion, fresh.intrinsics.distortion);
 }
 
 TEST(Parameters, SingleCamerasCanHaveTheirOwnIntrinsics) {

@@ -147,53 +147,53 @@ std::set<std::string> camerasWithOwnIntrinsics(const ParameterReader& reader) {
 
 }  // namespace
 
-Parameters readParameters(ParameterReader reader) {
+Parameters readParameters(ParameterReader* reader) {
   Parameters parameters;
   workflow::CalibrationOptions& calibration = parameters.calibration;
-  parameters.cameras = reader.optional<std::vector<std::string>>("cameras", {});
-  parameters.side_length = reader.bounded("side_length", 0.0, 0.0, 20.0);
-  parameters.second_side_length = reader.bounded("second_side_length", 0.0, 0.0, 20.0);
-  parameters.rig_file = reader.optional<std::string>("rig_file", "");
+  parameters.cameras = reader->optional<std::vector<std::string>>("cameras", {});
+  parameters.side_length = reader->bounded("side_length", 0.0, 0.0, 20.0);
+  parameters.second_side_length = reader->bounded("second_side_length", 0.0, 0.0, 20.0);
+  parameters.rig_file = reader->optional<std::string>("rig_file", "");
   if (parameters.rig_file.empty())
     parameters.rig_file = rosHome() + "/wiimote_tracker/rig.yaml";
-  parameters.file_folder = reader.optional<std::string>("file_folder", "");
-  reader.read("led_height", &calibration.led_height, 0.0, 1000.0);
-  reader.read("world_frame", &calibration.world_frame);
+  parameters.file_folder = reader->optional<std::string>("file_folder", "");
+  reader->read("led_height", &calibration.led_height, 0.0, 1000.0);
+  reader->read("world_frame", &calibration.world_frame);
   if (calibration.world_frame.empty())
-    throw ParameterError(reader.nameOf("world_frame") + " is empty: give the frame a name");
-  reader.read("origin_x", &calibration.origin.x(), -1000.0, 1000.0);
-  reader.read("origin_y", &calibration.origin.y(), -1000.0, 1000.0);
-  reader.read("yaw", &calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
-  readCapture(&reader, &calibration.capture);
-  reader.read("hands_free", &parameters.hands_free);
-  reader.read("sounds", &parameters.sounds);
-  readHandsFree(&reader, &calibration.hands_free);
+    throw ParameterError(reader->nameOf("world_frame") + " is empty: give the frame a name");
+  reader->read("origin_x", &calibration.origin.x(), -1000.0, 1000.0);
+  reader->read("origin_y", &calibration.origin.y(), -1000.0, 1000.0);
+  reader->read("yaw", &calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
+  readCapture(reader, &calibration.capture);
+  reader->read("hands_free", &parameters.hands_free);
+  reader->read("sounds", &parameters.sounds);
+  readHandsFree(reader, &calibration.hands_free);
   calibration.hands_free.minimum_cameras = calibration.capture.minimum_cameras;
-  parameters.button_remote = reader.optional<std::string>("button_remote", "");
+  parameters.button_remote = reader->optional<std::string>("button_remote", "");
   if (std::count(parameters.cameras.begin(), parameters.cameras.end(), parameters.button_remote) >
       0)
-    throw ParameterError(reader.nameOf("button_remote") + " is " + parameters.button_remote +
+    throw ParameterError(reader->nameOf("button_remote") + " is " + parameters.button_remote +
                          ", which is one of the cameras, and pressing moves it: name a spare "
                          "remote that is held in the hand");
-  readMasks(&reader, &parameters.masks);
-  readCoverage(&reader, &calibration.coverage);
-  readSolve(&reader, &parameters.solve.square);
-  readWave(&reader, &parameters.solve.wave);
-  readRays(&reader, &parameters.solve);
-  readHealth(&reader, &parameters.health);
-  parameters.continuous_policy = readContinuousPolicy(&reader);
-  reader.allow("diagnostic_period");  // read by diagnostic_updater
-  reader.read("use_gravity", &parameters.solve.use_gravity);
-  reader.read("set_camera_info_timeout", &parameters.set_camera_info_timeout, 0.1, 60.0);
-  reader.read("board_column_spacing", &parameters.board.column_spacing, 0.001, 10.0);
-  const double row_spacing = reader.bounded("board_row_spacing", 0.0, 0.0, 10.0);
+  readMasks(reader, &parameters.masks);
+  readCoverage(reader, &calibration.coverage);
+  readSolve(reader, &parameters.solve.square);
+  readWave(reader, &parameters.solve.wave);
+  readRays(reader, &parameters.solve);
+  readHealth(reader, &parameters.health);
+  parameters.continuous_policy = readContinuousPolicy(reader);
+  reader->allow("diagnostic_period");  // read by diagnostic_updater
+  reader->read("use_gravity", &parameters.solve.use_gravity);
+  reader->read("set_camera_info_timeout", &parameters.set_camera_info_timeout, 0.1, 60.0);
+  reader->read("board_column_spacing", &parameters.board.column_spacing, 0.001, 10.0);
+  const double row_spacing = reader->bounded("board_row_spacing", 0.0, 0.0, 10.0);
   parameters.board.row_spacing = row_spacing > 0.0 ? row_spacing : parameters.board.column_spacing;
-  reader.read("board_views", &parameters.board_views, 3, 1000);
-  parameters.intrinsics = readIntrinsics(&reader, "intrinsics", parameters.intrinsics);
-  for (const std::string& name : camerasWithOwnIntrinsics(reader))
+  reader->read("board_views", &parameters.board_views, 3, 1000);
+  parameters.intrinsics = readIntrinsics(reader, "intrinsics", parameters.intrinsics);
+  for (const std::string& name : camerasWithOwnIntrinsics(*reader))
     parameters.own_intrinsics[name] =
-        readIntrinsics(&reader, "cameras_intrinsics/" + name, parameters.intrinsics);
-  reader.refuseUnknown();
+        readIntrinsics(reader, "cameras_intrinsics/" + name, parameters.intrinsics);
+  reader->refuseUnknown();
   return parameters;
 }
 

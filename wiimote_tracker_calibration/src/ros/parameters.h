@@ -52,7 +52,10 @@ struct Parameters {
 
 /// Of a node, or of a file like config/calibration.yaml.
 /// @throws ParameterError naming the key that is unknown, of the wrong type or out of range.
-Parameters readParameters(ParameterReader reader);
+Parameters readParameters(ParameterReader* reader);
+inline Parameters readParameters(ParameterReader reader) {
+  return readParameters(&reader);
+}
 
 }  // namespace wiimote_tracker
 

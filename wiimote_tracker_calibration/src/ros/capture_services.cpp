@@ -1,22 +1,18 @@
 #include "units.h"
 
 #include "begin_wave.h"
+#include "capture_server.h"
 
-#include <actionlib/server/simple_action_server.h>
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>
-#include <wiimote_tracker_msgs/CaptureCornerAction.h>
 #include <wiimote_tracker_msgs/CheckConnection.h>
 #include <wiimote_tracker_msgs/MeasureLength.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
-#include <wiimote_tracker_msgs/log_exceptions.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
-#include <atomic>
 #include <limits>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,9 +25,7 @@ namespace {
 
 constexpr double kFeedbackPeriod = 0.1;  // [s]
 constexpr double kForEver = std::numeric_limits<double>::infinity();
-const char kCaptureCorner[] = "calibration/capture_corner";
-constexpr double kLatestStamp = 3600.0;  // of a goal or cancellation, from now [s]
-constexpr std::size_t kButtonA = 2;      // in the driver's joy messages
+constexpr std::size_t kButtonA = 2;  // in the driver's joy messages
 // A connected remote reports its acceleration 100 times a second: enough readings take less [s].
 constexpr double kAccelerometerWait = 2.0;
 
@@ -51,7 +45,9 @@ std::optional<wave::Wand> wandOnFloor(
 
 class CaptureServices {
  public:
-  explicit CaptureServices(NodeContext* context) : context_(*context) {
+  explicit CaptureServices(NodeContext* context)
+      : context_(*context),
+        capture_server_(context_.nh(), [this](const auto& goal) { return captureCorner(goal); }) {
     using Self = CaptureServices;
     ros::NodeHandle& nh = context_.nh();
     services_ = {advertise(nh, "calibration/check_connection", &Self::checkConnection, this),
@@ -75,19 +71,9 @@ class CaptureServices {
           parameters.button_remote + "/joy", 10, [this](const sensor_msgs::JoyConstPtr& message) {
             runCallback("capturing by the button", [&] { onJoy(*message); });
           });
-    startCaptureServer();
-    using wiimote_tracker_msgs::CaptureCornerActionGoal;
-    stamps_ = {
-        nh.subscribe<CaptureCornerActionGoal>(
-            std::string(kCaptureCorner) + "/goal", 50,
-            [this](const auto& goal) { onRequest(goal->goal_id.stamp); }),
-        nh.subscribe<actionlib_msgs::GoalID>(std::string(kCaptureCorner) + "/cancel", 50,
-                                             [this](const auto& goal) { onRequest(goal->stamp); })};
   }
 
  private:
-  using Capture = actionlib::SimpleActionServer<wiimote_tracker_msgs::CaptureCornerAction>;
-
   Reply checkConnection(const wiimote_tracker_msgs::CheckConnection::Request& request,
                         wiimote_tracker_msgs::CheckConnection::Response* response) {
     constexpr double kLongest = capture::CameraMonitor::kMemory;
@@ -198,49 +184,12 @@ class CaptureServices {
     return reply;
   }
 
-  void startCaptureServer() {
-    capture_server_.reset();
-    capture_server_ = std::make_unique<Capture>(
-        context_.nh(), kCaptureCorner,
-        [this](const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
-          captureCorner(goal);
-        },
-        false);
-    capture_server_->start();
-  }
-
-  void onRequest(const ros::Time& stamp) {
-    runCallback("checking the stamp of a request", [&] { checkStamp(stamp); });
-  }
-
-  /// actionlib's server refuses all goals up to the stamp of a cancellation, and throws again and
-  /// again after a stamp in 2106.
-  void checkStamp(const ros::Time& stamp) {
-    if (stamp.toSec() < ros::Time::now().toSec() + kLatestStamp)
-      return;
-    ROS_WARN_THROTTLE(
-        10.0,
-        "a request to %s is stamped %.0f s in the future: its server starts anew; set the "
-        "clock of whoever sent it",
-        kCaptureCorner, stamp.toSec() - ros::Time::now().toSec());
-    const std::lock_guard<std::mutex> restart(restart_mutex_);
-    is_restarting_ = true;  // a capture that begins now ends at once
-    {
-      const Lock lock(context_.mutex());
-      context_.calibration(lock).abandonCapture("its server starts anew");
-    }
-    context_.notify();
-    capture_server_->shutdown();
-    is_restarting_ = false;
-    startCaptureServer();
-  }
-
-  void captureCorner(const wiimote_tracker_msgs::CaptureCornerGoalConstPtr& goal) {
-    wiimote_tracker_msgs::CaptureCornerResult result;
+  CaptureServer::Result captureCorner(const CaptureServer::Goal& goal) {
+    CaptureServer::Result result;
     const Reply reply = replyOf([&] {
       Lock lock(context_.mutex());
       workflow::Calibration& calibration = context_.calibration(lock);
-      const auto retake = goal->retake ? std::optional<std::size_t>(goal->corner) : std::nullopt;
+      const auto retake = goal.retake ? std::optional<std::size_t>(goal.corner) : std::nullopt;
       Reply outcome = calibration.beginCapture(retake, NodeContext::now());
       result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
       context_.publishStatus(lock);
@@ -252,14 +201,7 @@ class CaptureServices {
     });
     result.success = reply.success;
     result.message = reply.message;
-    logExceptions(kCaptureCorner, [&] {
-      if (result.success)
-        capture_server_->setSucceeded(result, result.message);
-      else if (capture_server_->isPreemptRequested())
-        capture_server_->setPreempted(result, result.message);
-      else
-        capture_server_->setAborted(result, result.message);
-    });
+    return result;
   }
 
   void onJoy(const sensor_msgs::Joy& message) {
@@ -297,16 +239,16 @@ class CaptureServices {
     const bool over = context_.waitUntil(lock, kForEver, [&] {
       const double now = NodeContext::now();
       calibration.update(now - NodeContext::kUnderWay);
-      if (calibration.square().outcome() || is_restarting_ || capture_server_->isPreemptRequested())
+      if (calibration.square().outcome() || capture_server_.isCancelled())
         return true;
       if (now >= next_feedback) {
         next_feedback = now + kFeedbackPeriod;
-        wiimote_tracker_msgs::CaptureCornerFeedback feedback;
+        CaptureServer::Feedback feedback;
         feedback.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
         feedback.progress = calibration.progress();
         feedback.message = calibration.square().capture()->message();
         feedback.cameras = context_.cameraStatus(1.0, *lock);
-        capture_server_->publishFeedback(feedback);
+        capture_server_.publishFeedback(feedback);
       }
       return false;
     });
@@ -316,11 +258,8 @@ class CaptureServices {
   }
 
   NodeContext& context_;
+  CaptureServer capture_server_;
   std::vector<ros::ServiceServer> services_;
-  std::mutex restart_mutex_;
-  std::atomic<bool> is_restarting_{false};
-  std::unique_ptr<Capture> capture_server_;
-  std::vector<ros::Subscriber> stamps_;
   // The first message is latched: a button that it shows was pressed earlier.
   bool button_was_pressed_ = true;
   ros::Subscriber button_;

@@ -1,0 +1,86 @@
+#include "capture_server.h"
+
+#include <wiimote_tracker_msgs/log_exceptions.h>
+
+#include <chrono>
+#include <utility>
+
+namespace wiimote_tracker {
+namespace {
+
+const char kCaptureAction[] = "calibration/capture_corner";
+constexpr double kLatestStamp = 3600.0;  // of a goal or cancellation, from now [s]
+// Between two looks for goals and for the end of the node.
+constexpr std::chrono::milliseconds kLookPeriod(100);
+
+}  // namespace
+
+CaptureServer::CaptureServer(const ros::NodeHandle& nh, std::function<Result(const Goal&)> serve)
+    : nh_(nh), serve_(std::move(serve)) {
+  nh_.setCallbackQueue(&queue_);
+  const std::string name = kCaptureAction;
+  using wiimote_tracker_msgs::CaptureCornerActionGoal;
+  stamps_ = {nh_.subscribe<CaptureCornerActionGoal>(
+                 name + "/goal", 50, [this](const auto& goal) { checkStamp(goal->goal_id.stamp); }),
+             nh_.subscribe<actionlib_msgs::GoalID>(
+                 name + "/cancel", 50, [this](const auto& goal) { checkStamp(goal->stamp); })};
+  start();
+  requests_ = std::thread([this] {
+    while (!is_ending_)
+      logExceptions(kCaptureAction, [this] {
+        queue_.callOne(ros::WallDuration(std::chrono::duration<double>(kLookPeriod).count()));
+      });
+  });
+  goals_ = std::thread([this] {
+    while (!is_ending_)
+      logExceptions(kCaptureAction, [this] { serveGoal(); });
+  });
+}
+
+CaptureServer::~CaptureServer() {
+  is_ending_ = true;
+  requests_.join();
+  goals_.join();
+}
+
+bool CaptureServer::isCancelled() const {
+  return is_ending_ || is_restarting_ || server_->isPreemptRequested();
+}
+
+void CaptureServer::start() {
+  server_.reset();
+  server_ = std::make_unique<Server>(nh_, kCaptureAction, false);
+  server_->registerGoalCallback([this] { goal_came_.notify_one(); });
+  server_->start();
+}
+
+/// actionlib's server refuses all goals up to the stamp of a cancellation.
+void CaptureServer::checkStamp(const ros::Time& stamp) {
+  const double ahead = stamp.toSec() - ros::Time::now().toSec();
+  if (ahead < kLatestStamp)
+    return;
+  ROS_WARN_THROTTLE(
+      10.0,
+      "a request to %s is stamped %.0f s in the future: its server starts anew; set the "
+      "clock of whoever sent it",
+      kCaptureAction, ahead);
+  is_restarting_ = true;
+  const std::lock_guard<std::mutex> after_the_goal(mutex_);
+  is_restarting_ = false;
+  start();
+}
+
+void CaptureServer::serveGoal() {
+  std::unique_lock<std::mutex> lock(mutex_);
+  if (!goal_came_.wait_for(lock, kLookPeriod, [this] { return server_->isNewGoalAvailable(); }))
+    return;
+  const Result result = serve_(*server_->acceptNewGoal());
+  if (result.success)
+    server_->setSucceeded(result, result.message);
+  else if (server_->isPreemptRequested())
+    server_->setPreempted(result, result.message);
+  else
+    server_->setAborted(result, result.message);
+}
+
+}  // namespace wiimote_tracker

@@ -1,0 +1,62 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H
+
+#include <actionlib/server/simple_action_server.h>
+#include <ros/callback_queue.h>
+#include <ros/ros.h>
+#include <wiimote_tracker_msgs/CaptureCornerAction.h>
+
+#include <atomic>
+#include <condition_variable>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// The action `calibration/capture_corner`: serves one goal after the other. Nothing that a client
+/// sends ends the process: actionlib's own server throws, in a thread of its own, again and again
+/// after it was sent a stamp of the year 2106.
+class CaptureServer {
+ public:
+  using Goal = wiimote_tracker_msgs::CaptureCornerGoal;
+  using Result = wiimote_tracker_msgs::CaptureCornerResult;
+  using Feedback = wiimote_tracker_msgs::CaptureCornerFeedback;
+
+  /// @param serve does what a goal asks for; called in a thread of the server
+  CaptureServer(const ros::NodeHandle& nh, std::function<Result(const Goal&)> serve);
+  ~CaptureServer();
+
+  /// Whether the goal that is served now should end: it was cancelled, another one came, or the
+  /// server ends. For `serve`, as is publishFeedback().
+  bool isCancelled() const;
+  void publishFeedback(const Feedback& feedback) { server_->publishFeedback(feedback); }
+
+ private:
+  using Server = actionlib::SimpleActionServer<wiimote_tracker_msgs::CaptureCornerAction>;
+
+  void start();
+  void checkStamp(const ros::Time& stamp);
+  void serveGoal();
+
+  ros::CallbackQueue queue_;
+  ros::NodeHandle nh_;
+  std::function<Result(const Goal&)> serve_;
+  std::mutex mutex_;  // held while a goal is served and while the server is exchanged
+  std::condition_variable goal_came_;
+  std::atomic<bool> is_restarting_{false};
+  std::atomic<bool> is_ending_{false};
+  std::vector<ros::Subscriber> stamps_;
+  std::unique_ptr<Server> server_;
+  // Requests have a thread to themselves, in which the server can be exchanged: it must not handle
+  // any while it is destroyed.
+  std::thread requests_;
+  std::thread goals_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H

@@ -1,5 +1,7 @@
 #include "image_update.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -18,7 +20,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
   noise_ = camera.noise(image.stamp_stddev);
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
-  measureFit(image, *tracks, fits);
+  measureFit(camera, image, *tracks, fits);
   measureClock(image, *tracks, fits);
   if ((*fits)[image.camera].isMisfit() && fits->size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
@@ -88,32 +90,58 @@ std::size_t ImageUpdate::othersSeeing(const StoredImage& image, const Track& tra
 
 /// Compares the image with the LEDs that other cameras see. Two cameras that did not fit each other
 /// have to show that the rays of each LED meet; of spots that both have and that form no LED, there
-/// ought to be none.
-void ImageUpdate::measureFit(const StoredImage& image,
+/// ought to be none. A spot that is outside the gate but where errors of the calibration may show
+/// the LED tells nothing.
+void ImageUpdate::measureFit(const GroupCamera& camera,
+                             const StoredImage& image,
                              const std::vector<Track>& tracks,
                              std::vector<CameraFit>* fits) const {
   const bool is_pair = fits->size() == 2;
   CameraFit& fit = (*fits)[image.camera];
   const bool is_tested = is_pair && fit.isMisfit();
-  const auto end = track_of_spot_.begin() + static_cast<std::ptrdiff_t>(image.spot_count);
-  auto unassigned = static_cast<std::size_t>(
-      std::count(track_of_spot_.begin(), end, association::kFalseDetection));
+  std::array<bool, association::kMaximumSpots> is_stray{};
+  for (std::size_t spot = 0; spot < image.spot_count; ++spot)
+    is_stray[spot] = track_of_spot_[spot] == association::kFalseDetection;
+  const auto strays = [&is_stray] {
+    return static_cast<std::size_t>(std::count(is_stray.begin(), is_stray.end(), true));
+  };
   std::size_t shown = 0;
-  std::size_t missing =
-      is_tested ? std::min(unassigned, (*fits)[1 - image.camera].unassigned()) : 0;
+  std::size_t astray = 0;
+  std::size_t missing = is_tested ? std::min(strays(), (*fits)[1 - image.camera].unassigned()) : 0;
   for (const Candidate& candidate : candidates_) {
     const Track& track = tracks[candidate.track];
     const std::size_t others = othersSeeing(image, track);
     if (!candidate.in_view || !track.isConfirmed() || others == 0)
       continue;
     const bool is_astray = candidate.spot && is_tested && !track.raysMeet();
-    const bool is_absent =
-        !candidate.spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate, tracks);
+    astray += is_astray;
     shown += candidate.spot && !is_astray;
-    missing += is_astray || is_absent;
-    unassigned += is_astray;
+    if (candidate.spot || others < (is_pair ? 1 : 2) || mayBeMerged(image, candidate, tracks))
+      continue;
+    if (const auto spot = displacedSpot(camera, image, candidate, track))
+      is_stray[*spot] = false;
+    else
+      ++missing;
   }
-  fit.add(shown, missing, unassigned);
+  fit.add(shown, missing + astray, strays() + astray);
+}
+
+/// The unassigned spot of an LED that errors of the calibration may have moved out of its gate.
+std::optional<std::size_t> ImageUpdate::displacedSpot(const GroupCamera& camera,
+                                                      const StoredImage& image,
+                                                      const Candidate& candidate,
+                                                      const Track& track) const {
+  constexpr double kFarthest = 64.0;        // [px]
+  constexpr double kSquaredDistance = 9.0;  // three standard deviations
+  const Eigen::Vector2d& predicted = candidate.prediction.pixel();
+  const auto spot = nearestUnassigned(image, predicted, kFarthest);
+  if (!spot)
+    return std::nullopt;
+  const Eigen::Matrix2d covariance =
+      candidate.prediction.covariance() + camera.calibrationCovariance(track.filter.position());
+  const Eigen::Vector2d residual = image.pixels[*spot] - predicted;
+  const bool may_be_its = residual.dot(covariance.inverse() * residual) <= kSquaredDistance;
+  return may_be_its ? spot : std::nullopt;
 }
 
 /// Compares the image with the motion of LEDs that two other cameras see.

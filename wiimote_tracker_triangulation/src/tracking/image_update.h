@@ -58,9 +58,14 @@ class ImageUpdate {
                       const motion::PixelPrediction& prediction,
                       double time) const;
   std::size_t othersSeeing(const StoredImage& image, const Track& track) const;
-  void measureFit(const StoredImage& image,
+  void measureFit(const GroupCamera& camera,
+                  const StoredImage& image,
                   const std::vector<Track>& tracks,
                   std::vector<CameraFit>* fits) const;
+  std::optional<std::size_t> displacedSpot(const GroupCamera& camera,
+                                           const StoredImage& image,
+                                           const Candidate& candidate,
+                                           const Track& track) const;
   void measureClock(const StoredImage& image,
                     const std::vector<Track>& tracks,
                     std::vector<CameraFit>* fits) const;

@@ -1,6 +1,8 @@
 // A camera that is turned while LEDs are tracked.
 #include "tracking/tracker_runs.h"
 
+#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -40,13 +42,11 @@ double distanceToNearest(const std::vector<Path>& leds, const TrackedLed& led, d
 }
 
 /// Turns a camera and back. @param direction in its image plane, about which it turns [rad]
-Knock knock(std::size_t cameras,
+Knock knock(const geometry::Rig& rig,
             const std::vector<Path>& leds,
             double degrees,
             double direction,
             unsigned seed) {
-  geometry::Rig rig = paperRig();
-  rig.cameras.resize(cameras);
   geometry::Rig turned = rig;
   const Eigen::Vector3d axis(std::cos(direction), std::sin(direction), 0.0);
   turned.cameras[kKnocked].camera.world_from_camera.rotate(
@@ -70,7 +70,7 @@ Knock knock(std::size_t cameras,
       result.out = time - kKnock;
     if (time >= kBack && !is_misfit && !result.used)
       result.used = time - kBack;
-    for (std::size_t camera = 0; camera < cameras; ++camera)
+    for (std::size_t camera = 0; camera < rig.cameras.size(); ++camera)
       result.alarms += (camera != kKnocked || time < kKnock) && isMisfit(tracker, camera);
     while (const Snapshot* snapshot = tracker.next()) {
       if (time < kKnock)
@@ -88,6 +88,12 @@ Knock knock(std::size_t cameras,
   return result;
 }
 
+geometry::Rig firstOfPaperRig(std::size_t cameras) {
+  geometry::Rig rig = paperRig();
+  rig.cameras.resize(cameras);
+  return rig;
+}
+
 std::vector<Path> oneWanderer(unsigned seed) {
   geometry::test::Random random(seed);
   return {wandering(random, {1.25, 1.25, 1.0}, 0.6, 1.0)};
@@ -100,7 +106,7 @@ TEST(TrackerKnocks, AKnockedCameraIsLeftOutWithinASecondAndTheOthersGoOn) {
            {oneWanderer(1), wanderers(4, 1), {still({1.0, 1.4, 1.2})}}) {
         const std::string what = std::to_string(cameras) + " cameras, " +
                                  std::to_string(leds.size()) + " LEDs, " + std::to_string(degrees);
-        const Knock result = knock(cameras, leds, degrees, degrees, 2);
+        const Knock result = knock(firstOfPaperRig(cameras), leds, degrees, degrees, 2);
         ASSERT_TRUE(result.out && result.used) << what;
         EXPECT_LE(*result.out, 1.0) << what;
         EXPECT_LE(*result.used, 1.0) << what;
@@ -112,12 +118,30 @@ TEST(TrackerKnocks, AKnockedCameraIsLeftOutWithinASecondAndTheOthersGoOn) {
   }
 }
 
+/// A rig from a square alone states errors of several pixels.
+TEST(TrackerKnocks, ATurnThatErrorsOfTheCalibrationExplainIsNone) {
+  constexpr double kTurn = 0.25;  // moves spots by 6 px, out of their gates [degrees]
+  const geometry::Rig exact = paperRig();
+  geometry::Rig vague = exact;
+  vague.covariance.setZero(4 * geometry::kParameters, 4 * geometry::kParameters);
+  for (std::size_t camera = 0; camera < 4; ++camera)
+    vague.covariance.diagonal().segment<3>(geometry::firstParameter(camera)).fill(3e-3 * 3e-3);
+  EXPECT_TRUE(knock(exact, oneWanderer(1), kTurn, 0.5, 2).out);
+  const Knock result = knock(vague, oneWanderer(1), kTurn, 0.5, 2);
+  EXPECT_FALSE(result.out);
+  EXPECT_EQ(0u, result.alarms);
+  EXPECT_GE(result.tracked, 0.999 * result.leds);
+  const auto out = knock(vague, oneWanderer(1), 1.0, 0.5, 2).out;
+  ASSERT_TRUE(out);
+  EXPECT_LE(*out, 1.0);
+}
+
 /// The other direction moves spots along the rays of the other camera, so that they still meet.
 TEST(TrackerKnocks, OfTwoCamerasNoWrongPointsAreTracked) {
   std::size_t leds = 0, tracked = 0;
   for (const double degrees : {1.0, 2.0, 3.0}) {
     for (const unsigned seed : {1u, 2u, 3u}) {
-      const Knock result = knock(2, wanderers(4, seed), degrees, 0.0, seed);
+      const Knock result = knock(firstOfPaperRig(2), wanderers(4, seed), degrees, 0.0, seed);
       ASSERT_TRUE(result.out && result.used) << degrees;
       EXPECT_LE(*result.out, 0.5) << degrees;
       EXPECT_LE(*result.used, 2.0) << degrees;

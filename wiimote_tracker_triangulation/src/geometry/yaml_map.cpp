@@ -98,7 +98,7 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::entries() {
 void YamlMap::refuseUnknown() const {
   for (const auto& entry : node_) {
     if (!asked_.count(entry.first.Scalar()))
-      throw error(entry.first.Scalar(), "is an unknown key");
+      throw error(entry.first.Scalar(), "is an unknown key, perhaps of a later version");
   }
 }
 

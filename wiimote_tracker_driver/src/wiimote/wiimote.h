@@ -65,8 +65,8 @@ class Wiimote {
   /// Of the connected remote, or typical values.
   const protocol::AccelerometerCalibration& accelerometer() const { return accelerometer_; }
 
-  /// Changes the camera's sensitivity, now and after each reconnect. Some ten images are left out;
-  /// the clock epoch stays.
+  /// Changes the camera's sensitivity, now and after each reconnect. Images are left out for five
+  /// round trips; the clock epoch stays.
   void setSensitivity(const protocol::IrSensitivity& sensitivity);
 
   /// Player LEDs 1..4 in bits 0..3, now and after each reconnect.

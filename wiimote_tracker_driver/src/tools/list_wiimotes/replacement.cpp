@@ -64,7 +64,7 @@ std::string replaceRemote(const Replacement& replacement) {
   return "Camera " + camera + " is now " + address + " in " + replacement.cameras_file +
          " (previous list: " + replacement.cameras_file + ".bak).\n" + done +
          "Restart the drivers and calibrate the rig again: until then its rig.yaml names the old "
-         "remote, and positions with this camera are wrong.\n";
+         "remote, and the triangulation ignores this camera.\n";
 }
 
 }  // namespace wiimote_tracker::list_wiimotes

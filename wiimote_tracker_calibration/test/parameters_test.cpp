@@ -92,7 +92,7 @@ TEST(Parameters, TheSquareIsWhereTheSolverPutsIt) {
 }
 
 TEST(Parameters, BadValuesAreRefusedByName) {
-  for (const std::string key : {"short", "word", "mounted", "fisheye"}) {
+  for (const std::string key : {"short", "word", "period", "mounted", "fisheye"}) {
     try {
       readParameters(ParameterReader(ros::NodeHandle("~" + key)));
       FAIL() << key;

@@ -182,7 +182,7 @@ Parameters readParameters(ParameterReader* reader) {
   readRays(reader, &parameters.solve);
   readHealth(reader, &parameters.health);
   parameters.continuous_policy = readContinuousPolicy(reader);
-  reader->allow("diagnostic_period");  // read by diagnostic_updater
+  reader->bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // used by diagnostic_updater
   reader->read("use_gravity", &parameters.solve.use_gravity);
   reader->read("set_camera_info_timeout", &parameters.set_camera_info_timeout, 0.1, 60.0);
   reader->read("board_column_spacing", &parameters.board.column_spacing, 0.001, 10.0);

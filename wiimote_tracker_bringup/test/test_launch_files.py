@@ -132,3 +132,14 @@ def test_the_demo_builds_what_its_launch_file_starts(load, arguments):
                for _, _, names in os.walk(os.path.join(packages, package)) for name in names}
     assert 'simulated_rig' in started
     assert started - scripts <= set(built)
+
+
+@pytest.mark.parametrize('given, found', [
+    ([], '/data/gestures.yaml'), (['file:=/tmp/own.yaml'], '/tmp/own.yaml')])
+@pytest.mark.parametrize('nodelet', ['true', 'false'])
+def test_the_parameter_file_names_the_examples_of_gestures(load, tmp_path, given, found, nodelet):
+    file = tmp_path / 'my.yaml'
+    file.write_text('file: /data/gestures.yaml\n')
+    launch = os.path.join(LAUNCH, '../../wiimote_tracker_triangulation/launch/gestures.launch')
+    parameters = load(launch, 'config:=' + str(file), 'nodelet:=' + nodelet, *given)[1]
+    assert parameters['/gestures/file'] == found

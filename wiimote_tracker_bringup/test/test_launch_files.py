@@ -71,7 +71,7 @@ def test_a_bag_is_replayed_from_where_the_user_says(load, given, found):
 def test_a_replay_keeps_the_recorded_results_apart(load):
     nodes, parameters = load('replay.launch', 'bag:=x')
     remapped = dict(nodes['play'].remap_args)
-    for topic in ('points', 'bodies', 'gestures', 'zone_events'):
+    for topic in ('points', 'bodies', 'gestures', 'zone_events', 'led/point', 'led/odometry'):
         assert remapped[topic] == 'recorded/' + topic
     assert parameters['/triangulation/label_places'] == ''
 

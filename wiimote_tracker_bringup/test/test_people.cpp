@@ -284,7 +284,7 @@ TEST_F(PeopleRig, four_leds_stay_in_the_papers_cube_and_are_sometimes_hidden) {
 }
 
 TEST_F(PeopleRig, two_cameras_always_separate_any_two_leds) {
-  constexpr double kApart = 15.0;  // [px] well above the size of a spot
+  constexpr double kApart = 15.0;  // [px]
   int not_apart = 0;
   double nearest = 10.0;
   for (int i = 0; i < kSteps; ++i) {

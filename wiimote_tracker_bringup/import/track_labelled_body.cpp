@@ -239,7 +239,7 @@ int main(int argc, char** argv) {
       "track_labelled_body",
       "Tracks a body whose lights are told apart in every image, and writes its poses to TABLE "
       "(CSV).\nIMAGES: a line of x, y, z [m] of each light on the body, then lines of the camera's "
-      "number, the\nexposure time [s], in order, and x and y [px] of each light.");
+      "number in RIG, from 0,\nthe exposure time [s], in order, and x and y [px] of each light.");
   parser.positional("RIG", &rig);
   parser.positional("IMAGES", &images);
   parser.positional("TABLE", &table);

@@ -336,3 +336,8 @@ def test_refusals_say_which_file(tmp_path):
         (tmp_path / 'bearings.csv.gz').write_bytes(damaged)
         with pytest.raises(ExperimentError, match='bearings.csv.gz cannot be read'):
             lighthouse.read(str(tmp_path))
+    save(str(tmp_path / 'bearings.csv.gz'), 'a,b,c,d,e', np.ones((4, 5)))
+    save(str(tmp_path / 'mocap.csv.gz'), 'a,b,c,d', np.ones((4, 4)))
+    (tmp_path / 'markers_on_off.csv').write_text('time_ms\n1\n2\n3\n')
+    with pytest.raises(ExperimentError, match='markers_on_off.csv two times'):
+        lighthouse.read(str(tmp_path))

@@ -43,7 +43,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                         help='what fault_matrix --json wrote, for the section faults')
     parser.add_argument('--sections', metavar='A,B',
                         help=f"only these of: {', '.join(names)}")
-    parser.add_argument('--quick', action='store_true', help='fewer repetitions; takes minutes')
+    parser.add_argument('--quick', action='store_true',
+                        help='fewer repetitions; takes two minutes, not a quarter of an hour')
     parser.add_argument('--live', action='store_true',
                         help='measure a running tracker, with prompts for a person')
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_evaluation',

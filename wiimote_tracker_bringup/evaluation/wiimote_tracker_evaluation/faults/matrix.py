@@ -28,7 +28,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     names = [fault.name for fault in FAULTS]
     parser = argparse.ArgumentParser(
         prog='fault_matrix', description='Causes faults on the simulated rig, and compares what the '
-        'tracker publishes before, during and after each with the truth. Takes some minutes.')
+        'tracker publishes before, during and after each with the truth. Takes a quarter of an '
+        'hour.')
     parser.add_argument('--quick', action='store_true', help='few faults; takes two minutes')
     parser.add_argument('--json', metavar='FILE', help='writes all figures to this file')
     parser.add_argument('--faults', metavar='A,B', help=f"only these of: {', '.join(names)}")

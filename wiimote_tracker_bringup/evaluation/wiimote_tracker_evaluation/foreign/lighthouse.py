@@ -44,8 +44,8 @@ def read(folder: str) -> Views:
     switched = read_table(os.path.join(folder, 'markers_on_off.csv'), 1)[:, 0] * 1e-3
     mocap = mocap[np.isfinite(mocap).all(axis=1)]
     if len(mocap) < 2 or len(switched) != 2:
-        raise ExperimentError(f'{folder} has no truth: mocap.csv.gz and markers_on_off.csv need two '
-                              'lines or more')
+        raise ExperimentError(f'{folder} has no truth: mocap.csv.gz needs two positions or more, '
+                              'markers_on_off.csv two times')
     stations = [sweeps_of(bearings[bearings[:, 1] == station]) for station in (0, 1)]
     if any(len(times) < 3 for times, _ in stations):
         raise ExperimentError(f'{folder} has hardly any angles of one of the stations 0 and 1: at '

@@ -41,7 +41,8 @@ def main():
         prog='evaluate_recording', description='Calibrates the cameras of a recording that others '
         'made from what they saw alone, and measures the accuracy: lighthouse: of the path, against '
         'motion capture; cameras: of the path, with rates, offsets and read-out times of '
-        'unsynchronised cameras; multicamselfcal: of predicted pixels.')
+        'unsynchronised cameras; multicamselfcal: of predicted pixels, and of cameras that were '
+        'disturbed and corrected by continuous calibration.')
     parser.add_argument('format', choices=sorted(formats.FORMATS))
     parser.add_argument('folder', metavar='DIR', help='the recording')
     parser.add_argument('--json', metavar='FILE', help='write the figures')

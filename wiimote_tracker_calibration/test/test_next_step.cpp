@@ -84,6 +84,15 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   EXPECT_TRUE(next().request.empty());
 }
 
+TEST_F(NextStepTest, AMeasuredPlaceNeedsAStillLedAndARecalibratedCameraAWavedOne) {
+  ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "").success);
+  EXPECT_EQ(next().title, "Hold still");
+  calibration_.end({true, ""});
+  ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "", true).success);
+  EXPECT_EQ(next().title, "Wave");
+  EXPECT_TRUE(next().request.empty());
+}
+
 TEST_F(NextStepTest, CornersThatGoClockwiseAreQuestioned) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   for (const std::size_t corner : {0U, 3U, 2U, 1U})

@@ -69,7 +69,7 @@ double NodeContext::now() {
 workflow::Reply NodeContext::run(const Job& job,
                                  Lock* lock,
                                  const std::function<workflow::Reply()>& work) {
-  const workflow::Reply begun = calibration_.begin(job.step, job.message);
+  const workflow::Reply begun = calibration_.begin(job.step, job.message, job.is_waved);
   publishStatus(*lock);
   if (!begun.success)
     return begun;

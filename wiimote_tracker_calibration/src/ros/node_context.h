@@ -30,8 +30,9 @@ namespace wiimote_tracker {
 /// A step that takes time, and that `cancel` stops.
 struct Job {
   workflow::Step step;
-  std::string message;  ///< Shown meanwhile.
-  std::string kept;     ///< What a cancel leaves as it was, for the reply.
+  std::string message;    ///< Shown meanwhile.
+  std::string kept;       ///< What a cancel leaves as it was, for the reply.
+  bool is_waved = false;  ///< The LED is waved meanwhile.
 };
 
 /// What the node's units share. A unit is constructed from it, advertises its services, subscribes

@@ -50,7 +50,7 @@ class RecalibrateServices {
       throw Refusal("the rig has no camera '" + camera + "': name one of its own");
     const Job job = {Step::kMeasuring,
                      "wave the LED where " + camera + " and two other cameras or more see it",
-                     "the rig is as it was"};
+                     "the rig is as it was", true};
     return context_.run(job, &lock, [&] {
       const AtEnd end{[&] { recording_.reset(); }};
       gravity_ = capture::RestGravity();

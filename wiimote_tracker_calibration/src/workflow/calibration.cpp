@@ -224,7 +224,7 @@ Reply Calibration::cancel() {
                      : "all that was captured was dropped");
 }
 
-Reply Calibration::begin(Step step, const std::string& message) {
+Reply Calibration::begin(Step step, const std::string& message, bool is_waved) {
   const bool ends_wave =
       step == Step::kSolving && isBusyWith(Step::kWaving) && captured_.wave->report().enough();
   if (busy_ && !ends_wave)
@@ -235,6 +235,7 @@ Reply Calibration::begin(Step step, const std::string& message) {
   if (ends_wave)
     endWave();
   busy_ = step;
+  is_waved_ = is_waved;
   just_solved_ = false;
   progress_ = 0.0;
   return accept(message);

@@ -108,10 +108,14 @@ class Calibration {
   /// Begins kSolving, kMasking or kMeasuring. The caller does the work and then calls end(), also
   /// when it failed. Refused while another step is running, and kSolving without enough data; a
   /// wave that is enough is ended by kSolving.
-  Reply begin(Step step, const std::string& message);
+  /// @param is_waved whether the LED is waved meanwhile, not held still.
+  Reply begin(Step step, const std::string& message, bool is_waved = false);
 
   /// Whether the step is running and was not cancelled.
   bool isBusyWith(Step step) const { return busy_ == step && !stopping_; }
+
+  /// Whether kMeasuring, which is running, needs the LED waved.
+  bool isWaved() const { return is_waved_; }
 
   /// Progress of the running step [0..1].
   void setProgress(double progress) { progress_ = progress; }
@@ -192,6 +196,7 @@ class Calibration {
   Step step_ = Step::kIdle;   // between two requests
   std::optional<Step> busy_;  // the running step
   bool stopping_ = false;     // it was cancelled, but has not ended yet
+  bool is_waved_ = false;     // as begin() was told
   bool just_solved_ = false;  // no request since the solver ended
   double progress_ = 0.0;     // of the running step, by setProgress()
   std::string message_ = "nothing started: start a calibration, or load a rig";

@@ -117,8 +117,11 @@ NextStep nextStep(const Calibration& calibration, const session::Verdict& verdic
       return {"Solving", "Computing the cameras: wait."};
     case Step::kMasking:
       return {"LED off", "Leave the LED off."};
-    case Step::kCapturing:
     case Step::kMeasuring:
+      if (calibration.isWaved())
+        return {"Wave", "Wave the LED where the camera and two others or more see it."};
+      [[fallthrough]];
+    case Step::kCapturing:
       return {"Hold still", "Keep the LED still."};
     case Step::kSaved:
       break;

@@ -24,7 +24,7 @@ class BlobPublisher {
  public:
   BlobPublisher(ros::NodeHandle& nh, const std::string& camera, const std::string& frame_id);
 
-  bool subscribed() const { return topic_.subscribed(); }
+  bool subscribed() { return topic_.subscribed(); }
   /// `identity`: of the remote that sent the image.
   void publish(const protocol::DataReport& image,
                const ImageTime& time,
@@ -33,7 +33,7 @@ class BlobPublisher {
  private:
   const std::string camera_;
   const std::string frame_id_;
-  const ImageTopic<wiimote_tracker_msgs::IrBlobArray> topic_;
+  ImageTopic<wiimote_tracker_msgs::IrBlobArray> topic_;
 };
 
 }  // namespace wiimote_tracker::driver

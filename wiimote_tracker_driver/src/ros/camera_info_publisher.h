@@ -26,7 +26,7 @@ class CameraInfoPublisher {
                       const std::string& url,
                       const std::string& url_parameter);
 
-  bool subscribed() const { return topic_.subscribed(); }
+  bool subscribed() { return topic_.subscribed(); }
   void publish(const ros::Time& stamp);
 
   /// Publishes the factory's principal point as cx and cy, with a focal length of 0 (unknown).
@@ -38,7 +38,7 @@ class CameraInfoPublisher {
   ros::NodeHandle nh_;
   const std::string frame_id_;
   camera_info_manager::CameraInfoManager manager_;
-  const ImageTopic<sensor_msgs::CameraInfo> topic_;
+  ImageTopic<sensor_msgs::CameraInfo> topic_;
   ros::Publisher factory_;
 };
 

@@ -11,28 +11,36 @@
 
 namespace wiimote_tracker::driver {
 
-/// A topic with a message for each image, made only for subscribers. Their number comes from ROS's
-/// notices: ros::Publisher::getNumSubscribers() searches all topics, which is too long per image.
+/// A topic with a message for each image, made only for subscribers. Whether there are any is asked
+/// at first, and again after each of ROS's notices: ros::Publisher::getNumSubscribers() searches
+/// all topics, which is too long per image. The notices alone do not tell: some versions of nodelet
+/// drop those of the time in which a nodelet is loaded.
 template <typename Message>
 class ImageTopic {
  public:
   ImageTopic(ros::NodeHandle& nh, const std::string& name)
-      : subscribers_(std::make_shared<std::atomic<int>>(0)) {
+      : has_changed_(std::make_shared<std::atomic<bool>>(true)) {
     // A notice may come after this object's end.
-    const auto count = [subscribers = subscribers_](int change) {
-      return
-          [subscribers, change](const ros::SingleSubscriberPublisher&) { *subscribers += change; };
+    const auto note = [changed = has_changed_](const ros::SingleSubscriberPublisher&) {
+      *changed = true;
     };
     constexpr std::uint32_t kQueue = 20;
-    publisher_ = nh.advertise<Message>(name, kQueue, count(1), count(-1));
+    publisher_ = nh.advertise<Message>(name, kQueue, note, note);
   }
 
-  bool subscribed() const { return *subscribers_ > 0; }
+  /// For the thread that publishes.
+  bool subscribed() {
+    if (has_changed_->exchange(false))
+      is_subscribed_ = publisher_.getNumSubscribers() > 0;
+    return is_subscribed_;
+  }
+
   /// Nodelets share the message, so each image needs its own.
-  void publish(const boost::shared_ptr<Message>& message) const { publisher_.publish(message); }
+  void publish(const boost::shared_ptr<Message>& message) { publisher_.publish(message); }
 
  private:
-  std::shared_ptr<std::atomic<int>> subscribers_;
+  std::shared_ptr<std::atomic<bool>> has_changed_;
+  bool is_subscribed_ = false;
   ros::Publisher publisher_;
 };
 

@@ -22,7 +22,7 @@ class ImuPublisher {
                const std::string& imu_frame,
                double stddev);
 
-  bool subscribed() const { return topic_.subscribed(); }
+  bool subscribed() { return topic_.subscribed(); }
   /// `raw`: x, y, z of the remote's converter.
   void publish(const std::array<int, 3>& raw,
                const protocol::AccelerometerCalibration& calibration,
@@ -33,7 +33,7 @@ class ImuPublisher {
 
   const std::string frame_id_;
   const double variance_;  // [m^2/s^4]
-  const ImageTopic<sensor_msgs::Imu> topic_;
+  ImageTopic<sensor_msgs::Imu> topic_;
   tf2_ros::StaticTransformBroadcaster transform_;
 };
 

@@ -22,7 +22,7 @@ def test_drivers_run_near_the_remotes_and_the_rest_here():
     machines = {node.name: node.machine_name for node in config.nodes}
     assert machines.pop('first_drivers') == 'first'
     assert machines.pop('second_drivers') == 'second'
-    assert {'calibration', 'triangulation'} <= set(machines)
+    assert {'calibration', 'triangulation', 'master_watch'} <= set(machines)
     assert not any(machines.values())
     assert 'drivers' not in machines, 'none here'
     for name, address in (('first', '192.0.2.1'), ('second', '192.0.2.2')):
@@ -37,6 +37,13 @@ def test_without_arguments_everything_runs_here():
     machines = load().machines
     assert machines
     assert all(roslaunch.core.is_machine_local(machine) for machine in machines.values())
+
+
+def test_the_tracker_takes_its_arguments():
+    params = load('mode:=instant', 'bodies:=/etc/bodies.yaml', 'side_length:=2.5').params
+    assert params['/triangulation/mode'].value == 'instant'
+    assert params['/triangulation/bodies/file'].value == '/etc/bodies.yaml'
+    assert params['/calibration/side_length'].value == 2.5
 
 
 def test_the_lists_fit_to_one_adapter_each_and_name_no_camera_twice():

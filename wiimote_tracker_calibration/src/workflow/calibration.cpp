@@ -367,7 +367,7 @@ std::string Calibration::occupied() const {
     case Step::kMasking:
       return "other lights are being learned: wait until that is over, or cancel";
     default:
-      return "the place of an LED is being measured: wait until that is over, or cancel";
+      return "a place or a camera is being measured: wait until that is over, or cancel";
   }
 }
 

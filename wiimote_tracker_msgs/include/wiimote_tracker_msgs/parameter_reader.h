@@ -107,14 +107,11 @@ class ParameterReader {
   const std::map<std::string, std::pair<double, double>>& ranges() const { return ranges_; }
   const std::map<std::string, std::vector<std::string>>& choices() const { return choices_; }
 
-  /// Declares a key, and everything below it, as known without reading it.
-  void allow(const std::string& key) { used_.insert(nameOf(key)); }
-
   /// @throws ParameterError naming every key below the namespace that was not read.
   void refuseUnknown() const {
     std::vector<std::string> unknown;
     for (const std::string& name : fullNames()) {
-      if (!isUsed(name))
+      if (used_.count(name) == 0)
         unknown.push_back(name);
     }
     if (!unknown.empty())
@@ -136,14 +133,6 @@ class ParameterReader {
     if (!tree_.read(key, &value))
       throw ParameterError(nameOf(key) + " has the wrong type: expected " + typeName(T()));
     return value;
-  }
-
-  bool isUsed(const std::string& name) const {
-    for (const std::string& used : used_) {
-      if (name == used || name.compare(0, used.size() + 1, used + "/") == 0)
-        return true;
-    }
-    return false;
   }
 
   static std::string typeName(double) { return "a number"; }

@@ -91,10 +91,8 @@ def test_a_disk_that_is_full(bag, tmp_path):
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
         resource.setrlimit(resource.RLIMIT_FSIZE, (200000, 200000))
-    for threads in (1, 3):
-        errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--threads', threads,
-                         preexec_fn=limit, restore_signals=False)
-        assert 'make room there' in errors
+    errors = refused(tmp_path, bag, tmp_path / 'out.bag', preexec_fn=limit, restore_signals=False)
+    assert 'make room there' in errors
 
 
 def test_a_folder_that_cannot_be_created(bag, tmp_path):
@@ -104,7 +102,7 @@ def test_a_folder_that_cannot_be_created(bag, tmp_path):
 
 def test_usage():
     for arguments in [(), ('a.bag',), ('a.bag', 'b.bag', 'c.bag'), ('a.bag', 'b.bag', '--mode'),
-                      ('a.bag', 'b.bag', '--threads', '0'), ('a.bag', 'b.bag', '--fast')]:
+                      ('a.bag', 'b.bag', '--rate', '0'), ('a.bag', 'b.bag', '--fast')]:
         status, _, errors = run(*arguments)
         assert status == 2 and 'usage: track_bag' in errors
     status, output, _ = run('--help')

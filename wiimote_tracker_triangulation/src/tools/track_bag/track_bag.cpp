@@ -266,8 +266,6 @@ int main(int argc, char** argv) {
   parser.flag("--results-only", &arguments.results_only,
               "leave the recording itself out of OUT.bag");
   parser.flag("--smooth", &arguments.smooth, "smooth the points with what was seen later");
-  int threads = 1;
-  parser.option("--threads N", &threads, 1, 999, "has no effect: one thread does all the work");
   return parser.run(argc, argv, [&] {
     run(arguments);
     return 0;

@@ -3,23 +3,32 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::protocol {
 namespace {
 
 TEST(Sensitivity, Blocks) {
-  const std::optional<IrSensitivity> wii3 = irSensitivity("wii_3");
-  ASSERT_TRUE(wii3);
-  EXPECT_EQ((std::array<std::uint8_t, 9>{{0x02, 0, 0, 0x71, 0x01, 0, 0xaa, 0, 0x64}}),
-            wii3->block1);
-  EXPECT_EQ((std::array<std::uint8_t, 2>{{0x63, 0x03}}), wii3->block2);
+  // As published: the console's five levels, and two that users have found.
+  const std::vector<std::pair<std::string, IrSensitivity>> published{
+      {"wii_1", {{{0x02, 0, 0, 0x71, 0x01, 0, 0x64, 0, 0xfe}}, {{0xfd, 0x05}}}},
+      {"wii_2", {{{0x02, 0, 0, 0x71, 0x01, 0, 0x96, 0, 0xb4}}, {{0xb3, 0x04}}}},
+      {"wii_3", {{{0x02, 0, 0, 0x71, 0x01, 0, 0xaa, 0, 0x64}}, {{0x63, 0x03}}}},
+      {"wii_4", {{{0x02, 0, 0, 0x71, 0x01, 0, 0xc8, 0, 0x36}}, {{0x35, 0x03}}}},
+      {"wii_5", {{{0x07, 0, 0, 0x71, 0x01, 0, 0x72, 0, 0x20}}, {{0x1f, 0x03}}}},
+      {"marcan", {{{0, 0, 0, 0, 0, 0, 0x90, 0, 0xc0}}, {{0x40, 0}}}},
+      {"max", {{{0, 0, 0, 0, 0, 0, 0x90, 0, 0x41}}, {{0x40, 0}}}}};
+  std::vector<std::string> names;
+  for (const auto& [name, sensitivity] : published) {
+    EXPECT_TRUE(irSensitivity(name) == sensitivity) << name;
+    names.push_back(name);
+  }
+  EXPECT_EQ(names, irSensitivityNames());
   EXPECT_FALSE(irSensitivity("wii_6"));
-  EXPECT_EQ(7u, irSensitivityNames().size());
 }
 
 TEST(Sensitivity, TextIsANameOrElevenBytes) {

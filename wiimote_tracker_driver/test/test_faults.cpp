@@ -229,12 +229,22 @@ TEST(Faults, SecondMasterDoesWhatTheKernelDoes) {
 
 TEST(Faults, AreSetByName) {
   Faults faults;
-  setFault(faults, "lost_answers=0.25");
-  setFault(faults, "unplug_every=1000");
-  setFault(faults, "second_master=1");
-  setFault(faults, "seed=7");
+  for (const char* text :
+       {"lost_answers=0.25", "lost_data=0.1", "late_answers=0.2", "duplicated=0.3", "truncated=0.4",
+        "garbage=0.5", "stalls=0.6", "late_by=30", "stall_length=8", "unplug_every=1000",
+        "unplug_for=50", "second_master=1", "seed=7"})
+    setFault(faults, text);
   EXPECT_EQ(0.25, faults.lost_answers);
+  EXPECT_EQ(0.1, faults.lost_data);
+  EXPECT_EQ(0.2, faults.late_answers);
+  EXPECT_EQ(0.3, faults.duplicated);
+  EXPECT_EQ(0.4, faults.truncated);
+  EXPECT_EQ(0.5, faults.garbage);
+  EXPECT_EQ(0.6, faults.stalls);
+  EXPECT_EQ(30, faults.late_by);
+  EXPECT_EQ(8, faults.stall_length);
   EXPECT_EQ(1000, faults.unplug_every);
+  EXPECT_EQ(50, faults.unplug_for);
   EXPECT_TRUE(faults.second_master);
   EXPECT_EQ(7u, faults.seed);
   for (const char* wrong :

@@ -27,7 +27,8 @@ struct Converter {
   std::array<Slot, 4> slots{};
   std::array<FakeRemote, 4> remotes;
   std::array<std::string, 4> paths;  // real files, since they are locked
-  std::vector<std::size_t> opened;   // slots, in this order
+  std::array<std::wstring, 4> names, addresses;
+  std::vector<std::size_t> opened;  // slots, in this order
 } bar;
 
 }  // namespace
@@ -46,6 +47,8 @@ hid_device_info* hid_enumerate(unsigned short, unsigned short) {
     list[i] = hid_device_info();
     list[i].path = bar.paths[i].data();
     list[i].product_id = 0x0306;
+    list[i].product_string = bar.names[i].data();
+    list[i].serial_number = bar.addresses[i].data();
     list[i].next = i + 1 < list.size() ? &list[i + 1] : nullptr;
   }
   return list.data();
@@ -92,9 +95,13 @@ int hid_read_timeout(hid_device* device, unsigned char* data, std::size_t, int t
 namespace wiimote_tracker::wiimote {
 namespace {
 
-/// A driver with device "".
+/// A driver with this device.
+Wiimote driverOf(const std::string& device) {
+  return {Options(), transport::opener(transport::parseDeviceName(device)), [] { return bar.now; }};
+}
+
 Wiimote anyRemote() {
-  return {Options(), transport::opener(transport::parseDeviceName("")), [] { return bar.now; }};
+  return driverOf("");
 }
 
 class AConverter : public testing::Test {
@@ -143,6 +150,25 @@ TEST_F(AConverter, RemoteThatMovesToAnotherSlotIsFound) {
   EXPECT_GT(run({&driver}, 20.0)[0], 50);
   EXPECT_EQ(bar.paths[0], driver.link().description);
   EXPECT_EQ(1U, driver.link().clock_epoch);
+}
+
+TEST_F(AConverter, DevicesWithoutACameraArePassed) {
+  bar.slots = {Slot::kRemote, Slot::kRemote, Slot::kRemote, Slot::kRemote};
+  bar.names = {L"Nintendo RVL-CNT-01-UC", L"Nintendo RVL-WBC-01", L"Nintendo RVL-CNT-01-TR",
+               L"Nintendo RVL-CNT-01"};
+  Wiimote driver = anyRemote();
+  EXPECT_GT(run({&driver}, 3.0)[0], 50);
+  EXPECT_EQ((std::vector<std::size_t>{2}), bar.opened);
+}
+
+TEST_F(AConverter, AnAddressIsThatOfOneRemote) {
+  bar.slots = {Slot::kRemote, Slot::kRemote, Slot::kRemote, Slot::kRemote};
+  bar.addresses = {L"00:1f:32:00:00:01", L"00:1f:32:00:00:02", L"00:1F:32:00:00:0A",
+                   L"00:1f:32:00:00:04"};
+  Wiimote driver = driverOf("00:1f:32:00:00:0a");
+  EXPECT_GT(run({&driver}, 3.0)[0], 50);
+  EXPECT_EQ((std::vector<std::size_t>{2}), bar.opened);
+  EXPECT_EQ("00:1f:32:00:00:0a", driver.link().identity);
 }
 
 TEST_F(AConverter, TwoDriversFindTwoRemotes) {

@@ -280,6 +280,8 @@ TEST_F(DriverTest, ButtonsAsJoy) {
   EXPECT_TRUE(joy.last().axes.empty());
   remote->sense(Senses());
   EXPECT_TRUE(eventually([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
+  Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
+  ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 20; }));
   EXPECT_LE(joy.messages.size(), 4u) << "changes only";
 }
 
@@ -464,6 +466,17 @@ TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
   EXPECT_EQ(before.clock_epoch + 1, first.clock_epoch);
   EXPECT_EQ(before.frame + 1, first.frame);
   EXPECT_EQ(698, blobs.messages.back().blobs[0].y);
+}
+
+TEST_F(DriverTest, ButtonsAreReleasedWhenTheRemoteHasGone) {
+  Senses senses;
+  senses.buttons = 0x0008;  // A
+  remote->sense(senses);
+  Recorder<sensor_msgs::Joy> joy("/wiimote_1/joy");
+  ASSERT_TRUE(eventually([&] { return joy.any() && joy.last().buttons.at(2) == 1; }));
+  remote->server.setPresent(false);
+  EXPECT_TRUE(eventually([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
+  remote->server.setPresent(true);
 }
 
 // The last test: the driver does not return.

@@ -128,6 +128,7 @@ inline bool same(const DataReport& a, const DataReport& b) {
 inline void expectSame(const std::vector<Frame>& recorded,
                        double begin,
                        const std::vector<Frame>& played) {
+  ASSERT_FALSE(recorded.empty());
   ASSERT_EQ(recorded.size(), played.size());
   for (std::size_t i = 0; i < recorded.size(); ++i) {
     ASSERT_NEAR(recorded[i].arrival - begin, played[i].arrival, 1e-9) << "image " << i;

@@ -114,6 +114,7 @@ TEST(RecordingFormat, TruncatedAnywhereItIsReadUpToThereWithAnError) {
     const auto whole = std::upper_bound(ends.begin(), ends.end(), size) - ends.begin() - 1;
     EXPECT_EQ(static_cast<std::size_t>(whole), contents.records.size()) << size;
     const bool between_records = ends[static_cast<std::size_t>(whole)] == size;
+    EXPECT_EQ(between_records, contents.damage.empty()) << size;
     EXPECT_EQ(!between_records,
               contains(contents.damage,
                        "cut off at byte " + std::to_string(ends[static_cast<std::size_t>(whole)])))

@@ -149,6 +149,7 @@ TEST_F(Replays, TruncatedAnywhereItPlaysUpToThere) {
   }();
   ASSERT_LT(20u, whole.size());
   std::size_t played_most = 0;
+  std::size_t unnoticed = 0;
   for (std::size_t size = 0; size < all.size(); ++size) {
     const std::string path = write(all.substr(0, size));
     try {
@@ -161,7 +162,9 @@ TEST_F(Replays, TruncatedAnywhereItPlaysUpToThere) {
         ASSERT_DOUBLE_EQ(whole[i].arrival, frames[i].arrival);
         ASSERT_TRUE(same(whole[i].image, frames[i].image));
       }
-      if (!replay.notice().empty()) {
+      if (replay.notice().empty()) {
+        ++unnoticed;
+      } else {
         ASSERT_TRUE(contains(replay.notice(), "cut off")) << replay.notice();
         ASSERT_TRUE(contains(link.error, "has ended: the recording is cut off")) << link.error;
       }
@@ -171,6 +174,8 @@ TEST_F(Replays, TruncatedAnywhereItPlaysUpToThere) {
     }
   }
   EXPECT_EQ(whole.size(), played_most);
+  // Only a cut between two records, of at least ten bytes each, does not show.
+  EXPECT_LE(unnoticed, all.size() / 10);
 }
 
 TEST_F(Replays, NoBytesMakeItCrashOrHang) {
@@ -227,11 +232,13 @@ TEST_F(Replays, PaceGetsTheRecordedTimes) {
 }
 
 TEST_F(Replays, PlaysInRealTime) {
-  const Pace pace = realTime(4.0);
+  const Pace pace = realTime(1000.0);
   const double begin = steadyNow();
   pace(100.0);
-  pace(100.4);
-  EXPECT_LE(0.1, steadyNow() - begin);
+  pace(200.0);
+  const double duration = steadyNow() - begin;
+  EXPECT_LE(0.1, duration);
+  EXPECT_GT(20.0, duration) << "100 s at a thousand times the speed";
   EXPECT_THROW(realTime(0.0), std::invalid_argument);
 }
 

@@ -199,11 +199,16 @@ TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   EXPECT_TRUE(says("only 70 images"));
   state_.link.kernel_driver = "wiimote";
   EXPECT_TRUE(says("hid-wiimote"));
+  state_.link.accelerometer_calibrated = false;
+  EXPECT_TRUE(says("no accelerometer calibration"));
   state_.shared_with = "somebody else reads along";
   EXPECT_TRUE(says("somebody else"));
   state_.recording_error = "the disk is full";
   EXPECT_TRUE(says("the disk is full"));
+  state_.link.state = wiimote::Link::State::kStarting;
+  EXPECT_TRUE(says("setting up the remote"));
   state_.link.state = wiimote::Link::State::kSearching;
+  EXPECT_TRUE(says("looking for the remote"));
   state_.link.error = "no Wii Remote is connected";
   EXPECT_TRUE(says("no Wii Remote is connected"));
   EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::ERROR, describe().level);

@@ -23,8 +23,8 @@ HANDSHAKE = [
 ]
 
 
-def call(*arguments):
-    return subprocess.run([PROGRAM] + list(arguments), stdout=subprocess.PIPE,
+def call(*arguments, folder=None):
+    return subprocess.run([PROGRAM] + list(arguments), cwd=folder, stdout=subprocess.PIPE,
                           stderr=subprocess.PIPE, timeout=TIMEOUT, universal_newlines=True)
 
 
@@ -82,7 +82,9 @@ def test_led_moves_in_a_circle(start):
     for report in HANDSHAKE:
         remote.say(report)
     angles = set()
+    deadline = time.monotonic() + TIMEOUT
     while len(angles) < 8:
+        assert time.monotonic() < deadline, angles
         report = remote.next(0x33)
         if report[6:9] in (b"\xff\xff\xff", b"\0\0\0"):
             continue  # from before the first image
@@ -116,13 +118,13 @@ def test_plus_has_a_motion_plus(start):
 
 @pytest.mark.parametrize("arguments, says", [
     ([], "--socket"),
-    (["--socket", "/tmp/a", "--uhid"], "--uhid"),
-    (["--socket", "/tmp/a", "--battery", "256"], "--battery"),
-    (["--socket", "/tmp/a", "--fault", "lost_answers=2"], "lost_answers"),
-    (["--socket", "/tmp/a", "more"], "more"),
+    (["--socket", "a.sock", "--uhid"], "--uhid"),
+    (["--socket", "a.sock", "--battery", "256"], "--battery"),
+    (["--socket", "a.sock", "--fault", "lost_answers=2"], "lost_answers"),
+    (["--socket", "a.sock", "more"], "more"),
 ])
-def test_wrong_arguments_are_refused(arguments, says):
-    result = call(*arguments)
+def test_wrong_arguments_are_refused(arguments, says, tmp_path):
+    result = call(*arguments, folder=str(tmp_path))
     assert result.returncode == 2
     assert says in result.stderr
 

@@ -3,8 +3,10 @@
 #include "wiimote_tracker_msgs/benchmark_tables.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -22,6 +24,11 @@ std::string contentOf(const std::string& path) {
 
 class BenchmarkTablesTest : public testing::Test {
  protected:
+  void TearDown() override {
+    std::remove(json_.c_str());
+    std::remove(document_.c_str());
+  }
+
   /// A benchmark with one section of two tables. @returns its exit status.
   int run(const std::string& document) {
     BenchmarkTables tables;
@@ -52,8 +59,9 @@ class BenchmarkTablesTest : public testing::Test {
     return contentOf(document_);
   }
 
-  const std::string json_ = testing::TempDir() + "benchmark_tables.json";
-  const std::string document_ = testing::TempDir() + "benchmark_tables.md";
+  const std::string path_ = testing::TempDir() + "benchmark_tables_" + std::to_string(::getpid());
+  const std::string json_ = path_ + ".json";
+  const std::string document_ = path_ + ".md";
   const std::string table_ =
       "<!-- speed: begin -->\n"
       "## speed\n\n"

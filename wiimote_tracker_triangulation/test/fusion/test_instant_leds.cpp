@@ -135,14 +135,20 @@ TEST(InstantFuser, AnLedThatIsThereIsNotTakenForOneThatIsAbsent) {
     return led == 0 ? Vector3d(0.1, 0.0, 0.0) : Vector3d(t - 100.5, 0.0, 0.0);
   };
   std::uint32_t second = 0;
+  int with_first = 0;
+  int alone = 0;
   for (const Snapshot& instant : fuse(fuser, filmCrowd(rig, 100.0, 100.75, crowd))) {
     for (const TrackedLed& led : instant.leds) {
       const bool is_second = std::abs(led.position.x() - (instant.time - 100.5)) < 1e-3;
       if (is_second && instant.time < 100.3)
         second = led.id;
+      with_first += is_second && instant.time < 100.3;
+      alone += is_second && instant.time >= 100.3;
       EXPECT_TRUE(!is_second || instant.time < 100.3 || led.id == second) << instant.time;
     }
   }
+  EXPECT_GT(with_first, 100);
+  EXPECT_GT(alone, 150);
 }
 
 TEST(InstantFuser, AnLedIsTentativeAtFirst) {
@@ -186,7 +192,9 @@ TEST(InstantFuser, RespectsMinimumRays) {
     if (d.camera == 0 || (d.camera == 1 && d.image.stamp > 100.5))
       d.image.spots.clear();
   }
-  for (const Snapshot& instant : fuse(fuser, deliveries)) {
+  const auto instants = fuse(fuser, deliveries);
+  EXPECT_GT(instants.size(), 380u);
+  for (const Snapshot& instant : instants) {
     const bool is_enough = instant.time < 100.495;
     EXPECT_TRUE(instant.time < 100.05 || is_enough == (ledOf(instant) != nullptr)) << instant.time;
   }

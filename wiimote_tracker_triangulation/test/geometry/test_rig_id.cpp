@@ -57,11 +57,15 @@ TEST(RigId, ChangesWithEverythingThatMovesAPoint) {
       [](Rig& r) { r.cameras[1].camera.intrinsics.cx += 1e-12; },
       [](Rig& r) { r.cameras[1].camera.intrinsics.cy += 1e-12; },
       [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[0] += 1e-15; },
+      [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[1] += 1e-15; },
+      [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[2] += 1e-15; },
+      [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[3] += 1e-15; },
       [](Rig& r) { r.cameras[1].camera.intrinsics.distortion[4] += 1e-15; },
       [](Rig& r) {
         r.cameras[1].camera.intrinsics.distortion_model = DistortionModel::kEquidistant;
       },
       [](Rig& r) { r.cameras[1].camera.world_from_camera.translation().x() += 1e-14; },
+      [](Rig& r) { r.cameras[1].camera.world_from_camera.translation().y() += 1e-14; },
       [](Rig& r) { r.cameras[1].camera.world_from_camera.translation().z() += 1e-14; },
       [](Rig& r) {
         r.cameras[1].camera.world_from_camera.rotate(
@@ -72,6 +76,15 @@ TEST(RigId, ChangesWithEverythingThatMovesAPoint) {
       [](Rig& r) { r.cameras[1].time_offset_epoch = 1; },
       [](Rig& r) {
         r.cameras[1].masks.push_back({{10.0, 20.0}, 5.0});
+      },
+      [](Rig& r) {
+        r.cameras[1].masks.push_back({{11.0, 20.0}, 5.0});
+      },
+      [](Rig& r) {
+        r.cameras[1].masks.push_back({{10.0, 21.0}, 5.0});
+      },
+      [](Rig& r) {
+        r.cameras[1].masks.push_back({{10.0, 20.0}, 6.0});
       },
   };
   std::set<std::string> ids = {someRig().id()};
@@ -95,6 +108,11 @@ TEST(RigId, DoesNotChangeWithWhatMovesNoPoint) {
       },
       [](Rig& r) {
         r.square_pose = SquarePose{{1.0, 0.0}, 0.3};
+      },
+      [](Rig& r) { r.led_height = 0.1; },
+      [](Rig& r) { r.covariance = Eigen::MatrixXd::Identity(48, 48); },
+      [](Rig& r) {
+        r.zones.push_back({"hall", {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
       },
       [](Rig& r) { r.cameras[0].residual_px = 0.3; },
       [](Rig& r) { r.cameras[0].gravity = Eigen::Vector3d(0.0, -9.8, 0.0); },

@@ -174,6 +174,20 @@ TEST(AssociateViews, ABoundedSearchIsNotProven) {
   }
 }
 
+TEST(TypicalCosts, AreThoseOfTheDocumentedDensities) {
+  const geometry::Rig rig = ringRig(2);  // images of 1024 x 768 px
+  const AssociationOptions costs = typicalCosts(rig, 0.5);
+  EXPECT_EQ(0.5, costs.pixel_stddev);
+  // 0.1 false detections in 786432 px^2, 0.25 LEDs in 1 m^3, and one miss for nine detections.
+  EXPECT_NEAR(30.8525, costs.ghost, 1e-3);
+  EXPECT_NEAR(35.5217, costs.point, 1e-3);
+  EXPECT_NEAR(4.3944, costs.miss, 1e-3);
+  const AssociationOptions least = typicalCosts(rig, 1000.0, 100.0, 0.4);
+  EXPECT_EQ(1.0, least.ghost);
+  EXPECT_EQ(0.0, least.point);
+  EXPECT_EQ(0.0, least.miss);
+}
+
 TEST(SharedViews, AreOnlyCamerasWithCommonVolume) {
   // Two rooms of four cameras, 30 m apart, and one camera that looks away.
   geometry::Rig rig = ringRig(4);

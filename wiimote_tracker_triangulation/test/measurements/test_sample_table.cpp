@@ -50,6 +50,17 @@ TEST(SampleTable, LongGapsAndTheEndsStayOpen) {
   }
 }
 
+TEST(SampleTable, BridgesOneAndAHalfFramesOfALowRate) {
+  SampleTable table;
+  for (const double t : {0.0, 0.14, 0.30})
+    table.add(at(t, "led", 10.0 * t));
+  const Samples samples = table.resample(10.0);
+  ASSERT_EQ(samples.frames, 4u);
+  EXPECT_NEAR(samples.positions[0][1].x(), 1.0, 1e-6);
+  EXPECT_FALSE(samples.positions[0][2].allFinite()) << "0.16 s are too long";
+  EXPECT_EQ(samples.positions[0][3].x(), 3.0);
+}
+
 TEST(SampleTable, TakesOnlyTrackedLedsAndSortsThem) {
   SampleTable table;
   table.add(at(0.01, "led", 1.0));

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <iterator>
 #include <limits>
+#include <locale>
 #include <random>
 #include <sstream>
 #include <string>
@@ -165,14 +166,28 @@ TEST_F(WriterTest, CsvGivesNumbersBackBitForBit) {
   }
 }
 
+/// As of a German locale, which need not be installed.
+class DecimalCommas : public std::numpunct<char> {
+ protected:
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
 TEST_F(WriterTest, CsvIgnoresLocales) {
+  // Streams follow the one of C++, std::strtod() and printf() that of C.
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new DecimalCommas));
   for (const char* name : {"de_DE.UTF-8", "fr_FR.UTF-8"}) {
     if (std::setlocale(LC_ALL, name))
       break;
   }
   const auto rows = written({measurement()});
   std::setlocale(LC_ALL, "C");
+  std::locale::global(before);
   ASSERT_EQ(header_.size(), rows.at(0).size());
+  EXPECT_EQ("1700000000.123456789", rows[0][0]);
+  EXPECT_EQ("4294967295", rows[0][2]);
   EXPECT_EQ("0.10000000000000001", rows[0][7]);
 }
 

@@ -72,7 +72,9 @@ TEST(Tracker, LightsSeenBySingleCamerasAreNoLeds) {
   options.reflections = {{{100.0, 700.0}, {700.0, 60.0}}, {{900.0, 40.0}}, {}, {{60.0, 60.0}}};
   options.ghosts = 1.0;
   Tracker tracker(paperRig(), exactOptions());
-  for (const Snapshot& snapshot : track(&tracker, imagesOf(paperRig(), {}, options, 4000)))
+  const std::vector<Snapshot> snapshots = track(&tracker, imagesOf(paperRig(), {}, options, 4000));
+  EXPECT_GT(snapshots.size(), 3900u);
+  for (const Snapshot& snapshot : snapshots)
     EXPECT_TRUE(idsIn(snapshot, TrackState::kTracked).empty()) << snapshot.time;
 }
 
@@ -87,6 +89,12 @@ TEST(Tracker, ABoxExcludesMirroredLights) {
   const Snapshot last = track(&closed, images).back();
   ASSERT_EQ(1u, last.leds.size());
   EXPECT_GT(last.leds[0].position.z(), 0.0);
+  options = exactOptions();
+  options.maximum_corner = {10.0, 10.0, 0.0};
+  Tracker below(paperRig(), options);
+  const Snapshot last_below = track(&below, images).back();
+  ASSERT_EQ(1u, last_below.leds.size());
+  EXPECT_LT(last_below.leds[0].position.z(), 0.0);
 }
 
 TEST(Tracker, MoreLightsThanACameraReports) {

@@ -132,12 +132,15 @@ TEST(TrackerClocks, ATurnedCameraThatAnLedCirclesBeforeHasNoWrongClock) {
       Tracker tracker(rig, exactOptions());
       const std::vector<Path> leds = {circle({1.25, 1.25, 1.0}, 0.5, speed)};
       bool is_faulty = false;
-      for (const SceneImage& image : imagesOf(truth, leds, {}, 48000)) {
+      const std::vector<SceneImage> images = imagesOf(truth, leds, {}, 48000);
+      for (const SceneImage& image : images) {
         tracker.add(image.camera, image.image);
         for (std::size_t camera = 0; camera < truth.cameras.size(); ++camera)
           is_faulty = is_faulty || tracker.cameraFault(camera);
       }
       EXPECT_FALSE(is_faulty) << turn << " rad, " << speed << " m/s";
+      const Snapshot last = stateAt(tracker, images.back().image.stamp + 0.01);
+      EXPECT_EQ(1u, idsIn(last, TrackState::kTracked).size());
     }
   }
 }

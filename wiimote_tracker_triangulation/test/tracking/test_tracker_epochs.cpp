@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace wiimote_tracker::tracking::test {
@@ -36,8 +37,8 @@ void reconnect(unsigned seed, double offset, bool is_known, double jitter, Figur
   options.delay_jitter = jitter;
   Scene scene(rig, leds, options, seed);
   Tracker tracker(rig, exactOptions());
-  double error = 0.0;
-  double stated = 0.0;
+  double error = std::numeric_limits<double>::quiet_NaN();  // fails if it is never found
+  double stated = error;
   for (double time = 0.0; time < kReconnect + 5.0;) {
     SceneImage image = scene.next();
     time = image.true_time - options.start;

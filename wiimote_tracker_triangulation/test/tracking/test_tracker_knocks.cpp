@@ -130,6 +130,7 @@ TEST(TrackerKnocks, ATurnThatErrorsOfTheCalibrationExplainIsNone) {
   const Knock result = knock(vague, oneWanderer(1), kTurn, 0.5, 2);
   EXPECT_FALSE(result.out);
   EXPECT_EQ(0u, result.alarms);
+  EXPECT_GT(result.leds, 2500u);
   EXPECT_GE(result.tracked, 0.999 * result.leds);
   const auto out = knock(vague, oneWanderer(1), 1.0, 0.5, 2).out;
   ASSERT_TRUE(out);

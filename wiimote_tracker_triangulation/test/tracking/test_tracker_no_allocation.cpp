@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -28,15 +29,20 @@ int allocations(const SceneOptions& options, int count) {
   Tracker tracker(paperRig(), tracker_options);
   int before = 0;
   std::size_t leds_seen = 0;
+  std::size_t merged = 0;  // spots in the images that count
   for (std::size_t i = 0; i < images.size(); ++i) {
     if (i == images.size() / 2)
       before = g_allocations;
+    for (const std::uint64_t leds : images[i].leds_of_spot)
+      merged += i >= images.size() / 2 && (leds & (leds - 1)) != 0;
     tracker.add(images[i].camera, images[i].image);
     while (const Snapshot* snapshot = tracker.next())
       leds_seen += snapshot->leds.size();
   }
   const int result = g_allocations - before;
   EXPECT_GT(leds_seen, images.size() * 2);
+  EXPECT_EQ(options.merging_distance > 0.0, merged > 0);
+  EXPECT_EQ(options.delay_jitter > 0.0, tracker.counters().late > 0);
   return result;
 }
 

@@ -277,6 +277,7 @@ TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
   track(&tracker, images);
   const Snapshot a = stateAt(plain, 1002.0);
   const Snapshot b = stateAt(tracker, 1002.0);
+  ASSERT_FALSE(a.leds.empty());
   ASSERT_EQ(a.leds.size(), b.leds.size());
   for (std::size_t i = 0; i < a.leds.size(); ++i)
     EXPECT_LT((a.leds[i].position - b.leds[i].position).norm(),

@@ -42,6 +42,7 @@ Snapshot stateAt(Tracker& tracker, double time) {
 }
 
 void expectSameLeds(Snapshot a, Snapshot b) {
+  ASSERT_FALSE(a.leds.empty());
   ASSERT_EQ(a.leds.size(), b.leds.size());
   for (Snapshot* snapshot : {&a, &b}) {
     std::sort(snapshot->leds.begin(), snapshot->leds.end(),

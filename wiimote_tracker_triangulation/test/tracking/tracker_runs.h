@@ -27,7 +27,7 @@ std::vector<Snapshot> track(Estimator* tracker, const std::vector<SceneImage>& i
 
 Snapshot stateAt(Tracker& tracker, double time);
 
-/// Expects the same LEDs bit for bit, whatever their ids.
+/// Expects the same LEDs, at least one, bit for bit, whatever their ids.
 void expectSameLeds(Snapshot a, Snapshot b);
 
 std::set<std::uint32_t> idsIn(const Snapshot& snapshot, TrackState state);

@@ -7,8 +7,11 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <numeric>
 #include <string>
@@ -45,6 +48,10 @@ TEST(Constellation, SaysWhatIsWrong) {
   for (Vector3d& led : millimetres)
     led *= 1000.0;
   EXPECT_NE(messageOf({"a", millimetres}).find("give positions in metres"), std::string::npos);
+  Constellation nine{"a", {}};
+  for (int i = 0; i < 9; ++i)
+    nine.leds.emplace_back(0.05 * i, 0.01 * i * i, 0.0);
+  EXPECT_NE(messageOf(nine).find("9 LEDs"), std::string::npos);
 }
 
 TEST(Constellation, SymmetriesAreFound) {
@@ -108,6 +115,8 @@ TEST(Constellation, SymmetricOnesNeedLabels) {
   EXPECT_EQ(square.labelOf(2), "c");
   square.labels[3] = "a";
   EXPECT_NE(messageOf(square).find("labels"), std::string::npos);
+  square.labels = {"a", "b", "c"};
+  EXPECT_NE(messageOf(square).find("labels"), std::string::npos) << "one too few";
   EXPECT_NE(messageOf({"two words", fourLeds().leds}).find("letter"), std::string::npos);
 }
 
@@ -175,6 +184,10 @@ TEST(LearnConstellation, SaysWhatIsWrong) {
   for (LedsInstant& instant : two)
     instant.leds.resize(2);
   EXPECT_NE(messageFor(two).find("2 LEDs were seen"), std::string::npos);
+  std::vector<LedsInstant> hidden = good;
+  for (std::size_t i = 60; i < hidden.size(); ++i)
+    hidden[i].leds.pop_back();
+  EXPECT_NE(messageFor(hidden).find("LED 3 of body 'thing' was hidden"), std::string::npos);
   std::vector<LedsInstant> loose = good;
   for (LedsInstant& instant : loose)
     instant.leds[2].position.z() += 0.1 * std::sin(5.0 * instant.time);
@@ -188,45 +201,60 @@ TEST(LearnConstellation, SaysWhatIsWrong) {
   EXPECT_EQ(messageOf(symmetric), "good");
 }
 
-TEST(BodiesFile, ComesBackBitForBit) {
-  const std::string file = testing::TempDir() + "bodies.yaml";
+/// A file of this process, which is removed at the end.
+class BodiesFile : public testing::Test {
+ protected:
+  void TearDown() override {
+    std::remove(file_.c_str());
+    std::remove((file_ + ".bak").c_str());
+  }
+
+  const std::string name_ = "bodies_" + std::to_string(::getpid());
+  const std::string file_ = testing::TempDir() + name_ + ".yaml";
+};
+
+TEST_F(BodiesFile, ComesBackBitForBit) {
   Constellation other = fourLeds();
   other.name = "other";
+  other.labels = {"tip", "y", "12", "led_3"};
   other.leds[0].x() = 1.0 / 3.0;
   other.imu = ImuMount{"/imu/data", Isometry3d::Identity(), 1.0 / 7.0};
   other.imu->body_from_imu.translation() = Vector3d(0.1, 0.2, 1.0 / 3.0);
   other.imu->body_from_imu.linear() = Eigen::AngleAxisd(0.5, Vector3d::UnitX()).toRotationMatrix();
-  writeBodies(file, {fourLeds(), other});
-  const std::vector<Constellation> back = readBodies(file);
+  writeBodies(file_, {fourLeds(), other});
+  const std::vector<Constellation> back = readBodies(file_);
   ASSERT_EQ(back.size(), 2u);
   EXPECT_EQ(back[0].name, "four_leds");
+  EXPECT_TRUE(back[0].labels.empty());
+  EXPECT_EQ(back[1].name, "other");
   EXPECT_EQ(back[1].leds, other.leds);
+  EXPECT_EQ(back[1].labels, other.labels);
   EXPECT_FALSE(back[0].imu);
   ASSERT_TRUE(back[1].imu);
   EXPECT_EQ(back[1].imu->topic, "/imu/data");
   EXPECT_EQ(back[1].imu->clock_offset, 1.0 / 7.0);
   EXPECT_EQ(back[1].imu->body_from_imu.translation(), other.imu->body_from_imu.translation());
   EXPECT_TRUE(back[1].imu->body_from_imu.isApprox(other.imu->body_from_imu, 1e-12));
-  EXPECT_NO_THROW(writeBodies(file, {fourLeds(), fourLeds()}));
-  EXPECT_THROW(readBodies(file), Error) << "two of one name";
+  EXPECT_NO_THROW(writeBodies(file_, {fourLeds(), fourLeds()}));
+  EXPECT_THROW(readBodies(file_), Error) << "two of one name";
 }
 
-TEST(BodiesFile, ReadsMarkerPositions) {
-  const std::string file = testing::TempDir() + "drone.yaml";
-  std::ofstream(file) << "# in metres\nmarker_positions:\n  - x: 0.1\n    y: 0.0\n    z: 0.02\n"
-                         "  - {x: 0.0, y: 0.05, z: 0}\n  - {x: -0.03, y: -0.1, z: 0}\n";
-  const std::vector<Constellation> bodies = readBodies(file);
+TEST_F(BodiesFile, ReadsMarkerPositions) {
+  std::ofstream(file_) << "# in metres\nmarker_positions:\n  - x: 0.1\n    y: 0.0\n    z: 0.02\n"
+                          "  - {x: 0.0, y: 0.05, z: 0}\n  - {x: -0.03, y: -0.1, z: 0}\n";
+  const std::vector<Constellation> bodies = readBodies(file_);
   ASSERT_EQ(bodies.size(), 1u);
-  EXPECT_EQ(bodies[0].name, "drone");
+  EXPECT_EQ(bodies[0].name, name_);
+  ASSERT_EQ(bodies[0].leds.size(), 3u);
+  EXPECT_EQ(bodies[0].leds[0], Vector3d(0.1, 0.0, 0.02));
   EXPECT_EQ(bodies[0].leds[1], Vector3d(0.0, 0.05, 0.0));
 }
 
-TEST(BodiesFile, DamagedOnesAreRefusedByName) {
-  const std::string file = testing::TempDir() + "damaged.yaml";
+TEST_F(BodiesFile, DamagedOnesAreRefusedByName) {
   const auto messageFor = [&](const std::string& content) {
-    std::ofstream(file) << content;
+    std::ofstream(file_) << content;
     try {
-      readBodies(file);
+      readBodies(file_);
     } catch (const geometry::Error& e) {
       return std::string(e.what());
     }

@@ -318,6 +318,7 @@ class Bodies(unittest.TestCase):
         for topic, computed in zip(MOTION, offline):
             live = [bytes_of(m) for m in self.heard[topic] if m.header.stamp >= begin]
             self.assertGreater(len(computed), 200)
+            self.assertGreater(len(live), 200)
             self.assertEqual(live, computed[:len(live)])
         self.assertIn('wand', transforms)
 

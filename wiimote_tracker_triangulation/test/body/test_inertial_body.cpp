@@ -145,6 +145,7 @@ Score scoreOf(double delay, double end = kNever) {
         score.hidden_nees += nees;
       }
       was_hidden = since > 0.0;
+      EXPECT_TRUE(body.estimate() || since <= 0.0) << "lost while hidden";
       if (!body.estimate())
         continue;
       const BodyEstimate& found = *body.estimate();
@@ -211,9 +212,11 @@ TEST(InertialBody, IsAnOrdinaryBodyOnceItsImuPauses) {
   Carried body(3, 0.0, end);
   for (body.step(); body.time() < end + 0.04; body.step()) {
   }
+  ASSERT_TRUE(body.estimate());
   EXPECT_TRUE(body.estimate()->inertial);
   for (; body.time() < end + 0.1; body.step()) {
   }
+  ASSERT_TRUE(body.estimate());
   EXPECT_TRUE(body.estimate()->tracked);
   EXPECT_FALSE(body.estimate()->inertial);
   EXPECT_LT(

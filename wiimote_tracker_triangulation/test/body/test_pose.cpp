@@ -120,6 +120,9 @@ TEST(MatchPoints, AMirroredBodyIsAnother) {
     points.push_back({led.cwiseProduct(Vector3d(1, 1, -1)), 0.002, false});
   const auto match = matchPoints(fourLeds(), points, MatchOptions());
   EXPECT_TRUE(!match || seenLeds(*match) < 4);
+  MatchOptions all;
+  all.minimum_seen = 4;
+  EXPECT_FALSE(matchPoints(fourLeds(), points, all)) << "all distances agree";
 }
 
 TEST(SolvePose, ReachesTheBoundWithConsistentCovariance) {

@@ -137,6 +137,17 @@ TEST(Interpolate, VelocityCovarianceCountsByItsWeight) {
   EXPECT_LT((led.position_covariance - expected).norm(), 1e-12 * expected.norm());
 }
 
+TEST(Interpolate, TheVelocityChangesSteadily) {
+  TrackedLed before = ledAt(Vector3d::Zero(), Vector3d(1.0, 0.0, -2.0));
+  TrackedLed after = ledAt(Vector3d::Zero(), Vector3d(5.0, 0.0, 2.0));
+  before.velocity_covariance = 1.0 * Matrix3d::Identity();
+  after.velocity_covariance = 3.0 * Matrix3d::Identity();
+  const TrackedLed led = interpolate(before, 10.0, after, 12.0, 10.5);
+  ASSERT_TRUE(led.velocity);
+  EXPECT_LT((*led.velocity - Vector3d(2.0, 0.0, -1.0)).norm(), 1e-12);
+  EXPECT_LT((led.velocity_covariance - 1.5 * Matrix3d::Identity()).norm(), 1e-12);
+}
+
 TEST(Interpolate, TakesTheLessCertainStateAndTheNearerRays) {
   TrackedLed before = ledAt(Vector3d::Zero());
   TrackedLed after = ledAt(Vector3d::Zero());

@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -81,16 +83,20 @@ TEST(Shape, PointsOfACircleAreEvenlySpread) {
 
 TEST(Shape, RefusesPathsThatAreNoGesture) {
   const ShapeOptions options;
+  ShapeOptions any_length = options;
+  any_length.minimum_length = 0.0;
   EXPECT_FALSE(shapeOf({}, options));
   Path path = draw(circle, {});
-  EXPECT_FALSE(shapeOf(Path(path.begin(), path.begin() + 4), options));
-  EXPECT_FALSE(shapeOf(Path(50, PathPoint{0.0, {1.0, 2.0, 3.0}}), options)) << "equal times";
+  EXPECT_TRUE(shapeOf(Path(path.begin(), path.begin() + 5), any_length));
+  EXPECT_FALSE(shapeOf(Path(path.begin(), path.begin() + 4), any_length)) << "too few points";
+  EXPECT_FALSE(shapeOf(Path(50, PathPoint{0.0, {1.0, 2.0, 3.0}}), options));
+  Path repeated = path;
+  repeated[8].time = repeated[7].time;
+  EXPECT_FALSE(shapeOf(repeated, options)) << "equal times";
   Path still;
   for (int i = 0; i < 50; ++i)
     still.push_back({0.01 * i, {1.0, 2.0, 3.0}});
   EXPECT_FALSE(shapeOf(still, options));
-  ShapeOptions any_length = options;
-  any_length.minimum_length = 0.0;
   EXPECT_FALSE(shapeOf(still, any_length));
   path[7].position.x() = NAN;
   EXPECT_FALSE(shapeOf(path, options));
@@ -106,6 +112,17 @@ TEST(Shape, StaysFiniteWhereAPathTurnsBack) {
   ASSERT_TRUE(shape);
   EXPECT_TRUE(shape->positions.allFinite());
   EXPECT_TRUE(shape->directions.allFinite());
+  // Back exactly at one of the shape's points, whose neighbours then coincide.
+  Path straight;
+  for (int i = 0; i < Shape::kPoints; ++i)
+    straight.push_back({0.01 * i, {0.01 * (i <= 15 ? i : 30 - i), 0.0, 0.0}});
+  ShapeOptions unsmoothed;
+  unsmoothed.smoothing = 1e-6;
+  const auto turned = shapeOf(straight, unsmoothed);
+  ASSERT_TRUE(turned);
+  EXPECT_LT(turned->directions.col(15).norm(), 1e-12) << "it has no direction there";
+  EXPECT_NEAR(turned->directions(0, 14), 1.0, 1e-12);
+  EXPECT_NEAR(turned->directions(0, 16), -1.0, 1e-12);
 }
 
 TEST(Distance, MatchesTheFullTable) {
@@ -245,8 +262,12 @@ TEST(Recognizer, OneOddExampleDoesLittleHarm) {
   EXPECT_EQ(recognizer.recognize(draw(zigzag, {}))->gesture, "zigzag");
 }
 
+std::string fileOfThisProcess() {
+  return testing::TempDir() + "gestures_" + std::to_string(::getpid()) + ".yaml";
+}
+
 TEST(ExamplesFile, ComesBackBitForBit) {
-  const std::string file = testing::TempDir() + "gestures.yaml";
+  const std::string file = fileOfThisProcess();
   Drawing odd;
   odd.start = 1.7637e9;
   odd.scale = 1.0 / 3.0;
@@ -254,6 +275,7 @@ TEST(ExamplesFile, ComesBackBitForBit) {
                                          {"a: \"b\"", "room 1", draw(zigzag, {})}};
   writeExamples(file, examples);
   const std::vector<Example> back = readExamples(file);
+  std::remove(file.c_str());
   ASSERT_EQ(back.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(back[i].gesture, examples[i].gesture);
@@ -267,7 +289,7 @@ TEST(ExamplesFile, ComesBackBitForBit) {
 }
 
 TEST(ExamplesFile, DamagedOnesAreRefusedByName) {
-  const std::string file = testing::TempDir() + "damaged.yaml";
+  const std::string file = fileOfThisProcess();
   const auto messageFor = [&](const std::string& content) {
     std::ofstream(file) << content;
     try {

@@ -18,6 +18,12 @@ def test_takes_every_tolerance_of_a_file():
         assert 'chip: %s #' % chip in text and 'tolerance: %s #' % tolerance in text
 
 
+def test_refuses_numbers_beyond_those_of_a_file():
+    for option in (('--chip', '0.0009'), ('--chip', '1.1'), ('--tolerance', '-0.01'),
+                   ('--tolerance', '0.051')):
+        assert run('choose', 'left', 'right', *option) == (2, '')
+
+
 def test_help_says_the_ranges():
     _, text = run('--help')
     for words in ('(0.02 to 5)', '(0.001 to 1, default 0.023)', '(0 to 0.05, default 0.01)'):

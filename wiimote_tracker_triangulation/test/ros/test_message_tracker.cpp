@@ -232,9 +232,12 @@ TEST_P(InBothModes, ZonesAreEnteredAndLeft) {
     (event.event == ZoneEvent::ENTERED ? entered : left).push_back(event.header.stamp.toSec());
     EXPECT_LT((vectorOf(event.position) - onCircle(event.header.stamp.toSec())).norm(), kNear);
   }
+  ASSERT_FALSE(entered.empty());
   ASSERT_FALSE(left.empty());
-  for (const double time : left)
-    EXPECT_NEAR(0.3, onCircle(time).x(), kNear);
+  for (const auto& times : {entered, left}) {
+    for (const double time : times)
+      EXPECT_NEAR(0.3, onCircle(time).x(), kNear);
+  }
 }
 
 TEST_P(InBothModes, ATriggerGetsThePointsOfItsTime) {

@@ -85,7 +85,7 @@ TEST(PointMessage, OnlyObservedLedsHaveAPosition) {
   }
 }
 
-TEST(VolumeCorrection, MovesPositionsAndVelocities) {
+TEST(VolumeCorrection, MovesPositionsAndVelocitiesAndTheirCovariances) {
   Rig rig = threeCameras();
   rig.remap = remap::Remap{rig.id(), remap::Model::kAffine, std::vector<double>(12, 0.0), {}};
   rig.remap->parameters[2] = 0.1;  // upwards
@@ -114,6 +114,22 @@ TEST(VolumeCorrection, MovesPositionsAndVelocities) {
   EXPECT_LT((*corrected.snapshot.leds[0].velocity - expected).norm(), 1e-6);
   EXPECT_GT((expected - *raw.snapshot.leds[0].velocity).norm(), 0.1);
   EXPECT_NEAR(kLed.z() + 0.1, corrected.snapshot.leds[0].position.z(), 1e-9);
+  // So do both covariances.
+  Eigen::Matrix3d jacobian;
+  for (int axis = 0; axis < 3; ++axis) {
+    CorrectedSnapshot moved = raw;
+    moved.snapshot.leds[0].position += kStep * Vector3d::Unit(axis);
+    CorrectedSnapshot moved_corrected;
+    correction.apply(moved.snapshot, &moved_corrected);
+    jacobian.col(axis) =
+        (moved_corrected.snapshot.leds[0].position - corrected.snapshot.leds[0].position) / kStep;
+  }
+  const TrackedLed& led = corrected.snapshot.leds[0];
+  EXPECT_LT((led.velocity_covariance - jacobian * jacobian.transpose()).norm(), 1e-6);
+  EXPECT_GT((led.velocity_covariance - Eigen::Matrix3d::Identity()).norm(), 0.1);
+  const Eigen::Matrix3d covariance =
+      jacobian * raw.snapshot.leds[0].position_covariance * jacobian.transpose();
+  EXPECT_LT((led.position_covariance - covariance).norm(), 1e-6 * covariance.norm());
 }
 
 }  // namespace

@@ -51,9 +51,13 @@ def test_csv_holds_exactly_what_the_bag_holds(tmp_path):
         for axis in 'xyz':
             assert same(float(row['%s [m]' % axis]), getattr(point.position, axis))
             assert same(float(row['v%s [m/s]' % axis]), getattr(point.velocity, axis))
-        assert same(float(row['cov_xz [m^2]']), point.position_covariance[2])
-        assert same(float(row['vcov_yz [m^2/s^2]']), point.velocity_covariance[5])
+        for axes, i in (('xx', 0), ('xy', 1), ('xz', 2), ('yy', 4), ('yz', 5), ('zz', 8)):
+            assert same(float(row['cov_%s [m^2]' % axes]), point.position_covariance[i])
+            assert same(float(row['vcov_%s [m^2/s^2]' % axes]), point.velocity_covariance[i])
+        assert (int(row['rays_used']), int(row['rays_possible'])) == \
+            (point.rays_used, point.rays_possible)
         assert same(float(row['residual [px]']), point.residual)
+        assert int(row['last_observed [s]'].replace('.', '')) == point.last_observed.to_nsec()
         assert same(float(row['age [s]']), point.age)
 
 

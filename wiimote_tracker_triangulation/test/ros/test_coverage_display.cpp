@@ -8,7 +8,10 @@
 #include <sensor_msgs/point_cloud2_iterator.h>
 
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -116,11 +119,12 @@ class CoverageWalk : public testing::Test {
       cells.push_back({grid.center(i), 4, 0.01});
     walked_.setRig(id, grid, cells);
   }
-  bool see(const std::string& rig_id) {
+  bool see(const std::string& rig_id,
+           std::uint8_t state = wiimote_tracker_msgs::TrackedPoint::TRACKED) {
     wiimote_tracker_msgs::TrackedPointArray points;
     points.rig_id = rig_id;
     points.points.resize(1);
-    points.points[0].state = wiimote_tracker_msgs::TrackedPoint::TRACKED;
+    points.points[0].state = state;
     points.points[0].rays_used = 2;
     points.points[0].position = pointOf(Vector3d(0.5, 0.5, 0.5));
     return walked_.add(points);
@@ -131,6 +135,14 @@ class CoverageWalk : public testing::Test {
 TEST_F(CoverageWalk, PointsWithoutARigAreIgnored) {
   EXPECT_FALSE(see(""));
   EXPECT_TRUE(walked_.cells().empty());
+}
+
+TEST_F(CoverageWalk, WhatMayBeNoLedIsIgnored) {
+  using wiimote_tracker_msgs::TrackedPoint;
+  setRig("a", 0.0);
+  EXPECT_FALSE(see("a", TrackedPoint::TENTATIVE));
+  EXPECT_FALSE(see("a", TrackedPoint::LOST));
+  EXPECT_TRUE(see("a", TrackedPoint::PREDICTED));
 }
 
 TEST_F(CoverageWalk, ACorrectionOfTheRigKeepsIt) {

@@ -186,6 +186,24 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   std::remove(file.c_str());
 }
 
+TEST(LedLabels, AllOfAPlaceIsInItsFile) {
+  LedLabels::Place place;
+  place.position = {1.5, -2.0, 0.25};
+  place.speed = 0.5;
+  place.age = 4.0;
+  place.confidence = 0.75;
+  const std::string file = testing::TempDir() + "one_place_" + std::to_string(::getpid());
+  ASSERT_TRUE(writePlaces(file, {{"a", place}}));
+  const LedLabels::Places places = readPlaces(file, std::chrono::seconds(60));
+  std::remove(file.c_str());
+  ASSERT_EQ(1u, places.size());
+  const LedLabels::Place& found = places.at("a");
+  EXPECT_EQ(place.position, found.position);
+  EXPECT_EQ(place.speed, found.speed);
+  EXPECT_EQ(place.confidence, found.confidence);
+  EXPECT_GE(found.age, 4.0) << "and the age of the file";
+}
+
 /// A tracker without images would give old places the age of its file, which is none.
 TEST(LedLabels, KeepTheirPlacesOnlyAfterASnapshot) {
   LedLabels labels({"a"});

@@ -255,15 +255,17 @@ TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {
   board.addLamps(0.01, &lamps);
   EXPECT_TRUE(lamps.empty()) << "dark until it is switched on";
   board.setLit(true);
-  std::vector<Vector3d> all(16);
+  std::map<int, Vector3d> all;
   for (const double cycle : {0.0, 5 * 1.98}) {
     for (const auto& [start, leds] : table) {
       for (const double after : {0.001, 0.039}) {
         lamps.clear();
         board.addLamps(cycle + start + after, &lamps);
         ASSERT_EQ(lamps.size(), 4u) << start;
+        // The flash of a row and that of a column show an LED at the same place.
         for (int i = 0; i < 4; ++i)
-          all[leds[i]] = lamps[i].position;
+          EXPECT_EQ(all.emplace(leds[i], lamps[i].position).first->second, lamps[i].position)
+              << start << ": LED " << leds[i];
       }
       lamps.clear();
       board.addLamps(cycle + start + 0.041, &lamps);
@@ -276,6 +278,7 @@ TEST(LedBoard, lights_rows_then_columns_four_at_a_time) {
     }
   }
   // A flat grid with the given spacings, as seen from the front.
+  ASSERT_EQ(all.size(), 16u);
   EXPECT_NEAR((all[3] - all[0]).norm(), 0.24, 1e-12);
   EXPECT_NEAR((all[12] - all[0]).norm(), 0.3, 1e-12);
   EXPECT_LT((all[0] + all[15] - all[3] - all[12]).norm(), 1e-12);

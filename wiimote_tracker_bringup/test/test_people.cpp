@@ -140,14 +140,18 @@ TEST(Person, an_absent_person_hides_nothing_and_takes_their_leds_along) {
   LedDescription other;
   other.name = "other";
   other.motion = LedMotion(Vector3d(-0.5, 0.0, 1.0));
+  other.size = 7.0;
   description.leds.push_back(other);
   Watched watched(description);
   watched.rig.runUntil(0.005);
   ASSERT_EQ(watched.lights[0].size(), 1u);
+  EXPECT_FALSE(watched.lights[0][0].size) << "the one that is carried";
   watched.rig.findPerson("anna")->present = false;
   watched.rig.runUntil(0.015);
-  ASSERT_EQ(watched.lights[0].size(), 1u) << "the other one only";
-  ASSERT_EQ(watched.lights[1].size(), 1u);
+  for (const auto& lights : watched.lights) {
+    ASSERT_EQ(lights.size(), 1u) << "the other one only";
+    EXPECT_EQ(lights[0].size, 7.0);
+  }
   EXPECT_EQ(watched.rig.findPerson("ben"), nullptr);
 }
 
@@ -204,6 +208,11 @@ TEST(RigidBody, sways_and_returns) {
   const Vector3d x = worldFrom(body, 0.5).linear().col(0);
   EXPECT_NEAR(std::atan2(x.y(), x.x()), 0.5, 1e-9);
   EXPECT_NEAR(x.z(), 0.0, 1e-9);
+  EXPECT_GT(std::abs(worldFrom(body, 0.5).linear().col(1).z()), 0.01) << "it nods";
+  const Vector3d back = worldFrom(body, 1.0).linear().col(0);
+  EXPECT_NEAR(std::atan2(back.y(), back.x()), 0.0, 1e-9);
+  const Vector3d other_side = worldFrom(body, 1.5).linear().col(0);
+  EXPECT_NEAR(std::atan2(other_side.y(), other_side.x()), -0.5, 1e-9);
 }
 
 TEST(RigidBody, body_rig_has_the_body_that_is_known) {

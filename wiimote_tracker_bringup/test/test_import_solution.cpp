@@ -94,11 +94,15 @@ TEST(ImportSolution, intrinsicsAloneGiveThePosesInTheFrameOfTheCentres) {
   }
   EXPECT_EQ(solution.frames, room.recording.frames);
   ASSERT_TRUE(solution.reference);
+  ASSERT_EQ(solution.reference->points.size(), room.points.size());
+  int known = 0;
   for (std::size_t i = 0; i < room.points.size(); ++i) {
     if (solution.reference->points[i]) {
+      ++known;
       EXPECT_LT((*solution.reference->points[i] - room.points[i]).norm(), 1e-6);
     }
   }
+  EXPECT_GT(known, 100);
 }
 
 TEST(ImportSolution, wrongCentresAreFixedInTheReferenceOnly) {
@@ -137,7 +141,12 @@ TEST(ImportSolution, centresOnALineAreRefusedWithAdvice) {
 TEST(ImportSolution, tooFewFramesAreRefused) {
   Room room;
   room.recording.frames.resize(5);
-  EXPECT_THROW(solve(room.recording), ImportError);
+  try {
+    solve(room.recording);
+    FAIL() << "was not refused";
+  } catch (const ImportError& error) {
+    EXPECT_EQ(std::string(error.what()).find("the cameras cannot be solved: "), 0u) << error.what();
+  }
 }
 
 /// The shipped matrix of a camera with skew, undistorted with another focal length and principal
@@ -217,6 +226,7 @@ TEST(ImportSolution, flydrasPointsFitItsMatrices) {
   // The points were shipped in millimetres in the frame of Cst.dat, the matrices in a mirrored
   // frame of another scale: a median of a quarter pixel shows that both were aligned.
   std::sort(errors.begin(), errors.end());
+  ASSERT_GT(errors.size(), 400u);
   EXPECT_LT(errors[errors.size() / 2], 0.25);
   for (std::size_t i = 0; i < 5; ++i)
     EXPECT_LT((solution.rig.cameras[i].camera.center() - *recording.cameras[i].center).norm(),

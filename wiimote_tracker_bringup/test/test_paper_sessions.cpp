@@ -91,7 +91,9 @@ TEST(PaperSessions, EqualSeedsGiveEqualSessions) {
   EXPECT_NE(a.wave.cameras[1].intrinsics.fx, c.wave.cameras[1].intrinsics.fx);
   // The wand is waved in front of the same cameras, and both see all ten points.
   EXPECT_EQ(a.wave.cameras[1].intrinsics.fx, a.wand.cameras[1].intrinsics.fx);
+  ASSERT_EQ(a.points.size(), 10U);
   for (const StillLed& led : a.points) {
+    ASSERT_EQ(led.pixels.size(), 2U);
     for (const auto& pixel : led.pixels)
       EXPECT_TRUE(pixel.has_value());
   }

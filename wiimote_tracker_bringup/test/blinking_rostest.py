@@ -20,10 +20,9 @@ class Blinking(LiveRigTest):
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
-        cls.single = collections.Counter()
+        cls.single = {led: [] for led in cls.leds}
         for led in cls.leds:
-            rospy.Subscriber(led + '/point', PointStamped,
-                             lambda _, name=led: cls.single.update([name]))
+            rospy.Subscriber(led + '/point', PointStamped, cls.single[led].append)
 
     def test_each_led_has_its_own_name(self):
         self.calibrate()
@@ -55,7 +54,15 @@ class Blinking(LiveRigTest):
             for _, point in named:
                 self.assertGreater(point.label_confidence, 0.5)
                 self.assertGreater(point.label_since.to_sec(), 0.0)
-            self.assertGreater(self.single[led], 0)
+            self.check_single(led, end)
+
+    def check_single(self, led, end):
+        """The topic of one LED has that LED's points."""
+        points = [m for m in list(self.single[led]) if m.header.stamp.to_sec() <= end]
+        self.assertTrue(points, led)
+        places = np.array([(m.point.x, m.point.y, m.point.z) for m in points])
+        truth = self.truth_at(led, [m.header.stamp.to_sec() for m in points])
+        self.assertLess(np.linalg.norm(places - truth, axis=1).max(), ASTRAY, led)
 
     def all_are_named(self):
         return self.points and {

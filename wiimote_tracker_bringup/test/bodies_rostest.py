@@ -21,7 +21,7 @@ HIDDEN = 0.8     # longer than a body is predicted [s]
 RECOVERY = 0.2   # [s]
 SILENT_AFTER = 0.05  # the last sight [s]
 LEDS = [f'wand_{i}' for i in range(4)]
-CHI_SQUARED_999 = 22.46  # 99.9 % quantile, six degrees of freedom
+CHI_SQUARED_999, CHI_SQUARED_001 = 22.46, 0.38  # 99.9 % and 0.1 % quantiles, six degrees of freedom
 
 
 def vector(v):
@@ -92,6 +92,7 @@ class Bodies(LiveRigTest):
                   np.degrees(np.sqrt(np.mean(rotations))), np.median(squared)))
         # The covariance ignores quantised pixels, merged spots and errors of stamps.
         self.assertLess(np.median(squared), CHI_SQUARED_999)
+        self.assertGreater(np.median(squared), CHI_SQUARED_001)
         self.assertLess(np.degrees(np.sqrt(max(rotations))), 20.0, 'LEDs were confused')
 
     def tracker_says(self):
@@ -112,7 +113,9 @@ class Bodies(LiveRigTest):
         self.assertTrue(any(not b.leds[2].cameras for _, b in seen))
 
         dark = self.switch(LEDS, False)
-        self.wait(lambda: any('not seen for' in s.message for s in self.statuses), 'a warning')
+        before = len(self.statuses)
+        self.wait(lambda: any('not seen for' in s.message for s in self.statuses[before:]),
+                  'a warning')
         self.reach(dark + HIDDEN)
         self.assertLess(self.odometries[-1].header.stamp.to_sec(), dark + SILENT_AFTER)
         self.assertIsNone(self.seen_between(dark, dark + HIDDEN)[-1][1], 'it was lost')

@@ -17,7 +17,7 @@ DURATION = 20.0   # evaluated [s]
 WARM_UP = 3.0     # after all are tracked; the drivers' clocks settle [s]
 MASK_RADIUS = 6.0  # about a reflection [px]
 ASTRAY = 0.1      # largest error of a point; the LEDs are farther apart [m]
-CHI_SQUARED_95 = 7.81  # 95 % quantile, three degrees of freedom
+CHI_SQUARED_95, CHI_SQUARED_05 = 7.81, 0.35  # 95 % and 5 % quantiles, three degrees of freedom
 
 
 class Track:
@@ -81,6 +81,7 @@ class People(LiveRigTest):
         print('%d outputs, %d tracks, %d lost; outputs of each LED: %s' % (
             len(inside), len(tracks), lost, covered))
         self.assertEqual(len(tracks), len(self.leds), 'one track for each LED, from the beginning on')
+        self.assertEqual(set.union(*labels.values()), {'a', 'b', 'c', 'd'})
         for led in self.leds:
             self.assertGreater(covered[led], 0.99 * len(inside), led)
 
@@ -103,6 +104,7 @@ class People(LiveRigTest):
         print(f'    median of the normalised squared error: {np.median(squared):.2f} (2.37 when '
               'consistent)')
         self.assertLess(np.median(squared), CHI_SQUARED_95)
+        self.assertGreater(np.median(squared), CHI_SQUARED_05)
 
 
 if __name__ == '__main__':

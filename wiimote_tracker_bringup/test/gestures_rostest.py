@@ -78,7 +78,9 @@ class Gestures(LiveRigTest):
 
         self.draw('spiral_by_ben', ELSEWHERE, on=True)
         for node in NODES:  # by_rest has published nothing for the check
-            self.assertEqual(self.next_event(node).event, GestureEvent.REJECTED)
+            event = self.next_event(node)
+            self.assertEqual(event.event, GestureEvent.REJECTED)
+            self.assertGreater(event.begin.to_sec(), drawn[1])
 
     def record(self, gesture):
         for node in NODES:

@@ -163,6 +163,7 @@ class ImportEndToEnd(unittest.TestCase):
                      bag.read_messages(topics='/camera_2/ir_blobs')]
             transforms = [message for _, message, _ in bag.read_messages(topics='/tf_static')][0]
         self.assertEqual(len(transforms.transforms), Room.CAMERAS)
+        self.assertEqual(len(rig.cameras), Room.CAMERAS)
         for camera, center in zip(rig.cameras, room.centers):
             p = camera.world_from_camera.position
             self.assertLess(np.linalg.norm(np.array([p.x, p.y, p.z]) - center), 0.01)

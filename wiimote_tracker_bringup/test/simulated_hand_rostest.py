@@ -61,6 +61,7 @@ class SimulatedHand(NodeTest):
         solved = rospy.ServiceProxy('calibration/solve', SolveCalibration)()
         self.assertTrue(solved.success, solved.message)
         self.assertEqual(solved.rig.method, 'floor+wand')
+        self.assertEqual(len(solved.rig.cameras), 4)
         for camera in solved.rig.cameras:
             self.assertAlmostEqual(camera.world_from_camera.position.z, 2.0, delta=0.15)
 

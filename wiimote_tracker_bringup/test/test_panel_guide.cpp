@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -112,6 +113,25 @@ TEST_F(NextStep, AVerdictIsThatOfTheRigInUse) {
   status_.rig_id = "another";
   at(CalibrationStatus::SAVED);
   EXPECT_EQ(guide_.verdict(), nullptr);
+}
+
+TEST_F(NextStep, ProgressIsThatOfTheCaptureOrOfTheNode) {
+  EXPECT_EQ(guide_.progress(), 0.0);
+  status_.progress = 0.25;
+  at(CalibrationStatus::WAVING);
+  guide_.onRequest(Command::kSolve);
+  guide_.onProgress("", 0.75);
+  EXPECT_EQ(guide_.progress(), 0.25);
+  guide_.onAnswer(Command::kSolve, "done");
+  guide_.onRequest(Command::kCapture);
+  EXPECT_EQ(guide_.progress(), 0.0);
+  guide_.onProgress("1 of 2 samples", 0.5);
+  EXPECT_EQ(guide_.progress(), 0.5);
+  EXPECT_EQ(guide_.answer(), "1 of 2 samples");
+  guide_.onAnswer(Command::kCapture, "done");
+  status_.progress = NAN;
+  at(CalibrationStatus::READY);
+  EXPECT_EQ(guide_.progress(), 0.0) << "not known";
 }
 
 TEST_F(NextStep, WhatIsCancelledRunsUntilItsOwnAnswer) {

@@ -59,6 +59,43 @@ TEST(Tracks, CountMessagesThatWereNotHandedOver) {
   EXPECT_EQ(view.summary(13.0), "1 LED, 270 points/s");
 }
 
+TEST(Tracks, CountAnewWhenTheTrackerWasStartedAgain) {
+  TracksView view;
+  view.onPoints(points(5000, TrackedPoint::TRACKED), 9.0);
+  for (std::uint32_t i = 0; i <= 11; ++i)
+    view.onPoints(points(27 * i, TrackedPoint::TRACKED), 9.5 + 0.1 * i);
+  EXPECT_EQ(view.summary(10.6), "1 LED, 270 points/s");
+}
+
+TEST(Tracks, ShowABodyWithItsSpeedAndTheLedsThatAreSeen) {
+  TracksView view;
+  wiimote_tracker_msgs::TrackedBodyArray bodies;
+  bodies.bodies.resize(2);
+  bodies.bodies[1].state = wiimote_tracker_msgs::TrackedBody::LOST;
+  wiimote_tracker_msgs::TrackedBody& wand = bodies.bodies[0];
+  wand.name = "wand";
+  wand.state = wiimote_tracker_msgs::TrackedBody::PREDICTED;
+  wand.pose.pose.position.y = 1.5;
+  for (std::size_t i = 0; i < 36; ++i)
+    wand.pose.covariance[i] = i % 7 == 0 ? 1.0 : 0.5;  // of the rotation
+  wand.pose.covariance[0] = wand.pose.covariance[7] = 1e-6;
+  wand.pose.covariance[14] = 2e-6;
+  wand.twist.twist.linear.x = 3.0;
+  wand.twist.twist.linear.z = 4.0;
+  wand.leds.resize(4);
+  wand.leds[1].cameras = {"wiimote_1", "wiimote_3"};
+  view.onBodies(bodies, 10.0);
+  const auto rows = view.bodies(10.4);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].name, "wand");
+  EXPECT_EQ(rows[0].state, "predicted");
+  EXPECT_EQ(rows[0].y, 1.5);
+  EXPECT_DOUBLE_EQ(rows[0].stddev, 0.002);
+  EXPECT_DOUBLE_EQ(rows[0].speed, 5.0);
+  EXPECT_EQ(rows[0].seen_by, "1 of 4");
+  EXPECT_TRUE(view.bodies(10.5).empty());
+}
+
 TEST(Tracks, ABodyWithoutSingleLedsIsTracked) {
   TracksView view;
   view.onPoints(points(1, TrackedPoint::LOST), 10.0);

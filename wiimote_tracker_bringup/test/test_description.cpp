@@ -242,6 +242,26 @@ reflections:
                 "people/led is also the name of something else");
 }
 
+TEST_F(DescriptionFile, bodies_turn_and_sway_and_carry_leds) {
+  const std::string body = R"(
+bodies:
+  wand: {position: [1, 2, 1], turn: {axis: [0, 3, 0], rate: 0.5}, sway: {angle: 0.4, rate: 2.5}, present: false}
+)";
+  const Description d = read(with("size: 5", "carried_by: wand") + body);
+  ASSERT_EQ(d.bodies.size(), 1u);
+  EXPECT_EQ(d.bodies[0].name, "wand");
+  EXPECT_EQ(d.bodies[0].motion.position(0.0), Eigen::Vector3d(1, 2, 1));
+  EXPECT_EQ(d.bodies[0].turning.axis, Eigen::Vector3d(0, 3, 0));
+  EXPECT_EQ(d.bodies[0].turning.rate, 0.5);
+  EXPECT_EQ(d.bodies[0].turning.sway, 0.4);
+  EXPECT_EQ(d.bodies[0].turning.sway_rate, 2.5);
+  EXPECT_FALSE(d.bodies[0].present);
+  EXPECT_EQ(d.leds[0].carried_by, "wand");
+  expectRefused(
+      "leds:", "bodies: {wand: {position: [1, 2, 1], turn: {axis: [0, 0, 0], rate: 1}}}\nleds:",
+      "bodies/wand/turn/axis must have a direction");
+}
+
 TEST_F(DescriptionFile, leds_blink_by_a_code_or_a_word) {
   const std::string led = "led: {position: [1, 1, 0], size: 5, lit: false}";
   const auto withBlink = [&](const std::string& blink) {

@@ -229,8 +229,11 @@ TEST_F(Texts, DoNotCoverEachOther) {
 TEST_F(Texts, BallsFarAndNearAreSeenBesideThem) {
   const int line = QFontMetrics(QApplication::font()).height();
   const QImage image = view_->showBalls();
-  for (int number : {0, 1})
-    EXPECT_GT(drawnIn(half(image, number)).height(), 0.5 * line) << number;
+  for (int number : {0, 1}) {
+    const int height = drawnIn(half(image, number)).height();
+    EXPECT_GT(height, 0.5 * line) << number;
+    EXPECT_LT(height, line) << number;
+  }
 }
 
 TEST_F(Texts, CanBeReadOnDarkAndOnLightGround) {

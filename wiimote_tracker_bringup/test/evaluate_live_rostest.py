@@ -29,7 +29,7 @@ DEADLINE = 150.0                   # [s]
 SPEED = 4.0                        # of the hand [m/s]
 CHOSEN = (1, 10)                   # of the ten points; the others are skipped
 LAP_CENTRE, LAP_RADIUS, LAP_SPEED = (1.25, 1.25, 0.5), 0.4, 4.0  # [m], [m], [m/s]
-RADIUS = 0.75                      # of the circle [m]
+RADIUS, CIRCLE_SPEED = 0.75, 1.5   # of the circle [m], [m/s]
 CURRENT, DISTANCE = 560.0, 10.0    # [mA], [m]
 SIGMAS = 4.0
 
@@ -131,7 +131,7 @@ class Person:
 
     def circle(self):
         self._until(self._set_led(on=True, motion=SetLedRequest.CIRCLE, target=(1.25, 1.25, 0.95),
-                                  speed=1.5, radius=RADIUS))
+                                  speed=CIRCLE_SPEED, radius=RADIUS))
         rospy.sleep(0.1)
         self.type(f'{RADIUS:g}')
 
@@ -200,6 +200,7 @@ class EvaluateLive(LiveEvaluation):
         self.assertGreater(value('positions', 'live_rms'), 0.0)
         self.assertLess(value('circles', 'live_radial'), SIGMAS * bound)
         self.assertLess(value('circles', 'live_height'), SIGMAS * bound)
+        self.assertAlmostEqual(value('circles', 'live_speed'), CIRCLE_SPEED, delta=0.1)
         # The latency by the angle, compared with the age of the newest point known to another
         # process. On a busy computer the two receive it at different times.
         spread = 1e3 * np.std(person.ages) / np.sqrt(len(person.ages))

@@ -53,10 +53,10 @@ ParameterReader readAll() {
   return reader;
 }
 
-void check(const std::string& text) {
+void check(const std::string& text, const ParameterReader& reader = readAll()) {
   const std::string path = testing::TempDir() + "documented_" + std::to_string(::getpid());
   std::ofstream(path) << text;
-  expectDocumented(readAll(), path);
+  expectDocumented(reader, path);
   std::remove(path.c_str());
 }
 
@@ -103,6 +103,14 @@ TEST(DocumentedParameters, HaveTheirRangesWithUnits) {
                           "limits/images has no [unit, A..B]");
   EXPECT_NONFATAL_FAILURE(checkWith("images]", "longest]"), "limits/shortest goes from");
   EXPECT_NONFATAL_FAILURE(checkWith("-2..2 pi]", "-2 pi..2 pi]"), "limits/angle goes from");
+}
+
+TEST(DocumentedParameters, HaveRangesIfTheyAreNumbers) {
+  ParameterReader reader = readAll();
+  reader.optional("more", 1.0);
+  reader.optional<std::string>("text", "1f 03");
+  const std::string more = "\n# Any number [1, 0..5].\nmore: 1.0\n\n# A text.\ntext: 1f 03\n";
+  EXPECT_NONFATAL_FAILURE(check(kRight + more, reader), "more is a number without a range");
 }
 
 TEST(DocumentedParameters, HaveTheirWords) {

@@ -9,6 +9,7 @@
 #include <fstream>
 #include <limits>
 #include <map>
+#include <optional>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -59,6 +60,12 @@ Comments readComments(const std::string& path) {
   return comments;
 }
 
+std::optional<double> numberOf(const std::string& text) {
+  std::istringstream stream(text);
+  double number = 0.0;
+  return stream >> number && stream.eof() ? std::make_optional(number) : std::nullopt;
+}
+
 bool isSame(const YAML::Node& value, const std::string& expected) {
   if (value.IsSequence()) {
     const YAML::Node list = YAML::Load(expected);
@@ -67,10 +74,10 @@ bool isSame(const YAML::Node& value, const std::string& expected) {
       is_same = isSame(value[i], list[i].Scalar());
     return is_same;
   }
-  double a = 0.0, b = 0.0;
-  std::istringstream text(expected);
-  if (YAML::convert<double>::decode(value, a) && text >> b && text.eof())
-    return a == b;
+  double number = 0.0;
+  const std::optional<double> wanted = numberOf(expected);
+  if (wanted && YAML::convert<double>::decode(value, number))
+    return number == *wanted;
   return value.Scalar() == expected;
 }
 
@@ -127,6 +134,8 @@ void expectDocumented(const ParameterReader& reader, const std::string& path) {
     const auto range = reader.ranges().find(key);
     if (range != reader.ranges().end())
       expectRange(range->second, key, comment, values);
+    else
+      EXPECT_FALSE(numberOf(expected)) << key << " is a number without a range in the code";
     const auto choice = reader.choices().find(key);
     if (choice != reader.choices().end()) {
       const std::string words = "[" + joined(choice->second) + "]";

@@ -44,6 +44,7 @@ def test_the_tracker_takes_its_arguments():
     assert params['/triangulation/mode'].value == 'instant'
     assert params['/triangulation/bodies/file'].value == '/etc/bodies.yaml'
     assert params['/calibration/side_length'].value == 2.5
+    assert params['/use_sim_time'].value is False
 
 
 def test_the_lists_fit_to_one_adapter_each_and_name_no_camera_twice():

@@ -31,7 +31,7 @@ class CaptureServer {
   ~CaptureServer();
 
   /// Whether the goal that is served now should end: it was cancelled, another one came, or the
-  /// server ends. For `serve`, as is publishFeedback().
+  /// server ends or starts anew. For `serve`, as is publishFeedback().
   bool isCancelled() const;
   void publishFeedback(const Feedback& feedback) { server_->publishFeedback(feedback); }
 
@@ -51,8 +51,8 @@ class CaptureServer {
   std::atomic<bool> is_ending_{false};
   std::vector<ros::Subscriber> stamps_;
   std::unique_ptr<Server> server_;
-  // Requests have a thread to themselves, in which the server can be exchanged: it must not handle
-  // any while it is destroyed.
+  // Handles all requests, and exchanges the server: so none reaches a server that is being
+  // destroyed.
   std::thread requests_;
   std::thread goals_;
 };

@@ -12,9 +12,9 @@
 namespace wiimote_tracker::driver {
 
 /// A topic with a message for each image, made only for subscribers. Whether there are any is asked
-/// at first, and again after each of ROS's notices: ros::Publisher::getNumSubscribers() searches
-/// all topics, which is too long per image. The notices alone do not tell: some versions of nodelet
-/// drop those of the time in which a nodelet is loaded.
+/// at the first image, and again after each of ROS's notices: ros::Publisher::getNumSubscribers()
+/// searches all topics, which is too long per image. The notices alone do not tell: some versions
+/// of nodelet drop those that come while the nodelet is loaded.
 template <typename Message>
 class ImageTopic {
  public:

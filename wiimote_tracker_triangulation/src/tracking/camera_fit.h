@@ -24,7 +24,8 @@ class CameraFit {
 
   /// @param shown LEDs that have a spot in the image. @param missing LEDs that have none although
   /// others see them: two, or the only other one.
-  /// @param unassigned spots of no LED.
+  /// @param unassigned spots of no LED. Errors of the calibration may explain that an LED's spot is
+  /// elsewhere: then neither counts.
   void add(std::size_t shown, std::size_t missing, std::size_t unassigned);
 
   /// Whether most LEDs are missing while more spots than usual are unassigned. (If an LED is only

@@ -30,8 +30,9 @@ class GroupCamera {
   /// A cheap test: whether a point [m] is within the cone that encloses the view.
   bool mayShow(const Eigen::Vector3d& point) const;
 
-  /// Covariance of where the camera shows a point [m], due to errors of the calibration [px^2].
-  /// Zero when they are unknown.
+  /// Covariance of where the camera shows a still point [m], due to errors of its own calibration
+  /// [px^2]. Errors that all cameras share, such as of the world's orientation, count, too. Zero
+  /// when they are unknown.
   Eigen::Matrix2d calibrationCovariance(const Eigen::Vector3d& point) const;
 
   /// The ray of a spot. @param led [m] @param residual of its spot [px]

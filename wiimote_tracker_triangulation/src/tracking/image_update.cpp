@@ -90,8 +90,8 @@ std::size_t ImageUpdate::othersSeeing(const StoredImage& image, const Track& tra
 
 /// Compares the image with the LEDs that other cameras see. Two cameras that did not fit each other
 /// have to show that the rays of each LED meet; of spots that both have and that form no LED, there
-/// ought to be none. A spot that is outside the gate but where errors of the calibration may show
-/// the LED tells nothing.
+/// ought to be none. Where errors of the calibration may have moved an LED's spot out of its gate,
+/// neither the LED nor the spot counts.
 void ImageUpdate::measureFit(const GroupCamera& camera,
                              const StoredImage& image,
                              const std::vector<Track>& tracks,
@@ -126,12 +126,13 @@ void ImageUpdate::measureFit(const GroupCamera& camera,
   fit.add(shown, missing + astray, strays() + astray);
 }
 
-/// The unassigned spot of an LED that errors of the calibration may have moved out of its gate.
+/// The nearest unassigned spot, if errors of the calibration may have moved it out of the gate of
+/// an LED.
 std::optional<std::size_t> ImageUpdate::displacedSpot(const GroupCamera& camera,
                                                       const StoredImage& image,
                                                       const Candidate& candidate,
                                                       const Track& track) const {
-  constexpr double kFarthest = 64.0;        // [px]
+  constexpr double kFarthest = 64.0;        // however vague the calibration is [px]
   constexpr double kSquaredDistance = 9.0;  // three standard deviations
   const Eigen::Vector2d& predicted = candidate.prediction.pixel();
   const auto spot = nearestUnassigned(image, predicted, kFarthest);

@@ -2,6 +2,9 @@
 
 #include <Eigen/LU>
 
+#include <algorithm>
+#include <array>
+
 namespace wiimote_tracker::geometry {
 
 bool pointSensitivity(const Rig& rig,
@@ -28,6 +31,36 @@ bool pointSensitivity(const Rig& rig,
   for (std::size_t i = 0; i < count; ++i)
     by_camera[i] = -inverse * by_camera[i];
   return true;
+}
+
+std::optional<Eigen::Matrix2d> disagreementCovariance(const Rig& rig,
+                                                      const Eigen::Vector3d& point,
+                                                      std::size_t camera,
+                                                      const std::size_t* others,
+                                                      std::size_t count) {
+  count = std::min(count, kMaximumOthers);
+  std::array<PointJacobian, kMaximumOthers> point_by_others;
+  const auto projection = rayProjection(rig, camera, point);
+  if (!hasCovariance(rig) || !projection ||
+      !pointSensitivity(rig, point, others, count, point_by_others.data()))
+    return std::nullopt;
+  std::array<ParameterJacobian, kMaximumOthers + 1> by_camera;
+  std::array<Eigen::Index, kMaximumOthers + 1> first;
+  for (std::size_t i = 0; i < count; ++i) {
+    by_camera[i] = projection->by_point.lazyProduct(point_by_others[i]);
+    first[i] = firstParameter(others[i]);
+  }
+  by_camera[count] = projection->by_parameters;
+  first[count] = firstParameter(camera);
+  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
+  for (std::size_t i = 0; i <= count; ++i) {
+    for (std::size_t j = 0; j <= count; ++j) {
+      const auto block = rig.covariance.block<kParameters, kParameters>(first[i], first[j]);
+      const ParameterJacobian left = by_camera[i].lazyProduct(block);
+      covariance += left.lazyProduct(by_camera[j].transpose());
+    }
+  }
+  return Eigen::Matrix2d(0.5 * (covariance + covariance.transpose()));
 }
 
 std::optional<Eigen::MatrixXd> pointByParameters(const Rig& rig,

@@ -68,7 +68,7 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
                          const TrackerOptions& options)
     : options_(options),
       members_(members),
-      update_(options),
+      update_(rig, members, options),
       initiation_(rigOf(rig, members), partnersOf(partners, members), options),
       clocks_(turnStddevs(rig, members)) {
   for (const std::size_t member : members_)

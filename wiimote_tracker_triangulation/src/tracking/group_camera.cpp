@@ -31,11 +31,7 @@ GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index, const Trac
           geometry::pixelNoise(rig.cameras[index], options.learnt_noise, options.pixel_stddev)),
       masks_(rig.cameras[index].masks),
       for_rays_(rig.rayCamera(rig.cameras[index])),
-      squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {
-  const Eigen::Index first = geometry::firstParameter(index);
-  if (geometry::hasCovariance(rig))
-    covariance_ = rig.covariance.block<geometry::kParameters, geometry::kParameters>(first, first);
-}
+      squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
 
 double GroupCamera::imageArea() const {
   return static_cast<double>(for_rays_.intrinsics.width) * for_rays_.intrinsics.height;
@@ -45,14 +41,6 @@ bool GroupCamera::mayShow(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d sight = point - for_rays_.center();
   const double depth = for_rays_.world_from_camera.linear().col(2).dot(sight);
   return depth > 0.0 && depth * depth >= squared_cosine_ * sight.squaredNorm();
-}
-
-Eigen::Matrix2d GroupCamera::calibrationCovariance(const Eigen::Vector3d& point) const {
-  const auto projection = geometry::projectionOf(for_rays_, point);
-  if (!projection)
-    return Eigen::Matrix2d::Zero();
-  const geometry::ParameterJacobian moved = projection->by_parameters.lazyProduct(covariance_);
-  return moved * projection->by_parameters.transpose();
 }
 
 RayOffset GroupCamera::rayOffset(const Eigen::Vector3d& led,

@@ -3,7 +3,6 @@
 
 #include "motion/pixel_prediction.h"
 #include "ray_agreement.h"
-#include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
@@ -30,11 +29,6 @@ class GroupCamera {
   /// A cheap test: whether a point [m] is within the cone that encloses the view.
   bool mayShow(const Eigen::Vector3d& point) const;
 
-  /// Covariance of where the camera shows a still point [m], due to errors of its own calibration
-  /// [px^2]. Errors that all cameras share, such as of the world's orientation, count, too. Zero
-  /// when they are unknown.
-  Eigen::Matrix2d calibrationCovariance(const Eigen::Vector3d& point) const;
-
   /// The ray of a spot. @param led [m] @param residual of its spot [px]
   RayOffset rayOffset(const Eigen::Vector3d& led, const Eigen::Vector2d& residual) const;
 
@@ -43,12 +37,9 @@ class GroupCamera {
   bool isMasked(const Eigen::Vector2d& pixel) const { return geometry::isMasked(masks_, pixel); }
 
  private:
-  using ParameterCovariance = Eigen::Matrix<double, geometry::kParameters, geometry::kParameters>;
-
   double pixel_stddev_;  // [px]
   std::vector<geometry::ImageMask> masks_;
   geometry::Camera for_rays_;
-  ParameterCovariance covariance_ = ParameterCovariance::Zero();
   double squared_cosine_;  // of the cone around the view; 0: no limit
 };
 

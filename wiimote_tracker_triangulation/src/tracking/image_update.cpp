@@ -1,5 +1,7 @@
 #include "image_update.h"
 
+#include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -8,7 +10,10 @@
 
 namespace wiimote_tracker::tracking {
 
-ImageUpdate::ImageUpdate(const TrackerOptions& options) : options_(options) {
+ImageUpdate::ImageUpdate(const geometry::Rig& rig,
+                         const std::vector<std::size_t>& members,
+                         const TrackerOptions& options)
+    : rig_(rig), members_(members), options_(options) {
   candidates_.reserve(association::kMaximumTracks);
 }
 
@@ -20,7 +25,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
   noise_ = camera.noise(image.stamp_stddev);
   collectCandidates(camera, image, tracks);
   assign(camera, image, *tracks);
-  measureFit(camera, image, *tracks, fits);
+  measureFit(image, *tracks, fits);
   measureClock(image, *tracks, fits);
   if ((*fits)[image.camera].isMisfit() && fits->size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
@@ -92,8 +97,7 @@ std::size_t ImageUpdate::othersSeeing(const StoredImage& image, const Track& tra
 /// have to show that the rays of each LED meet; of spots that both have and that form no LED, there
 /// ought to be none. Where errors of the calibration may have moved an LED's spot out of its gate,
 /// neither the LED nor the spot counts.
-void ImageUpdate::measureFit(const GroupCamera& camera,
-                             const StoredImage& image,
+void ImageUpdate::measureFit(const StoredImage& image,
                              const std::vector<Track>& tracks,
                              std::vector<CameraFit>* fits) const {
   const bool is_pair = fits->size() == 2;
@@ -118,7 +122,7 @@ void ImageUpdate::measureFit(const GroupCamera& camera,
     shown += candidate.spot && !is_astray;
     if (candidate.spot || others < (is_pair ? 1 : 2) || mayBeMerged(image, candidate, tracks))
       continue;
-    if (const auto spot = displacedSpot(camera, image, candidate, track))
+    if (const auto spot = displacedSpot(image, candidate, track))
       is_stray[*spot] = false;
     else
       ++missing;
@@ -128,8 +132,7 @@ void ImageUpdate::measureFit(const GroupCamera& camera,
 
 /// The nearest unassigned spot, if errors of the calibration may have moved it out of the gate of
 /// an LED.
-std::optional<std::size_t> ImageUpdate::displacedSpot(const GroupCamera& camera,
-                                                      const StoredImage& image,
+std::optional<std::size_t> ImageUpdate::displacedSpot(const StoredImage& image,
                                                       const Candidate& candidate,
                                                       const Track& track) const {
   constexpr double kFarthest = 64.0;        // however vague the calibration is [px]
@@ -138,8 +141,16 @@ std::optional<std::size_t> ImageUpdate::displacedSpot(const GroupCamera& camera,
   const auto spot = nearestUnassigned(image, predicted, kFarthest);
   if (!spot)
     return std::nullopt;
-  const Eigen::Matrix2d covariance =
-      candidate.prediction.covariance() + camera.calibrationCovariance(track.filter.position());
+  std::array<std::size_t, geometry::kMaximumOthers> others;
+  const std::size_t count =
+      track.othersSeeing(image.camera, image.time - options_.birth_window, &others);
+  for (std::size_t i = 0; i < count; ++i)
+    others[i] = members_[others[i]];
+  const auto of_calibration = geometry::disagreementCovariance(
+      rig_, track.filter.position(), members_[image.camera], others.data(), count);
+  if (!of_calibration)
+    return std::nullopt;
+  const Eigen::Matrix2d covariance = candidate.prediction.covariance() + *of_calibration;
   const Eigen::Vector2d residual = image.pixels[*spot] - predicted;
   const bool may_be_its = residual.dot(covariance.inverse() * residual) <= kSquaredDistance;
   return may_be_its ? spot : std::nullopt;

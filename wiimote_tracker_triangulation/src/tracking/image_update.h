@@ -22,7 +22,10 @@ namespace wiimote_tracker::tracking {
 /// Where two LEDs may have merged into one spot, follows both hypotheses (MergedPair).
 class ImageUpdate {
  public:
-  explicit ImageUpdate(const TrackerOptions& options);
+  /// @param members indices of the group's cameras in the rig
+  ImageUpdate(const geometry::Rig& rig,
+              const std::vector<std::size_t>& members,
+              const TrackerOptions& options);
 
   /// If the image does not fit, all its spots are false detections; but those of one of only two
   /// cameras are used, or it would never be known to fit again.
@@ -58,12 +61,10 @@ class ImageUpdate {
                       const motion::PixelPrediction& prediction,
                       double time) const;
   std::size_t othersSeeing(const StoredImage& image, const Track& track) const;
-  void measureFit(const GroupCamera& camera,
-                  const StoredImage& image,
+  void measureFit(const StoredImage& image,
                   const std::vector<Track>& tracks,
                   std::vector<CameraFit>* fits) const;
-  std::optional<std::size_t> displacedSpot(const GroupCamera& camera,
-                                           const StoredImage& image,
+  std::optional<std::size_t> displacedSpot(const StoredImage& image,
                                            const Candidate& candidate,
                                            const Track& track) const;
   void measureClock(const StoredImage& image,
@@ -109,6 +110,8 @@ class ImageUpdate {
   Candidate* find(const std::vector<Track>& tracks, std::uint32_t id);
   void assignSpot(std::size_t spot, Candidate* candidate);
 
+  geometry::Rig rig_;
+  std::vector<std::size_t> members_;
   TrackerOptions options_;
   motion::PixelNoise noise_;           // of the image
   std::vector<Candidate> candidates_;  // at most kMaximumTracks

@@ -106,6 +106,19 @@ class Track {
   /// Other cameras that detected it at a time [s] or later.
   std::size_t othersSeeing(std::size_t camera, double since) const;
 
+  /// The same; `others` gets the first of them. @returns how many it got.
+  template <std::size_t kMost>
+  std::size_t othersSeeing(std::size_t camera,
+                           double since,
+                           std::array<std::size_t, kMost>* others) const {
+    std::size_t count = 0;
+    for (const CameraRecord& record : records_) {
+      if (record.camera != camera && record.hit >= since && count < kMost)
+        (*others)[count++] = record.camera;
+    }
+    return count;
+  }
+
   /// Cameras with a spot of this LED's own at a time [s] or later.
   std::size_t camerasShowing(double since) const;
 

@@ -30,8 +30,22 @@ bool pointSensitivity(const Rig& rig,
                       PointJacobian* by_camera,
                       const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero());
 
-/// The same as one matrix of 3 rows and a column for each parameter of the rig, 0 for those of
-/// other cameras. Nothing where pointSensitivity() is false.
+/// Of the cameras in disagreementCovariance().
+constexpr std::size_t kMaximumOthers = 16;
+
+/// How far a camera's spot of a still point may be from where it should be by the other cameras,
+/// due to errors of the calibration: its covariance [px^2]. Errors that all cameras share cancel.
+/// Nothing where the others do not determine the point, the camera has no pixel of it, or the rig
+/// no covariance. Does not allocate.
+/// @param others of the rig, without `camera`; at most kMaximumOthers count.
+std::optional<Eigen::Matrix2d> disagreementCovariance(const Rig& rig,
+                                                      const Eigen::Vector3d& point,
+                                                      std::size_t camera,
+                                                      const std::size_t* others,
+                                                      std::size_t count);
+
+/// pointSensitivity() as one matrix of 3 rows and a column for each parameter of the rig, 0 for
+/// those of other cameras. Nothing where pointSensitivity() is false.
 std::optional<Eigen::MatrixXd> pointByParameters(
     const Rig& rig,
     const Eigen::Vector3d& point,

@@ -6,6 +6,7 @@ import subprocess
 
 import numpy as np
 import pytest
+import yaml
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation import (alignment, animation, bound, experiment,
@@ -59,10 +60,12 @@ def test_no_small_change_of_the_alignment_fits_better(with_scale):
         assert cost(np.zeros(7)) < min(cost(step), cost(-step))
 
 
-@pytest.mark.parametrize('points', [np.zeros((5, 3)), np.outer(np.arange(5.0), [1, 2, 3]),
-                                    np.eye(3)[:2], np.full((4, 3), np.nan), np.zeros((3, 2))])
-def test_alignment_refuses_points_that_do_not_determine_it(points):
-    with pytest.raises(ValueError):
+@pytest.mark.parametrize('points, reason', [
+    (np.zeros((5, 3)), 'at one place'), (np.outer(np.arange(5.0), [1, 2, 3]), 'not on one line'),
+    (np.eye(3)[:2], 'three points or more'), (np.full((4, 3), np.nan), 'finite points'),
+    (np.zeros((3, 2)), 'two N x 3 arrays')])
+def test_alignment_refuses_points_that_do_not_determine_it(points, reason):
+    with pytest.raises(ValueError, match=reason):
         alignment.fit(points, points, with_scale=True)
 
 
@@ -108,11 +111,11 @@ def test_intrinsics_of_the_paper_rig_are_the_drawn_ones():
         ['/usr/bin/python3', os.path.join(HERE, '..', 'simulation', 'draw_intrinsics.py')],
         universal_newlines=True)
     with open(PAPER_RIG) as file:
-        described = file.read()
-    lines = [line for line in drawn.splitlines() if line.startswith('wiimote_')]
-    assert len(lines) == 4
-    for line in lines:
-        assert 'intrinsics: ' + line.split(': ', 1)[1] in described
+        described = {name: camera['intrinsics']
+                     for name, camera in yaml.safe_load(file)['cameras'].items()}
+    assert len(described) == 4
+    assert yaml.safe_load('\n'.join(line for line in drawn.splitlines()
+                                    if line.startswith('wiimote_'))) == described
 
 
 # --- Bound
@@ -138,7 +141,7 @@ def test_bound_of_a_stereo_pair_is_the_textbook_formula():
 
 def test_a_point_needs_two_cameras():
     pair = scene.Scene([a_camera((0, 0, 1), (5, 0, 1)), a_camera((0, 0, 1), (-5, 0, 1))], 0.3)
-    with pytest.raises(ValueError):
+    with pytest.raises(ValueError, match='fewer than two cameras see the point'):
         bound.point_sensitivity(pair, np.zeros((22, 22)), np.array([5.0, 0.0, 1.0]), 1)
 
 
@@ -230,14 +233,25 @@ def test_knowing_more_lowers_the_bound():
         assert the_bounds(**more)['absolute'].rms < much['absolute'].rms
 
 
-def test_a_similarity_removes_an_error_of_the_squares_size():
-    """After a similarity alignment, a rigidly moved and scaled world has only pixel errors."""
+@pytest.mark.parametrize('kind, size', [('rigid', 6), ('similarity', 7)])
+def test_an_alignment_removes_the_errors_of_a_world_that_is_moved(kind, size):
+    """Small motions, applied as alignments: those at the test points follow from those at the points
+    to align. A change of the scale is left by a rigid alignment."""
+    def displaced(points, change):
+        moved = alignment.Alignment(Rotation.from_rotvec(change[:3]).as_matrix(), change[3:6],
+                                    1.0 + change[6])
+        return (moved.apply(points) - points).reshape(-1)
+    test, aligning = experiment.TEST_POINTS, experiment.alignment_points(2)
+    carry = (bound.alignment_basis(test, kind)
+             @ np.linalg.pinv(bound.alignment_basis(aligning, kind)))
+    left = [np.abs(displaced(test, change) - carry @ displaced(aligning, change)).max()
+            for change in 1e-6 * np.eye(7)]
+    assert max(left[:size]) < 1e-11
+    assert min(left[size:], default=1.0) > 1e-7
+
+
+def test_the_noise_of_a_pixel_includes_its_rounding():
     rig = scene.read_scene(PAPER_RIG)
-    basis = bound.alignment_basis(experiment.TEST_POINTS, 'similarity')
-    fitted = bound.alignment_basis(experiment.alignment_points(2), 'similarity')
-    carry = basis @ np.linalg.pinv(fitted)
-    moved = np.random.RandomState(5).randn(7)
-    assert np.allclose(basis @ moved - carry @ (fitted @ moved), 0.0, atol=1e-9)
     assert rig.effective_noise() == pytest.approx(np.sqrt(0.09 + 1.0 / 12.0))
 
 

@@ -34,8 +34,10 @@ def test_finds_an_unused_import(package):
 
 
 def test_finds_a_shell_script_that_cannot_be_parsed(package):
+    (package / 'good.sh').write_text('if true; then echo; fi\n')
     (package / 'bad.sh').write_text('if true; then\n')
-    assert 'bad.sh' in lint.check_shell()
+    said = lint.check_shell()
+    assert 'bad.sh' in said and 'good.sh' not in said
 
 
 def test_skips_a_tool_that_is_not_installed():
@@ -48,13 +50,21 @@ def test_changed_files_are_those_since_the_branch_left_its_base_and_new_ones(pac
         subprocess.check_call(('git', '-C', lint.TOP, '-c', 'user.name=x', '-c', 'user.email=x@x')
                               + arguments, stdout=subprocess.DEVNULL)
     git('init', '-q', '-b', 'main')
-    for name in ('old.cpp', 'changed.cpp'):
+    for name in ('old.cpp', 'changed.cpp', 'later.cpp'):
         (package / name).write_text('int a;\n')
     git('add', '.')
     git('commit', '-qm', 'first')
+    git('branch', 'own')
+    (package / 'later.cpp').write_text('int d;\n')  # after the branch left
+    git('commit', '-qam', 'of the base')
+    git('checkout', '-q', 'own')
+    (package / 'committed.cpp').write_text('int e;\n')
+    git('add', '.')
+    git('commit', '-qm', 'of the branch')
     (package / 'changed.cpp').write_text('int b;\n')
     (package / 'new.cpp').write_text('int c;\n')
     assert lint.changed_since('main') == ['wiimote_tracker_x/changed.cpp',
+                                          'wiimote_tracker_x/committed.cpp',
                                           'wiimote_tracker_x/new.cpp']
     with pytest.raises(lint.Skip, match='git does not know nowhere'):
         lint.changed_since('nowhere')

@@ -71,11 +71,19 @@ def test_bluetooth_is_the_delay_of_the_description(results):
 
 # --- Cost
 
+def costs(results):
+    """Rows of all settings of the quick run."""
+    rows = results.table('cost', 'nodes')
+    assert [(row['cameras'], row['LEDs'], row['busy_processes']) for row in rows] == [
+        ('2', '1', '0'), ('4', '1', '0'), ('4', '1', '2'), ('4', '4', '0')]
+    return rows
+
+
 def test_the_cost_counts_all_images_that_the_cameras_send(results):
     with open(PAPER_RIG) as file:
         camera = yaml.safe_load(file)['cameras']['wiimote_1']
     sent = (1.0 - camera['delay']['drops']) / camera['clock']['period']  # 1/s
-    for row in results.table('cost', 'nodes'):
+    for row in costs(results):
         cameras, seconds = int(row['cameras']), 4.0
         expected = cameras * sent
         # Losses come in bursts of 1 / (1 - burst) images on average.
@@ -86,7 +94,7 @@ def test_the_cost_counts_all_images_that_the_cameras_send(results):
 
 
 def test_shares_of_the_processor_add_up(results):
-    for row in results.table('cost', 'nodes'):
+    for row in costs(results):
         whole = (int(row['cameras']) * float(row['driver_per_camera_percent'])
                  + float(row['tracker_percent']) + float(row['calibration_percent']))
         assert float(row['all_percent']) == pytest.approx(whole, rel=1e-6)

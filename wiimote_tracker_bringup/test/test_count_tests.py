@@ -47,9 +47,12 @@ def test_a_failure_is_named_with_its_reason(tmp_path, capsys):
 
 
 def test_an_error_is_a_failure(tmp_path, capsys):
+    write(tmp_path, 'gtest-a.xml', GOOD)
     write(tmp_path, 'rosunit-a.xml',
           '<testsuite><testcase name="x"><error>crashed</error></testcase></testsuite>')
-    assert run(capsys, tmp_path)[0] == 1
+    status, lines = run(capsys, tmp_path)
+    assert (status, lines[-1]) == (1, '2 passed, 1 failed, 0 skipped')
+    assert any('crashed' in line for line in lines)
 
 
 def test_nothing_ran_is_a_failure(tmp_path, capsys):

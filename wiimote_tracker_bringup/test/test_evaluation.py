@@ -235,8 +235,8 @@ def test_knowing_more_lowers_the_bound():
 
 @pytest.mark.parametrize('kind, size', [('rigid', 6), ('similarity', 7)])
 def test_an_alignment_removes_the_errors_of_a_world_that_is_moved(kind, size):
-    """Small motions, applied as alignments: those at the test points follow from those at the points
-    to align. A change of the scale is left by a rigid alignment."""
+    """Small motions, applied as alignments: those at the test points follow from those at the
+    points to align. A change of the scale is left by a rigid alignment."""
     def displaced(points, change):
         moved = alignment.Alignment(Rotation.from_rotvec(change[:3]).as_matrix(), change[3:6],
                                     1.0 + change[6])

@@ -4,6 +4,7 @@ results, rigs, programs and load."""
 import io
 import json
 import os
+import subprocess
 
 import numpy as np
 import pytest
@@ -226,13 +227,18 @@ def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path
 
 
 def test_processes_are_found_beside_one_with_half_a_letter_in_its_name():
+    child = subprocess.Popen(['sleep', '60'])
     with open('/proc/self/comm', 'rb+', buffering=0) as name:
         before = name.read().strip()
         name.write('Übersicht––'.encode()[:15])
         try:
-            assert os.getpid() not in processes.descendants()
+            found = processes.descendants()
         finally:
             name.write(before)
+            child.kill()
+            child.wait()
+    assert child.pid in found and os.getpid() not in found
+    assert child.pid not in processes.descendants()
 
 
 def test_columns_of_numbers_are_read_as_numbers(tmp_path):

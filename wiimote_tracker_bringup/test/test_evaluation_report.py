@@ -151,9 +151,9 @@ def test_the_page_is_self_contained(evaluate, tmp_path):
         assert words in plain
 
 
-def test_the_same_figure_is_the_same_svg():
+def test_the_same_figure_is_the_same_svg(tmp_path):
     def drawn():
-        run = section.Run('a', 'A', PAPER_RIG, '/tmp')
+        run = section.Run('a', 'A', PAPER_RIG, str(tmp_path))
         figure, axes = charts.figure()
         charts.cumulative(axes, [3.0, 1.0, 2.0], charts.BLUE)
         run.plot('line', figure, '')
@@ -318,8 +318,9 @@ def test_a_figure_is_a_finite_number(value, interval, tmp_path):
 def test_names_are_plain_and_used_once(tmp_path):
     run = section.Run('a', 'A', PAPER_RIG, str(tmp_path))
     run.figure('size', 1.0, 'm', 1)
-    for name in ('size', '2nd', 'a b'):
-        with pytest.raises(ValueError):
+    for name, reason in (('size', 'size is there twice'), ('2nd', "'2nd' must be letters"),
+                         ('a b', "'a b' must be letters")):
+        with pytest.raises(ValueError, match=reason):
             run.figure(name, 1.0, 'm', 1)
     with pytest.raises(ValueError, match='2 cells'):
         run.table('t', [('a', ''), ('b', '')], [[1]])

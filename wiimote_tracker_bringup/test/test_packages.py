@@ -16,9 +16,14 @@ def lines_of(name):
         return [line.strip() for line in file if not line.startswith('#')]
 
 
+def test_every_list_is_tested():
+    names = [name for name in os.listdir(SCRIPTS) if name.endswith('packages.txt')]
+    assert sorted(names) == sorted(LISTS)
+
+
 @pytest.mark.parametrize('name', LISTS)
 def test_a_list_is_sorted_and_names_each_package_once(name):
-    assert lines_of(name) == sorted(set(lines_of(name)))
+    assert lines_of(name) and lines_of(name) == sorted(set(lines_of(name)))
 
 
 def test_no_package_is_in_two_lists():

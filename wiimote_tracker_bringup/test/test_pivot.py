@@ -96,11 +96,11 @@ def test_probe_saves_points(tmp_path):
         measuring.add(message)
     assert 'tip: [' in measuring.pivot()
     assert np.linalg.norm(measuring.tip - TIP) < 0.003
+    moving, rotations, covariances = noisy(random, number=20)
+    for message in messages(moving + np.linspace(0.0, 0.5, 20)[:, None], rotations, covariances,
+                            1020.0):
+        measuring.add(message)
     with pytest.raises(ExperimentError, match='hold it still'):
-        moving, rotations, covariances = noisy(random, number=20)
-        for message in messages(moving + np.linspace(0.0, 0.5, 20)[:, None], rotations, covariances,
-                                1020.0):
-            measuring.add(message)
         measuring.save_point()
     for message in messages(*noisy(random, tilt=0.001, number=20), start=1030.0):
         measuring.add(message)

@@ -51,6 +51,7 @@ def test_the_lists_fit_to_one_adapter_each_and_name_no_camera_twice():
     names = []
     for file in ('first_machine.yaml', 'second_machine.yaml'):
         devices = drivers.read_devices(os.path.join(CONFIG, file), '')
+        assert devices
         assert drivers.too_many(devices, 1) is None
         names += [name for name, _ in devices]
     assert len(names) == len(set(names))

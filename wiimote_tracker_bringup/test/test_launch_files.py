@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import xml.etree.ElementTree as ElementTree
 
 import pytest
 import roslaunch.arg_dump
@@ -26,7 +27,13 @@ def load(monkeypatch):
 
 @pytest.mark.parametrize('name', sorted(n for n in os.listdir(LAUNCH) if n.endswith('.launch')))
 def test_roslaunch_lists_the_arguments(name):
-    roslaunch.arg_dump.get_args([os.path.join(LAUNCH, name)])
+    path = os.path.join(LAUNCH, name)
+    listed = roslaunch.arg_dump.get_args([path])
+    # It also lists an argument with an empty value.
+    given = {each.get('name') for each in ElementTree.parse(path).getroot()
+             if each.tag == 'arg' and each.get('value') is None}
+    assert given <= set(listed)
+    assert [argument for argument in given if not listed[argument][0]] == [], 'without words'
 
 
 @pytest.mark.parametrize('given, found', [
@@ -50,6 +57,7 @@ def test_a_file_of_parameters_wins(load, tmp_path, name, given):
         changed.update({'/calibration/continuous_policy': 'all', '/calibration/side_length': 3.0,
                         '/drivers/driver/latency': 0.005})
     assert {key: after[key] for key in changed} == changed
+    assert all(before.get(key) != value for key, value in changed.items())
     assert all(after[key] == value for key, value in before.items() if key not in changed)
 
 
@@ -71,8 +79,10 @@ def test_a_bag_is_replayed_from_where_the_user_says(load, given, found):
 def test_a_replay_keeps_the_recorded_results_apart(load):
     nodes, parameters = load('replay.launch', 'bag:=x')
     remapped = dict(nodes['play'].remap_args)
-    for topic in ('points', 'bodies', 'gestures', 'zone_events', 'led/point', 'led/odometry'):
+    for topic in ('points', 'markers', 'bodies', 'gestures', 'zone_events', 'triggered_points',
+                  'led/point', 'led/odometry'):
         assert remapped[topic] == 'recorded/' + topic
+    assert remapped['/tf'] == 'recorded/tf'
     assert parameters['/triangulation/label_places'] == ''
 
 

@@ -79,22 +79,49 @@ def violations(paths, rules):
                         yield f'{os.path.relpath(path, TOP)}:{number} needs {since}: {line.strip()}'
 
 
-def test_the_rules_find_examples(tmp_path):
-    bad = tmp_path / 'bad.cpp'
-    bad.write_text('auto i = hid_get_device_info(d);\nx = m.reshaped();\ncv::SOLVEPNP_SQPNP;\n'
-                   'auto s = std::format("{}", 1);\nParameters p{.a = 1};\nEigen::seq(0, 2);\n'
-                   'problem.SetManifold(q, m);\nfor (auto c : m.colwise()) {\n')
-    assert len({v.split(':')[1] for v in violations([str(bad)], CPP)}) == 8
+# At least one line for each rule.
+CPP_EXAMPLES = (
+    'auto i = hid_get_device_info(d);', 'hid_version();', 'if (info->bus_type == 1) {',
+    'cv::SOLVEPNP_SQPNP;', 'x = m.reshaped();', 'Eigen::seq(0, 2);', 'for (auto c : m.colwise()) {',
+    'auto s = std::format("{}", 1);', 'concept Sized = true;', 'void f() requires (true);',
+    '#include <span>', 'Parameters p{.a = 1};', 'text.starts_with("a");',
+    'problem.SetManifold(q, m);')
+PYTHON_EXAMPLES = (
+    'match value:', 's.removeprefix("a")', 'def f(a: list[int]):', 'def f() -> int | None:',
+    'def f(a: int | None):', 'yaml.load(file)', 'yaml.full_load(file)', 'pickle.loads(text)',
+    'np.genfromtxt(file, ndmin=2)', 'math.lcm(2, 3)')
+
+
+@pytest.mark.parametrize('ending, examples, rules', [
+    ('.cpp', CPP_EXAMPLES, CPP), ('.py', PYTHON_EXAMPLES, PYTHON)])
+def test_the_rules_find_examples(tmp_path, ending, examples, rules):
+    bad = tmp_path / ('bad' + ending)
+    bad.write_text('\n'.join(examples))
+    assert len({v.split(':')[1] for v in violations([str(bad)], rules)}) == len(examples)
+    for rule, since in rules.items():
+        assert list(violations([str(bad)], {rule: since})), rule
+
+
+def test_what_is_no_violation_is_not_found(tmp_path):
     guard = tmp_path / 'guard.cpp'
     guard.write_text('#if CV_VERSION_MAJOR > 4\ncv::SOLVEPNP_SQPNP;\n#endif\ncv::SOLVEPNP_SQPNP;\n')
     assert [v.split(':')[1].split()[0] for v in violations([str(guard)], CPP)] == ['4']
-    bad = tmp_path / 'bad.py'
-    bad.write_text('match value:\ns.removeprefix("a")\ndef f(a: list[int]):\n'
-                   'np.genfromtxt(file, ndmin=2)\n')
-    assert len(list(violations([str(bad)], PYTHON))) == 4
     good = tmp_path / 'good.py'
     good.write_text('if re.match(a, b):\nfound = re.match(a)\nd: typing.List[int] = []\n')
     assert not list(violations([str(good)], PYTHON))
+    assert FLOATING_FROM_CHARS.search('std::from_chars(\n  a, b, x, std::chars_format::general)')
+    assert not FLOATING_FROM_CHARS.search('std::from_chars(a, b, i, 16);\nchars_format')
+
+
+def test_the_sources_are_found():
+    assert [os.path.basename(package) for package in PACKAGES] == [
+        'wiimote_tracker_' + name for name in (
+            'bringup', 'calibration', 'driver', 'msgs', 'triangulation')]
+    endings = ('.h', '.cpp')
+    for package in PACKAGES:
+        assert any(path.startswith(package + os.sep) for path in sources(*endings)), package
+    programs = {os.path.relpath(path, HERE) for path in python_programs()}
+    assert {'conftest.py', '../launch/drivers', '../scripts/lint'} <= programs
 
 
 def test_cpp_uses_nothing_that_noetic_lacks():

@@ -15,6 +15,10 @@ REMOTE = '''1  %s  /dev/hidraw3
    free, battery 100 %% (raw 105)
    ! the kernel's driver hid-wiimote shares this remote
 ''' % A
+IN_USE = '''1  %s  /dev/hidraw3  door
+   Wii Remote (RVL-CNT-01), kernel driver wiimote, you may open it
+   - %s is in use by driver_node
+''' % (A, A)
 REFUSED = '''1  %s  /dev/hidraw3
    Wii Remote (RVL-CNT-01), kernel driver wiimote, you may NOT open it
    ! permission denied on /dev/hidraw3: install the rule
@@ -118,9 +122,10 @@ def test_a_list_that_is_not_there_is_to_be_written(tmp_path):
 
 def test_a_running_tracker_is_named(check):
     status, lines = check(master=[['/diagnostics', ['/door/driver', '/master_watch']]],
-                          parameters={'/use_sim_time': False})
+                          parameters={'/use_sim_time': False}, remotes=IN_USE)
     assert status == 0
-    assert any('/door/driver run already' in line for line in lines)
+    assert any('where /door/driver run already' in line for line in lines)
+    assert f'ok remote {A}: can be used' in lines
 
 
 def test_a_master_elsewhere_must_answer(check, monkeypatch):

@@ -188,6 +188,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
 def test_the_images_are_of_the_sweeps_own_times(flight):
     views = lighthouse.read(str(flight))
     simulated = Flight()
+    assert len(views.cameras) == len(simulated.stations)
     for station, camera in enumerate(views.cameras):
         assert len(camera.times) > 0.95 * DURATION * 30.0
         # What the log says is later than the sweep by two sweeps and the delay.

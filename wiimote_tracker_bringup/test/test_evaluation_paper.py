@@ -171,8 +171,9 @@ def test_a_method_that_never_works_is_named(tmp_path):
 
 
 def made_laps(radial):
-    """A circle whose measured radius is too large by `radial`, 1 mm too high [m]; one point is
-    missing in every lap."""
+    """A circle whose measured radius is too large by `radial` with two cameras at 1 m/s, by half of
+    it with four, and in proportion to the speed; 1 mm too high [m]; one point is missing in every
+    lap."""
     columns = {name: [] for name in (
         'session', 'cameras', 'method', 'circle', 'speed', 'time', 'true_x', 'true_y',
         'true_z', 'measured_x', 'measured_y', 'measured_z', 'radial_error', 'height_error')}
@@ -183,7 +184,8 @@ def made_laps(radial):
                     for step in range(10):
                         missing = step == 0
                         row = [session, cameras, method, 1, speed, 0.05 * step, 1, 1, 1]
-                        row += [np.nan] * 5 if missing else [1, 1, 1, radial, 0.001]
+                        error = radial * speed * 2 / cameras
+                        row += [np.nan] * 5 if missing else [1, 1, 1, error, 0.001]
                         for name, value in zip(columns, row):
                             columns[name].append(value)
     return {name: np.array(values) for name, values in columns.items()}
@@ -192,9 +194,12 @@ def made_laps(radial):
 def test_circle_figures_equal_the_simulated_errors(tmp_path):
     run, figures = told(circles, tmp_path, made_laps(0.003))
     assert figures['two_wand_tracks_radial_1'].value == pytest.approx(3.0)
+    assert figures['four_wand_tracks_radial_2'].value == pytest.approx(3.0)
+    assert figures['four_wand_tracks_radial_0_5'].value == pytest.approx(0.75)
     assert figures['two_wand_tracks_height_0_5'].value == pytest.approx(1.0)
     table = next(each for each in run.contents
                  if isinstance(each, Table) and each.name == 'errors')
+    assert len(table.rows) == 2 * len(circles.METHODS) * 3
     assert all(row[-1] == pytest.approx(10.0) for row in table.rows)
 
 

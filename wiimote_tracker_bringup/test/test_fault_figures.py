@@ -44,6 +44,19 @@ def test_a_room_is_not_tracked_while_a_camera_is_missing():
     assert not is_tracked(window(), 10.0, 2, ['left', 'right'])
 
 
+def test_a_room_with_wrong_or_few_points_is_not_tracked():
+    assert not is_tracked(window(error=lambda time: 0.2 if time > 9.9 else 0.0), 10.0, 1, [])
+    assert not is_tracked(window(present=lambda time: time < 1.0), 10.0, 1, [])
+
+
+def test_late_points_and_a_camera_that_does_not_see_are_not_normal():
+    before, late, blind = figures(window(), 10.0), window(), window()
+    late.points[300:500, 0] += 0.2
+    assert abs(normal_since(late, 0.0, 10.0, before) - 5.0) < 0.3
+    blind.cameras[200:400] = 'left'
+    assert abs(normal_since(blind, 0.0, 10.0, before) - 4.0) < 0.3
+
+
 def test_normal_since_the_end_of_the_last_disturbance():
     before = figures(window(), 10.0)
     gap = window(present=lambda time: not 2.0 < time < 5.0)

@@ -110,6 +110,14 @@ def test_the_search_is_never_worse_than_the_greedy_one_and_repeats_itself():
     assert ((found[0] >= stand[:3]) & (found[0] <= stand[3:])).all()
 
 
+def test_the_search_betters_a_poor_start(monkeypatch):
+    monkeypatch.setattr(search, 'CANDIDATES', 1)
+    points = ROOM.grid(search.ACROSS)
+    poor = search.decode(ROOM, search.greedy(ROOM, np.random.RandomState(1)))
+    found = search.search(ROOM, 1, 5)
+    assert prediction.cost(ROOM, *found, points) < 0.5 * prediction.cost(ROOM, *poor, points)
+
+
 def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(tmp_path, capsys):
     path = str(tmp_path / 'rig.yaml')
     plan_rig.main([EXAMPLE, '--generations', '1', '--output', path])

@@ -27,6 +27,14 @@ def test_an_access_in_our_code_counts(tmp_path):
     assert counted(tmp_path, OURS, ROS) == 1
 
 
+def test_every_report_of_every_file_is_read(tmp_path, capsys):
+    paths = [tmp_path / 'report.1', tmp_path / 'report.2']
+    paths[0].write_text(report(ROS, ROS))
+    paths[1].write_text(report(ROS, ROS) + report(OURS, ROS))
+    assert thread_reports.main([str(path) for path in paths]) == 1
+    assert capsys.readouterr().out.splitlines()[-1] == '3 reports, 1 about the tracker'
+
+
 def test_a_lock_that_our_code_takes_counts(tmp_path):
     assert counted(tmp_path, LOCK + ROS, LOCK + STANDARD + OURS) == 1
 

@@ -15,7 +15,7 @@ port = 0
 size = [ 1280, 720,]
 matrix = [ [ 1000.5, 0.0, 640,], [ 0.0, 1e+3, 360.0,], [ 0.0, 0.0, 1.0,],]
 distortions = [ 0.1, -0.2, 1e-05, 0.0, 0.0,]
-rotation = [ [ 1.0, 0.0, 0.0,], [ 0.0, 1.0, 0.0,], [ 0.0, 0.0, 1.0,],]
+rotation = [ [ 0.0, -1.0, 0.0,], [ 1.0, 0.0, 0.0,], [ 0.0, 0.0, 1.0,],]
 translation = [ 0.0, 0, 2.5,]
 """
 
@@ -40,7 +40,7 @@ def test_a_project_of_caliscope(tmp_path):
         [10.5, np.nan], [20, np.nan], [1, np.nan], [30, 50], [40.25, 60], [1, 1]])
     projections = np.loadtxt(folder / 'Pmatrices.dat')
     np.testing.assert_allclose(projections[:3], [
-        [1000.5, 0, 640, 1600], [0, 1000, 360, 900], [0, 0, 1, 2.5]])
+        [0, -1000.5, 640, 1600], [1000, 0, 360, 900], [0, 0, 1, 2.5]])
     assert 'kc3 = 1e-05' in (folder / 'basename2.rad').read_text()
 
 

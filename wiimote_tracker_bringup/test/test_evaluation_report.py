@@ -199,14 +199,18 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
     (tmp_path / 'people' / 'anna').mkdir(parents=True)
     calibrated = tmp_path / 'rig.yaml'
     calibrated.write_text('format: 1\ncameras: {}\n')
-    for wrong in (['--sections', 'nothing'], ['--rig', '/nowhere.yaml'], ['--seed', '-1'],
-                  ['--gestures', '/nowhere'], ['--gestures', str(tmp_path / 'people')],
-                  ['--rig', str(calibrated)]):
+    for option, value, words in (
+            ('--sections', 'nothing', "there is no section 'nothing'; choose from bad, good"),
+            ('--rig', '/nowhere.yaml', 'there is no rig description /nowhere.yaml'),
+            ('--rig', str(calibrated), 'describes no simulated rig'),
+            ('--seed', '-1', '--seed must be between 0'),
+            ('--led', '/nowhere', 'there is no description of an LED /nowhere'),
+            ('--gestures', '/nowhere', '/nowhere needs folders of at least two people'),
+            ('--gestures', str(tmp_path / 'people'), 'needs folders of at least two people')):
         with pytest.raises(SystemExit) as raised:
-            evaluate(modules, *wrong)
+            evaluate(modules, option, value)
         assert raised.value.code == 2
-    said = capsys.readouterr().err
-    assert 'there is no section' in said and 'describes no simulated rig' in said
+        assert words in capsys.readouterr().err
 
 
 def test_a_section_that_cannot_be_measured_live_is_refused(evaluate, tmp_path, capsys):
@@ -240,14 +244,16 @@ def test_the_users_files_reach_the_sections(evaluate, tmp_path):
     assert seen == [(led, people)]
 
 
-def test_recordings_by_others_are_marked_as_measured(tmp_path):
+def test_recordings_by_others_are_marked_as_measured(tmp_path, capsys):
     run = ['--rig', PAPER_RIG, '--output', str(tmp_path / 'out'), '--recordings']
     assert evaluation.parse(run + [HERE]).sections[-1] == 'recordings'
     assert 'recordings' not in evaluation.parse(run[:-1]).sections
     chosen = ['--sections', 'recordings']
-    for wrong in (run[:-1] + chosen, run + ['/nowhere'] + chosen):
+    for wrong, words in ((run[:-1] + chosen, 'the section recordings needs --recordings DIR'),
+                         (run + ['/nowhere'] + chosen, 'there is no folder /nowhere')):
         with pytest.raises(SystemExit):
             evaluation.parse(wrong)
+        assert words in capsys.readouterr().err
     real = os.path.join(HERE, 'data', 'flydra_excerpt')
     assert evaluation.evaluate(evaluation.parse(run + [real] + chosen)) == 0
     content = figures(tmp_path)
@@ -271,7 +277,7 @@ def test_a_recording_may_have_any_name(title, tmp_path):
     assert [figure.value for figure in run.figures] == [1.0, 90.0]
 
 
-def test_the_fault_matrix_is_a_table_of_the_report(tmp_path):
+def test_the_fault_matrix_is_a_table_of_the_report(tmp_path, capsys):
     part = dict.fromkeys(('error_95', 'age', 'names', 'cameras'), None)
     results = [
         {'name': 'kill_driver', 'what': 'kill -9 of a driver', 'before': dict(part, rate=254.0, error=0.0012),
@@ -286,6 +292,7 @@ def test_the_fault_matrix_is_a_table_of_the_report(tmp_path):
     run += ['--sections', 'faults']
     with pytest.raises(SystemExit):
         evaluation.parse(run)
+    assert 'the section faults needs --faults FILE' in capsys.readouterr().err
     run += ['--faults', str(path)]
     assert evaluation.evaluate(evaluation.parse(run)) == 0
     page = (tmp_path / 'out/report.md').read_text(encoding='utf-8')

@@ -47,12 +47,10 @@ class TapedLengths : public ::testing::Test {
     }
   }
 
+  std::mt19937_64 random_;  // before the path that draws from it
   wave::WaveScene scene_;
   wave::SimulatedWave simulated_{{}, {}, {}, {}, wave::SimulatedPath(0.0, random_), {}, {}};
   wave::Recording taped_;
-
- private:
-  std::mt19937_64 random_;
 };
 
 TEST_F(TapedLengths, PlaceTheCornersOfASquare) {

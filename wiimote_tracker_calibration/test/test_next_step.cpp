@@ -43,7 +43,7 @@ TEST_F(NextStepTest, LightsOfARigFileAreLearned) {
   EXPECT_EQ(next().request, "check_connection");
 }
 
-TEST_F(NextStepTest, ItLeadsOverCornersAndWaveToASavedRig) {
+TEST_F(NextStepTest, ItLeadsOverCornersAndWaveToTheSolver) {
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
     EXPECT_EQ(next().title, "Corner " + std::to_string(i + 1));

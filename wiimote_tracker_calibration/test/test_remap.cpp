@@ -153,7 +153,7 @@ TEST(Remap, LeftOutErrorsOfAThinPlateAreThoseOfFitsWithoutThePoint) {
   }
 }
 
-TEST(Remap, WithNoiseTheSimplestSufficientModelIsChosenNearlyAlways) {
+TEST(Remap, WithNoiseTheSimplestSufficientModelIsMostlyChosen) {
   constexpr int kTrials = 20;
   int affine_chosen = 0;
   int trilinear_chosen = 0;

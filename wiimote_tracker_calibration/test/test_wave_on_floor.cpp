@@ -88,7 +88,7 @@ TEST(WandOnFloor, GivesALevelWorldWithItsOriginAtTheNearerEnd) {
   EXPECT_SAYS(solution.rig.verdict, "in the wand's world, level to 0.0 degrees");
 }
 
-TEST(WandOnFloor, LampsThatAreMaskedAndWrongSpotsDoNotMatter) {
+TEST(WandOnFloor, WrongSpotsDoNotMatter) {
   WaveScene scene = floorScene();
   scene.wrong_share = 0.1;
   const SimulatedWave wave = simulateWave(scene, 2);

@@ -79,6 +79,7 @@ TEST(Coverage, GrowsUntilComplete) {
     feed(wave.recording, scene.duration, &coverage);
     const CoverageReport report = coverage.report();
     EXPECT_TRUE(report.enough()) << missing(report);
+    ASSERT_TRUE(report.speed && report.volume && early.volume);
     EXPECT_NEAR(*report.speed / speeds[speeds.size() / 2], 1.0, 0.1);
     EXPECT_GT(*report.volume, *early.volume);
     for (std::size_t i = 0; i < 4; ++i) {
@@ -114,6 +115,25 @@ TEST(Coverage, SaysWhichPartOfTheImageIsEmpty) {
   EXPECT_SAYS(missing(report), "wave it at the bottom");
   EXPECT_NEAR(report.cameras[0].image_share, 4.0 / 6.0, 0.05);
   EXPECT_NEAR(report.seconds, 29.9, 0.25);
+}
+
+TEST(Coverage, CamerasThatSeeTheLedOneAfterTheOtherAreNamed) {
+  std::vector<geometry::Camera> cameras(2);
+  cameras[0].name = "left";
+  cameras[1].name = "right";
+  Coverage coverage(cameras, false, 1, CoverageOptions());
+  for (double time = 0.0; time < 40.0; time += 0.01) {
+    Frame frame;
+    frame.stamp = time;
+    frame.spots = {Eigen::Vector2d(512.0 + 500.0 * std::sin(2.0 * time),
+                                   384.0 + 370.0 * std::sin(0.7 * time))};
+    coverage.add(time < 20.0 ? 0 : 1, frame);
+  }
+  const CoverageReport report = coverage.report();
+  for (const std::string name : {"left", "right"})
+    EXPECT_SAYS(missing(report), name + " and another camera have seen the LED together for 0 s");
+  EXPECT_LT(report.seconds, 0.15);
+  EXPECT_FALSE(report.enough());
 }
 
 TEST(Coverage, SlowWavesLampsAndBlindCamerasAreNamed) {

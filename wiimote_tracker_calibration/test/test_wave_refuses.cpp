@@ -124,6 +124,21 @@ TEST(WaveRefuses, CameraThatWasMovedAfterTheSquare) {
   EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_3");
 }
 
+TEST(WaveRefuses, AccelerometerThatContradictsItsCamera) {
+  WaveScene scene = shortScene();
+  scene.square = false;
+  scene.length = 0.5;
+  scene.camera_count = 2;
+  SimulatedWave wave = simulateWave(scene, 3);
+  for (std::size_t i = 0; i < 2; ++i)
+    wave.recording.cameras[i].sightings.gravity =
+        wave.cameras[i].world_from_camera.linear().transpose() * Eigen::Vector3d(0.0, 0.0, 9.81);
+  Eigen::Vector3d& second = *wave.recording.cameras[1].sightings.gravity;
+  second = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()) * second;
+  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
+              "the world as camera_2 sees it is tilted by");
+}
+
 TEST(WaveRefuses, LensThatCannotBe) {
   WaveScene scene = shortScene();
   scene.rate = 100.0;

@@ -115,7 +115,7 @@ TEST(Wave, WandGivesScaleWithoutSquare) {
     EXPECT_EQ(solution.rig.covariance.topLeftCorner(6, 6).norm(), 0.0);
     const VolumeError error = errorOf(scene, wave, solution);
     EXPECT_LT(error.rigid, 0.002);
-    // Baselines are right to 0.1 %, and so is everything measured.
+    // Baselines are right to 0.3 %, and so is everything measured.
     const double truth = (wave.cameras[1].center() - wave.cameras[0].center()).norm();
     const double baseline =
         (solution.rig.cameras[1].camera.center() - solution.rig.cameras[0].camera.center()).norm();
@@ -332,6 +332,7 @@ TEST(Wave, ProgressGrowsAndCanBeStopped) {
     return true;
   });
   EXPECT_EQ(last, 1.0);
+  EXPECT_GT(calls, 5);
   for (int stop = 1; stop < calls; stop += 5) {
     int left = stop;
     EXPECT_THROW(

@@ -1,0 +1,48 @@
+// The grade of a rig whose errors are known.
+#include "expect_says.h"
+#include "simulated_rig.h"
+
+#include "session/judge.h"
+
+#include <gtest/gtest.h>
+
+namespace wiimote_tracker::session {
+namespace {
+
+/// Of the paper's rig and square, where the positions of the cameras have this error [m].
+Verdict verdictWith(double position_stddev) {
+  Session session;
+  session.recording.square = square::paperSquare();
+  RigErrors errors = wellCalibrated();
+  errors.position = position_stddev;
+  return judge(session, paperRigWith(errors), {});
+}
+
+TEST(Judge, GradesByTheErrorOfPoints) {
+  // Points are off by about twice the error of each position; the LED is 6 m away.
+  const Verdict good = verdictWith(0.0005);
+  EXPECT_EQ(good.grade, Grade::kGood) << good.text;
+  EXPECT_SAYS(good.text, "good; points are known to ");
+  const Verdict usable = verdictWith(0.025);
+  EXPECT_EQ(usable.grade, Grade::kUsable) << usable.text;
+  EXPECT_SAYS(usable.text, "usable: it is not as accurate as it could be");
+  const Verdict redo = verdictWith(0.2);
+  EXPECT_EQ(redo.grade, Grade::kRedo) << redo.text;
+  EXPECT_SAYS(redo.text, "redo: points would be far off");
+}
+
+TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
+  Session session;
+  session.recording.square = square::paperSquare();
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  for (geometry::RigCamera& camera : rig.cameras)
+    camera.observations = camera.inliers = 200;
+  EXPECT_EQ(judge(session, rig, {}).grade, Grade::kGood);
+  rig.cameras[1].inliers = 140;
+  const Verdict verdict = judge(session, rig, {});
+  EXPECT_EQ(verdict.grade, Grade::kUsable);
+  EXPECT_SAYS(verdict.text, "usable: 30 % of what camera_2 saw was not the LED");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::session

@@ -49,10 +49,11 @@ def test_space_starts_with_a_wand_that_lies_on_the_floor():
     assert masks.advice().word == 'masks'
 
 
-def test_a_bad_corner_is_to_be_taken_again():
-    guide = guide_at(status(CalibrationStatus.SOLVED, 'capture_corner', 'capture corner 3 again',
-                            next_corner=2))
-    assert guide.advice().word == 'capture' and guide.advice().arguments == ['3']
+@pytest.mark.parametrize('corner', range(4))
+def test_a_bad_corner_is_to_be_taken_again(corner):
+    guide = guide_at(status(CalibrationStatus.SOLVED, 'capture_corner', 'capture it again',
+                            next_corner=corner))
+    assert guide.advice().word == 'capture' and guide.advice().arguments == [str(corner + 1)]
 
 
 @pytest.mark.parametrize('step, request_, key', [

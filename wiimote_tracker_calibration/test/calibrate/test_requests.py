@@ -59,6 +59,15 @@ def test_words_that_make_no_sense_are_refused_with_what_would(line):
     assert len(str(refusal.value)) > 15
 
 
+@pytest.mark.parametrize('line', ['solve fisheye', 'solve equidistant plumb_bob', 'start 0.1 x',
+                                  'start 0.1 0.1 0.1'])
+def test_words_for_a_board_that_make_no_sense_are_refused(line):
+    words = line.split()
+    build = commands.find(commands.board_commands('w'), words[0]).build
+    with pytest.raises(commands.UsageError):
+        build(None, words[1:])
+
+
 def test_every_request_has_the_fields_of_its_service():
     for command_list in (commands.RIG, commands.board_commands('wiimote_1')):
         for command in command_list:

@@ -135,6 +135,19 @@ def test_a_verdict_is_a_table():
     assert '(0.00, 0.00, 8.00) 10.0 mm' in text  # the highest are the worst
 
 
+def test_beside_a_verdict_stands_what_was_measured_and_what_to_measure_next():
+    guide = guide_at(status(CalibrationStatus.SOLVED))
+    guide.verdict = CalibrationVerdict(text='Good.', expected_error=0.0087,
+                                       next_measurement='measure from corner 2 to corner 4')
+    guide.on_answer('known', True, 'The place was taken.', 1.0)
+    guide.on_answer('length', False, 'The length was refused.', 1.0)
+    lines = screen.render(guide, 1.0, 'verdict')
+    measured = lines.index('The place was taken.')
+    assert lines[measured + 1:measured + 3] == [
+        'Expected error at the corners and above them: 8.7 mm (RMS).',
+        'Next (keys d, a): measure from corner 2 to corner 4']
+
+
 def test_the_keys_are_explained_in_a_high_window():
     guide = guide_at(status(CalibrationStatus.READY))
     lines = screen.render(guide, 1.0, 'keys', rows=40, command_list=commands.RIG)
@@ -169,6 +182,19 @@ def test_a_board_has_four_bars():
                           'Skew  [########################################] 100 %']
     assert '- hold the board nearer' in lines
     assert lines[21] == 'view 5 was kept'
+
+
+def test_a_board_before_another_camera_does_not_count():
+    guide = guide_at(status(CalibrationStatus.IDLE,
+                            cameras=[camera('wiimote_1'), camera('wiimote_2', blobs=4)]))
+    other = BoardStatus(camera='wiimote_2', views=5, views_needed=12)
+    assert not guide.on_board(other)
+    assert guide.on_board(BoardStatus(camera='wiimote_2', views=6, views_needed=12))
+    assert not guide.on_board(BoardStatus(camera='wiimote_1', views=7, views_needed=12))
+    guide.on_board(other)
+    assert board_screen.advice(guide, 'wiimote_1').word == 'start'
+    text = '\n'.join(board_screen.render(guide, 1.0, 'wiimote_1'))
+    assert '1 spot' in text and '4 spots' not in text and 'of 12 views' not in text
 
 
 def test_a_lens_whose_view_is_dropped_is_solved_again():

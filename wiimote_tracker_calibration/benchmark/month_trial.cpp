@@ -129,7 +129,9 @@ void Month::takePoints(MonthFigures* figures) {
       if (led.state != tracking::TrackState::kTracked)
         continue;
       const double error = (led.position - truth).norm();
-      const bool wrong = error > std::max(0.05, 5.0 * std::sqrt(led.position_covariance.trace()));
+      // Also where it is NaN.
+      const bool wrong =
+          !(error <= std::max(0.05, 5.0 * std::sqrt(led.position_covariance.trace())));
       ++figures->points;
       figures->wrong += wrong ? 1 : 0;
       figures->squared += wrong ? 0.0 : error * error;

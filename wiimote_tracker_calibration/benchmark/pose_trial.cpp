@@ -247,7 +247,7 @@ void PoseTally::add(const PoseTrial& trial,
   ++poses;
   two += found.size() > 1;
   two_multi_start += minima.size() > 1;
-  if (found.empty()) {
+  if (found.empty() || !std::isfinite(found[0].cost)) {
     worst_excess = std::numeric_limits<double>::infinity();
     return;
   }

@@ -127,8 +127,8 @@ TEST(PrincipalPoint, TheOppositeSignDiverges) {
   }
 }
 
-// The closed form of the docstring: without noise the gap closes by a quarter per round, as far as
-// the other camera lets it, and the rays' principal point is where it ends.
+// Without noise the gap closes down to the limit, and sideways the principal points end where the
+// rays' one is, at the image's centre.
 TEST(PrincipalPoint, TheGapClosesUntilTheOriginIsWhereItShouldBe) {
   geometry::Intrinsics lens;
   const auto cameras = exactSightings(lens, paperSquare().corners(true));

@@ -137,7 +137,8 @@ TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
   })) << learned.message;
   EXPECT_SAYS(learned.message, "exactly one light: if that is the LED");
   EXPECT_TRUE(waitUntil([] {
-    const auto& camera = status_->get()->cameras[3];
+    const auto status = status_->get();
+    const auto& camera = status->cameras[3];
     return camera.masks == 1 && camera.blobs == 0;
   }));
 
@@ -154,7 +155,8 @@ TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
   }
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
   EXPECT_TRUE(waitUntil([] {
-    const auto& camera = status_->get()->cameras[3];
+    const auto status = status_->get();
+    const auto& camera = status->cameras[3];
     return camera.masks == 0 && camera.blobs == 2;
   }));
 
@@ -262,7 +264,8 @@ TEST_F(Beyond, ABagGivesTheSameRigAsLiveImages) {
     cameras_->record(&bag);
     // All cameras are in the bag before there is anything to see.
     ASSERT_TRUE(waitUntil([] {
-      for (const auto& camera : status_->get()->cameras) {
+      const auto status = status_->get();
+      for (const auto& camera : status->cameras) {
         if (camera.blobs != 0)
           return false;
       }

@@ -60,9 +60,10 @@ class CalibratedNode : public Node {
   }
 
   static std::string health(const std::string& camera) {
-    for (const auto& status : status_->get()->cameras) {
-      if (status.name == camera)
-        return status.health;
+    const auto status = status_->get();
+    for (const auto& each : status->cameras) {
+      if (each.name == camera)
+        return each.health;
     }
     return "";
   }
@@ -214,7 +215,8 @@ TEST_F(CalibratedNode, WarnsOfCamerasThatAreNotWhereTheyWere) {
     }
     return true;
   }));
-  for (const auto& camera : status_->get()->cameras)
+  const auto healthy = status_->get();
+  for (const auto& camera : healthy->cameras)
     EXPECT_EQ(camera.health, "") << camera.name;
 
   geometry::Rig rig = trueRig();
@@ -228,7 +230,8 @@ TEST_F(CalibratedNode, WarnsOfCamerasThatAreNotWhereTheyWere) {
   EXPECT_TRUE(says("camera_3", "drifted")) << health("camera_3");
   EXPECT_EQ(health("camera_4"), "");
   ASSERT_TRUE(waitUntil([&] {
-    const auto& status = diagnostics.get()->status.front();
+    const auto message = diagnostics.get();
+    const auto& status = message->status.front();
     return status.level == diagnostic_msgs::DiagnosticStatus::WARN &&
            status.message.find("camera_3 drifted") != std::string::npos;
   }));

@@ -127,8 +127,9 @@ TEST_F(Node, BadInputBetweenStepsLosesNothing) {
   result = capture();
   EXPECT_TRUE(result.success) << result.message;
   EXPECT_SAYS(result.message, "camera_2 sees no spot");
-  EXPECT_EQ(result.cameras[1].samples,
-            std::vector<std::uint32_t>({result.cameras[1].samples[0], 0}));
+  ASSERT_EQ(result.cameras[1].samples.size(), 2U);
+  EXPECT_GE(result.cameras[1].samples[0], 20U);
+  EXPECT_EQ(result.cameras[1].samples[1], 0U);
 
   // Undo, and nobody sees the LED until the time is up.
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/undo").success);
@@ -299,15 +300,17 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
 
   // So are files outside of the folder, also behind a link.
   EXPECT_EQ(std::system(("ln -s /tmp '" + folder_ + "/link'").c_str()), 0);
-  for (const std::string& path : {folder_ + "x.yaml", folder_ + "/../x.yaml",
-                                  folder_ + "/link/x.yaml", std::string("/etc/hostname")}) {
+  const std::string outside = folder_ + "x.yaml";  // by three ways
+  const std::string name = outside.substr(outside.rfind('/'));
+  for (const std::string& path :
+       {outside, folder_ + "/.." + name, folder_ + "/link" + name, std::string("/etc/hostname")}) {
     elsewhere.path = request.path = path;
     EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", elsewhere).message,
                 "file_folder");
     EXPECT_SAYS(call<wiimote_tracker_msgs::LoadRig>("calibration/load", request).message,
                 "file_folder");
   }
-  EXPECT_FALSE(exists("/tmp/x.yaml"));
+  EXPECT_FALSE(exists(outside));
 
   // Bytes that are no text are not repeated.
   elsewhere.path = request.path = folder_ + "/\xff\xc3.yaml";

@@ -1,6 +1,8 @@
 #include "../src/ros/parameters.h"
 #include "../src/ros/square_frame.h"
 
+#include "expect_says.h"
+
 #include <documented_parameters.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
@@ -9,6 +11,8 @@
 #include <ros/ros.h>
 
 #include <cmath>
+#include <string>
+#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -20,7 +24,9 @@ TEST(Parameters, TheFileDocumentsThem) {
 }
 
 TEST(Parameters, TheFileIsTakenFromTheServer) {
-  const Parameters file = readParameters(ParameterReader(ros::NodeHandle("~from_file")));
+  const ros::NodeHandle nh("~from_file");
+  ASSERT_TRUE(nh.hasParam("side_length"));
+  const Parameters file = readParameters(ParameterReader(nh));
   EXPECT_TRUE(file.own_intrinsics.empty());
 }
 
@@ -92,13 +98,17 @@ TEST(Parameters, TheSquareIsWhereTheSolverPutsIt) {
 }
 
 TEST(Parameters, BadValuesAreRefusedByName) {
-  for (const std::string key : {"short", "word", "period", "mounted", "fisheye"}) {
+  const std::pair<std::string, std::string> cases[] = {{"short", "intrinsics/distortion must"},
+                                                       {"word", "method is 'best'"},
+                                                       {"period", "diagnostic_period is 0"},
+                                                       {"mounted", "button_remote is wiimote_2"},
+                                                       {"fisheye", "intrinsics/distortion must"}};
+  for (const auto& [key, what] : cases) {
     try {
       readParameters(ParameterReader(ros::NodeHandle("~" + key)));
       FAIL() << key;
     } catch (const ParameterError& error) {
-      EXPECT_NE(std::string(error.what()).find("/parameters_test/" + key), std::string::npos)
-          << error.what();
+      EXPECT_SAYS(std::string(error.what()), "/parameters_test/" + key + "/" + what);
     }
   }
 }

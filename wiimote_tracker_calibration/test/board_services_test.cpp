@@ -1,6 +1,5 @@
 // A person with a board before a camera that this test plays: from the first view to the lens that
-// the node and the driver use from then on. Images come faster than real ones; all times are
-// theirs.
+// its driver gets. Images come faster than real ones; all times are theirs.
 #include "board_lenses.h"
 #include "board_table.h"
 #include "expect_says.h"
@@ -234,6 +233,9 @@ TEST(Board, CommitGivesTheLensToTheDriver) {
 
   g_bench->info_.shutdown();
   EXPECT_SAYS(g_bench->trigger("commit").message, "but wiimote_1 offers no set_camera_info");
+  // A lens of a view that was dropped is not used.
+  EXPECT_TRUE(g_bench->trigger("undo").success);
+  EXPECT_SAYS(g_bench->trigger("commit").message, "solve it first");
   EXPECT_TRUE(g_bench->trigger("cancel").success);
   EXPECT_FALSE(g_bench->trigger("commit").success);
   ASSERT_TRUE(Bench::repeatUntil([] { return g_bench->status().camera.empty(); },

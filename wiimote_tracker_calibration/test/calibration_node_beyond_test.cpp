@@ -197,14 +197,23 @@ TEST_F(Beyond, TheButtonOfASpareRemoteCaptures) {
   sensor_msgs::Joy message;
   message.buttons.assign(11, 0);
   joy.publish(message);
+  const auto capturedLater = [] {
+    const ros::Time later = ros::Time::now() + ros::Duration(1.0);
+    EXPECT_TRUE(waitUntil([&] { return status_->get()->header.stamp > later; }));
+    return status_->get()->corners_captured;
+  };
   message.buttons[3] = 1;  // B
   joy.publish(message);
+  EXPECT_EQ(capturedLater(), 0U);
   message.buttons[2] = 1;  // and A
   joy.publish(message);
   joy.publish(message);  // still held
   ASSERT_TRUE(waitUntil([] { return status_->get()->corners_captured == 1; }))
       << status_->get()->message;
   EXPECT_SAYS(status_->get()->message, "corner 1 captured by 4 of 4");
+  putLed(kCorners[1]);
+  joy.publish(message);
+  EXPECT_EQ(capturedLater(), 1U);
 }
 
 TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {

@@ -137,7 +137,7 @@ TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
   load(trueRig());
   call<std_srvs::Trigger>("calibration/known_places/clear");
   EXPECT_FALSE(call<std_srvs::Trigger>("calibration/known_places/undo").success);
-  EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message, "6");
+  EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message, "0 known points are too few");
 
   // The known places are those of a world that is 2 % larger.
   std::uint32_t places = 0;
@@ -289,11 +289,15 @@ TEST_F(CalibratedNode, RecalibratesOneCamera) {
 }
 
 TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
-  EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/apply").message, "no");
   geometry::Rig rig = trueRig();
   Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
   pose.linear() = pose.linear() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY());
   load(rig);
+  // Soon what was proposed for the rig of the test before is forgotten.
+  EXPECT_TRUE(waitUntil([] {
+    const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
+    return !reply.success && reply.message.find("nothing is proposed") == 0;
+  }));
   // A node that applies what it finds, with the cameras' full names.
   geometry::Rig other = rig;
   for (geometry::RigCamera& camera : other.cameras)

@@ -26,7 +26,7 @@ std::string outcomeOf(const wave::Recording& recording, const SolveOptions& opti
   try {
     return solveSession(session, options).rig.verdict;
   } catch (const Error& error) {
-    return error.what();
+    return std::string("refused: ") + error.what();
   }
 }
 
@@ -43,6 +43,7 @@ TEST(ClockLag, IsFoundBesideCamerasThatSeeALampOrNothing) {
   const auto lag = clockLag(recording, 0);
   ASSERT_TRUE(lag);
   EXPECT_NEAR(*lag, 0.5, 0.03);
+  EXPECT_NEAR(clockLag(recording, 1).value_or(0.0), -0.5, 0.03);
   EXPECT_FALSE(clockLag(recording, 3));
 }
 
@@ -76,6 +77,7 @@ class SquareMistake : public ::testing::Test {
 
 TEST_F(SquareMistake, NoneIsNoWarning) {
   const std::string text = outcome();
+  EXPECT_EQ(text.find("refused: "), std::string::npos) << text;
   EXPECT_EQ(text.find("most likely"), std::string::npos) << text;
 }
 

@@ -1,11 +1,15 @@
 """The words of calibrate and the requests they become."""
 
+import io
+
 import pytest
+import std_srvs.srv
 from wiimote_tracker_msgs import srv
 from wiimote_tracker_msgs.msg import CalibrationStatus, CaptureCornerGoal
 
 from fakes import status
 from guide import commands
+from guide.node import fill
 
 
 def test_words_become_requests():
@@ -49,9 +53,9 @@ def test_words_become_requests():
 
 @pytest.mark.parametrize('line', [
     'check', 'check 1 2', 'check 1 2 x', 'check nan 0 0', 'check 1 2 3 4 5', 'capture 0',
-    'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'start wand x', 'start wand 1 2 3','wave x', 'hands_free maybe', 'undo 1',
-    'recalibrate', 'recalibrate a b', 'masks soon', 'solve now', 'place 1 2', 'length 1 3',
-    'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x', 'length 1 2 2.5 0.001 9'])
+    'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'start wand x', 'start wand 1 2 3',
+    'wave x', 'hands_free maybe', 'undo 1', 'recalibrate', 'recalibrate a b', 'masks soon',
+    'solve now', 'place 1 2', 'length 1 3', 'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x', 'length 1 2 2.5 0.001 9'])
 def test_words_that_make_no_sense_are_refused_with_what_would(line):
     words = line.split()
     with pytest.raises(commands.UsageError) as refusal:
@@ -68,17 +72,23 @@ def test_words_for_a_board_that_make_no_sense_are_refused(line):
         build(None, words[1:])
 
 
-def test_every_request_has_the_fields_of_its_service():
+def test_every_request_fits_into_the_message_of_its_service():
     for command_list in (commands.RIG, commands.board_commands('wiimote_1')):
         for command in command_list:
-            words = {'check': ['1', '2', '3'], 'place': ['1', '2', '3'], 'length': ['1', '3', '2'],
-                     'known': ['1', '2', '3'],
-                     'recalibrate': ['wiimote_1']}.get(command.word, [])
-            request = command.build(status(CalibrationStatus.READY), words)
-            if request.type in ('Trigger', 'SetBool'):
-                assert set(request.fields) <= {'data'}
-            elif request.type == 'CaptureCorner':
-                assert set(request.fields) <= set(CaptureCornerGoal.__slots__)
-            else:
-                message = getattr(srv, request.type + 'Request')
-                assert set(request.fields) <= set(message.__slots__), request
+            place = [['1', '2', '3']]
+            for words in {'check': place, 'place': place, 'known': place,
+                          'length': [['1', '3', '2']], 'recalibrate': [['wiimote_1']],
+                          'start': [[], ['2', '1']], 'wave': [[], ['0.5', '0.001']],
+                          'capture': [[], ['3']], 'fit': [['affine']]}.get(command.word, [[]]):
+                request = command.build(status(CalibrationStatus.READY), words)
+                package = std_srvs.srv if request.type in ('Trigger', 'SetBool') else srv
+                message = (CaptureCornerGoal() if request.type == 'CaptureCorner' else
+                           getattr(package, request.type + 'Request')())
+                fill(message, request.fields)  # raises an error for other fields
+                message.serialize(io.BytesIO())  # and for values of other types
+                if 'known' in request.fields:
+                    assert (message.known.x, message.known.y, message.known.z) == (1.0, 2.0, 3.0)
+    wand = commands.find(commands.RIG, 'start').build(None, ['wand', '0.5', '0.001'])
+    message = srv.StartCalibrationRequest()
+    fill(message, wand.fields)
+    message.serialize(io.BytesIO())

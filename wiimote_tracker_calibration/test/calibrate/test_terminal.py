@@ -1,0 +1,81 @@
+"""What keys do, without a terminal."""
+
+import curses
+
+import pytest
+from wiimote_tracker_msgs.msg import CalibrationStatus
+
+from fakes import FakeNode, dialogue_with, status
+from guide.terminal import Terminal
+
+ENTER, ESCAPE, BACKSPACE = '\n', '\x1b', '\x7f'
+
+
+class Window:
+    """Of 24 x 80; gives these keys, then q."""
+
+    def __init__(self, keys):
+        self._keys = list(keys + 'q')
+
+    def getch(self):
+        return ord(self._keys.pop(0))
+
+    def getmaxyx(self):
+        return 24, 80
+
+    def addnstr(self, row, column, text, count, style):
+        # curses raises an error when the cursor leaves the window.
+        assert column + min(len(text), count) <= 80 - (row == 23)
+
+    def timeout(self, milliseconds):
+        pass
+
+    erase = refresh = lambda self: None
+
+
+@pytest.fixture(autouse=True)
+def no_curses(monkeypatch):
+    monkeypatch.setattr(curses, 'curs_set', lambda visible: None)
+    monkeypatch.setattr(curses, 'beep', lambda: None)
+
+
+def pressed(keys, *statuses):
+    """Requests that the keys have sent, and (view, page, prompt) of each drawing."""
+    node = FakeNode({})
+    drawn = []
+
+    def draw(now, view, page, rows, columns, prompt):
+        drawn.append((view, page, prompt))
+        return ['x' * columns] * rows
+
+    terminal = Terminal(dialogue_with(node, *statuses), draw, {'i': 'verdict', '?': 'keys'})
+    terminal._loop(Window(keys))
+    return [(request.name, request.fields) for request in node.sent], drawn
+
+
+def test_all_is_dropped_only_after_a_question():
+    ready = status(CalibrationStatus.READY, corners_captured=3)
+    assert pressed('x' + ESCAPE, ready)[0] == []
+    sent, drawn = pressed('x' + ENTER, ready)
+    assert sent == [('cancel', {})]
+    assert drawn[1][2] == ('Drop all that was captured? Enter: yes, Escape: no', '')
+    # What goes on is stopped at once.
+    assert pressed('x', status(CalibrationStatus.CAPTURING))[0] == [('cancel', {})]
+
+
+def test_what_is_typed_is_sent_with_enter():
+    complete = status(CalibrationStatus.COMPLETE)
+    sent, drawn = pressed('w0.56' + BACKSPACE + ENTER, complete)
+    assert sent == [('start_wave', {'wand_length': 0.5, 'wand_stddev': 0.0})]
+    assert drawn[5][2][1] == '0.56' and drawn[6][2][1] == '0.5' and drawn[7][2] is None
+    assert pressed('n2.5 1q' + ESCAPE, complete)[0] == []  # q is a letter here
+    # The same key ends a wave.
+    assert pressed('w', status(CalibrationStatus.WAVING))[0] == [('stop_wave', {})]
+
+
+def test_keys_show_views_and_pages_and_space_does_what_is_next():
+    capture = status(CalibrationStatus.READY, 'capture_corner', 'capture')
+    sent, drawn = pressed('i\tii?' + ESCAPE + ' ', capture)
+    assert [(view, page) for view, page, _ in drawn[:7]] == [
+        (None, 0), ('verdict', 0), ('verdict', 1), (None, 1), ('verdict', 1), ('keys', 1), (None, 1)]
+    assert sent == [('capture_corner', {})]

@@ -83,6 +83,13 @@ def test_spots_of_a_camera_are_no_problem_once_there_is_a_rig():
         assert '- wiimote_1: moved' in lines
 
 
+def test_what_has_no_room_is_counted():
+    for count, third in ((3, '- wait 2 s'), (5, '- and 3 more')):
+        missing = [f'wait {i} s' for i in range(count)]
+        assert screen.remarks(status(CalibrationStatus.READY, missing=missing), 80, 3) == [
+            '- wait 0 s', '- wait 1 s', third]
+
+
 def test_a_large_window_has_large_pictures():
     cells = [row == 5 and column == 7 for row in range(6) for column in range(8)]
     cameras = [camera('wiimote_%d' % i, x=1023.0, y=0.0, image_cells=cells, image_coverage=0.02)
@@ -101,6 +108,15 @@ def test_the_answer_is_shown_beside_the_verdict_and_the_trace():
     guide = guide_at(status(CalibrationStatus.SAVED, message='saved to rig.yaml'))
     for view in ('verdict', 'trace'):
         assert screen.render(guide, 1.0, view)[21] == 'saved to rig.yaml'
+
+
+def test_a_newer_message_of_the_node_takes_the_place_of_an_answer():
+    guide = guide_at(status(CalibrationStatus.READY, message='old'))
+    guide.on_answer('undo', True, 'answered', 1.0)
+    guide.on_status(status(CalibrationStatus.READY, message='old'), 2.0)
+    assert screen.render(guide, 2.0)[21] == 'answered'
+    guide.on_status(status(CalibrationStatus.READY, message='new'), 3.0)
+    assert screen.render(guide, 3.0)[21] == 'new'
 
 
 def test_a_verdict_stands_on_its_page_once():
@@ -182,6 +198,9 @@ def test_a_board_has_four_bars():
                           'Skew  [########################################] 100 %']
     assert '- hold the board nearer' in lines
     assert lines[21] == 'view 5 was kept'
+    assert '|O               |' in lines  # what the camera sees
+    assert ('There is no camera wiimote_2; there are: wiimote_1' in
+            board_screen.render(guide, 9.0, 'wiimote_2'))
 
 
 def test_a_board_before_another_camera_does_not_count():

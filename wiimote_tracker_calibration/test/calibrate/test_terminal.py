@@ -77,5 +77,6 @@ def test_keys_show_views_and_pages_and_space_does_what_is_next():
     capture = status(CalibrationStatus.READY, 'capture_corner', 'capture')
     sent, drawn = pressed('i\tii?' + ESCAPE + ' ', capture)
     assert [(view, page) for view, page, _ in drawn[:7]] == [
-        (None, 0), ('verdict', 0), ('verdict', 1), (None, 1), ('verdict', 1), ('keys', 1), (None, 1)]
+        (None, 0), ('verdict', 0), ('verdict', 1), (None, 1), ('verdict', 1), ('keys', 1),
+        (None, 1)]
     assert sent == [('capture_corner', {})]

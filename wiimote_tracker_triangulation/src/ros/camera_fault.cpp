@@ -16,6 +16,11 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
           "ignored: if it was moved or exchanged, put it back or calibrate again; mask "
           "lamps and reflections",
           name);
+    case tracking::CameraFault::Kind::kInaccurate:
+      return format(
+          "the calibration of %s is too inaccurate where the LEDs are now, and its images are "
+          "ignored: calibrate with a waved LED, too",
+          name);
     case tracking::CameraFault::Kind::kCorrectedClock:
       return format(
           "the times of the images of %s are %.3g s too %s, by the motion of the LEDs, and "

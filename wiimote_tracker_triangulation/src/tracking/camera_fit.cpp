@@ -4,7 +4,10 @@
 
 namespace wiimote_tracker::tracking {
 
-void CameraFit::add(std::size_t shown, std::size_t missing, std::size_t unassigned) {
+void CameraFit::add(std::size_t shown,
+                    std::size_t missing,
+                    std::size_t unassigned,
+                    std::size_t explained) {
   constexpr double kMemoryOfUsual = 150.0;  // images
   constexpr double kRatio = 1.5;            // misfits per fit of a camera that does not fit
   unassigned_ = unassigned;
@@ -17,6 +20,8 @@ void CameraFit::add(std::size_t shown, std::size_t missing, std::size_t unassign
   // there are more unassigned spots than usual.
   const double kept = std::max(0.0, 1.0 - static_cast<double>(shown + missing) / limits_.memory);
   fits_ = kept * fits_ + static_cast<double>(shown);
+  missing_ = kept * missing_ + static_cast<double>(missing);
+  explained_ = kept * explained_ + static_cast<double>(explained);
   misfits_ = std::max(0.0, kept * misfits_ + std::min(static_cast<double>(missing), surplus));
   misfit_ = misfit_ ? misfits_ > limits_.tolerated * fits_
                     : misfits_ >= limits_.least * limits_.memory && misfits_ > kRatio * fits_;

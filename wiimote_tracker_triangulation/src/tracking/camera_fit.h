@@ -24,13 +24,16 @@ class CameraFit {
 
   /// @param shown LEDs that have a spot in the image. @param missing LEDs that have none although
   /// others see them: two, or the only other one.
-  /// @param unassigned spots of no LED. Errors of the calibration may explain that an LED's spot is
-  /// elsewhere: then neither counts.
-  void add(std::size_t shown, std::size_t missing, std::size_t unassigned);
+  /// @param unassigned spots of no LED.
+  /// @param explained missing ones whose spots errors of the calibration may have moved.
+  void add(std::size_t shown, std::size_t missing, std::size_t unassigned, std::size_t explained);
 
   /// Whether most LEDs are missing while more spots than usual are unassigned. (If an LED is only
   /// hidden, there are no more of these.)
   bool isMisfit() const { return misfit_; }
+
+  /// Whether errors of the calibration explain most of what is missing.
+  bool isExplained() const { return 2.0 * explained_ > missing_; }
 
   /// Of the newest image.
   std::size_t unassigned() const { return unassigned_; }
@@ -41,6 +44,8 @@ class CameraFit {
   Limits limits_;
   double fits_ = 0.0;              // of recent LEDs
   double misfits_ = 0.0;           // the same
+  double missing_ = 0.0;           // the same, without regard to other spots
+  double explained_ = 0.0;         // of these, by errors of the calibration
   double usual_;                   // unassigned spots of a complete image: one that shows all LEDs
   double complete_images_ = 10.0;  // the expected rate counts as ten
   std::size_t unassigned_ = 0;     // of the newest image

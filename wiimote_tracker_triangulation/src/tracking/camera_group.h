@@ -47,6 +47,7 @@ class CameraGroup {
   /// Whether a camera's images do not fit the others'. With more than two cameras they are left
   /// out.
   bool isMisfit(std::size_t member) const { return state_.fits[member].isMisfit(); }
+  bool isExplained(std::size_t member) const { return state_.fits[member].isExplained(); }
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;

@@ -95,52 +95,47 @@ std::size_t ImageUpdate::othersSeeing(const StoredImage& image, const Track& tra
 
 /// Compares the image with the LEDs that other cameras see. Two cameras that did not fit each other
 /// have to show that the rays of each LED meet; of spots that both have and that form no LED, there
-/// ought to be none. Where errors of the calibration may have moved an LED's spot out of its gate,
-/// neither the LED nor the spot counts.
+/// ought to be none.
 void ImageUpdate::measureFit(const StoredImage& image,
                              const std::vector<Track>& tracks,
                              std::vector<CameraFit>* fits) const {
   const bool is_pair = fits->size() == 2;
   CameraFit& fit = (*fits)[image.camera];
   const bool is_tested = is_pair && fit.isMisfit();
-  std::array<bool, association::kMaximumSpots> is_stray{};
-  for (std::size_t spot = 0; spot < image.spot_count; ++spot)
-    is_stray[spot] = track_of_spot_[spot] == association::kFalseDetection;
-  const auto strays = [&is_stray] {
-    return static_cast<std::size_t>(std::count(is_stray.begin(), is_stray.end(), true));
-  };
+  const auto end = track_of_spot_.begin() + static_cast<std::ptrdiff_t>(image.spot_count);
+  auto unassigned = static_cast<std::size_t>(
+      std::count(track_of_spot_.begin(), end, association::kFalseDetection));
   std::size_t shown = 0;
-  std::size_t astray = 0;
-  std::size_t missing = is_tested ? std::min(strays(), (*fits)[1 - image.camera].unassigned()) : 0;
+  std::size_t missing =
+      is_tested ? std::min(unassigned, (*fits)[1 - image.camera].unassigned()) : 0;
+  std::size_t explained = 0;
   for (const Candidate& candidate : candidates_) {
     const Track& track = tracks[candidate.track];
     const std::size_t others = othersSeeing(image, track);
     if (!candidate.in_view || !track.isConfirmed() || others == 0)
       continue;
     const bool is_astray = candidate.spot && is_tested && !track.raysMeet();
-    astray += is_astray;
+    const bool is_absent =
+        !candidate.spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(image, candidate, tracks);
     shown += candidate.spot && !is_astray;
-    if (candidate.spot || others < (is_pair ? 1 : 2) || mayBeMerged(image, candidate, tracks))
-      continue;
-    if (const auto spot = displacedSpot(image, candidate, track))
-      is_stray[*spot] = false;
-    else
-      ++missing;
+    missing += is_astray || is_absent;
+    explained += is_absent && isExplained(image, candidate, track);
+    unassigned += is_astray;
   }
-  fit.add(shown, missing + astray, strays() + astray);
+  fit.add(shown, missing, unassigned, explained);
 }
 
-/// The nearest unassigned spot, if errors of the calibration may have moved it out of the gate of
-/// an LED.
-std::optional<std::size_t> ImageUpdate::displacedSpot(const StoredImage& image,
-                                                      const Candidate& candidate,
-                                                      const Track& track) const {
+/// Whether errors of the calibration may have moved an LED's spot out of its gate: to the nearest
+/// spot that is unassigned.
+bool ImageUpdate::isExplained(const StoredImage& image,
+                              const Candidate& candidate,
+                              const Track& track) const {
   constexpr double kFarthest = 64.0;        // however vague the calibration is [px]
   constexpr double kSquaredDistance = 9.0;  // three standard deviations
   const Eigen::Vector2d& predicted = candidate.prediction.pixel();
   const auto spot = nearestUnassigned(image, predicted, kFarthest);
   if (!spot)
-    return std::nullopt;
+    return false;
   std::array<std::size_t, geometry::kMaximumOthers> others;
   const std::size_t count =
       track.othersSeeing(image.camera, image.time - options_.birth_window, &others);
@@ -149,11 +144,10 @@ std::optional<std::size_t> ImageUpdate::displacedSpot(const StoredImage& image,
   const auto of_calibration = geometry::disagreementCovariance(
       rig_, track.filter.position(), members_[image.camera], others.data(), count);
   if (!of_calibration)
-    return std::nullopt;
+    return false;
   const Eigen::Matrix2d covariance = candidate.prediction.covariance() + *of_calibration;
   const Eigen::Vector2d residual = image.pixels[*spot] - predicted;
-  const bool may_be_its = residual.dot(covariance.inverse() * residual) <= kSquaredDistance;
-  return may_be_its ? spot : std::nullopt;
+  return residual.dot(covariance.inverse() * residual) <= kSquaredDistance;
 }
 
 /// Compares the image with the motion of LEDs that two other cameras see.

@@ -64,9 +64,7 @@ class ImageUpdate {
   void measureFit(const StoredImage& image,
                   const std::vector<Track>& tracks,
                   std::vector<CameraFit>* fits) const;
-  std::optional<std::size_t> displacedSpot(const StoredImage& image,
-                                           const Candidate& candidate,
-                                           const Track& track) const;
+  bool isExplained(const StoredImage& image, const Candidate& candidate, const Track& track) const;
   void measureClock(const StoredImage& image,
                     const std::vector<Track>& tracks,
                     std::vector<CameraFit>* fits) const;

@@ -212,7 +212,9 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
     return CameraFault{CameraFault::Kind::kLate, -place.age};
   const CameraGroup& group = *groups_[place.group];
   if (group.isMisfit(place.member))
-    return CameraFault{CameraFault::Kind::kMisfit, 0.0};
+    return CameraFault{group.isExplained(place.member) ? CameraFault::Kind::kInaccurate
+                                                       : CameraFault::Kind::kMisfit,
+                       0.0};
   constexpr double kNoticeable = 0.004;  // [s]
   const double error = group.clocks().errorOf(place.member);
   if (std::abs(error) >= kNoticeable)

@@ -38,7 +38,8 @@ Request record(WavedLed* led, const std::string& camera, double duration = 15.0)
 /// The same camera after it was moved.
 geometry::RigCamera knocked(const geometry::RigCamera& camera, Random& random) {
   geometry::RigCamera result = turned(camera, 3.0 * kDegree, random);
-  result.camera.world_from_camera.translation() += 0.05 / 3.0 * Eigen::Vector3d(2.0, -1.0, 2.0);
+  const double x = normal(random, 1.0), y = normal(random, 1.0), z = normal(random, 1.0);
+  result.camera.world_from_camera.translation() += 0.05 * Eigen::Vector3d(x, y, z).normalized();
   result.time_offset = uniform(random, -0.02, 0.02);
   return result;
 }

@@ -112,6 +112,17 @@ def test_sanitized_tests_are_counted_apart_and_only_gtests_are_expected(tmp_path
     assert any('with sanitizers: pkg/gtest-a: A.one' in line for line in lines)
 
 
+def test_a_test_that_was_removed_is_not_expected(tmp_path, capsys):
+    write(tmp_path, 'gtest-a.xml', GOOD)
+    expect(tmp_path, 'gtest-a.xml')
+    expect(tmp_path, 'gtest-removed.xml')
+    (tmp_path / 'CMakeFiles').mkdir()
+    (tmp_path / 'CMakeFiles' / 'TargetDirectories.txt').write_text(
+        f'{tmp_path}/pkg/CMakeFiles/run_tests_x_gtest-a.xml.dir\n')
+    status, lines = run(capsys, tmp_path)
+    assert (status, lines) == (0, ['2 passed, 0 failed, 0 skipped'])
+
+
 def test_a_test_in_a_subfolder_that_left_no_result_counts_as_failed(tmp_path, capsys):
     write(tmp_path, 'gtest-a.xml', GOOD)
     folder = tmp_path / 'pkg' / 'test' / 'CMakeFiles' / 'run_tests_pkg_gtest_b.dir'

@@ -11,7 +11,7 @@
 
 namespace wiimote_tracker::association {
 
-/// Costs are -2 log likelihood, like chi^2. The defaults are those of typicalCosts.
+/// Costs are -2 log likelihood, like chi^2. The defaults are about those of typicalCosts.
 struct AssociationOptions {
   double pixel_stddev = 0.5;  ///< Of a pixel coordinate, including calibration [px].
   double ghost = 31.0;        ///< Cost of a false detection: a spot of no point [> 0].

@@ -19,7 +19,7 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
     case tracking::CameraFault::Kind::kInaccurate:
       return format(
           "the calibration of %s is too inaccurate where the LEDs are now, and its images are "
-          "ignored: calibrate with a waved LED, too",
+          "ignored: calibrate again, with a waved LED",
           name);
     case tracking::CameraFault::Kind::kCorrectedClock:
       return format(

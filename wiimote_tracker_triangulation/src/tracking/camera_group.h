@@ -47,6 +47,8 @@ class CameraGroup {
   /// Whether a camera's images do not fit the others'. With more than two cameras they are left
   /// out.
   bool isMisfit(std::size_t member) const { return state_.fits[member].isMisfit(); }
+
+  /// Whether errors of the calibration explain most of that.
   bool isExplained(std::size_t member) const { return state_.fits[member].isExplained(); }
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.

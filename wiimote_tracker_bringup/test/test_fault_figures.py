@@ -38,6 +38,15 @@ def test_points_without_truth_do_not_count():
     assert abs(figures(found, 10.0).number - 800) < 5
 
 
+def test_points_during_a_leap_of_the_truth_do_not_count():
+    found = window(error=lambda time: 0.2 if time > 5.0 else 0.0)
+    truth = found.truth['one']
+    truth[truth[:, 0] > 5.05, 2] += 0.2
+    assert figures(found, 10.0).wrong == 4  # before the leap
+    truth[truth[:, 0] > 5.005, 2] = 0.2
+    assert figures(found, 10.0).wrong == 0
+
+
 def test_a_room_is_not_tracked_while_a_camera_is_missing():
     assert is_tracked(window(), 10.0, 1, ['left', 'right'])
     assert not is_tracked(window(), 10.0, 1, ['left', 'right', 'late'])

@@ -15,7 +15,8 @@ MOST_ERROR = 0.02  # of the middle point of a normal piece [m]
 MOST_AGE = 0.1     # more than before the fault [s]
 LEAST_POINTS = 20.0  # at the start, a second and LED
 LEAST_RATE = 0.5   # share of the rate before
-LONGEST_GAP = 0.3  # between two true positions [s]
+LONGEST_GAP = 0.1  # between two true positions [s]
+FASTEST = 2.0      # LED [m/s]
 LEAST_SHARE = 0.1  # of the points, which a camera must have seen
 
 
@@ -44,15 +45,17 @@ def select(window, chosen):
 
 def with_truth(window):
     """The window with the points for which the truth is known: not while the simulation was
-    started again."""
+    started again, which shows as a gap or as a leap of an LED."""
     stamps, known = window.points[:, 1], np.ones(len(window.points), dtype=bool)
     for truth in window.truth.values():
         times = truth[:, 0]
+        gaps = np.diff(times)
+        steps = np.linalg.norm(np.diff(truth[:, 1:4], axis=0), axis=1)
+        continuous = (gaps < LONGEST_GAP) & (steps <= FASTEST * gaps)
         after = np.searchsorted(times, stamps)
         inside = (after > 0) & (after < len(times))
-        gap = np.zeros(len(stamps))
-        gap[inside] = times[after[inside]] - times[after[inside] - 1]
-        known &= gap < LONGEST_GAP
+        known &= inside
+        known[inside] &= continuous[after[inside] - 1]
     return select(window, known)
 
 

@@ -58,6 +58,12 @@ void Checks::check(const std::string& name, bool passed, const std::string& seen
   std::fflush(stdout);
 }
 
+void Checks::skip(const std::string& name, const std::string& reason) {
+  ++count_;
+  std::printf("CHECK skipped|%s|%s\n", name.c_str(), reason.c_str());
+  std::fflush(stdout);
+}
+
 void Checks::recovers(const std::string& name,
                       const RunningDriver& driver,
                       const std::function<void()>& disturb,

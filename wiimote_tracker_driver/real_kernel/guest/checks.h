@@ -10,10 +10,13 @@
 
 namespace wiimote_tracker::real_kernel {
 
-/// The checks of one scenario. Each prints a line: "CHECK passed|name|what was seen".
+/// The checks of one scenario. Each prints a line: "CHECK passed|name|what was seen", or why it was
+/// skipped.
 class Checks {
  public:
   void check(const std::string& name, bool passed, const std::string& seen = "");
+
+  void skip(const std::string& name, const std::string& reason);
 
   /// Disturbs the remote `times` times and checks that the driver's images are back within 1 s of
   /// recoveryTime(). The moments differ relative to the remote's samples.

@@ -1,12 +1,11 @@
 #include "geometry/random_rigs.h"
 #include "geometry/uncertain_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
-#include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -25,14 +24,6 @@ Rig uncertainRig(Random& random) {
   return rig;
 }
 
-/// The point that the rig triangulates from the pixels of the true cameras.
-Vector3d measured(const Rig& rig, const Rig& truth, const Vector3d& point) {
-  std::vector<Observation> observations;
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-    observations.push_back({&rig.cameras[i].camera, *truth.cameras[i].camera.project(point)});
-  return triangulate(observations, {})->position;
-}
-
 TEST(CalibrationUncertainty, IsTheSpreadOfPointsOverRigsDrawnFromTheCovariance) {
   Random random(41);
   const Rig rig = uncertainRig(random);
@@ -47,14 +38,11 @@ TEST(CalibrationUncertainty, IsTheSpreadOfPointsOverRigsDrawnFromTheCovariance) 
   Matrix3d spread = Matrix3d::Zero();
   for (int draw = 0; draw < kDraws; ++draw) {
     const Rig truth = test::shifted(rig, kSmall * errors.draw(random));
-    const Vector3d error = (measured(rig, truth, point) - point) / kSmall;
+    const Vector3d error = (test::measured(rig, truth, {0, 1, 2, 3}, point) - point) / kSmall;
     spread += error * error.transpose() / kDraws;
   }
-  // Whitened, it is the identity, each element within four standard errors.
-  const Matrix3d whiten = covariance->llt().matrixL().solve(Matrix3d::Identity());
-  const Matrix3d whitened = whiten * spread * whiten.transpose();
-  const double standard_error = std::sqrt(2.0 / kDraws);
-  EXPECT_LT((whitened - Matrix3d::Identity()).cwiseAbs().maxCoeff(), 4.0 * standard_error + 0.01);
+  // Within four standard errors.
+  EXPECT_LT(test::whitenedDifference(spread, *covariance), 4.0 * std::sqrt(2.0 / kDraws) + 0.01);
 }
 
 TEST(CalibrationUncertainty, IsSystematic) {

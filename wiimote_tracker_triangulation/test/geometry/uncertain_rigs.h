@@ -4,8 +4,12 @@
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <Eigen/Cholesky>
+
+#include <cstddef>
+#include <vector>
 
 namespace wiimote_tracker::geometry::test {
 
@@ -69,6 +73,25 @@ inline Rig shifted(const Rig& rig, const Eigen::VectorXd& by) {
       camera.intrinsics.distortion[static_cast<std::size_t>(k)] += d[kDistortion + k];
   }
   return result;
+}
+
+/// The point that these cameras of the rig triangulate from the pixels of the true ones.
+inline Eigen::Vector3d measured(const Rig& rig,
+                                const Rig& truth,
+                                const std::vector<std::size_t>& cameras,
+                                const Eigen::Vector3d& point) {
+  std::vector<Observation> observations;
+  for (const std::size_t i : cameras)
+    observations.push_back({&rig.cameras[i].camera, *truth.cameras[i].camera.project(point)});
+  return triangulate(observations, {})->position;
+}
+
+/// How far the spread of drawn errors is from a covariance: whitened by it, the spread would be the
+/// identity, from which this is the largest difference of an element.
+inline double whitenedDifference(const Eigen::MatrixXd& spread, const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spread.rows(), spread.cols());
+  const Eigen::MatrixXd whiten = covariance.llt().matrixL().solve(one);
+  return (whiten * spread * whiten.transpose() - one).cwiseAbs().maxCoeff();
 }
 
 }  // namespace wiimote_tracker::geometry::test

@@ -4,16 +4,21 @@
 #include "board_table.h"
 #include "expect_says.h"
 
+#include "session/session_file.h"
+
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <sensor_msgs/SetCameraInfo.h>
 #include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/BoardStatus.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
+#include <wiimote_tracker_msgs/SaveSamples.h>
 #include <wiimote_tracker_msgs/SolveBoard.h>
 #include <wiimote_tracker_msgs/StartBoard.h>
+#include <wiimote_tracker_msgs/StartCalibration.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -241,6 +246,35 @@ TEST(Board, CommitGivesTheLensToTheDriver) {
   ASSERT_TRUE(Bench::repeatUntil([] { return g_bench->status().camera.empty(); },
                                  [] { ros::WallDuration(0.01).sleep(); }));
   EXPECT_EQ(g_bench->status().views, 0U);
+}
+
+TEST(Board, TheNextCalibrationStartsWithTheCommittedLens) {
+  // A calibration needs another camera, of which no board was seen.
+  const ros::Publisher other = g_bench->nh_.advertise<IrBlobArray>("wiimote_2/ir_blobs", 1);
+  wiimote_tracker_msgs::StartCalibration::Request request;
+  request.side_x = 2.5;
+  const auto started =
+      Bench::call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request);
+  ASSERT_TRUE(started.success) << started.message;
+  // What was captured is saved with the lenses that a solver starts from.
+  const auto saved = Bench::call<wiimote_tracker_msgs::SaveSamples>("calibration/save_samples");
+  ASSERT_TRUE(saved.success) << saved.message;
+  const auto cameras = session::readSessionFile(saved.path).recording.cameras;
+  std::filesystem::remove_all(std::filesystem::path(saved.path).parent_path());
+  ASSERT_EQ(cameras.size(), 2U);
+  const geometry::Intrinsics usual;
+  const geometry::Intrinsics& lens = cameras[0].sightings.intrinsics;
+  const sensor_msgs::CameraInfo& committed = g_bench->camera_info_;  // of a test before
+  ASSERT_EQ(committed.D.size(), 5U);
+  EXPECT_NE(lens.fx, usual.fx);
+  EXPECT_EQ(lens.fx, committed.K[0]);
+  EXPECT_EQ(lens.fy, committed.K[4]);
+  EXPECT_EQ(lens.cx, committed.K[2]);
+  EXPECT_EQ(lens.cy, committed.K[5]);
+  EXPECT_EQ(lens.distortion[0], committed.D[0]);
+  EXPECT_EQ(cameras[1].sightings.name, "wiimote_2");
+  EXPECT_EQ(cameras[1].sightings.intrinsics.fx, usual.fx);
+  EXPECT_EQ(cameras[1].sightings.intrinsics.distortion, usual.distortion);
 }
 
 }  // namespace

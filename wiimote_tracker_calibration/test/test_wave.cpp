@@ -125,14 +125,24 @@ TEST(Wave, WandGivesScaleWithoutSquare) {
 }
 
 TEST(Wave, AWrongStartIsRepeatedWithOtherPoints) {
-  // A session whose first start, from a few points at random, fails.
   WaveScene scene;
   scene.square = false;
   scene.camera_count = 2;
   scene.length = 0.25;
-  const SimulatedWave wave = simulateWave(scene, 1015);
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
-  EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.005);
+  // In which session the first start, from a few points at random, fails may depend on OpenCV's
+  // version.
+  int starts = 0;
+  for (std::uint64_t seed = 1015; starts < 2 && seed < 1025; ++seed) {
+    const SimulatedWave wave = simulateWave(scene, seed);
+    starts = 0;
+    const auto count = [&](const Progress& progress) {
+      starts += progress.step == "finding where the cameras stand";
+      return true;
+    };
+    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene), count);
+    EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.005) << seed;
+  }
+  EXPECT_GT(starts, 1) << "no start failed: take other sessions";
 }
 
 TEST(Wave, WandIsNearlyAsGoodAsPerfectCameras) {

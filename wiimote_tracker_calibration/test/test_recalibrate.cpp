@@ -222,7 +222,7 @@ TEST(Recalibrate, RefusesWithTheReason) {
 
   WavedLed flat(rig.cameras, 32);
   flat.path.reach.z() = 0.0;
-  EXPECT_NE(refusal(rig, record(&flat, "camera_2")), "");
+  EXPECT_SAYS(refusal(rig, record(&flat, "camera_2")), "on a line or in a plane");
 
   // It is knocked again while the LED is waved.
   WavedLed moved(rig.cameras, 33);

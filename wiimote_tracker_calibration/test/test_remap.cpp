@@ -159,14 +159,14 @@ TEST(Remap, WithNoiseTheSimplestSufficientModelIsMostlyChosen) {
   int trilinear_chosen = 0;
   for (int trial = 0; trial < kTrials; ++trial) {
     Random random(static_cast<std::uint64_t>(100 + trial));
-    std::vector<KnownPoint> points = deformed(grid(random), affine);
-    for (KnownPoint& point : points)
-      point.measured += noise(random, 0.003);
-    affine_chosen += fitRemap(points, kRig).remap.model == Model::kAffine;
-    points = deformed(grid(random), trilinear);
-    for (KnownPoint& point : points)
-      point.measured += noise(random, 0.003);
-    trilinear_chosen += fitRemap(points, kRig).remap.model == Model::kTrilinear;
+    const auto chosen = [&](const Deformation& deformation) {
+      std::vector<KnownPoint> points = deformed(grid(random), deformation);
+      for (KnownPoint& point : points)
+        point.measured += noise(random, 0.003);
+      return fitRemap(points, kRig).remap.model;
+    };
+    affine_chosen += chosen(affine) == Model::kAffine;
+    trilinear_chosen += chosen(trilinear) == Model::kTrilinear;
   }
   EXPECT_GE(affine_chosen, kTrials * 7 / 10);
   EXPECT_GE(trilinear_chosen, kTrials * 7 / 10);

@@ -169,14 +169,9 @@ TEST(Wave, WandIsNearlyAsGoodAsPerfectCameras) {
 }
 
 TEST(Wave, WithoutSquareGravityOfTheFirstCameraIsUp) {
-  WaveScene scene = shortScene();
-  scene.square = false;
-  scene.length = 0.5;
-  scene.camera_count = 2;
+  const WaveScene scene = wandScene();
   SimulatedWave wave = simulateWave(scene, 3);
-  for (std::size_t i = 0; i < 2; ++i)
-    wave.recording.cameras[i].sightings.gravity =
-        wave.cameras[i].world_from_camera.linear().transpose() * Eigen::Vector3d(0.0, 0.0, 9.81);
+  addGravity(&wave);
   const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
   for (std::size_t i = 0; i < 2; ++i) {
     const Eigen::Vector3d up = solution.rig.cameras[i].camera.world_from_camera.linear() *
@@ -258,10 +253,7 @@ TEST(Wave, FewImagesOfTwoCamerasAreNotTakenForNoise) {
 }
 
 TEST(Wave, StartsWithoutSquareDespiteLamps) {
-  WaveScene scene = shortScene();
-  scene.square = false;
-  scene.camera_count = 2;
-  scene.length = 0.5;
+  WaveScene scene = wandScene();
   scene.lamp = true;
   const SimulatedWave wave = simulateWave(scene, 7);
   const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));

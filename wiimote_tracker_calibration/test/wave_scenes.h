@@ -8,6 +8,9 @@
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
+#include <Eigen/Core>
+
+#include <cstddef>
 #include <string>
 
 namespace wiimote_tracker::wave {
@@ -18,6 +21,22 @@ inline WaveScene shortScene() {
   scene.duration = 8.0;
   scene.rate = 60.0;
   return scene;
+}
+
+/// A wand waved before two cameras, without a square.
+inline WaveScene wandScene() {
+  WaveScene scene = shortScene();
+  scene.square = false;
+  scene.length = 0.5;
+  scene.camera_count = 2;
+  return scene;
+}
+
+/// Gives each camera an accelerometer that measured gravity at rest.
+inline void addGravity(SimulatedWave* wave) {
+  for (std::size_t i = 0; i < wave->cameras.size(); ++i)
+    wave->recording.cameras[i].sightings.gravity =
+        wave->cameras[i].world_from_camera.linear().transpose() * Eigen::Vector3d(0.0, 0.0, 9.81);
 }
 
 /// What the solution and the truth differ by in the volume.

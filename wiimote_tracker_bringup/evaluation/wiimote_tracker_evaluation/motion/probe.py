@@ -1,5 +1,20 @@
-"""probe: a tracked body with a tip that measures points."""
+"""Makes a tracked body with a tip measure points.
 
+  rosrun wiimote_tracker_bringup probe _body:=wand
+
+~pivot finds the tip while it stays at one place and the body is turned about it. ~save_point, button
+A of joy, or the tip at rest elsewhere (at_rest) appends where the tip is to the file.
+
+Private parameters:
+  body      name of the tracked body (needed)
+  tip       in the body's frame [m] (default: [0, 0, 0]); ~pivot replaces it
+  duration  of a pivot [s] (default: 10)
+  file      table of the saved points [s, m] (default: ~/probe_points.csv)
+  at_rest   save a point when the tip is held still for 0.5 s, 0.05 m or more from the last one
+            (default: false)
+"""
+
+import argparse
 import collections
 import copy
 import os
@@ -213,6 +228,9 @@ class Node:
 
 
 def main():
+    argparse.ArgumentParser(
+        prog='probe', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+    ).parse_args(rospy.myargv()[1:])
     rospy.init_node('probe')
     try:
         Node()

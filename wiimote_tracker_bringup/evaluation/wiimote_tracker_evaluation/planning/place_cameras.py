@@ -1,9 +1,14 @@
-"""place_cameras: drag the cameras of a plan in rviz and see at once what they see.
+"""Drag the cameras of a plan in rviz and see at once what they see.
 
-Parameters: ~plan [string]: file, as of plan_rig. ~description [string]: the rig description to begin
-with; empty: a quick proposal. ~output [string]: the rig description that Save writes.
+  roslaunch wiimote_tracker_bringup plan.launch plan:=FILE output:=FILE    also opens rviz
+
+Private parameters:
+  plan         file that says what the room needs and allows, as for plan_rig (needed)
+  output       the rig description that Save, or the service plan/save, writes (needed)
+  description  the rig description to begin with; empty: a quick proposal (default: empty)
 """
 
+import argparse
 import dataclasses
 import textwrap
 import threading
@@ -106,6 +111,9 @@ class PlaceCameras:
 
 
 def main():
+    argparse.ArgumentParser(
+        prog='place_cameras', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+    ).parse_args(rospy.myargv()[1:])
     rospy.init_node('place_cameras')
     try:
         chosen = plan.read(rospy.get_param('~plan'))

@@ -18,6 +18,14 @@ namespace {
 using wiimote_tracker::simulation::Description;
 using wiimote_tracker::simulation::SimulatedRig;
 
+constexpr char kPurpose[] =
+    "Simulates Wii Remotes and LEDs in real time.\n"
+    "\n"
+    "Private parameters:\n"
+    "  description       a rig description such as simulation/paper_rig.yaml (needed)\n"
+    "  socket_directory  folder for the sockets <camera>.sock, made if absent\n"
+    "                    (default: /tmp/wiimote_tracker_simulation)";
+
 // For a simulation of the same name to end, as the master told it when this one registered.
 constexpr std::chrono::seconds kPatience(20);
 
@@ -65,5 +73,5 @@ void simulate(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::runNode(argc, argv, "simulated_rig", simulate);
+  return wiimote_tracker::runNode(argc, argv, "simulated_rig", kPurpose, simulate);
 }

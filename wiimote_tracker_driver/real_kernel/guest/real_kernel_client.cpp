@@ -30,6 +30,9 @@ int main(int argc, char** argv) {
   }
   if (wanted == "--list")
     return 0;
-  std::fprintf(stderr, "usage: real_kernel_client SCENARIO|--list\n");
-  return 2;
+  const bool help = wanted == "--help";
+  std::fprintf(help ? stdout : stderr,
+               "usage: real_kernel_client SCENARIO|--list\n"
+               "Runs one scenario as root of a machine with uhid, as real_kernel_test does.\n");
+  return help ? 0 : 2;
 }

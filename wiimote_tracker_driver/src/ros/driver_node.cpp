@@ -2,9 +2,19 @@
 
 #include <wiimote_tracker_msgs/run_node.h>
 
+namespace {
+
+constexpr char kPurpose[] =
+    "Opens one Wii Remote and publishes what its camera sees, as _device:=ADDRESS says.\n"
+    "Parameters, with units, ranges and defaults:\n"
+    "  less $(rospack find wiimote_tracker_driver)/config/driver.yaml";
+
+}  // namespace
+
 int main(int argc, char** argv) {
-  return wiimote_tracker::runNode(argc, argv, "driver", [](const auto& nh, const auto& private_nh) {
-    const wiimote_tracker::driver::Driver driver(nh, private_nh);
-    wiimote_tracker::spin();
-  });
+  return wiimote_tracker::runNode(argc, argv, "driver", kPurpose,
+                                  [](const auto& nh, const auto& private_nh) {
+                                    const wiimote_tracker::driver::Driver driver(nh, private_nh);
+                                    wiimote_tracker::spin();
+                                  });
 }

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 #define WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 
+#include "wiimote_tracker_msgs/argument_parser.h"
 #include "wiimote_tracker_msgs/log_exceptions.h"
 #include "wiimote_tracker_msgs/parameter_reader.h"
 
@@ -106,15 +107,9 @@ inline void spin(std::size_t threads = 1) {
     other.join();
 }
 
-/// A node's main(): calls node(nh, private_nh), which returns when the node is to end. Without a
-/// master, or when an exception comes, it says so in one sentence; after a refused parameter it
-/// waits for its end if it is respawned. @returns the exit status.
+/// Calls node(nh, private_nh) if there is a master. @returns the exit status.
 template <typename Node>
-int runNode(int argc, char** argv, const std::string& name, const Node& node) {
-  // Without a timeout init() waits forever for a master to set the parameters of the command line.
-  ros::master::setRetryTimeout(ros::WallDuration(1.0));
-  ros::init(argc, argv, name);
-  ros::master::setRetryTimeout(ros::WallDuration(0.0));
+int runWithMaster(const Node& node) {
   if (!ros::master::check()) {
     ROS_FATAL("There is no ROS master at %s: start roscore, or use roslaunch.",
               ros::master::getURI().c_str());
@@ -139,10 +134,31 @@ int runNode(int argc, char** argv, const std::string& name, const Node& node) {
   }
 }
 
+/// A node's main(): calls node(nh, private_nh), which returns when the node is to end. Without a
+/// master, or when an exception comes, it says so in one sentence; after a refused parameter it
+/// waits for its end if it is respawned. Link Boost::program_options.
+/// @param purpose for --help, with its line breaks; says where the parameters stand.
+/// @returns the exit status.
+template <typename Node>
+int runNode(int argc,
+            char** argv,
+            const std::string& name,
+            const std::string& purpose,
+            const Node& node) {
+  const std::string path = argv[0];
+  // Without a timeout init() waits forever for a master to set the parameters of the command line.
+  ros::master::setRetryTimeout(ros::WallDuration(1.0));
+  ros::init(argc, argv, name);  // and takes the arguments for ROS away
+  ros::master::setRetryTimeout(ros::WallDuration(0.0));
+  return ArgumentParser(path.substr(path.rfind('/') + 1), purpose).run(argc, argv, [&] {
+    return runWithMaster(node);
+  });
+}
+
 /// The same for an object that is made of both handles and needs one thread for its callbacks.
 template <typename Object>
-int runNode(int argc, char** argv, const std::string& name) {
-  return runNode(argc, argv, name, [](const auto& nh, const auto& private_nh) {
+int runNode(int argc, char** argv, const std::string& name, const std::string& purpose) {
+  return runNode(argc, argv, name, purpose, [](const auto& nh, const auto& private_nh) {
     const Object object(nh, private_nh);
     spin();
   });

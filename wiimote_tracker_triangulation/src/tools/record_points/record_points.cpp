@@ -17,6 +17,18 @@ namespace {
 using namespace wiimote_tracker;
 using wiimote_tracker_msgs::TrackedPointArray;
 
+constexpr char kPurpose[] =
+    "Writes points and triggered_points to tables, and bodies to files, until it is ended.\n"
+    "\n"
+    "  roslaunch wiimote_tracker_triangulation record_points.launch csv:=$PWD/FILE\n"
+    "\n"
+    "Private parameters; one file at least is needed:\n"
+    "  csv, matlab    of all points, as CSV or for MATLAB\n"
+    "  c3d, trc       of the tracked LEDs, for other programs\n"
+    "  tum            folder for the poses of bodies, <body>.tum, for evo\n"
+    "  rate           of C3D and TRC [Hz], 1 to 1000 (default: 100)\n"
+    "  flush_period   time between two writes to the files [s], 0.01 to 3600 (default: 1)";
+
 class Recorder {
  public:
   /// @throws ParameterError, Error.
@@ -79,7 +91,7 @@ class Recorder {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::runNode(argc, argv, "record_points",
+  return wiimote_tracker::runNode(argc, argv, "record_points", kPurpose,
                                   [](const auto& nh, const auto& private_nh) {
                                     Recorder recorder(nh, private_nh);
                                     ros::spin();

@@ -30,7 +30,8 @@ struct IrSensitivity {
   }
 };
 
-/// By name: wii_1 (least sensitive) .. wii_5 as in the console's settings, marcan, max.
+/// By name: wii_1 (lowest gain) .. wii_5 (highest) as in the console's settings; marcan and max, of
+/// less gain than wii_2 and wii_4, keep the smallest spots.
 std::optional<IrSensitivity> irSensitivity(const std::string& name);
 
 /// All names that irSensitivity() knows.

@@ -21,8 +21,8 @@ struct Light {
   /// it is computed from the brightness.
   std::optional<double> size;
   /// Irradiance at the camera: 1 for one LED cluster of the Wii's sensor bar at 1 m, 1 / z^2 at z
-  /// metres. Thresholds of detection: 0.12 at the console's level 1, 0.0060 at the most sensitive
-  /// known setting.
+  /// metres. Thresholds of detection: 0.12 at the console's level 1, 0.0087 at its level 5, 0.0060
+  /// at `max`.
   double brightness = 1.0;
 };
 

@@ -80,20 +80,25 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
 
 /// Leaves out examples that are shorter than minimum_length, which may have been raised since.
 void Gestures::readExamples() {
-  std::set<std::string> gestures;
   for (const gesture::Example& example : gesture::readExamples(parameters_.file)) {
-    if (isTooShort(example, parameters_.recognizer.shape)) {
+    if (isTooShort(example, parameters_.recognizer.shape))
       too_short_.push_back(example);
-      gestures.insert(example.gesture);
-    } else {
+    else
       recognizer_.add(example);
-    }
   }
-  if (!too_short_.empty())
-    ROS_WARN(
-        "%zu examples of gestures (%s) are not used, since they are shorter than minimum_length, "
-        "%g m: lower it, or remove these gestures and record them again, larger.",
-        too_short_.size(), joined(gestures).c_str(), parameters_.recognizer.shape.minimum_length);
+  warnOfTooShort();
+}
+
+void Gestures::warnOfTooShort() const {
+  if (too_short_.empty())
+    return;
+  std::set<std::string> gestures;
+  for (const gesture::Example& example : too_short_)
+    gestures.insert(example.gesture);
+  ROS_WARN(
+      "%zu examples of gestures (%s) are not used, since they are shorter than minimum_length, "
+      "%g m: lower it, or remove these gestures and record them again, larger.",
+      too_short_.size(), joined(gestures).c_str(), parameters_.recognizer.shape.minimum_length);
 }
 
 /// Those that are too short stay in the file for a smaller minimum_length.
@@ -349,6 +354,7 @@ bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
     }
     ++response.examples[row];
   }
+  warnOfTooShort();  // the response has no place for them
   return true;
 }
 

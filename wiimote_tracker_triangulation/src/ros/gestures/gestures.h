@@ -67,6 +67,7 @@ class Gestures {
             wiimote_tracker_msgs::ListGestures::Response& response);
 
   void readExamples();
+  void warnOfTooShort() const;
   void writeExamples(const gesture::Recognizer& recognizer,
                      const std::vector<gesture::Example>& too_short) const;
 

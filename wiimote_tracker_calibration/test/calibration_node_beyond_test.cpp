@@ -247,6 +247,25 @@ TEST_F(Beyond, ALensDoesNotReplaceSamples) {
   EXPECT_FALSE(exists(folder + "/samples.yaml"));
 }
 
+TEST_F(Beyond, ACaptureThatEndsWithItsServerSaysWhy) {
+  ros::NodeHandle nh;
+  const ros::Publisher cancel =
+      nh.advertise<actionlib_msgs::GoalID>("calibration/capture_corner/cancel", 10);
+  ASSERT_TRUE(waitUntil([&] { return cancel.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(start(2.5).success);
+  cameras_->blind({"camera_1", "camera_2", "camera_3", "camera_4"});
+  capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+  ASSERT_TRUE(waitForStep(CalibrationStatus::CAPTURING));
+  actionlib_msgs::GoalID of_another;
+  of_another.id = "unknown";
+  of_another.stamp = ros::TIME_MAX;
+  cancel.publish(of_another);
+  ASSERT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
+  EXPECT_SAYS(capture_->getResult()->message, "from a computer whose clock is wrong");
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+}
+
 class BagWriter : public Recorder {
  public:
   explicit BagWriter(const std::string& path) : bag_(path, rosbag::bagmode::Write) {}

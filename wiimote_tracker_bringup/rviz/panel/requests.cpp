@@ -204,6 +204,8 @@ std::string Requests::captureCorner(const Request& request) {
     if (must_end || !client.isServerConnected())
       return no_answer;
   }
+  if (client.getState() == actionlib::SimpleClientGoalState::LOST)  // its server does not know it
+    return "The calibration node was started again: the capture is lost";
   return client.getResult()->message;
 }
 

@@ -97,8 +97,8 @@ class Node:
             if rospy.is_shutdown():
                 raise rospy.ROSException()
         result = self._capture.get_result()
-        if result is None:  # the server has lost the goal, as when the node was started again
-            raise rospy.ROSException()
+        if result is None:  # the server does not know the goal
+            return False, 'the calibration node was started again: the capture is lost'
         return result.success, sentence(result)
 
 

@@ -43,8 +43,13 @@ CaptureServer::~CaptureServer() {
   goals_.join();
 }
 
-bool CaptureServer::isCancelled() const {
-  return is_ending_ || is_restarting_ || server_->isPreemptRequested();
+std::string CaptureServer::whyCancelled() const {
+  if (is_ending_)
+    return "the calibration node ends";
+  if (is_restarting_)
+    return "a request from a computer whose clock is wrong came, see the log of the calibration "
+           "node; capture it again";
+  return server_->isPreemptRequested() ? "the request was cancelled" : "";
 }
 
 void CaptureServer::start() {

@@ -30,9 +30,9 @@ class CaptureServer {
   CaptureServer(const ros::NodeHandle& nh, std::function<Result(const Goal&)> serve);
   ~CaptureServer();
 
-  /// Whether the goal that is served now should end: it was cancelled, another one came, or the
-  /// server ends or starts anew. For `serve`, as is publishFeedback().
-  bool isCancelled() const;
+  /// Why the goal that is served now should end: it was cancelled, another one came, or the server
+  /// ends or starts anew; empty: it should not. For `serve`, as is publishFeedback().
+  std::string whyCancelled() const;
   void publishFeedback(const Feedback& feedback) { server_->publishFeedback(feedback); }
 
  private:

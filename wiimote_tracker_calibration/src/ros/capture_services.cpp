@@ -236,10 +236,12 @@ class CaptureServices {
     workflow::Calibration& calibration = context_.calibration(*lock);
     const AtEnd end{[&] { calibration.abandonCapture("an error occurred"); }};
     double next_feedback = 0.0;
+    std::string why;
     const bool over = context_.waitUntil(lock, kForEver, [&] {
       const double now = NodeContext::now();
       calibration.update(now - NodeContext::kUnderWay);
-      if (calibration.square().outcome() || capture_server_.isCancelled())
+      why = capture_server_.whyCancelled();
+      if (calibration.square().outcome() || !why.empty())
         return true;
       if (now >= next_feedback) {
         next_feedback = now + kFeedbackPeriod;
@@ -252,8 +254,7 @@ class CaptureServices {
       }
       return false;
     });
-    calibration.abandonCapture(over ? "the request was cancelled"
-                                    : "the clock stands still: no images come");
+    calibration.abandonCapture(over ? why : "the clock stands still: no images come");
     return *calibration.square().outcome();
   }
 

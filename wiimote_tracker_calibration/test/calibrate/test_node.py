@@ -28,4 +28,4 @@ def test_a_capture_that_its_server_has_lost_is_answered():
     node.send('capture', commands.request('capture_corner', 'CaptureCorner'))
     event, word, good, text = node.events.get(timeout=10.0)
     assert (event, word, good) == ('answer', 'capture', False)
-    assert 'check that the calibration node runs' in text
+    assert 'the calibration node was started again' in text

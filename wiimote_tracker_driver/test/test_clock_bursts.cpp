@@ -136,11 +136,21 @@ std::string describe(const Link& link) {
          " lost, stalls per second: " + std::to_string(link.stalls);
 }
 
+/// Into the file of --gtest_output, for doc/timing.md. [ms]
+void record(const Link& link, const Result& result) {
+  testing::Test::RecordProperty(describe(link),
+                                "first late: " + std::to_string(1e3 * result.lateness.rms()) +
+                                    ", its error: " + std::to_string(1e3 * result.first.rms()) +
+                                    ", of all: " + std::to_string(1e3 * result.all.rms()) +
+                                    ", stated: " + std::to_string(1e3 * result.all.claimedRms()));
+}
+
 TEST(ExposureClockBursts, standard_deviations_cover_the_errors) {
   for (double losses : {0.0, 0.04})
     for (const Link& link : links(losses)) {
       SCOPED_TRACE(describe(link));
       const Result result = play(link);
+      record(link, result);
       // Normal errors are within two stddev in 95.4 %.
       EXPECT_GT(result.all.within(), 0.95);
       EXPECT_GT(result.settling.within(), 0.92);

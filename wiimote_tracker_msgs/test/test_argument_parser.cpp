@@ -52,7 +52,7 @@ class ArgumentParserTest : public testing::Test {
     return errors_.substr(0, errors_.find('\n'));
   }
 
-  ArgumentParser parser_{"program", "Does all."};
+  ArgumentParser parser_{"/lib/program", "Does all."};
   std::string in_, json_, mode_, name_ = "door", output_, errors_;
   Words files_, sockets_;
   bool fast_ = false;

@@ -28,9 +28,11 @@ class ArgumentParser {
  public:
   using Words = std::vector<std::string>;
 
-  /// @param purpose for --help, with its line breaks.
+  /// @param program its name or path. @param purpose for --help, with its line breaks.
   ArgumentParser(const std::string& program, const std::string& purpose)
-      : program_(program), usage_("usage: " + program + " [options]"), purpose_(purpose) {
+      : program_(program.substr(program.rfind('/') + 1)),
+        usage_("usage: " + program_ + " [options]"),
+        purpose_(purpose) {
     options_.add_options()("help,h", "print this help");
   }
 

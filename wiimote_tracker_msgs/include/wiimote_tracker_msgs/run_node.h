@@ -150,9 +150,7 @@ int runNode(int argc,
   ros::master::setRetryTimeout(ros::WallDuration(1.0));
   ros::init(argc, argv, name);  // and takes the arguments for ROS away
   ros::master::setRetryTimeout(ros::WallDuration(0.0));
-  return ArgumentParser(path.substr(path.rfind('/') + 1), purpose).run(argc, argv, [&] {
-    return runWithMaster(node);
-  });
+  return ArgumentParser(path, purpose).run(argc, argv, [&] { return runWithMaster(node); });
 }
 
 /// The same for an object that is made of both handles and needs one thread for its callbacks.

@@ -2,8 +2,9 @@
 
   rosrun wiimote_tracker_bringup probe _body:=wand
 
-~pivot finds the tip while it stays at one place and the body is turned about it. ~save_point, button
-A of joy, or the tip at rest elsewhere (at_rest) appends where the tip is to the file.
+The service ~pivot finds the tip while it stays at one place and the body is turned about it.
+~save_point, button A of joy, or the tip at rest elsewhere (at_rest) appends where the tip is to the
+file.
 
 Private parameters:
   body      name of the tracked body (needed)

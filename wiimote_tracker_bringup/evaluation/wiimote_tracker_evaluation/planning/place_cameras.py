@@ -112,7 +112,8 @@ class PlaceCameras:
 
 def main():
     argparse.ArgumentParser(
-        prog='place_cameras', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
+        prog='place_cameras', description=__doc__,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
     ).parse_args(rospy.myargv()[1:])
     rospy.init_node('place_cameras')
     try:

@@ -182,7 +182,7 @@ TEST_P(BodyRates, AreAtTheBoundOfTheSameScene) {
   const Eigen::Vector4d ratio = (squares.array() / bounds.array()).sqrt();
   const char* const names[] = {"position", "rotation", "velocity", "angular_velocity"};
   for (int k = 0; k < 4; ++k) {
-    EXPECT_LT(ratio[k], 1.1) << names[k];
+    EXPECT_NEAR(1.0, ratio[k], 0.1) << names[k];
     RecordProperty(std::string(names[k]) + "_ratio", std::to_string(ratio[k]));
     RecordProperty(std::string(names[k]) + "_rms", std::to_string(std::sqrt(squares[k] / judged)));
   }

@@ -59,7 +59,10 @@ std::optional<Projection> rayProjection(const Rig& rig,
   const RigCamera& camera = rig.cameras[index];
   if (rig.ray_model == RayModel::kCalibrated)
     return projectionOf(camera.camera, point);
-  auto projection = projectionOf(rig.rayCamera(camera), point);
+  RigCamera nameless;  // a copy of the name would allocate
+  nameless.camera.intrinsics = camera.camera.intrinsics;
+  nameless.camera.world_from_camera = camera.camera.world_from_camera;
+  auto projection = projectionOf(rig.rayCamera(nameless), point);
   if (projection) {
     // The virtual model keeps at most the focal length of the calibrated one.
     const Eigen::Index first = std::isnan(rig.virtual_hfov) ? kLens + 2 : kLens;

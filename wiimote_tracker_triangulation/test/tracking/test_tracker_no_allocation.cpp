@@ -97,6 +97,21 @@ TEST(TrackerNoAllocation, CovarianceOfTheCalibration) {
   EXPECT_EQ(0, allocations(situation, 1000));
 }
 
+TEST(TrackerNoAllocation, CovarianceOfRaysThroughTheImageCenter) {
+  Situation situation;
+  geometry::Rig& rig = situation.rig;
+  rig.ray_model = geometry::RayModel::kImageCenter;
+  for (geometry::RigCamera& camera : rig.cameras) {
+    camera.camera.identity = "00:00:00:00:00:00";  // a copy of it would allocate
+    geometry::Intrinsics& lens = camera.camera.intrinsics;
+    lens.cx = 0.5 * lens.width;
+    lens.cy = 0.5 * lens.height;
+    lens.distortion = {};
+  }
+  makeVague(1e-3, &rig);
+  EXPECT_EQ(0, allocations(situation, 1000));
+}
+
 TEST(TrackerNoAllocation, AKnockedCamera) {
   Situation situation;
   situation.turn = 0.035;

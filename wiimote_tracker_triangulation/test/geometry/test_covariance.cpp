@@ -124,52 +124,46 @@ Score score(TriangulationMethod method, unsigned seed, int cameras = 4) {
   return {nees / kCount, std::sqrt(squared_error / bound), std::sqrt(claimed / squared_error)};
 }
 
-void report(const std::string& method, const Score& s) {
-  std::cout << method << ": NEES " << s.nees << ", RMS over Cramer-Rao bound " << s.rms_over_bound
-            << ", claimed over true RMS " << s.claimed_over_rms << std::endl;
+/// Expects that the covariance is that of the errors, and these no smaller than the bound.
+/// @returns rms_over_bound
+double expectConsistent(const std::string& name,
+                        TriangulationMethod method,
+                        unsigned seed,
+                        int cameras = 4) {
+  const Score s = score(method, seed, cameras);
+  std::cout << name << ", " << cameras << " cameras: NEES " << s.nees
+            << ", RMS over Cramer-Rao bound " << s.rms_over_bound << ", claimed over true RMS "
+            << s.claimed_over_rms << std::endl;
+  EXPECT_NEAR(s.nees, 3.0, 0.04) << cameras;
+  EXPECT_NEAR(s.claimed_over_rms, 1.0, 0.01) << cameras;
+  EXPECT_GE(s.rms_over_bound, 0.99) << cameras;
+  return s.rms_over_bound;
 }
 
 TEST(Covariance, MaximumLikelihoodIsConsistentAndReachesTheBound) {
-  const Score s = score(TriangulationMethod::kMaximumLikelihood, 21);
-  report("maximum likelihood", s);
-  EXPECT_NEAR(s.nees, 3.0, 0.04);
-  EXPECT_GE(s.rms_over_bound, 0.99);
-  EXPECT_LE(s.rms_over_bound, 1.01);
+  EXPECT_LE(expectConsistent("maximum likelihood", TriangulationMethod::kMaximumLikelihood, 21),
+            1.01);
 }
 
 TEST(Covariance, MaximumLikelihoodReachesTheBoundWithAnyNumberOfCameras) {
-  for (const int cameras : {2, 3, 8}) {
-    const Score s = score(TriangulationMethod::kMaximumLikelihood, 24, cameras);
-    report("maximum likelihood, " + std::to_string(cameras) + " cameras", s);
-    EXPECT_NEAR(s.nees, 3.0, 0.04);
-    EXPECT_GE(s.rms_over_bound, 0.99);
-    EXPECT_LE(s.rms_over_bound, 1.01);
-  }
+  for (const int cameras : {2, 3, 8})
+    EXPECT_LE(expectConsistent("maximum likelihood", TriangulationMethod::kMaximumLikelihood, 24,
+                               cameras),
+              1.01)
+        << cameras;
 }
 
 TEST(Covariance, ReweightedMidpointIsConsistentAndNearTheBound) {
-  const Score s = score(TriangulationMethod::kReweightedMidpoint, 25);
-  report("reweighted midpoint", s);
-  EXPECT_NEAR(s.nees, 3.0, 0.04);
-  EXPECT_NEAR(s.claimed_over_rms, 1.0, 0.01);
-  EXPECT_GE(s.rms_over_bound, 0.99);
-  EXPECT_LE(s.rms_over_bound, 1.01);
+  EXPECT_LE(expectConsistent("reweighted midpoint", TriangulationMethod::kReweightedMidpoint, 25),
+            1.01);
 }
 
 TEST(Covariance, LeastSquaresIsConsistent) {
-  const Score s = score(TriangulationMethod::kLeastSquares, 22);
-  report("least squares", s);
-  EXPECT_NEAR(s.nees, 3.0, 0.04);
-  EXPECT_NEAR(s.claimed_over_rms, 1.0, 0.01);
-  EXPECT_GE(s.rms_over_bound, 0.99);
+  expectConsistent("least squares", TriangulationMethod::kLeastSquares, 22);
 }
 
 TEST(Covariance, MeanClosestIsConsistent) {
-  const Score s = score(TriangulationMethod::kMeanClosest, 23);
-  report("mean of closest points", s);
-  EXPECT_NEAR(s.nees, 3.0, 0.04);
-  EXPECT_NEAR(s.claimed_over_rms, 1.0, 0.01);
-  EXPECT_GE(s.rms_over_bound, 0.99);
+  expectConsistent("mean of closest points", TriangulationMethod::kMeanClosest, 23);
 }
 
 }  // namespace

@@ -203,8 +203,9 @@ TEST(InstantFuser, RespectsMinimumRays) {
 TEST(InstantFuser, EveryMethodFindsEveryLed) {
   const Rig rig = fourCameras();
   using geometry::TriangulationMethod;
-  for (const auto method : {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares,
-                            TriangulationMethod::kMaximumLikelihood}) {
+  for (const auto method :
+       {TriangulationMethod::kMeanClosest, TriangulationMethod::kLeastSquares,
+        TriangulationMethod::kMaximumLikelihood, TriangulationMethod::kReweightedMidpoint}) {
     InstantFuserOptions options;
     options.triangulation.method = method;
     InstantFuser fuser(rig, options);

@@ -21,8 +21,8 @@ using geometry::test::Random;
 
 TEST(NoAllocation, TheCounterCounts) {
   const int before = g_allocations;
-  const auto something = std::make_unique<std::vector<int>>(3);
-  EXPECT_EQ(3u, something->size());
+  const auto something = std::make_unique<Eigen::MatrixXd>(9, 9);
+  EXPECT_EQ(81, something->size());
   EXPECT_EQ(before + 2, g_allocations);
 }
 

@@ -48,6 +48,27 @@ class Beyond : public Node {
   }
 };
 
+/// As after a step of a clock, or from another computer.
+TEST_F(Beyond, ACaptureIsPossibleAfterOneThatWasStampedLater) {
+  ros::NodeHandle nh;
+  const ros::Publisher goals = nh.advertise<wiimote_tracker_msgs::CaptureCornerActionGoal>(
+      "calibration/capture_corner/goal", 10);
+  ASSERT_TRUE(waitUntil([&] { return goals.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(start(2.5).success);
+  putLed(kCorners[0]);
+  wiimote_tracker_msgs::CaptureCornerActionGoal later;
+  later.goal_id.id = "half an hour later";
+  later.goal_id.stamp = ros::Time::now() + ros::Duration(1800.0);
+  goals.publish(later);
+  ASSERT_TRUE(waitUntil([] { return status_->get()->corners_captured == 1; }));
+  putLed(kCorners[1]);
+  const auto result = capture();
+  EXPECT_TRUE(result.success) << result.message;
+  EXPECT_EQ(capture_->getState(), actionlib::SimpleClientGoalState::SUCCEEDED);
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+}
+
 TEST_F(Beyond, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
   EXPECT_FALSE(call<StartWave>("calibration/start_wave").success);
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/stop_wave").message, "no wave");

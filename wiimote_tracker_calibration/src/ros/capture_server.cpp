@@ -49,13 +49,18 @@ std::string CaptureServer::whyCancelled() const {
   if (is_restarting_)
     return "a request from a computer whose clock is wrong came, see the log of the calibration "
            "node; capture it again";
-  return server_->isPreemptRequested() ? "the request was cancelled" : "";
+  return is_preempted_ ? "the request was cancelled" : "";
 }
 
 void CaptureServer::start() {
+  {
+    const std::lock_guard<std::mutex> lock(goals_mutex_);
+    current_ = next_ = GoalHandle();
+  }
   server_.reset();
-  server_ = std::make_unique<Server>(nh_, kCaptureAction, false);
-  server_->registerGoalCallback([this] { goal_came_.notify_one(); });
+  server_ = std::make_unique<Server>(
+      nh_, kCaptureAction, [this](const GoalHandle& goal) { takeGoal(goal); },
+      [this](const GoalHandle& goal) { cancelGoal(goal); }, false);
   server_->start();
 }
 
@@ -75,17 +80,47 @@ void CaptureServer::checkStamp(const ros::Time& stamp) {
   start();
 }
 
+/// A goal waits until the one that is served has ended, unless still another one comes.
+void CaptureServer::takeGoal(const GoalHandle& goal) {
+  const std::lock_guard<std::mutex> lock(goals_mutex_);
+  if (next_.isValid())
+    next_.setCanceled(Result(), "another request came");
+  next_ = goal;
+  is_next_cancelled_ = false;
+  is_preempted_ = true;
+  goal_came_.notify_one();
+}
+
+void CaptureServer::cancelGoal(const GoalHandle& goal) {
+  const std::lock_guard<std::mutex> lock(goals_mutex_);
+  if (goal == current_)
+    is_preempted_ = true;
+  else if (goal == next_)
+    is_next_cancelled_ = true;
+}
+
+/// @returns whether a goal waited, which then is the current one.
+bool CaptureServer::acceptGoal() {
+  const std::lock_guard<std::mutex> lock(goals_mutex_);
+  if (!next_.isValid())
+    return false;
+  current_ = std::exchange(next_, GoalHandle());
+  is_preempted_ = std::exchange(is_next_cancelled_, false);
+  current_.setAccepted();
+  return true;
+}
+
 void CaptureServer::serveGoal() {
   std::unique_lock<std::mutex> lock(mutex_);
-  if (!goal_came_.wait_for(lock, kLookPeriod, [this] { return server_->isNewGoalAvailable(); }))
+  if (!goal_came_.wait_for(lock, kLookPeriod, [this] { return acceptGoal(); }))
     return;
-  const Result result = serve_(*server_->acceptNewGoal());
+  const Result result = serve_(*current_.getGoal());
   if (result.success)
-    server_->setSucceeded(result, result.message);
-  else if (server_->isPreemptRequested())
-    server_->setPreempted(result, result.message);
+    current_.setSucceeded(result, result.message);
+  else if (is_preempted_)
+    current_.setCanceled(result, result.message);
   else
-    server_->setAborted(result, result.message);
+    current_.setAborted(result, result.message);
 }
 
 }  // namespace wiimote_tracker

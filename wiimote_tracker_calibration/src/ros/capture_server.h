@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H
 
-#include <actionlib/server/simple_action_server.h>
+#include <actionlib/server/action_server.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/CaptureCornerAction.h>
@@ -19,7 +19,9 @@ namespace wiimote_tracker {
 
 /// The action `calibration/capture_corner`: serves one goal after the other. Nothing that a client
 /// sends ends the process: actionlib's own server throws, in a thread of its own, again and again
-/// after it was sent a stamp of the year 2106.
+/// after it was sent a stamp of the year 2106. Goals are served in the order in which they come:
+/// actionlib's simple server refuses those that are stamped before an earlier one, as after a step
+/// of a clock, or from another computer.
 class CaptureServer {
  public:
   using Goal = wiimote_tracker_msgs::CaptureCornerGoal;
@@ -33,13 +35,17 @@ class CaptureServer {
   /// Why the goal that is served now should end: it was cancelled, another one came, or the server
   /// ends or starts anew; empty: it should not. For `serve`, as is publishFeedback().
   std::string whyCancelled() const;
-  void publishFeedback(const Feedback& feedback) { server_->publishFeedback(feedback); }
+  void publishFeedback(const Feedback& feedback) { current_.publishFeedback(feedback); }
 
  private:
-  using Server = actionlib::SimpleActionServer<wiimote_tracker_msgs::CaptureCornerAction>;
+  using Server = actionlib::ActionServer<wiimote_tracker_msgs::CaptureCornerAction>;
+  using GoalHandle = Server::GoalHandle;
 
   void start();
   void checkStamp(const ros::Time& stamp);
+  void takeGoal(const GoalHandle& goal);
+  void cancelGoal(const GoalHandle& goal);
+  bool acceptGoal();
   void serveGoal();
 
   ros::CallbackQueue queue_;
@@ -47,6 +53,11 @@ class CaptureServer {
   std::function<Result(const Goal&)> serve_;
   std::mutex mutex_;  // held while a goal is served and while the server is exchanged
   std::condition_variable goal_came_;
+  std::mutex goals_mutex_;  // guards the next four; locked after mutex_
+  GoalHandle current_;      // changes only with mutex_ locked, too; invalid: none came yet
+  std::atomic<bool> is_preempted_{false};
+  GoalHandle next_;  // invalid: none waits
+  bool is_next_cancelled_ = false;
   std::atomic<bool> is_restarting_{false};
   std::atomic<bool> is_ending_{false};
   std::vector<ros::Subscriber> stamps_;

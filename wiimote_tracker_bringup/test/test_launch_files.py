@@ -116,10 +116,13 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
     assert not re.fullmatch(arguments[-1], '/markers')
 
 
-@pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch'])
+@pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch',
+                                  'several_machines.launch'])
 def test_nodes_that_are_respawned_know_it(load, name):
-    respawned = [node for node in load(name)[0].values()
-                 if node.respawn and node.type != 'master_watch']
+    nodes = load(name)[0].values()
+    # Of drivers it is what they start that is respawned.
+    respawned = [node for node in nodes
+                 if (node.respawn or node.type == 'drivers') and node.type != 'master_watch']
     assert respawned
     for node in respawned:
         assert ('WIIMOTE_TRACKER_RESPAWNS', '1') in node.env_args

@@ -101,6 +101,11 @@ def test_a_live_start_ends_the_simulated_time_of_a_replay(load):
     assert '/use_sim_time' not in load('calibrate.launch', 'drivers:=false')[1]
 
 
+def test_a_replay_in_a_namespace_sets_the_time_of_all(load, monkeypatch):
+    monkeypatch.setenv('ROS_NAMESPACE', 'lab')
+    assert load('replay.launch', 'bag:=x')[1]['/use_sim_time'] is True
+
+
 def test_a_recording_may_have_a_number_as_its_name(load):
     nodes, _ = load('record.launch', 'output:=20261123')
     assert "'--output-prefix=/home/my lab/20261123'" in next(iter(nodes.values())).args

@@ -10,6 +10,7 @@ import roslib.packages
 import rosnode
 import rospy
 import rostest
+from nodelet.srv import NodeletLoad
 
 NODES = {
     'coverage': [roslib.packages.find_node('wiimote_tracker_triangulation', 'coverage_node')[0],
@@ -17,13 +18,15 @@ NODES = {
     'triangulation': [roslib.packages.find_node('wiimote_tracker_triangulation',
                                                 'tracker_manager')[0], '_mode:=track'],
 }
+MANAGER = [roslib.packages.find_node('nodelet', 'nodelet')[0], 'manager']
 SAID = {'coverage': '/coverage/cell_size is -1, but', 'triangulation': '/triangulation/mode is'}
 
 
 class RefusedParameters(unittest.TestCase):
     def start(self, name, **environment):
-        process = subprocess.Popen(NODES[name] + ['__name:=' + name], stderr=subprocess.PIPE,
-                                   env=dict(os.environ, **environment), universal_newlines=True)
+        process = subprocess.Popen(NODES.get(name, MANAGER) + ['__name:=' + name],
+                                   stderr=subprocess.PIPE, env=dict(os.environ, **environment),
+                                   universal_newlines=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
@@ -46,6 +49,16 @@ class RefusedParameters(unittest.TestCase):
             self.assertIsNone(process.poll())
             rosnode.kill_nodes(['/' + name])
             process.wait()
+
+    def test_a_nodelet_waits_in_a_respawned_manager(self):
+        rospy.set_param('/gestures/boundary', 'never')
+        process = self.start('manager', WIIMOTE_TRACKER_RESPAWNS='1')
+        rospy.wait_for_service('/manager/load_nodelet', 30.0)
+        load = rospy.ServiceProxy('/manager/load_nodelet', NodeletLoad)
+        gestures = 'wiimote_tracker_triangulation/Gestures'
+        self.assertTrue(load('/gestures', gestures, [], [], [], '').success)
+        said = next(line for line in process.stderr if 'rosnode kill /manager' in line)
+        self.assertIn('/gestures/boundary is', said)
 
 
 if __name__ == '__main__':

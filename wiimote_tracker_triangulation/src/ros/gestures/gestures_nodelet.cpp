@@ -1,6 +1,7 @@
 #include "gestures.h"
 
 #include <nodelet/nodelet.h>
+#include <wiimote_tracker_msgs/run_node.h>
 #include <pluginlib/class_list_macros.hpp>
 
 #include <exception>
@@ -14,9 +15,12 @@ class GesturesNodelet : public nodelet::Nodelet {
     try {
       // These handles call back from one thread at a time.
       gestures_ = std::make_unique<Gestures>(getNodeHandle(), getPrivateNodeHandle());
+    } catch (const ParameterError& e) {
+      if (!staysRefused(e))
+        throw;  // the manager reports that it could not load
     } catch (const std::exception& e) {
       NODELET_FATAL("%s", e.what());
-      throw;  // the manager reports that it could not load
+      throw;
     }
   }
 

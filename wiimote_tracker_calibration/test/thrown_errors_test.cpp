@@ -19,9 +19,12 @@
 #include <opencv2/core.hpp>
 
 #include <memory>
+#include <mutex>
 #include <new>
 #include <stdexcept>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -177,6 +180,26 @@ TEST_F(ThrownErrors, AWandThatCannotBeWavedDropsNothing) {
   setWidth(1024);
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
   EXPECT_EQ(status_->get()->corners_captured, 4U);
+}
+
+TEST_F(ThrownErrors, ACaptureEndsWhenAnotherCalibrationIsStarted) {
+  ASSERT_TRUE(start(2.5).success);
+  // Until then continuous calibration computes with images from before the start.
+  ros::WallDuration(1.0).sleep();
+  setFault([] {  // called with the mutex locked, before the capture looks whether it has ended
+    const Lock locked_already(node->context().mutex(), std::defer_lock);
+    workflow::Calibration& calibration = node->context().calibration(locked_already);
+    const std::vector<std::string> cameras = calibration.cameras();
+    calibration.cancel();
+    EXPECT_TRUE(calibration.start(1.0, 1.0, cameras).success);
+  });
+  const auto result = capture();
+  setFault([] {});
+  EXPECT_FALSE(result.success);
+  EXPECT_SAYS(result.message, "another calibration was started meanwhile");
+  EXPECT_TRUE(waitForStep(CalibrationStatus::READY));
+  EXPECT_EQ(status_->get()->square_sides, std::vector<double>({1.0, 1.0}));
+  EXPECT_TRUE(replyTo<std_srvs::Trigger>("calibration/cancel").success);
 }
 
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {

@@ -241,7 +241,7 @@ class CaptureServices {
       const double now = NodeContext::now();
       calibration.update(now - NodeContext::kUnderWay);
       why = capture_server_.whyCancelled();
-      if (calibration.square().outcome() || !why.empty())
+      if (!calibration.isBusyWith(workflow::Step::kCapturing) || !why.empty())
         return true;
       if (now >= next_feedback) {
         next_feedback = now + kFeedbackPeriod;
@@ -255,7 +255,8 @@ class CaptureServices {
       return false;
     });
     calibration.abandonCapture(over ? why : "the clock stands still: no images come");
-    return *calibration.square().outcome();
+    return calibration.square().outcome().value_or(
+        Reply{false, "another calibration was started meanwhile: capture again"});
   }
 
   NodeContext& context_;

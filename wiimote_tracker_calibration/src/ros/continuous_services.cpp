@@ -108,8 +108,8 @@ class ContinuousServices {
     const auto proposal = context_.compute(&lock, [&] { return newestProposal(inputs); });
     if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
-    if (!proposal || idInUse(lock) != in_use_ || !isCalibrated(lock) ||
-        (approach_ && idWithoutMasks(approach_->goal()) != watched_))
+    // Meanwhile the rig may have been replaced, or what was proposed before applied.
+    if (!proposal || idInUse(lock) != in_use_ || idToWatch() != watched_ || !isCalibrated(lock))
       return;
     const bool applies = in_use_ != reverted_to_ && appliesItself(proposal->cause);
     if (!applies && proposal->cause == Cause::kDrift && proposal->gain < continuous::kWorthAsking) {
@@ -139,15 +139,17 @@ class ContinuousServices {
     return rig ? idWithoutMasks(*rig) : "";
   }
 
+  /// idWithoutMasks() of the rig in use, or of the one that it approaches.
+  std::string idToWatch() const { return approach_ ? idWithoutMasks(approach_->goal()) : in_use_; }
+
   /// Watches the rig in use from now on, or the one that it approaches.
   void useRig(const Lock& lock) {
     if (idInUse(lock) != in_use_)
       approach_.reset();  // Someone has replaced it.
     in_use_ = idInUse(lock);
-    const std::string id = approach_ ? idWithoutMasks(approach_->goal()) : in_use_;
-    if (id == watched_)
+    if (idToWatch() == watched_)
       return;
-    watched_ = id;
+    watched_ = idToWatch();
     continuous_.reset();
     forgetProposal(lock);
     if (const auto& rig = context_.rig(lock))

@@ -25,6 +25,8 @@ class CameraClocks {
         clocks_(turn_stddevs_.size()),
         sorted_(turn_stddevs_.size()) {}
 
+  void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
+
   /// To be subtracted from the times of a camera's images; its variance is for their deviation.
   /// @param is_known whether the rig's time offset holds in this epoch of the clock
   ClockOffset::Estimate correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);

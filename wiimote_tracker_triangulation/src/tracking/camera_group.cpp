@@ -229,6 +229,11 @@ void CameraGroup::showStarts(std::vector<CameraView>* views) const {
   }
 }
 
+void CameraGroup::setCovariance(const geometry::Rig& rig) {
+  update_.setCovariance(rig.covariance);
+  clocks_.setTurnStddevs(turnStddevs(rig, members_));
+}
+
 void CameraGroup::adopt(const Track& track) {
   state_.tracks.push_back(track);
   state_.tracks.back().forgetCameras();

@@ -61,6 +61,9 @@ class CameraGroup {
   const std::vector<std::size_t>& members() const { return members_; }
   const std::vector<Track>& tracks() const { return state_.tracks; }
 
+  /// Takes over the covariance of a rig that is the same otherwise.
+  void setCovariance(const geometry::Rig& rig);
+
   /// Takes over a track from a group of another rig.
   void adopt(const Track& track);
 

@@ -38,6 +38,8 @@ void Tracker::setRig(const geometry::Rig& rig) {
   if (rig.id() == rig_id_) {
     rig_ = rig;
     uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
+    for (const auto& group : groups_)
+      group->setCovariance(rig_);
     return;
   }
   updateGroups();

@@ -202,6 +202,21 @@ TEST_F(ThrownErrors, ACaptureEndsWhenAnotherCalibrationIsStarted) {
   EXPECT_TRUE(replyTo<std_srvs::Trigger>("calibration/cancel").success);
 }
 
+TEST_F(ThrownErrors, AWaveIsRefusedWhenAnotherCalibrationIsStarted) {
+  captureAll();
+  setFault([] {
+    const Lock lock(node->context().mutex());
+    EXPECT_TRUE(
+        node->context().calibration(lock).start(1.0, 1.0, {"camera_1", "camera_2"}).success);
+  });
+  const Reply reply = replyTo<StartWave>("calibration/start_wave");
+  setFault([] {});
+  EXPECT_FALSE(reply.success);
+  EXPECT_SAYS(reply.message, "what was captured has changed meanwhile");
+  EXPECT_TRUE(waitForStep(CalibrationStatus::READY));
+  EXPECT_TRUE(replyTo<std_srvs::Trigger>("calibration/cancel").success);
+}
+
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
   // Images come until the node ends, after this test.
   const auto thrown = std::make_shared<bool>(false);

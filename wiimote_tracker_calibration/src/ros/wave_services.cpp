@@ -4,6 +4,8 @@
 
 #include <wiimote_tracker_msgs/StartWave.h>
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -75,12 +77,17 @@ std::optional<wave::Wand> wandOf(double length, double stddev) {
 
 workflow::Reply beginWave(const std::optional<wave::Wand>& wand, NodeContext* context, Lock* lock) {
   const session::Session captured = context->session(*lock);
+  workflow::Calibration& calibration = context->calibration(*lock);
+  const std::vector<std::string> names = calibration.cameras();
+  const std::size_t corners = calibration.square().corners().size();
   session::SolveOptions options = context->parameters(*lock).solve;
   options.correct_principal_points = false;
   std::vector<geometry::Camera> cameras;
   const bool posed =
       context->compute(lock, [&] { return knownCameras(captured, options, &cameras); });
-  return context->calibration(*lock).beginWave(cameras, posed, wand, NodeContext::now());
+  if (calibration.cameras() != names || calibration.square().corners().size() != corners)
+    throw Refusal("what was captured has changed meanwhile: start the wave again");
+  return calibration.beginWave(cameras, posed, wand, NodeContext::now());
 }
 
 Unit waveServices(NodeContext* context) {

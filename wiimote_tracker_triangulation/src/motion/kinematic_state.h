@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <optional>
+
 namespace wiimote_tracker::motion {
 
 /// Normal distribution of an LED's position, velocity and acceleration, in this order, in the world
@@ -25,16 +27,28 @@ struct KinematicState {
   /// @param jacobian d pixel / d position [px/m]
   /// @param whitening L^-1 of the innovation covariance L L^T, lower triangular [1/px]
   /// @param innovation [px]
+  /// @param considered a direction of length 1, if nothing is to be learned of the components along
+  /// it: their errors are only considered (the Schmidt-Kalman filter)
   template <int N = 9>
   void update(const Eigen::Matrix<double, 2, 3>& jacobian,
               const Eigen::Matrix2d& whitening,
-              const Eigen::Vector2d& innovation) {
+              const Eigen::Vector2d& innovation,
+              const std::optional<Eigen::Vector3d>& considered = std::nullopt) {
     // With the innovation covariance S = L L^T and W = P H^T L^-T: the gain is W L^-1, and the
     // covariance becomes P - W W^T.
     const Eigen::Matrix<double, 3, 2> whitened = jacobian.transpose() * whitening.transpose();
-    const Eigen::Matrix<double, N, 2> W = covariance.topLeftCorner<N, 3>() * whitened;
-    mean.head<N>() += W * (whitening * innovation);
+    Eigen::Matrix<double, N, 2> W = covariance.topLeftCorner<N, 3>() * whitened;
     covariance.topLeftCorner<N, N>() -= W.lazyProduct(W.transpose());
+    if (considered) {
+      // Any other gain K makes the covariance P - K H P - (K H P)^T + K S K^T.
+      Eigen::Matrix<double, N, 2> along;
+      for (int i = 0; i < N; i += 3)
+        along.template middleRows<3>(i) =
+            *considered * considered->transpose().lazyProduct(W.template middleRows<3>(i));
+      covariance.topLeftCorner<N, N>() += along.lazyProduct(along.transpose());
+      W -= along;
+    }
+    mean.head<N>() += W * (whitening * innovation);
   }
 
   /// Along a direction, velocity and acceleration are multiplied by `kept` and get noise, so that

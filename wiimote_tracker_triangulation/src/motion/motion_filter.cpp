@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::motion {
 namespace {
@@ -41,7 +42,8 @@ MotionFilter::MotionFilter(const MotionOptions& options,
       last_stop_(time),
       last_change_(time),
       last_update_(time),
-      last_parallax_(time),
+      last_change_of_camera_(time),
+      last_viewpoint_(Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())),
       modes_(initialModes(options, position, covariance)) {}
 
 void MotionFilter::predict(double time) {
@@ -123,26 +125,46 @@ bool MotionFilter::update(const geometry::Camera& camera,
   constexpr double kFarthest = 1e9;  // [px]
   if (!((pixel - prediction.pixel_).squaredNorm() < kFarthest * kFarthest))
     return false;
+  const std::optional<Vector3d> ray = rayIfAlone(camera);
   if (isLinear(camera, prediction, pixel)) {
-    apply(prediction, pixel);
+    apply(prediction, pixel, ray);
   } else {
     // The iterated extended Kalman filter: linearised again at its own result.
     const MotionFilter before = *this;
-    apply(prediction, pixel);
+    apply(prediction, pixel, ray);
     PixelPrediction closer = prediction;
     for (int i = 0; i < kIterations; ++i) {
       if (!before.linearize(camera, position(), &closer))
         break;
       *this = before;
-      apply(closer, pixel);
+      apply(closer, pixel, ray);
     }
   }
-  inflateUnobservedDepth(camera);
+  if (ray)
+    decayAlong(*ray, time_ - last_update_);
+  last_update_ = time_;
   return true;
 }
 
-/// Updates each mode's state, and the mode probabilities by Bayes' theorem.
-void MotionFilter::apply(const PixelPrediction& prediction, const Vector2d& pixel) {
+/// The direction from the camera to the LED if for a while no other camera has seen it. Pixels of
+/// one camera do not tell the distance. A filter would still take it from the motion, since a near
+/// LED needs less speed and acceleration for the same pixels: so it would come to the camera.
+std::optional<Vector3d> MotionFilter::rayIfAlone(const geometry::Camera& camera) {
+  constexpr double kDelay = 0.05;  // [s]
+  if (camera.center() != last_viewpoint_) {
+    last_viewpoint_ = camera.center();
+    last_change_of_camera_ = time_;
+  }
+  if (!(time_ - last_change_of_camera_ > kDelay))
+    return std::nullopt;
+  return (position() - camera.center()).normalized();
+}
+
+/// Updates each mode's state, and the mode probabilities by Bayes' theorem. With a ray, nothing is
+/// learned of the states along it.
+void MotionFilter::apply(const PixelPrediction& prediction,
+                         const Vector2d& pixel,
+                         const std::optional<Vector3d>& ray) {
   constexpr double kNegligible = 1e-100;
   const PixelPrediction::Distances distances = prediction.distancesTo(pixel);
   double sum = 0.0;
@@ -153,9 +175,9 @@ void MotionFilter::apply(const PixelPrediction& prediction, const Vector2d& pixe
     const PixelPrediction::ModePixel& predicted = prediction.modes_[i];
     const Vector2d innovation = pixel - prediction.pixel_ - predicted.offset;
     if (isAtRest(i))
-      mode.state.update<3>(prediction.jacobian_, predicted.whitening, innovation);
+      mode.state.update<3>(prediction.jacobian_, predicted.whitening, innovation, ray);
     else
-      mode.state.update<9>(prediction.jacobian_, predicted.whitening, innovation);
+      mode.state.update<9>(prediction.jacobian_, predicted.whitening, innovation, ray);
     mode.probability *= prediction.scaledDensity(i, distances);
     sum += mode.probability;
   }
@@ -168,31 +190,14 @@ void MotionFilter::apply(const PixelPrediction& prediction, const Vector2d& pixe
   }
 }
 
-/// One camera does not measure the distance, and a motion that is uniform across its image need not
-/// be so in depth. While the LED is seen from one direction only, velocity and acceleration along
-/// the ray decay, with a variance that is guessed from the speed across the ray.
-void MotionFilter::inflateUnobservedDepth(const geometry::Camera& camera) {
-  constexpr double kSquaredSine = 0.01;  // of the angle between two directions
-  constexpr double kDelay = 0.05;        // [s]
-  constexpr double kDecayTime = 1.0;     // to 1/e [s]
-  constexpr double kSpeedShare = 0.1;    // of the mean square of a velocity across the ray
-  const Vector3d view = position() - camera.center();
-  const double duration = time_ - last_update_;
-  last_update_ = time_;
-  if (std::pow(view.dot(view_), 2) <=
-      (1.0 - kSquaredSine) * view.squaredNorm() * view_.squaredNorm()) {
-    view_ = view;
-    last_parallax_ = time_;
-    return;
-  }
-  if (!(time_ - last_parallax_ > kDelay))
-    return;
-  const Vector3d ray = view.normalized();
-  const Vector3d v = velocity();
-  const Matrix3d squares = velocityCovariance() + v * v.transpose();
-  const double across = 0.5 * (squares.trace() - ray.dot(squares * ray));
+/// What is known of velocity and acceleration along the ray becomes outdated while one camera alone
+/// sees the LED: they decay to zero, with the variance of a motion of the same speed in any
+/// direction.
+void MotionFilter::decayAlong(const Vector3d& ray, double duration) {
+  constexpr double kDecayTime = 1.0;  // to 1/e [s]
+  const double mean_square = (velocityCovariance().trace() + velocity().squaredNorm()) / 3.0;
   for (int i = kRestModes; i < kModes; ++i)
-    modes_[i].state.decay(ray, std::exp(-duration / kDecayTime), kSpeedShare * across,
+    modes_[i].state.decay(ray, std::exp(-duration / kDecayTime), mean_square,
                           accelerationVariance(*options_, i));
 }
 

@@ -65,18 +65,21 @@ class MotionFilter {
   bool isLinear(const geometry::Camera& camera,
                 const PixelPrediction& prediction,
                 const Eigen::Vector2d& pixel) const;
-  void apply(const PixelPrediction& prediction, const Eigen::Vector2d& pixel);
-  void inflateUnobservedDepth(const geometry::Camera& camera);
+  std::optional<Eigen::Vector3d> rayIfAlone(const geometry::Camera& camera);
+  void apply(const PixelPrediction& prediction,
+             const Eigen::Vector2d& pixel,
+             const std::optional<Eigen::Vector3d>& ray);
+  void decayAlong(const Eigen::Vector3d& ray, double duration);
   Eigen::Vector3d mean(int first) const;
   Eigen::Matrix3d covariance(int first) const;
 
   const MotionOptions* options_;
   double time_;
-  double last_stop_;      // last mixing into the modes at rest [s]
-  double last_change_;    // last of the other mixings [s]
-  double last_update_;    // [s]
-  double last_parallax_;  // last update from another direction than the one before [s]
-  Eigen::Vector3d view_ = Eigen::Vector3d::Zero();  // from that camera to the LED [m]
+  double last_stop_;                // last mixing into the modes at rest [s]
+  double last_change_;              // last of the other mixings [s]
+  double last_update_;              // [s]
+  double last_change_of_camera_;    // last update by another camera than the one before [s]
+  Eigen::Vector3d last_viewpoint_;  // center of the last camera [m]
   Modes modes_;
 };
 

@@ -34,8 +34,8 @@ void SnapshotWriter::writeLeds(const Groups& groups, double time, Snapshot* snap
   std::sort(snapshot->leds.begin(), led, hasSmallerId);
 }
 
-void SnapshotWriter::predict(const Groups& groups, double time, Snapshot* snapshot) const {
-  snapshot->leds.resize(countTracks(groups));
+void SnapshotWriter::predict(const Groups& groups, double time, Snapshot* snapshot) {
+  resize(countTracks(groups), &snapshot->leds);
   writeLeds(groups, time, snapshot);
 }
 

@@ -23,7 +23,7 @@ class SnapshotWriter {
   void write(const Groups& groups, double time, Snapshot* snapshot);
 
   /// Without lost LEDs.
-  void predict(const Groups& groups, double time, Snapshot* snapshot) const;
+  void predict(const Groups& groups, double time, Snapshot* snapshot);
 
  private:
   void writeLeds(const Groups& groups, double time, Snapshot* snapshot) const;

@@ -42,6 +42,7 @@ int allocations(const Situation& situation, int count) {
   Tracker tracker(situation.rig, tracker_options);
   const std::size_t first = before_turn.size() / 2;  // that counts
   int before = 0;
+  Snapshot predicted;
   std::size_t leds_seen = 0;
   std::size_t merged = 0;    // spots in the images that count
   std::size_t as_named = 0;  // of these images, those with the expected fault or none
@@ -54,6 +55,7 @@ int allocations(const Situation& situation, int count) {
     tracker.add(image.camera, image.image);
     while (const Snapshot* snapshot = tracker.next())
       leds_seen += snapshot->leds.size();
+    tracker.predictTo(image.image.stamp + 0.1, &predicted);
     const std::optional<CameraFault> fault = tracker.cameraFault(kTurned);
     as_named += i >= first && (fault ? fault->kind == situation.fault : !situation.fault);
   }

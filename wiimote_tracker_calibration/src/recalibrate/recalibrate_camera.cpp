@@ -127,11 +127,8 @@ void checkFit(const Fit& fit) {
         format("only %zu of %zu images of %s fit to what the others saw: it moved while the LED "
                "was waved, or sees another light; fix that and wave again",
                found, fit.expected, name.c_str()));
-  if (fit.pixel_stddev > kLargestNoise)
-    throw Error("the images of " + name + " are " + format("%.1f px", fit.pixel_stddev) +
-                " off what the others saw: its starting intrinsics are wrong, or the "
-                "others were moved too; calibrate all of them again");
 
+  // Before the residuals, which are large where a flat path lets the pose go wrong.
   std::vector<Eigen::Vector3d> positions;
   for (const Match& match : fit.matches)
     positions.push_back(match.point.position);
@@ -143,6 +140,10 @@ void checkFit(const Fit& fit) {
     throw Error(
         "the LED stayed on a line or in a plane: wave it through the whole volume, up and down "
         "and near and far");
+  if (fit.pixel_stddev > kLargestNoise)
+    throw Error("the images of " + name + " are " + format("%.1f px", fit.pixel_stddev) +
+                " off what the others saw: its starting intrinsics are wrong, or the "
+                "others were moved too; calibrate all of them again");
 }
 
 /// How the camera's estimate changes with each parameter of the rig: inverse of the information

@@ -203,18 +203,6 @@ TEST_F(Sockets, TooLongPath) {
   EXPECT_THROW(Server(path, "a", virtual_wiimote::Device::Options()), std::system_error);
 }
 
-TEST_F(Sockets, ARemoteThatSaysNothingIsNotSaidToBeTaken) {
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  path_.copy(address.sun_path, sizeof(address.sun_path) - 1);
-  const int listener = ::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0);
-  ASSERT_EQ(0, ::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
-  ASSERT_EQ(0, ::listen(listener, 1));
-  const std::string sentence = sentenceOf<Disconnected>([&] { connect(); });
-  EXPECT_TRUE(contains(sentence, path_ + " does not answer")) << sentence;
-  ::close(listener);
-}
-
 TEST_F(Sockets, SecondHostIsRefusedUntilTheFirstHasGone) {
   const auto server = serve();
   auto first = connect();

@@ -27,14 +27,12 @@ class SocketTransport : public Transport {
   SocketTransport(FileDescriptor fd, const std::string& path)
       : fd_(std::move(fd)), description_("virtual:" + path) {}
 
-  /// The first packet says who the remote is, or who has it. @throws DeviceTaken; Disconnected: it
-  /// says nothing.
+  /// The first packet says who the remote is, or who has it. @throws DeviceTaken.
   void receiveIdentity() {
-    const std::string remote = "the virtual Wii Remote at " + description_;
-    if (!waitReadable(kGreetingTimeout))
-      throw Disconnected(remote + " does not answer: start it again");
     char text[64];
-    const ssize_t size = ::recv(fd_.get(), text, sizeof(text), 0);
+    const ssize_t size =
+        waitReadable(kGreetingTimeout) ? ::recv(fd_.get(), text, sizeof(text), 0) : 0;
+    const std::string remote = "the virtual Wii Remote at " + description_;
     if (size <= 0)
       throwTaken(remote, std::nullopt);
     identity_.assign(text, static_cast<std::size_t>(size));

@@ -3,6 +3,7 @@
 #include <wiimote_tracker_msgs/log_exceptions.h>
 
 #include <chrono>
+#include <cstdint>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -24,6 +25,11 @@ CaptureServer::CaptureServer(const ros::NodeHandle& nh, std::function<Result(con
                  name + "/goal", 50, [this](const auto& goal) { checkStamp(goal->goal_id.stamp); }),
              nh_.subscribe<actionlib_msgs::GoalID>(
                  name + "/cancel", 50, [this](const auto& goal) { checkStamp(goal->stamp); })};
+  constexpr std::uint32_t kQueue = 50;
+  constexpr bool kLatched = true;  // as actionlib's
+  topics_ = {
+      nh_.advertise<wiimote_tracker_msgs::CaptureCornerActionResult>(name + "/result", kQueue),
+      nh_.advertise<actionlib_msgs::GoalStatusArray>(name + "/status", kQueue, kLatched)};
   start();
   requests_ = std::thread([this] {
     while (!is_ending_)

@@ -61,6 +61,9 @@ class CaptureServer {
   std::atomic<bool> is_restarting_{false};
   std::atomic<bool> is_ending_{false};
   std::vector<ros::Subscriber> stamps_;
+  // Of the server's topics: while these exist, what a server has sent arrives, also when it is
+  // destroyed at once.
+  std::vector<ros::Publisher> topics_;
   std::unique_ptr<Server> server_;
   // Handles all requests, and exchanges the server: so none reaches a server that is being
   // destroyed.

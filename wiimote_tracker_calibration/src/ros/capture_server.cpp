@@ -53,8 +53,8 @@ std::string CaptureServer::whyCancelled() const {
   if (is_ending_)
     return "the calibration node ends";
   if (is_restarting_)
-    return "a request from a computer whose clock is wrong came, see the log of the calibration "
-           "node; capture it again";
+    return "a request came from a computer whose clock is wrong: set that clock, then capture "
+           "again";
   return is_preempted_ ? "the request was cancelled" : "";
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kL2capProtocol = 0;
 constexpr long kReadTime = 1;        // [s]
-constexpr double kReadBegins = 0.3;  // [s]
+constexpr double kReadBegins = 0.3;  // [s] By the guest's clock, until the reader waits.
 
 /// struct sockaddr_l2 of BlueZ's headers, which are not needed otherwise.
 struct L2capAddress {

@@ -87,8 +87,8 @@ bool MotionFilter::linearize(const geometry::Camera& camera,
   const Matrix23& H = to.jacobian_;
   const Vector3d mean = position();
   to.pixel_ = *pixel + H * (mean - point);
-  const Vector2d smear = to.stamp_stddev_ * (H * to.velocity_);
-  const Matrix2d noise = smear * smear.transpose() + to.pixel_variance_ * Matrix2d::Identity();
+  const double stamp_variance = to.stamp_stddev_ * to.stamp_stddev_;
+  const Matrix2d noise = to.pixel_variance_ * Matrix2d::Identity();
   for (int i = 0; i < kModes; ++i) {
     const KinematicState& state = modes_[i].state;
     PixelPrediction::ModePixel& mode = to.modes_[i];
@@ -96,7 +96,11 @@ bool MotionFilter::linearize(const geometry::Camera& camera,
     if (!(mode.probability > 0.0))
       continue;
     mode.offset = H * (state.position() - mean);
-    const Matrix23 HP = H * state.positionCovariance();
+    // In an error of the time the LED moves: by a velocity that may itself be unknown.
+    const Vector3d v = state.velocity();
+    const Matrix3d spread = state.positionCovariance() +
+                            stamp_variance * (state.velocityCovariance() + v * v.transpose());
+    const Matrix23 HP = H * spread;
     mode.whitening = whiteningOf(HP * H.transpose() + noise, to.pixel_variance_);
   }
   return true;

@@ -15,6 +15,27 @@ using Eigen::Vector3d;
 using geometry::Camera;
 using geometry::test::Random;
 
+/// That an uncertain time adds its variance times the second moment of the pixel's velocity.
+void expectNoiseAlongTheMotion(const MotionFilter& filter, const Camera& camera) {
+  constexpr double kStampStddev = 0.003;
+  const auto exact = filter.predictPixel(camera, {kPixelStddev, 0.0});
+  const auto smeared = filter.predictPixel(camera, {kPixelStddev, kStampStddev});
+  ASSERT_TRUE(exact && smeared);
+  Eigen::Matrix<double, 2, 3> derivative;  // by differences
+  constexpr double kSmall = 1e-4;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vector3d step = kSmall * Vector3d::Unit(axis);
+    derivative.col(axis) =
+        (*camera.project(filter.position() + step) - *camera.project(filter.position() - step)) /
+        (2.0 * kSmall);
+  }
+  const Matrix3d moment =
+      filter.velocityCovariance() + filter.velocity() * filter.velocity().transpose();
+  const Eigen::Matrix2d expected =
+      kStampStddev * kStampStddev * derivative * moment * derivative.transpose();
+  EXPECT_LT(relative(smeared->covariance() - exact->covariance(), expected), 1e-4);
+}
+
 TEST(PixelPrediction, IsTheMixturesDensityAndMoments) {
   const Camera camera = ring()[1];
   MotionFilter filter(kDefault, 0.0, {0.1, 0.2, 0.3}, 1e-6 * Matrix3d::Identity());
@@ -88,17 +109,14 @@ TEST(PixelPrediction, AnUncertainStampAddsNoiseAlongTheMotion) {
     ASSERT_TRUE(
         takeIn(&filter, kStep * i, cameras[i % 4], noisyPixel(cameras[i % 4], truth, random)));
   }
-  constexpr double kStampStddev = 0.003;
-  const auto exact = filter.predictPixel(cameras[0], {kPixelStddev, 0.0});
-  const auto smeared = filter.predictPixel(cameras[0], {kPixelStddev, kStampStddev});
-  ASSERT_TRUE(exact && smeared);
-  // By differences: how far the pixel goes in that time.
-  constexpr double kSmall = 1e-4;
-  const Vector2d speed = (*cameras[0].project(filter.position() + kSmall * filter.velocity()) -
-                          *cameras[0].project(filter.position() - kSmall * filter.velocity())) /
-                         (2.0 * kSmall);
-  const Eigen::Matrix2d expected = kStampStddev * kStampStddev * speed * speed.transpose();
-  EXPECT_LT(relative(smeared->covariance() - exact->covariance(), expected), 1e-4);
+  expectNoiseAlongTheMotion(filter, cameras[0]);
+}
+
+// It goes on at up to initial_speed in the direction that nobody knows yet.
+TEST(PixelPrediction, AnUncertainStampAddsNoiseWhereTheVelocityIsUnknown) {
+  const MotionFilter filter(kDefault, 0.0, Vector3d(-0.2, 0.0, 0.1), 1e-6 * Matrix3d::Identity());
+  EXPECT_EQ(Vector3d::Zero(), filter.velocity());
+  expectNoiseAlongTheMotion(filter, ring()[0]);
 }
 
 }  // namespace

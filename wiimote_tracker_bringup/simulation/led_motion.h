@@ -23,7 +23,8 @@ class LedMotion {
   /// Stops at `time`.
   void hold(double time);
 
-  /// Moves straight to `target` from `time` on, and stays there. Speed 0: immediately.
+  /// Moves straight to `target` from `time` on as a hand does, and stays there. The speed is the
+  /// mean one: it begins and ends at 0, with 15/8 of the mean between. Speed 0: immediately.
   /// @returns the time of arrival.
   double line(double time, const Eigen::Vector3d& target, double speed);
 

@@ -117,7 +117,9 @@ class SimulatedRig(NodeTest):
         moving = [(t, x) for t, x in track if arrival - 0.49 < t < arrival]
         self.assertGreater(len(moving), 90)  # 200 Hz
         for t, x in moving:
-            self.assertAlmostEqual(x, 1.5 - 2.0 * (arrival - t), delta=1e-5)
+            part = 1.0 - (arrival - t) / 0.5
+            way = part ** 3 * (10.0 - 15.0 * part + 6.0 * part ** 2)
+            self.assertAlmostEqual(x, 0.5 + way, delta=1e-5)
         self.assertTrue(all(x == 1.5 for t, x in track if t > arrival))
 
     def test_an_invalid_request_is_refused_with_a_reason(self):

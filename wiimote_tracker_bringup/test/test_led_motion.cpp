@@ -16,7 +16,7 @@ TEST(LedMotion, rests_until_it_is_moved) {
   EXPECT_EQ(motion.position(100.0), Vector3d(1.0, 2.0, 3.0));
 }
 
-TEST(LedMotion, moves_on_a_line_at_the_given_speed_and_stops) {
+TEST(LedMotion, moves_on_a_line_at_the_given_mean_speed_and_stops) {
   LedMotion motion(Vector3d(0.0, 0.0, 0.0));
   const double arrival = motion.line(10.0, Vector3d(3.0, 4.0, 0.0), 2.0);
   EXPECT_DOUBLE_EQ(arrival, 12.5);  // 5 m at 2 m/s
@@ -24,6 +24,24 @@ TEST(LedMotion, moves_on_a_line_at_the_given_speed_and_stops) {
   EXPECT_LT((motion.position(11.25) - Vector3d(1.5, 2.0, 0.0)).norm(), 1e-12);
   EXPECT_EQ(motion.position(arrival), Vector3d(3.0, 4.0, 0.0));
   EXPECT_EQ(motion.position(1000.0), Vector3d(3.0, 4.0, 0.0));
+}
+
+TEST(LedMotion, starts_and_stops_as_softly_as_a_hand) {
+  LedMotion motion(Vector3d::Zero());
+  const double arrival = motion.line(10.0, Vector3d(2.0, 0.0, 0.0), 2.0);
+  const double step = 1e-3;
+  double fastest = 0.0, hardest = 0.0;
+  for (double time = 9.9; time < arrival + 0.1; time += step) {
+    const double before = motion.position(time - step).x();
+    const double here = motion.position(time).x();
+    const double after = motion.position(time + step).x();
+    EXPECT_GE(after, here);
+    fastest = std::max(fastest, (after - here) / step);
+    hardest = std::max(hardest, std::abs(after - 2.0 * here + before) / (step * step));
+  }
+  // Of the minimum-jerk motion: 15/8 of the mean speed, and 10 / sqrt(3) distance / duration^2.
+  EXPECT_NEAR(fastest, 3.75, 0.01);
+  EXPECT_NEAR(hardest, 2.0 * 10.0 / std::sqrt(3.0), 0.1);
 }
 
 TEST(LedMotion, is_there_at_once_with_speed_zero) {
@@ -36,8 +54,8 @@ TEST(LedMotion, is_there_at_once_with_speed_zero) {
 TEST(LedMotion, holds_in_the_middle_of_a_line) {
   LedMotion motion(Vector3d(0.0, 0.0, 0.0));
   motion.line(0.0, Vector3d(1.0, 0.0, 0.0), 1.0);
-  motion.hold(0.25);
-  EXPECT_LT((motion.position(0.9) - Vector3d(0.25, 0.0, 0.0)).norm(), 1e-12);
+  motion.hold(0.5);
+  EXPECT_LT((motion.position(0.9) - Vector3d(0.5, 0.0, 0.0)).norm(), 1e-12);
 }
 
 TEST(LedMotion, a_new_line_begins_at_the_present_position) {

@@ -27,6 +27,7 @@ namespace {
 
 using adjust::CameraBlocks;
 using geometry::firstParameter;
+using geometry::kDistortion;
 using geometry::kParameters;
 using geometry::kPosition;
 using geometry::kRotation;
@@ -91,6 +92,19 @@ geometry::Rig priorOf(const geometry::Rig& rig, const KeyframeSource& source, do
     prior.covariance.diagonal().segment<kTimeOffset>(first).array() += kHeldVariance;
   }
   return prior;
+}
+
+/// Sets to zero what the prior says of coefficients that a lens does not have: a rig must not.
+Eigen::MatrixXd ofExistingCoefficients(const geometry::Rig& rig, Eigen::MatrixXd covariance) {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const auto coefficients = static_cast<Eigen::Index>(
+        geometry::coefficientCount(rig.cameras[i].camera.intrinsics.distortion_model));
+    for (Eigen::Index k = kDistortion + coefficients; k < kTimeOffset; ++k) {
+      covariance.row(firstParameter(i) + k).setZero();
+      covariance.col(firstParameter(i) + k).setZero();
+    }
+  }
+  return covariance;
 }
 
 /// Whether there are enough, and they do not lie together.
@@ -214,7 +228,7 @@ class Adjustment {
       return true;
     const auto covariance = problem.covariance();
     if (covariance)
-      rig_.covariance = *covariance;
+      rig_.covariance = ofExistingCoefficients(rig_, *covariance);
     return covariance.has_value();
   }
 

@@ -138,6 +138,20 @@ TEST(SelfCalibrate, SaysThatParallelCamerasDoNotDetermineFocalLengths) {
   EXPECT_LT(shapeError(rig, fixed), 0.02);
 }
 
+TEST(SelfCalibrate, TellsTheNoiseWhenTheLensesAreGiven) {
+  // Few points: degrees of freedom for lenses that are not fitted would enlarge it by 15 % or more.
+  SelfCalibrationOptions given;
+  given.fixed_lenses = true;
+  const int kRuns = 10;
+  double squares = 0.0;
+  for (unsigned run = 0; run < kRuns; ++run) {
+    SyntheticRig rig = rigOf(3, 40, 100 + run);
+    rig.addNoise(0.3);
+    squares += std::pow(solved(rig, given).pixel_stddev, 2);
+  }
+  EXPECT_NEAR(std::sqrt(squares / kRuns), 0.3, 0.03);
+}
+
 TEST(SelfCalibrate, HasTheStatedUncertainty) {
   // From the truth on, nothing else known, so that only the noise matters. Chi-square of 4 focal
   // lengths, 30 times: its mean is 1 with a standard deviation of 0.13 were they independent, at

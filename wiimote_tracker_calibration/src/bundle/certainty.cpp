@@ -25,7 +25,9 @@ double huberWeight(double error, double loss_scale) {
 
 }  // namespace
 
-double pixelStddev(const Reconstruction& reconstruction, const Options& options) {
+double pixelStddev(const Reconstruction& reconstruction,
+                   const Options& options,
+                   bool fixed_lenses) {
   std::vector<std::size_t> views(reconstruction.points.size(), 0);
   double squares = 0.0;
   for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
@@ -37,7 +39,8 @@ double pixelStddev(const Reconstruction& reconstruction, const Options& options)
     squares += huberWeight(*error, options.loss_scale) * *error * *error;
   }
   const auto cameras = static_cast<double>(reconstruction.cameras.size());
-  const double parameters = cameras * kPoseSize + (options.one_lens ? 1.0 : cameras) * kLensSize;
+  const double lenses = fixed_lenses ? 0.0 : options.one_lens ? 1.0 : cameras;
+  const double parameters = cameras * kPoseSize + lenses * kLensSize;
   double freedom = 7.0 - parameters;  // a similarity is not observed
   for (const std::size_t count : views) {
     if (count >= 2)
@@ -53,7 +56,7 @@ Certainty::Certainty(const Reconstruction& reconstruction,
   const Eigen::Index size = poseColumn(camera_count_);
   information_ = Eigen::MatrixXd::Zero(size, size);
   gradient_ = Eigen::VectorXd::Zero(size);
-  addObservations(reconstruction, options);
+  addObservations(reconstruction, options, pixelStddev(reconstruction, options, fixed_lenses));
   if (fixed_lenses)
     information_.diagonal().head(poseColumn(0)).array() += kGiven;
   else
@@ -73,8 +76,10 @@ Eigen::Index Certainty::poseColumn(std::size_t camera) const {
 }
 
 /// Information of the observations about lenses and poses, the points being free.
-void Certainty::addObservations(const Reconstruction& reconstruction, const Options& options) {
-  const double stddev = pixelStddev(reconstruction, options);
+/// @param stddev of a pixel coordinate [px].
+void Certainty::addObservations(const Reconstruction& reconstruction,
+                                const Options& options,
+                                double stddev) {
   std::vector<std::vector<const Observation*>> views(reconstruction.points.size());
   for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
     const Observation& observation = reconstruction.observations[i];

@@ -239,7 +239,7 @@ class Search {
 
 void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCalibration* result) {
   const Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
-  result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle);
+  result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle, options.fixed_lenses);
   const double ratio =
       options.fixed_lenses ? 1.0 : birgeRatio(result->reconstruction, options.bundle);
   result->expected_shape_error = certainty.expectedShapeError();
@@ -274,7 +274,7 @@ void refine(const SelfCalibrationOptions& options, Reconstruction* reconstructio
     tight.loss_scale = std::max(std::min(2.0 * median, options.bundle.loss_scale), 1e-3);
     // Exact pixels have a median near 0.
     tight.maximum_error = std::max(tight.maximum_error, 0.01 * options.bundle.maximum_error);
-    tight.pixel_stddev = std::max(pixelStddev(*reconstruction, tight), 1e-3);
+    tight.pixel_stddev = std::max(pixelStddev(*reconstruction, tight, options.fixed_lenses), 1e-3);
     tight.rough = round + 1 < kRounds;
     triangulatePoints(reconstruction, tight.maximum_error);
     adjust(reconstruction, tight, held);

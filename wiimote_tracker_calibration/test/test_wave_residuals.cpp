@@ -61,5 +61,21 @@ TEST(Wave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
   }
 }
 
+TEST(Wave, TheFirstCamerasClockIsNoEvidence) {
+  // All is given but the second camera's clock, which is off by one standard deviation.
+  constexpr double kOffset = 0.005;  // [s]
+  WaveScene scene = wandScene();
+  scene.uncertainty.focal = scene.uncertainty.aspect = 1e-5;
+  scene.uncertainty.principal_point = 1e-3;
+  scene.uncertainty.shared_principal_point = 0.0;
+  scene.uncertainty.k1 = 1e-6;
+  SimulatedWave wave = simulateWave(scene, 3);
+  for (Frame& frame : wave.recording.cameras[1].frames)
+    frame.stamp += wave.offsets[1] - kOffset;
+  WaveOptions options = optionsFor(scene);
+  options.offset = kOffset;
+  EXPECT_NEAR(solveWave(wave.recording, options).misfit, 1.0, 0.1);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::wave

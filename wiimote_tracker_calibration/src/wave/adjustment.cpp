@@ -212,7 +212,8 @@ class WaveProblem {
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
     known_.push_back(square::addLensPrior(start, options_.uncertainty, camera.lens.data(),
                                           shared_offset_.data(), &problem_));
-    addPrior(0.0, options_.offset, &camera.time_offset);
+    if (i > 0)  // the first one's is held at 0: it cannot disagree
+      addPrior(0.0, options_.offset, &camera.time_offset);
     problem_.SetParameterBlockConstant(camera.distortion.data());
   }
 

@@ -270,20 +270,14 @@ geometry::RigCamera rigCamera(const geometry::RigCamera& before,
   camera.time_offset_epoch = clock_epoch;
   camera.observations = static_cast<std::uint32_t>(fit.expected);
   camera.inliers = static_cast<std::uint32_t>(fit.matches.size());
-  double squared_px = 0.0;
-  double squared_m = 0.0;
-  for (const Match& match : fit.matches) {
-    const auto pixel = fit.camera.project(match.point.position);
-    if (!pixel)
-      continue;
-    const double squared = (*pixel - match.pixel).squaredNorm();
-    const geometry::Intrinsics& lens = fit.camera.intrinsics;
-    squared_px += squared;
-    squared_m +=
-        squared * (match.point.position - fit.camera.center()).squaredNorm() / (lens.fx * lens.fy);
-  }
-  camera.residual_px = std::sqrt(squared_px / camera.inliers);
-  camera.residual_m = std::sqrt(squared_m / camera.inliers);
+  const geometry::Intrinsics& lens = fit.camera.intrinsics;
+  double squared_scale = 0.0;  // sum of those of the image at the LED [m^2/px^2]
+  for (const Match& match : fit.matches)
+    squared_scale +=
+        (match.point.position - fit.camera.center()).squaredNorm() / (lens.fx * lens.fy);
+  // Without what the points' errors add: it is to tell the noise of this camera.
+  camera.residual_px = std::sqrt(2.0) * fit.pixel_stddev;
+  camera.residual_m = camera.residual_px * std::sqrt(squared_scale / camera.inliers);
   return camera;
 }
 

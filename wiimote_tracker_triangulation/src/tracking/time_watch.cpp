@@ -83,7 +83,7 @@ bool TimeWatch::comparePairs(std::size_t camera, double arrival) {
     int& unanswered = pair.unanswered[is_first ? 0 : 1];
     int& other_unanswered = pair.unanswered[is_first ? 1 : 0];
     const bool was_silent = other_unanswered > kSilence;
-    ++unanswered;
+    unanswered = std::min(unanswered + 1, kSilence + 2);  // more would overflow some day
     changed |= was_silent || unanswered == kSilence + 1;
     if (was_silent)
       pair.recent = {};

@@ -10,9 +10,11 @@ if (( 0x$(awk '/^SigIgn/ { print substr($2, length($2)) }' /proc/$$/status) & 2 
   exec env --default-signal=INT bash "$0" "$@"
 fi
 
-# Another python3 or another ROS workspace in the environment breaks catkin and ROS scripts.
+# Another python3 or another ROS workspace in the environment breaks catkin and ROS scripts. With
+# CDPATH, cd may print where it goes; the makefiles below are those of CMake's default generator.
 export PATH="/usr/bin:/usr/sbin:/bin:/sbin:$PATH"
 unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_IP ROS_NAMESPACE
+unset CDPATH CMAKE_GENERATOR
 export PYTHONDONTWRITEBYTECODE=1
 export ROS_HOSTNAME=localhost
 # Message code in a language that nothing here speaks.

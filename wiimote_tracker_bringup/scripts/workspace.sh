@@ -133,7 +133,9 @@ jobs_that_fit() {
 
 # Makes the workspace and locks it until the script ends.
 prepare_workspace() {
-  mkdir -p "$workspace/src" || fail "cannot write to $workspace; set WIIMOTE_TRACKER_WORKSPACE to a folder that can be written"
+  # An earlier run may have been another user's.
+  mkdir -p "$workspace/src" && [[ -w $workspace && -w $workspace/src ]] ||
+    fail "cannot write to $workspace; set WIIMOTE_TRACKER_WORKSPACE to a folder that can be written"
   workspace=$(cd "$workspace" && pwd -P)
   exec 9>"$workspace/.lock"
   flock -n 9 || fail "another demo or test uses $workspace; wait for it, or set WIIMOTE_TRACKER_WORKSPACE to another folder"

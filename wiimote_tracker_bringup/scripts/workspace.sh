@@ -93,20 +93,27 @@ not_installed() {
       awk '$2 == "installed" { print $1 }' | sort -u)
 }
 
+# Those of these packages that this release of Debian has.
+available() {
+  local package
+  for package; do
+    [[ -z $(apt-cache madison "$package" 2>/dev/null) ]] || printf '%s\n' "$package"
+  done
+}
+
 # install_missing_packages LIST...: the packages in these files. One that is marked with "?" is left
 # out where this release of Debian does not have it.
 install_missing_packages() {
   command -v apt-get >/dev/null && command -v dpkg-query >/dev/null ||
     fail "this needs apt-get (Debian 11 to 13); on another system install what package.xml names and use catkin_make"
-  local missing optional package root=()
+  local needed optional missing root=()
   # shellcheck disable=SC2046
-  missing=$(not_installed $(grep -hv '^#' "$@" | grep -v '?'))
+  needed=$(not_installed $(grep -hv '^#' "$@" | grep -v '?'))
   # shellcheck disable=SC2046
   optional=$(not_installed $(grep -hv '^#' "$@" | sed -n 's/ *?$//p'))
-  for package in $optional; do
-    [[ -z $(apt-cache madison "$package" 2>/dev/null) ]] || missing+=" $package"
-  done
-  [[ -n $missing ]] || return 0
+  # shellcheck disable=SC2086
+  missing="$needed $(available $optional)"
+  [[ -n ${missing// /} ]] || return 0
 
   # shellcheck disable=SC2086
   step "Installing $(wc -w <<<"$missing") Debian packages:" $missing
@@ -119,8 +126,9 @@ install_missing_packages() {
   run "${apt[@]}" dpkg --configure -a || true  # repairs an interrupted installation
   run "${apt[@]}" apt-get update ||
     fail "apt-get update failed (see above); check the network and /etc/apt/sources.list"
-  # shellcheck disable=SC2086
-  run "${apt[@]}" apt-get install -y --no-install-recommends $missing ||
+  # Once more: a new Debian knows no packages before.
+  # shellcheck disable=SC2046,SC2086
+  run "${apt[@]}" apt-get install -y --no-install-recommends $needed $(available $optional) ||
     fail "apt-get could not install the missing packages (see above); on Debian 11 to 13 all of them are in main"
 }
 

@@ -1,4 +1,5 @@
-"""The nodes in Python say what they do and what their parameters are, without a master."""
+"""The programs in Python say what they do, what their parameters are and what they lack, without a
+master."""
 
 import os
 import subprocess
@@ -24,3 +25,20 @@ def test_help_tells_the_parameters(program, words):
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.startswith(f'usage: {os.path.basename(program)} ')
     assert words in done.stdout
+
+
+@pytest.mark.parametrize('program', [
+    'benchmark/benchmark_latency', 'evaluation/body_to_base', 'evaluation/evaluate',
+    'evaluation/evaluate_recording', 'evaluation/evaluate_trajectory', 'evaluation/fault_matrix',
+    'evaluation/lead_demo', 'evaluation/place_cameras', 'evaluation/plan_rig', 'evaluation/probe',
+    'evaluation/results_table'])
+def test_a_program_names_the_python_package_that_it_lacks(program):
+    # The Debian package only suggests it.
+    without_scipy = ("import runpy, sys; sys.modules['scipy'] = None; sys.argv = sys.argv[1:]; "
+                     "runpy.run_path(sys.argv[0], run_name='__main__')")
+    done = subprocess.run([sys.executable, '-c', without_scipy, os.path.join(PACKAGE, program)],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
+                          universal_newlines=True)
+    assert done.returncode == 1
+    assert done.stderr.endswith('apt install python3-scipy\n')
+    assert 'Traceback' not in done.stderr

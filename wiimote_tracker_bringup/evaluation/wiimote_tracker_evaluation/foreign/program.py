@@ -29,7 +29,7 @@ def write_report(title, outcome, folder):
     rows = ''.join(f'<tr><td>{html.escape(name)}</td><td>{html.escape(value)}</td></tr>'
                    for name, value in outcome.rows)
     os.makedirs(folder, exist_ok=True)
-    with open(os.path.join(folder, 'report.html'), 'w') as file:
+    with open(os.path.join(folder, 'report.html'), 'w', encoding='utf-8') as file:
         file.write(f'<!DOCTYPE html><meta charset="utf-8"><title>{html.escape(title)}</title>'
                    f'<h1>{html.escape(title)}</h1>'
                    f'<p>A real recording. {html.escape(outcome.method)}.</p><table>{rows}</table>'

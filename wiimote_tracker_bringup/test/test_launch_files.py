@@ -95,6 +95,16 @@ def test_each_namespace_has_its_own_label_places(load, monkeypatch):
     assert len({os.path.normpath(file) for file in files}) == 3
 
 
+def test_each_user_has_own_virtual_remotes(load, monkeypatch):
+    folders = []
+    for user in ('anna', 'ben'):
+        monkeypatch.setenv('USER', user)
+        parameters = load('simulated_rig.launch')[1]
+        folders.append(parameters['/simulated_rig/socket_directory'])
+        assert parameters['/drivers/socket_directory'] == folders[-1]
+    assert folders[0] != folders[1]
+
+
 def test_a_live_start_ends_the_simulated_time_of_a_replay(load):
     assert load('replay.launch', 'bag:=x')[1]['/use_sim_time'] is True
     assert load('tracker.launch')[1]['/use_sim_time'] is False

@@ -1,9 +1,8 @@
 """Downloads Debian's kernel, QEMU and busybox with apt-get and unpacks them into a cache folder.
-Installs nothing and needs no root. Can also be run by itself:
-
-    fetch.py [KERNEL_PACKAGE]
+Installs nothing and needs no root. Can also be run by itself.
 """
 
+import argparse
 import contextlib
 import fcntl
 import glob
@@ -198,7 +197,10 @@ def fetch(kernel_package: str = DEFAULT_KERNEL, packages: Iterable[str] = ()) ->
 
 
 if __name__ == '__main__':
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument('kernel', nargs='?', default=DEFAULT_KERNEL, metavar='KERNEL_PACKAGE',
+                        help='default: %(default)s')
     try:
-        print(fetch(*sys.argv[1:2]).kernel)
+        print(fetch(parser.parse_args().kernel).kernel)
     except Unavailable as problem:
         sys.exit(str(problem))

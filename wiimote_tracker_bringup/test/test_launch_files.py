@@ -95,6 +95,13 @@ def test_each_namespace_has_its_own_label_places(load, monkeypatch):
     assert len({os.path.normpath(file) for file in files}) == 3
 
 
+@pytest.mark.parametrize('name', ['tracker.launch', 'simulated_rig.launch', 'several_machines.launch'])
+def test_a_service_without_a_home_can_start_it(load, monkeypatch, name):
+    monkeypatch.delenv('HOME')
+    monkeypatch.setenv('ROS_HOME', '/var/lib/lab')
+    assert load(name)[1]['/triangulation/bodies/file'].startswith('/var/lib/lab/wiimote_tracker/')
+
+
 def test_each_user_has_own_virtual_remotes(load, monkeypatch):
     folders = []
     for user in ('anna', 'ben'):

@@ -15,6 +15,7 @@ fi
 export PATH="/usr/bin:/usr/sbin:/bin:/sbin:$PATH"
 unset PYTHONHOME PYTHONPATH CMAKE_PREFIX_PATH ROS_PACKAGE_PATH ROS_IP ROS_NAMESPACE
 unset CDPATH CMAKE_GENERATOR
+export PYTHONNOUSERSITE=1  # the user's own em or numpy would come before Debian's
 export PYTHONDONTWRITEBYTECODE=1
 export ROS_HOSTNAME=localhost
 # Message code in a language that nothing here speaks.

@@ -26,6 +26,10 @@ def test_a_path_for_cd_does_not_confuse_the_scripts(shell):
     assert shell('echo "$bringup"', 'scripts/workspace.sh', PACKAGE, CDPATH='.:/') == PACKAGE + '\n'
 
 
+def test_packages_of_the_user_do_not_come_before_those_of_debian(shell):
+    assert shell('python3 -c "import site; print(site.ENABLE_USER_SITE)"') == 'False\n'
+
+
 @pytest.mark.skipif(not shutil.which('apt-get'), reason='this computer has no apt-get')
 @pytest.mark.parametrize('release_has_it', [True, False])
 def test_what_only_some_releases_have_is_installed_though_package_lists_come_first(

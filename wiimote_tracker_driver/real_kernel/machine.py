@@ -1,7 +1,6 @@
 """Boots the guest and returns its output."""
 
 import os
-import signal
 import subprocess
 import time
 from dataclasses import dataclass
@@ -18,6 +17,8 @@ EMULATED = ['-accel', 'tcg,thread=multi', '-cpu', 'qemu64', '-smp', '2']
 KVM = ['-accel', 'kvm', '-cpu', 'host', '-smp', '2']
 
 KVM_PROOF_LIMIT = 10.0  # [s]
+
+_running = set()  # processes of guests
 
 
 @dataclass
@@ -40,21 +41,29 @@ def boot(parts: Parts, initramfs: str, scenario: str, accelerator: List[str], li
         'console=ttyS0 loglevel=1 panic=-1 nokaslr mitigations=off scenario=' + scenario]
     start = time.monotonic()
     process = subprocess.Popen(command, env=parts.qemu_environment(), stdin=subprocess.DEVNULL,
-                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-                               start_new_session=True)
+                               stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
+    _running.add(process)
     finished = True
     try:
         output, _ = process.communicate(timeout=limit)
     except subprocess.TimeoutExpired:
         finished = False
-        os.killpg(process.pid, signal.SIGKILL)
+        process.kill()
         output, _ = process.communicate()
     except BaseException:
-        os.killpg(process.pid, signal.SIGKILL)
+        process.kill()
         process.wait()
         raise
+    finally:
+        _running.discard(process)
     return Run(output.decode('utf-8', 'replace'), time.monotonic() - start,
                finished and process.returncode == 0)
+
+
+def stop_all() -> None:
+    """Ends all guests, which other threads wait for."""
+    for process in list(_running):
+        process.kill()
 
 
 def kvm_works(parts: Parts, initramfs: str) -> bool:

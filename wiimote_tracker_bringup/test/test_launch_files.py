@@ -61,6 +61,13 @@ def test_a_file_of_parameters_wins(load, tmp_path, name, given):
     assert all(after[key] == value for key, value in before.items() if key not in changed)
 
 
+def test_a_file_of_parameters_wins_over_those_of_the_coverage(load, tmp_path):
+    file = tmp_path / 'my.yaml'
+    file.write_text('coverage: {cell_size: 0.2}\n')
+    parameters = load('tracker.launch', 'rviz:=true', 'parameters:=' + str(file))[1]
+    assert parameters['/coverage/cell_size'] == 0.2
+
+
 def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):
     (tmp_path / 'my lab.yaml').write_text('triangulation: {mode: instant}\n')
     monkeypatch.setenv('PWD', str(tmp_path))

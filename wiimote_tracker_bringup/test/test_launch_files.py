@@ -61,6 +61,18 @@ def test_a_file_of_parameters_wins(load, tmp_path, name, given):
     assert all(after[key] == value for key, value in before.items() if key not in changed)
 
 
+@pytest.mark.parametrize('name, arguments, cleared', [
+    ('tracker.launch', ['rviz:=true'], {'/calibration/', '/coverage/', '/drivers/', '/triangulation/'}),
+    ('tracker.launch', ['one_manager:=true'], {'/calibration/', '/drivers/', '/triangulation/'}),
+    ('replay.launch', ['bag:=x'], {'/triangulation/'}),
+    ('../../wiimote_tracker_triangulation/launch/gestures.launch', [], {'/gestures/'}),
+    ('../../wiimote_tracker_driver/launch/driver.launch', [], {'/wiimote_1/driver/'})])
+def test_a_parameter_that_was_taken_out_of_a_file_is_not_kept_by_the_master(name, arguments, cleared):
+    config = roslaunch.config.load_config_default(
+        [(os.path.join(LAUNCH, name), arguments)], 11311, verbose=False)
+    assert set(config.clear_params) == cleared
+
+
 def test_a_file_of_parameters_wins_over_those_of_the_coverage(load, tmp_path):
     file = tmp_path / 'my.yaml'
     file.write_text('coverage: {cell_size: 0.2}\n')

@@ -9,6 +9,7 @@ import re
 import xml.etree.ElementTree as ElementTree
 
 import pytest
+import rospkg
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 TOP = os.path.dirname(os.path.dirname(HERE))
@@ -174,6 +175,20 @@ def wanted(package):
 @pytest.mark.parametrize('package', PACKAGES, ids=os.path.basename)
 def test_every_dependency_is_declared(package):
     assert not wanted(package) - declared(package)
+
+
+@pytest.mark.parametrize('package', PACKAGES, ids=os.path.basename)
+def test_every_imported_package_is_declared(package):
+    root = ElementTree.parse(os.path.join(package, 'package.xml')).getroot()
+    running = {element.text for tag in ('depend', 'exec_depend') for element in root.findall(tag)}
+    known = set(rospkg.RosPack().list()) - {root.find('name').text}
+    for path in python_programs():
+        if path.startswith(package + os.sep):
+            with open(path, encoding='utf-8') as file:
+                imported = known.intersection(
+                    re.findall(r'^ *(?:from|import) (\w+)', file.read(), re.MULTILINE))
+            is_test = path.startswith(os.path.join(package, 'test'))
+            assert imported <= (declared(package) if is_test else running), path
 
 
 @pytest.mark.parametrize('package', PACKAGES, ids=os.path.basename)

@@ -228,6 +228,10 @@ TEST(CameraList, WritingKeepsTheOldFile) {
   const TemporaryFolder folder;
   const std::string path = folder / "cameras.yaml";
   EXPECT_TRUE(contains(errorOf([&] { readCameraList(path); }), "cannot be read"));
+  EXPECT_TRUE(contains(errorOf([&] { readCameraList(folder / ""); }), "cannot be read"));
+  folder.write("empty.yaml", "");
+  EXPECT_TRUE(
+      contains(errorOf([&] { readCameraList(folder / "empty.yaml"); }), "no line \"cameras:\""));
   writeCameraList(CameraList(kList), path);
   EXPECT_FALSE(fs::exists(path + ".bak"));
   CameraList list = readCameraList(path);

@@ -197,10 +197,13 @@ TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   };
   state_.stream.rate = 70.0;
   EXPECT_TRUE(says("only 70 images"));
+  EXPECT_TRUE(says("bring the remote nearer"));
+  state_.replayed = true;
+  EXPECT_FALSE(says("bring the remote nearer")) << "a recording may be played slowly";
   state_.link.kernel_driver = "wiimote";
   EXPECT_TRUE(says("hid-wiimote"));
   state_.link.accelerometer_calibrated = false;
-  EXPECT_TRUE(says("no accelerometer calibration"));
+  EXPECT_TRUE(says("accelerometer calibration of the remote is damaged"));
   state_.shared_with = "somebody else reads along";
   EXPECT_TRUE(says("somebody else"));
   state_.recording_error = "the disk is full";

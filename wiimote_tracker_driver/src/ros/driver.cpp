@@ -245,6 +245,7 @@ void Driver::linkChanged() {
 void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   DriverState state;
   state.ir_sensitivity = settings_.sensitivity();
+  state.replayed = source_->recorded();
   if (recorder_) {
     state.recording = recorder_->path();
     state.recording_error = recorder_->error();

@@ -1,6 +1,7 @@
 #include "link_diagnostics.h"
 
 #include "battery_publisher.h"
+#include "link_log.h"
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +16,8 @@ using wiimote::Link;
 
 // Share of the nominal image rate below which there is a warning. Even bad links deliver 0.95.
 constexpr double kLowRate = 0.8;
+constexpr char kRaiseRate[] =
+    ": bring the remote nearer to its Bluetooth adapter, or give the adapter fewer remotes";
 // Largest standard deviation of an exposure clock that counts as in step, in periods.
 constexpr double kInStep = 0.3;
 
@@ -115,18 +118,19 @@ void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatus
   const Link& link = state.link;
   status.summary(DiagnosticStatus::OK, "streaming");
   if (state.stream.rate < kLowRate * image_rate_)
-    status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second", state.stream.rate);
+    status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second%s", state.stream.rate,
+                         state.replayed ? "" : kRaiseRate);
   if (link.kernel_driver == "wiimote")
-    status.mergeSummary(DiagnosticStatus::WARN, "the kernel's driver hid-wiimote interferes");
+    status.mergeSummary(DiagnosticStatus::WARN, kKernelDriverShares);
   if (!state.shared_with.empty())
     status.mergeSummary(DiagnosticStatus::WARN, state.shared_with);
   if (link.restorations != restorations_)
     status.mergeSummary(DiagnosticStatus::WARN, "put right: " + link.last_restoration);
   restorations_ = link.restorations;
   if (!link.accelerometer_calibrated)
-    status.mergeSummary(DiagnosticStatus::WARN, "no accelerometer calibration in the remote");
+    status.mergeSummary(DiagnosticStatus::WARN, kDamagedAccelerometer);
   if (link.status && batteryLow(*link.status, battery_low_))
-    status.mergeSummary(DiagnosticStatus::WARN, "the batteries are nearly empty");
+    status.mergeSummary(DiagnosticStatus::WARN, "the batteries are nearly empty: change them soon");
 }
 
 }  // namespace wiimote_tracker::driver

@@ -19,6 +19,7 @@ struct DriverState {
   exposure_clock::Statistics clock;
   ImageStamper::Totals totals;
   double stamp_stddev = 0.0;  ///< Of the last image [s]; NaN when exposures are not estimated.
+  bool replayed = false;      ///< The reports are those of a recording.
   std::string shared_with;    ///< A sentence about other programs; empty without any.
   std::string ir_sensitivity;
   std::string reader_priority;

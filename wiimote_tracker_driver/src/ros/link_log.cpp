@@ -40,15 +40,9 @@ void LinkLog::reportStream(const wiimote::Link& link) const {
   const char* camera = camera_.c_str();
   ROS_INFO("%s: images come from %s (%s)", camera, link.description.c_str(), link.identity.c_str());
   if (!link.accelerometer_calibrated)
-    ROS_WARN(
-        "%s: the accelerometer calibration of the remote is damaged, a typical one is used: "
-        "expect errors of about 0.5 m/s^2",
-        camera);
+    ROS_WARN("%s: %s", camera, kDamagedAccelerometer);
   if (link.kernel_driver == "wiimote")
-    ROS_WARN(
-        "%s: the kernel's driver hid-wiimote uses the same remote and sometimes interrupts its "
-        "images: see \"Kernel driver\" in doc/quirks.md",
-        camera);
+    ROS_WARN("%s: %s", camera, kKernelDriverShares);
 }
 
 }  // namespace wiimote_tracker::driver

@@ -7,6 +7,14 @@
 
 namespace wiimote_tracker::driver {
 
+// As the log and the diagnostics say it.
+inline constexpr char kDamagedAccelerometer[] =
+    "the accelerometer calibration of the remote is damaged, a typical one is used: expect errors "
+    "of about 0.5 m/s^2";
+inline constexpr char kKernelDriverShares[] =
+    "the kernel's driver hid-wiimote uses the same remote and sometimes interrupts its images: see "
+    "\"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver";
+
 /// Logs changes of the link once, and repeats errors that last.
 class LinkLog {
  public:

@@ -149,12 +149,13 @@ std::string CameraList::text() const {
 
 CameraList readCameraList(const std::string& path) {
   std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf()))
+  std::string text;
+  std::getline(file, text, '\0');  // all of it; an empty one is no error
+  if (!file.is_open() || file.bad())
     throw CameraListError(path + " cannot be read (" + std::strerror(errno) +
                           "): correct the path of the cameras.yaml");
   try {
-    return CameraList(text.str());
+    return CameraList(text);
   } catch (const CameraListError& e) {
     throw CameraListError(path + ", " + e.what());
   }

@@ -201,7 +201,8 @@ std::vector<std::string> problems(const KernelRemote& remote) {
   if (remote.kernel_driver == "wiimote")
     sentences.push_back(
         "the kernel's driver hid-wiimote shares this remote and sometimes interrupts its "
-        "images: see \"kernel driver\" in doc/quirks.md if the driver's diagnostics show gaps");
+        "images: see \"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver if the driver's "
+        "diagnostics show gaps");
   if (remote.address.empty())
     sentences.push_back(
         "this remote does not reveal its Bluetooth address, so it cannot be recognised: connect it "

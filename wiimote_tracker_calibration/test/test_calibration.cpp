@@ -36,7 +36,7 @@ TEST_F(Workflow, ClockwiseCornersAreReported) {
 TEST_F(Workflow, RequestsInTheWrongStepAreRefusedWithAReason) {
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, 0.0).message, "start one first");
   EXPECT_SAYS(calibration_.undo().message, "no captured corner");
-  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "only 0 of 4 corners");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "no calibration is started");
   EXPECT_EQ(calibration_.step(), Step::kIdle);
 
   ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);

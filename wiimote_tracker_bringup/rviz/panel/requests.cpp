@@ -27,7 +27,8 @@ using CaptureClient = actionlib::SimpleActionClient<wiimote_tracker_msgs::Captur
 
 constexpr auto kLookPeriod = std::chrono::milliseconds(100);
 constexpr int kLooksForServer = 50;  // for the action's server, at most
-const std::string kNoAnswer = " does not answer: check that the calibration node runs";
+const std::string kNoAnswer =
+    " does not answer: check that the calibration node runs, in the same version";
 
 wiimote_tracker_msgs::CheckPlace placeOf(const Request& request) {
   wiimote_tracker_msgs::CheckPlace place;
@@ -205,7 +206,7 @@ std::string Requests::captureCorner(const Request& request) {
       return no_answer;
   }
   if (client.getState() == actionlib::SimpleClientGoalState::LOST)  // its server does not know it
-    return "The calibration node was started again: the capture is lost";
+    return "The calibration node was started again: capture again";
   return client.getResult()->message;
 }
 

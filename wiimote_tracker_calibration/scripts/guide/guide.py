@@ -149,8 +149,10 @@ class Guide:
         """The last sentence: how long it took."""
         if self._started_at is None or self._saved_at is None:
             kept = self.status.corners_captured if self.status is not None else 0
+            corners = 'one corner: calibrate goes on with it' if kept == 1 else \
+                f'{kept} corners: calibrate goes on with them'
             return f'Nothing was calibrated and saved; this took {spoken(now - self.began)}.' + (
-                f' The node keeps {kept} corners: calibrate goes on with them.' if kept else '')
+                f' The node keeps {corners}.' if kept else '')
         text = f'Calibrated and saved in {spoken(self._saved_at - self._started_at)}'
         if self._square_at is not None:
             text += f', {spoken(self._square_at - self._started_at)} of it for the square'

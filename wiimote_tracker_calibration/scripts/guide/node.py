@@ -98,7 +98,7 @@ class Node:
                 raise rospy.ROSException()
         result = self._capture.get_result()
         if result is None:  # the server does not know the goal
-            return False, 'the calibration node was started again: the capture is lost'
+            return False, 'the calibration node was started again: capture again'
         return result.success, sentence(result)
 
 

@@ -79,8 +79,10 @@ class Terminal:
             self._view = None if self._view == self._views[sign] else self._views[sign]
         elif command is not None and command.ask and not self._is_direct(command):
             self._asking, self._typed = command, ''
-        elif sign.isprintable() and sign:
+        elif command is not None:
             self._dialogue.command(sign)
+        elif sign.isprintable() and sign:
+            self._dialogue.guide.say(f'there is no key "{sign}"; the last lines list the keys')
         return True
 
     def _is_direct(self, command: Command) -> bool:

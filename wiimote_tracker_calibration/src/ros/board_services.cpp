@@ -21,7 +21,8 @@ using workflow::Reply;
 
 namespace {
 
-const char kNothingStarted[] = "no lens is being calibrated: call board/start with a camera first";
+const char kNothingStarted[] =
+    "no lens is being calibrated: call calibration/board/start with a camera first";
 
 /// @throws Error: unknown number.
 std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {
@@ -40,7 +41,8 @@ std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {
     case SolveBoard::Request::EQUIDISTANT:
       return LensModel::kEquidistant;
     default:
-      throw Error("there is no lens model " + std::to_string(model) + ": choose one of SolveBoard");
+      throw Error("there is no lens model " + std::to_string(model) +
+                  ": choose one of SolveBoard.srv");
   }
 }
 
@@ -76,7 +78,7 @@ class BoardServices {
     const auto input = context_.inputs().cameras().find(request.camera);
     if (input == context_.inputs().cameras().end() || input->second.width == 0)
       throw Refusal("no image of " + request.camera +
-                    " has come: check its name, start its driver");
+                    " has come: check its name, or start its driver");
     const Parameters& parameters = context_.parameters(lock);
     intrinsics::Board board = parameters.board;
     if (request.column_spacing != 0.0)

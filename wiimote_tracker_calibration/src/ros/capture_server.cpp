@@ -89,8 +89,11 @@ void CaptureServer::checkStamp(const ros::Time& stamp) {
 /// A goal waits until the one that is served has ended, unless still another one comes.
 void CaptureServer::takeGoal(const GoalHandle& goal) {
   const std::lock_guard<std::mutex> lock(goals_mutex_);
-  if (next_.isValid())
-    next_.setCanceled(Result(), "another request came");
+  if (next_.isValid()) {
+    Result result;
+    result.message = "another request to capture a corner came: wait until that is over";
+    next_.setCanceled(result, result.message);
+  }
   next_ = goal;
   is_next_cancelled_ = false;
   is_preempted_ = true;

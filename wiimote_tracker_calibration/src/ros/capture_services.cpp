@@ -134,15 +134,20 @@ class CaptureServices {
     });
   }
 
-  /// Waits for an accelerometer of a camera at rest. @throws Refusal: there is none.
+  /// Waits for an accelerometer of a camera at rest. @throws Refusal: there is none, or none may be
+  /// used.
   void requireUp(const std::vector<std::string>& cameras, Lock* lock) {
     const auto tells_up = [this](const std::string& name) {
       return context_.inputs().cameras().at(name).gravity.mean().has_value();
     };
-    const bool is_known = context_.parameters(*lock).solve.use_gravity &&
-                          context_.waitUntil(lock, NodeContext::now() + kAccelerometerWait, [&] {
-                            return std::any_of(cameras.begin(), cameras.end(), tells_up);
-                          });
+    if (!context_.parameters(*lock).solve.use_gravity)
+      throw Refusal(
+          ros::this_node::getName() +
+          "/use_gravity is false, so that no accelerometer tells where up is: set it to "
+          "true, capture a square, or begin the wave without laying the wand on the floor");
+    const bool is_known = context_.waitUntil(lock, NodeContext::now() + kAccelerometerWait, [&] {
+      return std::any_of(cameras.begin(), cameras.end(), tells_up);
+    });
     if (!is_known)
       throw Refusal(wave::Wand::kNoUp);
   }
@@ -254,7 +259,7 @@ class CaptureServices {
       }
       return false;
     });
-    calibration.abandonCapture(over ? why : "the clock stands still: no images come");
+    calibration.abandonCapture(over ? why : NodeContext::whyEndedEarly());
     return calibration.square().outcome().value_or(
         Reply{false, "another calibration was started meanwhile: capture again"});
   }

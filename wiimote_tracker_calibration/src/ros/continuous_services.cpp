@@ -197,6 +197,11 @@ class ContinuousServices {
 
   /// The rig before is kept for revert(), the new one in a file beside the rig file.
   Reply applyProposal(Lock* lock) {
+    if (policy_ == ContinuousPolicy::kOff)
+      throw Refusal(
+          ros::this_node::getName() +
+          "/continuous_policy is off, so nothing is proposed: set it to propose, and start "
+          "the node again");
     requireCalibrated(*lock);
     if (!proposal_)
       throw Refusal(
@@ -270,8 +275,9 @@ class ContinuousServices {
   }
 
   void requireCalibrated(const Lock& lock) const {
+    context_.existingRig("to change", lock);
     if (!isCalibrated(lock))
-      throw Refusal("a calibration is going on, or there is no rig: solve or load one first");
+      throw Refusal("a calibration is going on: solve it, or cancel it, first");
   }
 
   NodeContext& context_;

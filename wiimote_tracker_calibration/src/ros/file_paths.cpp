@@ -18,7 +18,8 @@ fs::path withoutLinks(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(fs::absolute(path), error);
   if (error)
-    throw Refusal(path.string() + " cannot be looked up: " + error.message());
+    throw Refusal(path.string() + " cannot be looked up (" + error.message() +
+                  "): correct it, or the permissions of its folders");
   return whole.has_filename() ? whole : whole.parent_path();  // "folder/" is "folder"
 }
 

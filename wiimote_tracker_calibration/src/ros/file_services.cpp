@@ -16,6 +16,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -34,7 +35,8 @@ class FileServices {
       const Lock lock(context_.mutex());
       path = rigPath("", context_.parameters(lock));
     }
-    if (std::filesystem::exists(path)) {
+    std::error_code unknown;  // whether there is one: then loading says why
+    if (std::filesystem::exists(path, unknown) || unknown) {
       const Reply reply = loadRig(path);
       if (reply.success)
         ROS_INFO_STREAM(path << ": " << reply.message);

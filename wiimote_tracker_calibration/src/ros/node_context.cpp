@@ -120,6 +120,12 @@ bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>&
   return true;
 }
 
+const char* NodeContext::whyEndedEarly() {
+  return ros::ok() ? "the clock stands still: let the bag play on, or, when none is played, run  "
+                     "rosparam set use_sim_time false  and start all nodes again"
+                   : "the calibration node ends";
+}
+
 bool NodeContext::waitFor(double duration, workflow::Step step, Lock* lock) {
   const double start = now();
   return !waitUntil(lock, start + duration, [&] {

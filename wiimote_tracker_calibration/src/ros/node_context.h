@@ -78,6 +78,9 @@ class NodeContext {
   /// @returns done().
   bool waitUntil(Lock* lock, double end, const std::function<bool()>& done);
 
+  /// Why waitUntil() returned false before its end.
+  static const char* whyEndedEarly();
+
   /// Waits for some time, and sets the progress meanwhile. @returns false if the job was cancelled.
   bool waitFor(double duration, workflow::Step step, Lock* lock);
 

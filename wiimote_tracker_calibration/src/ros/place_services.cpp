@@ -230,12 +230,15 @@ class PlaceServices {
       names.push_back(camera.camera.name);
     const double start = NodeContext::now();
     capture_.emplace(names, options, start);
-    context_.waitUntil(lock, start + options.timeout + 2.0 * NodeContext::kUnderWay, [&] {
+    const double end_time = start + options.timeout + 2.0 * NodeContext::kUnderWay;
+    const bool over = context_.waitUntil(lock, end_time, [&] {
       capture_->update(NodeContext::now() - NodeContext::kUnderWay);
       context_.setProgress(capture_->progress(), *lock);
       return context_.isCancelled(Step::kMeasuring, *lock) ||
              capture_->state() != State::kCollecting;
     });
+    if (!over && NodeContext::now() < end_time)
+      throw Refusal(NodeContext::whyEndedEarly());
     if (context_.isCancelled(Step::kMeasuring, *lock) || capture_->state() != State::kDone)
       throw Refusal(capture_->message());
     return capture_->result();

@@ -40,11 +40,16 @@ std::string callDriver(const std::string& name,
   sensor_msgs::SetCameraInfo call;
   call.request.camera_info = info;
   if (!ros::service::exists(service, false))
-    return name + " offers no set_camera_info, so its driver does not know its lens";
+    return name +
+           " offers no set_camera_info, so its driver does not know its lens: start the driver, "
+           "then save again";
   if (!ros::service::call(service, call))
-    return "calling " + service + " failed, so the driver does not know its lens";
-  return call.response.success ? ""
-                               : name + " refused its camera info: " + call.response.status_message;
+    return "calling " + service +
+           " failed, so the driver does not know its lens: see its log, then save again";
+  return call.response.success
+             ? ""
+             : name + " refused its camera info (" + call.response.status_message +
+                   "): see the log of its driver, then save again";
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ std::optional<WaveRecorder> waveOf(const wave::Recording& recording,
 
 std::string Captured::whyNotSolvable() const {
   if (cameras.empty())
-    return "only 0 of 4 corners are captured: start a calibration first";
+    return "no calibration is started: start one first";
   if (!isComplete() && layout)
     return "only " + std::to_string(square.corners().size()) +
            " of 4 corners are captured: capture the others first";

@@ -80,3 +80,9 @@ def test_keys_show_views_and_pages_and_space_does_what_is_next():
         (None, 0), ('verdict', 0), ('verdict', 1), (None, 1), ('verdict', 1), ('keys', 1),
         (None, 1)]
     assert sent == [('capture_corner', {})]
+
+
+def test_a_key_without_a_command_is_said():
+    dialogue = dialogue_with(FakeNode({}), status(CalibrationStatus.READY))
+    Terminal(dialogue, lambda *_: [''] * 24, {})._loop(Window('?'))  # no views, as with --board
+    assert 'the last lines list the keys' in dialogue.guide.answer

@@ -88,7 +88,7 @@ std::string describe(ImageFault fault,
     case ImageFault::kNoTime:
       return "images of " + calibrated.name +
              " carry no time and are ignored: repair their driver, or, when no bag is played, run "
-             "rosparam set use_sim_time false";
+             " rosparam set use_sim_time false  and start all nodes again";
     case ImageFault::kImpossibleTime:
       return "images of " + calibrated.name + " are stamped more than " +
              std::to_string(static_cast<int>(kLongestDelay)) +

@@ -63,7 +63,8 @@ std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Ca
   const auto lens = lensOf(info);
   if (!lens)
     return "camera_info of " + calibrated.name + " has a lens model '" + info.distortion_model +
-           "' that is unknown" + what_to_do;
+           "' with " + std::to_string(info.D.size()) + " coefficients, which is unknown" +
+           what_to_do;
   const double distance = distanceOf(rig, *lens);
   if (distance <= kSameLens)
     return "";

@@ -84,7 +84,9 @@ void TrackingDiagnostics::report(Status& status) {
   clocks_.clear(cameras_.size());
 
   if (reported_.snapshots() == 0)
-    status.summary(DiagnosticStatus::WARN, "no images: start the cameras' drivers");
+    status.summary(DiagnosticStatus::WARN,
+                   imagesCome() ? "no image can be used: see what is said of each camera"
+                                : "no images: start the cameras' drivers");
   else
     status.summary(DiagnosticStatus::OK, reported_.describe());
   const VolumeCorrection& correction = tracker_->correction();
@@ -110,11 +112,20 @@ void TrackingDiagnostics::report(Status& status) {
   status.add("restarts because time jumped back", counters.resets);
 }
 
+/// Whether any came in the period, also such that cannot be used.
+bool TrackingDiagnostics::imagesCome() const {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (reported_.camera(i).images > 0 || !reported_.camera(i).problem.empty())
+      return true;
+  }
+  return false;
+}
+
 void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   const CameraStatistics& statistics = reported_.camera(camera);
   status.summary(DiagnosticStatus::OK, "in use");
-  if (statistics.images == 0)
-    status.summary(DiagnosticStatus::WARN, "no images");
+  if (statistics.images == 0 && statistics.problem.empty())
+    status.summary(DiagnosticStatus::WARN, "no images: check that its driver runs");
   for (const std::string& problem :
        {statistics.problem, describeLights(statistics, cameras_[camera]),
         lenses_.problemOf(cameras_[camera]), clockProblem(camera)}) {

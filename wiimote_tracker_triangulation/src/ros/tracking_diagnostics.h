@@ -38,6 +38,7 @@ class TrackingDiagnostics {
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
   void report(Status& status);
+  bool imagesCome() const;
   void reportCamera(std::size_t camera, Status& status);
   std::string clockProblem(std::size_t camera) const;
 

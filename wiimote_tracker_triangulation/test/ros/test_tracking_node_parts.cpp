@@ -225,6 +225,9 @@ TEST(LensCheck, NamesAContradiction) {
   EXPECT_TRUE(contradicts([](auto& i) { i.D.pop_back(); }));
   EXPECT_TRUE(contradicts([](auto& i) { i.distortion_model = "rubber"; }));
   EXPECT_TRUE(contradicts([](auto& i) { i.width += 1; }));
+  sensor_msgs::CameraInfo info = infoOf(camera.intrinsics);
+  info.D.pop_back();
+  EXPECT_NE(std::string::npos, lensMismatch(info, camera).find("with 4 coefficients"));
 }
 
 TEST(Statistics, CountsEachViewOnceWithoutMaskedSpots) {

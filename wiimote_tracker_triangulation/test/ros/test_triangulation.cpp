@@ -205,6 +205,10 @@ TEST(Triangulation, IgnoresAndReportsACameraThatIsAnotherDevice) {
   identity = "00:00:00:00:00:99";
   EXPECT_TRUE(warns("camera_1",
                     "camera_1 is device 00:00:00:00:00:99, but was calibrated as " + calibrated));
+  EXPECT_TRUE(reports([](const diagnostic_msgs::DiagnosticStatus& status) {
+    return isOf("camera_1", status) && valueOf(status, "images [Hz]") == "0.0" &&
+           status.message.find("camera_1 is device") == 0;  // not that there are no images
+  }));
   const double begin = g_bench->now_;
   ASSERT_TRUE(g_bench->film(0.3, {0, 1, 2}));
   const auto arrays = g_bench->arraysSince(begin + 0.2);

@@ -226,8 +226,9 @@ void Gestures::keepExample(const gesture::Path& path, const Hand& hand) {
     ROS_ERROR("The example of '%s' is not kept: %s", example.gesture.c_str(), e.what());
     wanted_.reset();
     return;
-  } catch (const Error&) {
-    return;  // too short; wait for the gesture
+  } catch (const Error& e) {  // wait for a longer one
+    ROS_WARN_THROTTLE(5.0, "%s.", e.what());
+    return;
   }
   recognizer_ = with_it;
   wanted_.reset();

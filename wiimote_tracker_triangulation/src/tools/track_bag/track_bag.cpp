@@ -113,7 +113,7 @@ TrackingParameters parametersOf(const Arguments& arguments) {
     tree.set("mode", arguments.mode);
   if (!arguments.bodies.empty()) {
     if (!std::filesystem::exists(arguments.bodies))
-      throw BagError("there is no file " + arguments.bodies);
+      throw BagError("there is no file " + arguments.bodies + ": correct --bodies");
     tree.set("bodies/file", arguments.bodies);
   }
   return TrackingParameters::read(ParameterReader(tree));

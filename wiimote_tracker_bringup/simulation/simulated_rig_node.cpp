@@ -40,11 +40,13 @@ std::unique_ptr<SimulatedRig> makeRig(const ros::NodeHandle& nh,
       return std::make_unique<SimulatedRig>(nh, description, directory);
     } catch (const std::system_error& error) {
       // The simulation before removes its folder at its end.
-      const bool passes = error.code().value() == EADDRINUSE || error.code().value() == ENOENT;
+      const bool in_use = error.code().value() == EADDRINUSE;
+      const bool passes = in_use || error.code().value() == ENOENT;
       if (!passes || !ros::ok() || std::chrono::steady_clock::now() > deadline)
         throw;
-      ROS_WARN_ONCE("The sockets in %s are in use: waiting for another simulation to end.",
-                    directory.c_str());
+      if (in_use)
+        ROS_WARN_ONCE("The sockets in %s are in use: waiting for another simulation to end.",
+                      directory.c_str());
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

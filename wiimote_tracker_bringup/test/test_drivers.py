@@ -50,7 +50,7 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {a: [1', 'not valid YAML'),
     ('cameras: {a: 12}', 'as a text in quotes'),
     ('cameras: {a: ""}', 'as a text in quotes'),
-    ('cameras: {a: {}}', 'as a text in quotes'),
+    ('cameras: {a: {}}', 'as a text in quotes, after "identity:"'),
     ('cameras: {a: 11:22:33:44:55:06}', 'as a text in quotes'),
     ('cameras: {a: "00:1f:32:00:00"}', 'camera a has the device 00:1f:32:00:00:'),
     ('cameras: {"a b": "00:1f:32:00:00:01"}', "camera name 'a b'"),
@@ -65,7 +65,7 @@ def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
 
 
 def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(drivers.CamerasError, match='nothing.yaml cannot be read'):
+    with pytest.raises(drivers.CamerasError, match='nothing.yaml cannot be read .*: correct its path'):
         drivers.read_devices(str(tmp_path / 'nothing.yaml'), '')
 
 

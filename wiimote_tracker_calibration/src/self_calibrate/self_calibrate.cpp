@@ -89,7 +89,7 @@ void writeJson(const Report& report, const std::string& path) {
   std::ofstream file(path);
   file << jsonText(report) << std::flush;
   if (!file)
-    throw ImportError(path + " cannot be written");
+    throw ImportError(path + " cannot be written: choose another place or make room there");
 }
 
 /// The cameras as a rig, whose scale is arbitrary.

@@ -143,6 +143,13 @@ Accuracy accuracyOf(const Session& session,
   return accuracy;
 }
 
+/// What would make the rig more accurate.
+std::string improvement(const wave::Recording& recording) {
+  return std::string(recording.hasFrames() ? "wave longer, through the whole volume"
+                                           : "wave an LED or a wand through the volume") +
+         (recording.square ? ", or use a larger square" : "");
+}
+
 /// Why the rig is not good, or empty.
 std::vector<std::string> shortcomings(const Session& session,
                                       const geometry::Rig& rig,
@@ -156,9 +163,8 @@ std::vector<std::string> shortcomings(const Session& session,
   if (!(accuracy.share <= kGoodShare))
     reasons.push_back(
         std::isnan(accuracy.share)
-            ? "its accuracy is unknown: point two cameras or more at the square"
-            : "it is not as accurate as it could be: wave an LED or a wand through the volume, or "
-              "use a larger square");
+            ? std::string("its accuracy is unknown: point two cameras or more at the square")
+            : "it is not as accurate as it could be: " + improvement(session.recording));
   for (const CameraVerdict& camera : verdict.cameras) {
     if (camera.inlier_share < kGoodInliers)
       reasons.push_back(
@@ -248,8 +254,9 @@ Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& 
   } else if (accuracy.share > kUsableShare) {
     verdict.grade = Grade::kRedo;
     verdict.text =
-        "redo: points would be far off; use a larger square, place the cameras so that they look "
-        "at it from different sides, or wave an LED through the volume";
+        "redo: points would be far off; place the cameras so that they look from different sides, "
+        "and " +
+        improvement(session.recording);
   } else if (!reasons.empty()) {
     verdict.grade = Grade::kUsable;
     verdict.text = "usable: " + joined(reasons, ", and ");

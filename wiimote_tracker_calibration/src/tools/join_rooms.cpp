@@ -74,7 +74,8 @@ void readTracks(const std::string& path, std::map<std::string, RoomTracks>* room
         room->second.add(path + message.getTopic(), *points);
     }
   } catch (const rosbag::BagException& error) {
-    throw geometry::Error(path + " cannot be read as a bag: " + error.what());
+    throw geometry::Error(path + " cannot be read as a bag (" + error.what() +
+                          "): see what rosbag info says");
   }
 }
 

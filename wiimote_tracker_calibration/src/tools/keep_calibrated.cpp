@@ -76,7 +76,8 @@ void keep(const std::string& path, const std::string& rig, const std::string& ta
         kept.add(imageOf(*image));
     }
   } catch (const rosbag::BagException& error) {
-    throw geometry::Error(path + " cannot be read as a bag: " + error.what());
+    throw geometry::Error(path + " cannot be read as a bag (" + error.what() +
+                          "): see what rosbag info says");
   }
   if (!kept.rig())
     throw geometry::Error(path + " holds no /calibration/rig: name a rig file with --rig");

@@ -1,5 +1,7 @@
 #include "events/trigger.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -31,14 +33,17 @@ std::string describe(TriggerResult result, const TriggerOptions& options) {
     case TriggerResult::kAnswered:
       break;
     case TriggerResult::kGap:
-      return "no images were used within " + std::to_string(options.maximum_gap) +
-             " s around it: check that the cameras' drivers run";
+      return format(
+          "no images were used within %g s around it: check that the cameras' drivers run",
+          options.maximum_gap);
     case TriggerResult::kTooOld:
-      return "it is older than the stored snapshots, at most " + std::to_string(options.history) +
-             " s: ask sooner, and set all computers to the same clock";
+      return format(
+          "it is older than the stored snapshots, at most %g s: ask sooner, and set all computers "
+          "to the same clock",
+          options.history);
     case TriggerResult::kTooEarly:
-      return "it is more than " + std::to_string(options.history) +
-             " s ahead of the images: set all computers to the same clock";
+      return format("it is more than %g s ahead of the images: set all computers to the same clock",
+                    options.history);
     case TriggerResult::kTooMany:
       return "too many others wait for images: check that the cameras' drivers run";
   }

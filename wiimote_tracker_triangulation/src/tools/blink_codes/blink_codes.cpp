@@ -28,7 +28,8 @@ double periodOf(const identity::BlinkCodes& codes, double wanted) {
     return codes.synchronous ? codes.shortest_period
                              : 0.5 * (codes.shortest_period + codes.longest_period);
   if (wanted < codes.shortest_period * (1.0 - 1e-9) || wanted > codes.longest_period * (1.0 + 1e-9))
-    throw BadArguments("--period is outside the range of the file");
+    throw BadArguments(format("--period must be from %g to %g s, the range of the file",
+                              codes.shortest_period, codes.longest_period));
   return wanted;
 }
 

@@ -31,6 +31,19 @@ TEST(Judge, GradesByTheErrorOfPoints) {
   EXPECT_SAYS(redo.text, "redo: points would be far off");
 }
 
+TEST(Judge, AdvisesWhatWasNotDoneYet) {
+  Session session;
+  session.recording.square = square::paperSquare();
+  RigErrors errors = wellCalibrated();
+  errors.position = 0.025;
+  EXPECT_SAYS(judge(session, paperRigWith(errors), {}).text,
+              "wave an LED or a wand through the volume, or use a larger square");
+  session.recording.cameras.resize(1);
+  session.recording.cameras[0].frames.push_back({0.0, {}});
+  EXPECT_SAYS(judge(session, paperRigWith(errors), {}).text,
+              "wave longer, through the whole volume, or use a larger square");
+}
+
 TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
   Session session;
   session.recording.square = square::paperSquare();

@@ -218,6 +218,13 @@ TEST(Recalibrate, RefusesWithTheReason) {
                        request.images.end());
   EXPECT_SAYS(refusal(rig, request), "camera_1 alone");
 
+  request = good;
+  request.images.erase(
+      std::remove_if(request.images.begin(), request.images.end(),
+                     [](const capture::Image& image) { return image.camera == "camera_2"; }),
+      request.images.end());
+  EXPECT_SAYS(refusal(rig, request), "camera_2 sends no images");
+
   WavedLed brief(rig.cameras, 31);
   const Request short_wave = record(&brief, "camera_2", 1.2);
   EXPECT_SAYS(refusal(rig, short_wave), "wave longer");

@@ -1,5 +1,6 @@
 #include "recalibrate/recalibrate_camera.h"
 
+#include "capture/camera_monitor.h"
 #include "resection.h"
 #include "seen_path.h"
 
@@ -62,10 +63,14 @@ void checkInput(const geometry::Rig& rig, const Request& request, const Options&
     throw Error(
         "the rig's rays are built through the image centre, which does not fit its cameras: "
         "calibrate all of it again");
+  bool sends_images = false;
   for (const capture::Image& image : request.images) {
     if (!std::isfinite(image.stamp))
       throw Error("an image of " + image.camera + " has no time: correct its stamp");
+    sends_images = sends_images || image.camera == request.camera;
   }
+  if (!sends_images)
+    throw Error(request.camera + " " + capture::kSendsNoImages);
 }
 
 bool sameDevice(const geometry::RigCamera& calibrated, const Request& request) {

@@ -108,8 +108,8 @@ void CameraInputs::onBlobs(const std::string& name,
     image.spots.emplace_back(blob.x, blob.y);
   capture::removeImpossible(message.width, message.height, &image.spots);
   if (image.spots.size() < message.blobs.size())
-    ROS_WARN_STREAM_THROTTLE(10.0, name << " reports spots outside of its image, which are "
-                                           "ignored: check its driver");
+    ROS_WARN_STREAM_THROTTLE(10.0, name << " reports spots outside its image, which are "
+                                           "ignored: repair its driver");
   image.identity = message.identity;
   {
     const Lock lock(*mutex_);

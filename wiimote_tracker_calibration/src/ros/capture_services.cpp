@@ -144,7 +144,8 @@ class CaptureServices {
       throw Refusal(
           ros::this_node::getName() +
           "/use_gravity is false, so that no accelerometer tells where up is: set it to "
-          "true, capture a square, or begin the wave without laying the wand on the floor");
+          "true and start the node again, capture a square, or begin the wave without laying "
+          "the wand on the floor");
     const bool is_known = context_.waitUntil(lock, NodeContext::now() + kAccelerometerWait, [&] {
       return std::any_of(cameras.begin(), cameras.end(), tells_up);
     });

@@ -77,7 +77,8 @@ class Probe:
         """The messages of the last duration [s]."""
         messages = list(self.messages)
         if not messages:
-            raise ExperimentError('the probe was never seen')
+            raise ExperimentError('the probe was never seen: check that the tracker runs and knows '
+                                  'the body, and turn it towards the cameras')
         start = messages[-1].header.stamp - rospy.Duration(duration)
         return [message for message in messages if message.header.stamp >= start]
 

@@ -84,7 +84,7 @@ void refuseUndecided(const RigModel& model,
       format(" can stand in two places, %.2f m apart, that explain what it saw (to %.2f and %.2f "
              "px), and the data do not tell which: let it look at the square more from the side or "
              "from "
-             "nearer, use a larger square, or connect its accelerometer",
+             "nearer, use a larger square, or use its accelerometer",
              apart, both[0].reprojection_error, both[1].reprojection_error));
 }
 

@@ -125,7 +125,8 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   const CameraStatistics& statistics = reported_.camera(camera);
   status.summary(DiagnosticStatus::OK, "in use");
   if (statistics.images == 0 && statistics.problem.empty())
-    status.summary(DiagnosticStatus::WARN, "no images: check that its driver runs");
+    status.summary(DiagnosticStatus::WARN,
+                   "no images: check its driver, and the network if that runs on another computer");
   for (const std::string& problem :
        {statistics.problem, describeLights(statistics, cameras_[camera]),
         lenses_.problemOf(cameras_[camera]), clockProblem(camera)}) {

@@ -126,6 +126,7 @@ void MessageTracker::useCameras(const geometry::Rig& rig) {
   if (index == camera_index_)
     return;
   camera_index_ = std::move(index);
+  is_used_.assign(rig.cameras.size(), true);
   newest_.snapshot.time = kNever;
   trigger_.forget();
 }
@@ -146,13 +147,18 @@ void MessageTracker::takeImage(const std::string& camera,
 
   bodies_.take(index, &image_);
   publishBodies();
-  publishTicksUntil(image_.arrival);
+  if (clocksOutputs(index, image_.arrival))
+    publishTicksUntil(image_.arrival);
+  const std::uint64_t dropped = estimator_->counters().dropped;
   estimator_->add(index, image_);
   if (const auto camera_fault = estimator_->cameraFault(index))
     reportProblem(index, describe(*camera_fault, camera),
                   reported_cameras_.emplace(index, camera_fault->kind).second);
   if (estimator_->counters().resets != resets_)
     restart();
+  is_used_[index] = estimator_->counters().dropped == dropped;
+  if (is_used_[index])
+    newest_arrival_ = std::max(newest_arrival_, image_.arrival);
   while (const tracking::Snapshot* snapshot = estimator_->next())
     takeSnapshot(*snapshot);
 }
@@ -234,6 +240,7 @@ void MessageTracker::restart() {
   lost_.clear();
   newest_.snapshot.time = kNever;
   newest_output_ = kNever;
+  newest_arrival_ = kNever;
   newest_tick_.reset();
   sink_->onProblem(
       "time jumped back, tracking starts anew; unless a bag was restarted, synchronise the clocks "
@@ -318,6 +325,12 @@ void MessageTracker::answerTriggers() {
     }
     triggers_.erase(request);
   }
+}
+
+/// Not an image that the estimator may drop for its wrong clock: an output at its time, years ahead
+/// perhaps, would be the last one.
+bool MessageTracker::clocksOutputs(std::size_t camera, double arrival) const {
+  return is_used_[camera] && arrival <= newest_arrival_ + kLongestSilence;
 }
 
 /// Output at a fixed rate, clocked by the arrival times of images: an output is published when the

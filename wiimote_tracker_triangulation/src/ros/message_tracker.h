@@ -127,6 +127,7 @@ class MessageTracker {
   void reportDoubtfulLabels();
   void publishZoneEvents(const tracking::Snapshot& snapshot);
   void answerTriggers();
+  bool clocksOutputs(std::size_t camera, double arrival) const;
   void publishTicksUntil(double now);
   void publishAt(double time);
   void publish(const CorrectedSnapshot& corrected);
@@ -159,9 +160,11 @@ class MessageTracker {
 
   // Of the output.
   CorrectedSnapshot newest_;  // time -infinity before the first
-  double newest_output_ = -std::numeric_limits<double>::infinity();  // [s]
-  std::optional<std::int64_t> newest_tick_;                          // [1 / rate]
-  std::vector<wiimote_tracker_msgs::TrackedPoint> lost_;             // LOST, not yet published
+  double newest_output_ = -std::numeric_limits<double>::infinity();   // [s]
+  double newest_arrival_ = -std::numeric_limits<double>::infinity();  // of used images [s]
+  std::vector<bool> is_used_;                // per camera: its last image, or it had none yet
+  std::optional<std::int64_t> newest_tick_;  // [1 / rate]
+  std::vector<wiimote_tracker_msgs::TrackedPoint> lost_;  // LOST, not yet published
 
   // Reused buffers.
   std::vector<body::LabelledPoint> labelled_;

@@ -146,6 +146,28 @@ TEST(Prediction, AtARateIsForTheTimesOfTheRate) {
   }
 }
 
+TEST(Prediction, AtARateGoesOnAfterImagesWithAWrongClock) {
+  TrackingParameters parameters;
+  parameters.output.on_update = false;
+  parameters.output.rate = 250.0;
+  parameters.output.predict_to_now = true;
+  Studio studio(parameters);
+  studio.film(0.5, {onCircle});
+  IrBlobArray image = studio.image(0, studio.now, {onCircle});
+  image.header.stamp = image.arrival = ros::TIME_MAX;
+  studio.tracker.takeImage("camera_0", image);
+  studio.spoil = [&](std::size_t camera, IrBlobArray* taken) {
+    const ros::Duration ahead(camera == 2 ? 0.3 : 0.0);
+    taken->header.stamp += ahead;
+    taken->arrival += ahead;
+  };
+  studio.film(1.0, {onCircle});
+  const auto points = studio.pointsOf("led", 1001.0);
+  EXPECT_GT(points.size(), 100u);
+  for (const auto& [time, point] : points)
+    EXPECT_LT(time, studio.now) << "not at the time of the camera whose clock is ahead";
+}
+
 TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
   Heard heard;
   MessageTracker tracker(TrackingParameters(), &heard);

@@ -2,8 +2,8 @@
 
 #include "health/health_watch.h"
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/ros/steady_updater.h>
 
 #include <cmath>
 #include <map>
@@ -107,7 +107,7 @@ class HealthMonitor {
   std::string rig_id_;
   std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
   std::set<std::string> unknown_cameras_;     // Cameras that the rig does not have.
-  diagnostic_updater::Updater diagnostics_;
+  SteadyUpdater diagnostics_;
   ros::WallTimer timer_;
 };
 

@@ -12,6 +12,9 @@ namespace {
 using diagnostic_msgs::DiagnosticStatus;
 using tracking::TrackState;
 
+// From a new rig until the images of its cameras can be judged.
+const ros::WallDuration kFirstImages(1.0);
+
 std::string doubtfulLabels(const LedLabels& labels) {
   std::string names;
   for (const auto& [label, place] : labels.places()) {
@@ -49,7 +52,8 @@ void TrackingDiagnostics::setRig() {
   reported_clocks_ = clocks_;
   reported_ = tracker_->statistics();
   lenses_.setRig(tracker_->rig());
-  since_ = ros::WallTime::now();
+  since_ = ros::SteadyTime::now();
+  updater_.wait(kFirstImages);
   updater_.setHardwareID("rig " + tracker_->rigId());
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     updater_.add(cameras_[i], [this, i](Status& status) { reportCamera(i, status); });
@@ -75,7 +79,7 @@ void TrackingDiagnostics::report(Status& status) {
     status.summary(DiagnosticStatus::WARN, "no rig: calibrate, or load a saved one");
     return;
   }
-  const ros::WallTime now = ros::WallTime::now();
+  const ros::SteadyTime now = ros::SteadyTime::now();
   period_ = (now - since_).toSec();
   since_ = now;
   reported_ = tracker_->statistics();

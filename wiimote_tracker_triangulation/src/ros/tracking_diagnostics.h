@@ -5,8 +5,8 @@
 #include "lens_check.h"
 #include "load_shedding.h"
 #include "message_tracker.h"
+#include "wiimote_tracker_triangulation/ros/steady_updater.h"
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 
 #include <cstddef>
@@ -48,12 +48,12 @@ class TrackingDiagnostics {
   LensCheck lenses_;
   std::vector<std::string> cameras_;
   std::vector<std::string> nodes_;  // per camera
-  diagnostic_updater::Updater updater_;
+  SteadyUpdater updater_;
 
   // State of the reported period.
   Statistics reported_;
   ClockWatch reported_clocks_;
-  ros::WallTime since_ = ros::WallTime::now();
+  ros::SteadyTime since_ = ros::SteadyTime::now();
   double period_ = 0.0;  // [s]
 };
 

@@ -56,6 +56,16 @@ TEST(BodyDiagnostics, ForgetWhenABodyWasSeenWhereTimeJumpsBack) {
   EXPECT_EQ(0u, nextReport("wand", &diagnostics).find("not seen for "));
 }
 
+/// The last test: time stays simulated.
+TEST(BodyDiagnostics, AreReportedAlsoWhenTimeStandsStillOrJumpsBack) {
+  ros::Time::setNow(ros::Time(1000.0));
+  BodyDiagnostics diagnostics(ros::NodeHandle(), ros::NodeHandle("~"));
+  diagnostics.setBodies({{"wand", {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}});
+  EXPECT_EQ("not seen yet", nextReport("wand", &diagnostics));
+  ros::Time::setNow(ros::Time(10.0));
+  EXPECT_EQ("not seen yet", nextReport("wand", &diagnostics));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker
 

@@ -2,8 +2,8 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
 
 #include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/ros/steady_updater.h"
 
-#include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
@@ -54,7 +54,7 @@ class BodyDiagnostics {
 
   std::vector<std::string> statuses_;
   std::map<std::string, Seen> seen_;  // by name
-  diagnostic_updater::Updater updater_;
+  SteadyUpdater updater_;
 };
 
 }  // namespace wiimote_tracker

@@ -1,6 +1,5 @@
 #include "tracking_diagnostics.h"
 
-#include <wiimote_tracker_msgs/run_node.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -145,13 +144,13 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   status.add("spots masked", statistics.masked);
 }
 
-std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
+std::string TrackingDiagnostics::clockProblem(std::size_t camera) {
   const auto ahead = reported_clocks_.ahead(camera);
   if (!ahead)
     return "";
-  const auto server = serverOf(nodes_[camera]);
+  const std::string host = hosts_.of(nodes_[camera]);
   return format("the clock %sof the driver of %s (%s) is %.3f s %s: run chrony on all computers",
-                server ? ("of " + server->first + " ").c_str() : "", cameras_[camera].c_str(),
+                host.empty() ? "" : ("of " + host + " ").c_str(), cameras_[camera].c_str(),
                 nodes_[camera].c_str(), std::abs(*ahead),
                 *ahead > 0.0 ? "ahead" : "behind, or its network is slow");
 }

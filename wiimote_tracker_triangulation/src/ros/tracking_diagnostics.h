@@ -5,6 +5,7 @@
 #include "lens_check.h"
 #include "load_shedding.h"
 #include "message_tracker.h"
+#include "node_hosts.h"
 #include "wiimote_tracker_triangulation/ros/steady_updater.h"
 
 #include <ros/node_handle.h>
@@ -40,7 +41,7 @@ class TrackingDiagnostics {
   void report(Status& status);
   bool imagesCome() const;
   void reportCamera(std::size_t camera, Status& status);
-  std::string clockProblem(std::size_t camera) const;
+  std::string clockProblem(std::size_t camera);
 
   MessageTracker* tracker_;
   const LoadShedding* shedding_;
@@ -48,6 +49,7 @@ class TrackingDiagnostics {
   LensCheck lenses_;
   std::vector<std::string> cameras_;
   std::vector<std::string> nodes_;  // per camera
+  NodeHosts hosts_;
   SteadyUpdater updater_;
 
   // State of the reported period.

@@ -302,6 +302,15 @@ TEST(CameraMonitor, NamesAClockThatIsBehind) {
   EXPECT_SAYS(monitor.view(20.0).problem, "sends no images");
 }
 
+TEST(CameraMonitor, ForgetsWhatAShortBagShowedBeforeItStartedOver) {
+  CameraMonitor monitor;
+  for (int i = 0; i <= 300; ++i)
+    monitor.add(i * kPeriod, one(1, 1), i * kPeriod);
+  monitor.add(0.5, one(1, 1), 0.5);
+  EXPECT_TRUE(monitor.view(1.0).connected);
+  EXPECT_FALSE(monitor.view(2.0).connected) << "the images stopped";
+}
+
 TEST(Image, SpotsOutsideOfItAreRemoved) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinity = std::numeric_limits<double>::infinity();

@@ -36,7 +36,7 @@ std::string stampProblem(double stamp, double delay) {
 
 void CameraMonitor::add(double time, const Blobs& blobs, double arrival) {
   arrival_ = arrival;
-  if (!images_.empty() && time < images_.back().time - kMemory)
+  if (!images_.empty() && time < images_.back().time - kLongestDelay)
     images_.clear();
   images_.push_back({time, blobs.size()});
   if (!blobs.empty())

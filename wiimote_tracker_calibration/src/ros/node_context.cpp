@@ -10,8 +10,10 @@
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <utility>
 
 namespace wiimote_tracker {
 
@@ -109,10 +111,11 @@ bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>&
   double time = now();
   Steady::time_point moved = Steady::now();
   while (!done()) {
-    if (now() != time) {
-      time = now();
+    const double before = std::exchange(time, now());
+    if (time != before)
       moved = Steady::now();
-    }
+    if (time < before)
+      end -= before - time;
     if (!ros::ok() || time >= end || Steady::now() - moved > kPatience)
       return false;
     changed_.wait_for(*lock, kLongestNap);
@@ -129,7 +132,7 @@ const char* NodeContext::whyEndedEarly() {
 bool NodeContext::waitFor(double duration, workflow::Step step, Lock* lock) {
   const double start = now();
   return !waitUntil(lock, start + duration, [&] {
-    setProgress((now() - start) / duration, *lock);
+    setProgress(std::max(0.0, (now() - start) / duration), *lock);
     return isCancelled(step, *lock);
   });
 }

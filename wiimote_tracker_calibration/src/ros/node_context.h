@@ -74,7 +74,8 @@ class NodeContext {
 
   /// Waits until done() is true (checked with the mutex locked at each image, and ten times a
   /// second at least), until now() is beyond `end`, or until the node is to end. Simulated time
-  /// that stands still for ten seconds, as of a bag that is over, ends the wait too.
+  /// that stands still for ten seconds, as of a bag that is over, ends the wait too. Time that
+  /// jumps back, as of a bag that starts over, takes `end` with it.
   /// @returns done().
   bool waitUntil(Lock* lock, double end, const std::function<bool()>& done);
 

@@ -189,6 +189,12 @@ TEST_F(DiagnosticsTest, RestorationsAreReportedOnce) {
   EXPECT_EQ("the camera was switched off", value("last restoration"));
 }
 
+TEST_F(DiagnosticsTest, NoImageIsMissedRightAfterTheStreamBegan) {
+  state_.stream.rate = 0.0;
+  state_.stream.has_rate = false;
+  EXPECT_EQ("streaming", describe().message);
+}
+
 TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   const auto says = [&](const std::string& text) {
     const auto status = describe();

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace wiimote_tracker::wiimote {
 namespace {
 
@@ -28,6 +30,22 @@ TEST(StreamStatistics, GapsAreCountedOnceAndNotBeforeTheFirstImage) {
   EXPECT_EQ(1u, statistics.take(5.2).gaps);
   statistics.add(5.3);
   EXPECT_EQ(2u, statistics.take(5.4).gaps);
+}
+
+TEST(StreamStatistics, TheRateCountsFromTheBeginningOfTheStream) {
+  StreamStatistics statistics(0.0);
+  for (const double begin : {0.8, 3.2, 5.45}) {  // again after a reconnect
+    statistics.begin(begin);
+    const double end = std::ceil(begin);
+    for (double t = begin; t < end - 1e-6; t += 0.01)
+      statistics.add(t);
+    const StreamStatistics::Summary summary = statistics.take(end);
+    EXPECT_EQ(end - begin >= 0.5, summary.has_rate) << begin;
+    if (summary.has_rate) {
+      EXPECT_NEAR(100.0, summary.rate, 1.0) << begin;
+    }
+  }
+  EXPECT_TRUE(statistics.take(7.0).has_rate);
 }
 
 TEST(StreamStatistics, NothingAtAll) {

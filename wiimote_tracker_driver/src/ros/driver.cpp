@@ -230,6 +230,8 @@ void Driver::linkChanged() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     before = std::exchange(link_, now);
+    if (now.state == wiimote::Link::State::kStreaming && before.state != now.state)
+      statistics_.begin(steadyNow());
   }
   log_.report(now, steadyNow());
   log_.notice(source_->notice());

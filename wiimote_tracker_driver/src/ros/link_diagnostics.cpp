@@ -117,7 +117,7 @@ void LinkDiagnostics::summarise(const DriverState& state, DiagnosticStatusWrappe
 void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatusWrapper& status) {
   const Link& link = state.link;
   status.summary(DiagnosticStatus::OK, "streaming");
-  if (state.stream.rate < kLowRate * image_rate_)
+  if (state.stream.has_rate && state.stream.rate < kLowRate * image_rate_)
     status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second%s", state.stream.rate,
                          state.replayed ? "" : kRaiseRate);
   if (link.kernel_driver == "wiimote")

@@ -12,14 +12,25 @@ class StreamStatistics {
   /// Longer than this between two images [s] counts as a gap: five images at a remote's 100 Hz.
   static constexpr double kGap = 0.05;
 
+  /// Of a shorter time from the beginning of a stream the rate says little [s].
+  static constexpr double kShortest = 0.5;
+
   struct Summary {
-    double rate = 0.0;         ///< [Hz]
+    double rate = 0.0;         ///< [Hz] Since the stream began, if that was in this window.
+    bool has_rate = true;      ///< Else the stream began less than kShortest ago; rate is low.
     double longest_gap = 0.0;  ///< [s] Including the time since the last image.
     std::uint64_t gaps = 0;    ///< Since the beginning.
   };
 
   /// `now` [s] here and below is any clock that never goes back.
   explicit StreamStatistics(double now) : window_start_(now), last_image_(now) {}
+
+  /// The stream begins, at first or again.
+  void begin(double now) {
+    window_start_ = now;
+    images_ = 0;
+    has_begun_ = true;
+  }
 
   /// An image has come.
   void add(double now) {
@@ -36,12 +47,15 @@ class StreamStatistics {
   /// Returns the summary of this window and begins the next one.
   Summary take(double now) {
     Summary summary;
-    if (now > window_start_)
-      summary.rate = static_cast<double>(images_) / (now - window_start_);
+    const double duration = now - window_start_;
+    summary.has_rate = !has_begun_ || duration >= kShortest;
+    if (duration > 0.0)
+      summary.rate = static_cast<double>(images_) / (summary.has_rate ? duration : kShortest);
     summary.longest_gap = std::max(longest_, now - last_image_);
     summary.gaps = gaps_;
     window_start_ = now;
     images_ = 0;
+    has_begun_ = false;
     longest_ = 0.0;
     return summary;
   }
@@ -51,6 +65,7 @@ class StreamStatistics {
   double last_image_;
   double longest_ = 0.0;
   bool any_image_ = false;
+  bool has_begun_ = false;  // in this window
   std::uint64_t images_ = 0;
   std::uint64_t gaps_ = 0;
 };

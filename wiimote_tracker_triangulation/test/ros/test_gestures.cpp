@@ -99,14 +99,17 @@ class Bench {
     points_.publish(array);
   }
 
+  void publishButton(double time, bool pressed) {
+    sensor_msgs::Joy joy;
+    joy.header.stamp.fromSec(time);
+    joy.buttons = {0, 0, pressed};
+    joy_.publish(joy);
+  }
+
   /// The button is held for the next second; its release is published early.
   void holdButton() {
-    sensor_msgs::Joy joy;
-    for (const bool pressed : {true, false}) {
-      joy.header.stamp.fromSec(time_ + (pressed ? 0.0 : 1.005));
-      joy.buttons = {0, 0, pressed};
-      joy_.publish(joy);
-    }
+    publishButton(time_, true);
+    publishButton(time_ + 1.005, false);
     list();  // its answer shows that the button events have arrived
   }
 
@@ -272,6 +275,16 @@ TEST_F(GesturesTest, ZonesHaveTheirOwn) {
 TEST_F(GesturesTest, GoOnAfterABagStartsOver) {
   ASSERT_NO_FATAL_FAILURE(recordCircle());
   bench_->time_ = 500.0;
+  bench_->draw(circle, {0.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
+  EXPECT_TRUE(bench_->remove("circle"));
+}
+
+TEST_F(GesturesTest, GoOnAfterTheButtonWasHeldWhereABagStartsOver) {
+  ASSERT_NO_FATAL_FAILURE(recordCircle());
+  bench_->publishButton(bench_->time_, true);
+  bench_->list();  // its answer shows that the button event has arrived
+  bench_->time_ -= 200.0;
   bench_->draw(circle, {0.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
   EXPECT_TRUE(bench_->remove("circle"));

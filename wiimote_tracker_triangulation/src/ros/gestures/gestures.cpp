@@ -124,6 +124,8 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) 
     return;
   if (time < time_ - kJump) {
     hands_.clear();
+    if (button_.pressed && *button_.pressed > time + kJump)
+      button_ = {};
     ROS_WARN_THROTTLE(10.0, "Time jumped back by more than %.0f s; all gestures are reset.", kJump);
   }
   time_ = time;
@@ -191,6 +193,11 @@ void Gestures::onJoy(const sensor_msgs::Joy& message) {
   }
   const bool pressed = message.buttons[index] != 0;
   const double time = message.header.stamp.toSec();
+  if (button_.pressed && time < *button_.pressed - kJump) {
+    // A bag starts over: a button that was held there is not released before it is pressed again.
+    button_ = {};
+    hands_.clear();
+  }
   const bool was_pressed = button_.pressed && !button_.released;
   if (pressed == was_pressed)
     return;

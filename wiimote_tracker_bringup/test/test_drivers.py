@@ -119,3 +119,13 @@ def test_too_many_remotes_for_the_adapters_are_named():
     assert drivers.too_many(remotes(15), 2)
     assert drivers.too_many(remotes(7), 0) is None, 'adapters that cannot be counted'
     assert drivers.too_many([(f'a{i}', f'virtual:/tmp/{i}') for i in range(30)], 1) is None
+
+
+def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
+    class NoMaster:
+        def start(self):
+            raise ConnectionRefusedError(111, 'Connection refused')
+    said = []
+    monkeypatch.setattr(drivers.rospy, 'logwarn_throttle', lambda period, text: said.append(text))
+    drivers.try_to_start_more(NoMaster())
+    assert len(said) == 1 and 'check that the ROS master runs' in said[0]

@@ -2,12 +2,12 @@
 
 #include "body/bodies_file.h"
 #include "body_parameters.h"
-#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 
 namespace wiimote_tracker {
 namespace {
@@ -117,7 +117,7 @@ bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& r
   try {
     collect(request);
     learn(request, &response);
-  } catch (const geometry::Error& e) {
+  } catch (const std::exception& e) {  // of any kind: the bodies are tracked again in the end
     response.message = e.what();
   }
   track(bodies_);

@@ -3,10 +3,10 @@
 #include <ros/master.h>
 #include <ros/this_node.h>
 #include <sensor_msgs/BatteryState.h>
+#include <wiimote_tracker_msgs/log_exceptions.h>
 
 #include <algorithm>
 #include <chrono>
-#include <utility>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -111,10 +111,13 @@ std::optional<std::set<std::string>> Link::findCameras() const {
 template <class Message>
 void Link::subscribe(const std::string& topic,
                      std::uint32_t queue_size,
-                     std::function<void(const ros::MessageEvent<const Message>&)> callback) {
+                     const std::function<void(const ros::MessageEvent<const Message>&)>& callback) {
   ros::SubscribeOptions options;
-  options.initByFullCallbackType<const ros::MessageEvent<const Message>&>(topic, queue_size,
-                                                                          std::move(callback));
+  using Event = const ros::MessageEvent<const Message>&;
+  // What left a callback would end rviz.
+  options.initByFullCallbackType<Event>(topic, queue_size, [topic, callback](Event event) {
+    logExceptions("message on " + topic, [&] { callback(event); });
+  });
   options.transport_hints = ros::TransportHints().tcpNoDelay();
   try {
     subscribers_.push_back(nh_.subscribe(options));
@@ -161,8 +164,9 @@ void Link::subscribeCamera(const std::string& name) {
     return;
   subscribe<wiimote_tracker_msgs::IrBlobArray>(name + kImages, 1, [this, name](const auto& event) {
     const auto& message = *event.getMessage();
-    views_->cameras.onImage(name, message, (event.getReceiptTime() - message.header.stamp).toSec(),
-                            now());
+    // In seconds: ros::Duration throws beyond 68 years.
+    const double delay = event.getReceiptTime().toSec() - message.header.stamp.toSec();
+    views_->cameras.onImage(name, message, delay, now());
   });
   subscribe<sensor_msgs::BatteryState>(name + "/battery", 1, [this, name](const auto& event) {
     views_->cameras.onBattery(name, event.getMessage()->percentage, now());

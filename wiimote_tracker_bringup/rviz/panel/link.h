@@ -46,7 +46,7 @@ class Link {
   template <class Message>
   void subscribe(const std::string& topic,
                  std::uint32_t queue_size,
-                 std::function<void(const ros::MessageEvent<const Message>&)> callback);
+                 const std::function<void(const ros::MessageEvent<const Message>&)>& callback);
 
   Views* views_;
   ros::CallbackQueue queue_;

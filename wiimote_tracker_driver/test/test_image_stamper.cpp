@@ -210,6 +210,19 @@ TEST_F(ImageStamperTest, ASetSystemClockIsANewEpoch) {
   }
 }
 
+TEST_F(ImageStamperTest, AClockThatWasWrongByACenturyMayBeSet) {
+  const ros::Time past(100000000, 0), future(4200000000u, 0);
+  ClockReading now;
+  std::uint32_t epoch = 0;
+  for (const ros::Time& set : {future, past, future}) {
+    now.steady += 1.0;
+    now.ros = set;
+    const ImageTime time = stamper_.stamp(now, 0);
+    EXPECT_EQ(epoch++, time.clock_epoch);
+    EXPECT_EQ(set, time.arrival);
+  }
+}
+
 TEST_F(ImageStamperTest, AReconnectIsANewEpochThatStartsUncertain) {
   ImageTime time;
   for (int n = 0; n < 501; ++n) {

@@ -212,9 +212,10 @@ void Driver::publishImage(const protocol::DataReport& image) {
     statistics_.add(steadyNow());
     if (!needed && waiting_ < arrivals_.size())
       return;
-    for (std::size_t i = 0; i < waiting_; ++i)
+    // None waits any more, whatever is thrown.
+    const std::size_t count = std::exchange(waiting_, 0);
+    for (std::size_t i = 0; i < count; ++i)
       time = stamper_.stamp(arrivals_[i].clocks, arrivals_[i].epoch);
-    waiting_ = 0;
     stamp_stddev_ = time.stddev;
   }
   blobs_.publish(image, time, link.identity);

@@ -59,7 +59,8 @@ ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoc
 bool ImageStamper::rosClockStepped(const ClockReading& now) const {
   if (now.simulated)
     return now.ros < ros_arrival_;
-  const double deviation = (now.ros - ros_arrival_).toSec() - (now.steady - steady_arrival_);
+  // In seconds: ros::Duration throws beyond 68 years.
+  const double deviation = now.ros.toSec() - ros_arrival_.toSec() - (now.steady - steady_arrival_);
   return std::abs(deviation) > kStep + now.uncertainty;
 }
 

@@ -75,7 +75,7 @@ void BodyDiagnostics::report(const body::Constellation& body,
   else
     status.summaryf(DiagnosticStatus::WARN,
                     "not seen for %.1f s, its topics are silent: uncover it, or switch on its LEDs",
-                    std::max(0.0, (ros::Time::now() - seen.last_observed).toSec()));
+                    std::max(0.0, ros::Time::now().toSec() - seen.last_observed.toSec()));
   if (!warning.empty())
     status.mergeSummary(DiagnosticStatus::WARN, warning);
   status.addf("share of images in which it is tracked [%]", "%.1f",

@@ -160,6 +160,8 @@ class ContinuousServices {
     double newest = 0.0;  // [s]
     for (const Input& input : inputs)
       newest = std::max(newest, input.image.stamp);
+    if (newest == 0.0)
+      return;  // only accelerometers, whose time is not known
     const geometry::Rig before = *context_.rig(lock);
     const auto next = approach_->step(before, newest);
     if (!next)

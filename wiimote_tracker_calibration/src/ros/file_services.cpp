@@ -70,7 +70,9 @@ class FileServices {
     const std::string message = "saved to " + path + appendix(warnings);
     if (!warnings.empty())
       ROS_WARN_STREAM(message);
-    if (const auto& now = context_.rig(lock); now && now->id() == rig.id())
+    // A correction of the volume, which may have come meanwhile, leaves the id.
+    if (const auto& now = context_.rig(lock);
+        now && now->id() == rig.id() && now->remap == rig.remap)
       context_.calibration(lock).saved(message);
     context_.publishStatus(lock);
     return {true, message};

@@ -8,6 +8,7 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <chrono>
+#include <future>
 #include <string>
 #include <utility>
 #include <vector>
@@ -208,14 +209,22 @@ void Triangulation::onTimer() {
   body_diagnostics_.update();
 }
 
+/// In another thread: a busy disk, as while a bag is recorded, would keep images waiting.
 void Triangulation::keepPlaces() {
   const std::string& file = parameters_.label_places;
+  if (places_kept_.valid()) {
+    if (places_kept_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+      return;
+    if (!places_kept_.get())
+      ROS_WARN_ONCE(
+          "Cannot write %s, so LEDs may change their labels if this node is killed: name "
+          "another file in label_places.",
+          file.c_str());
+  }
   const LedLabels::Places* places = tracker_.labels().placesToKeep();
-  if (!file.empty() && places && !writePlaces(file, *places))
-    ROS_WARN_ONCE(
-        "Cannot write %s, so LEDs may change their labels if this node is killed: name "
-        "another file in label_places.",
-        file.c_str());
+  if (!file.empty() && places)
+    places_kept_ =
+        std::async(std::launch::async, [file, copy = *places] { return writePlaces(file, copy); });
 }
 
 }  // namespace wiimote_tracker

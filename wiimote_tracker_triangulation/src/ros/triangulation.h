@@ -15,6 +15,7 @@
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
+#include <future>
 #include <map>
 #include <set>
 #include <string>
@@ -62,6 +63,7 @@ class Triangulation : private MessageSink {
   TrackingDiagnostics diagnostics_;
   std::set<std::string> warned_of_;  // sentences about shapes of bodies
   bool has_former_places_ = false;   // of labels, from a process before
+  std::future<bool> places_kept_;    // whether the file was written; invalid: none is on its way
 
   ros::Publisher points_publisher_;
   ros::Publisher markers_publisher_;

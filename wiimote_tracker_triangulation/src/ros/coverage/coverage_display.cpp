@@ -56,7 +56,9 @@ CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandl
       nh_, "calibration/rig", 1, [this](const auto& event) { onRig(*event.getConstMessage()); });
   points_subscriber_ = subscribe<wiimote_tracker_msgs::TrackedPointArray>(
       nh_, "points", 100, [this](const auto& event) { onPoints(*event.getConstMessage()); });
-  timer_ = nh_.createWallTimer(kWalkPeriod, [this](const ros::WallTimerEvent&) { publishWalk(); });
+  timer_ = nh_.createWallTimer(kWalkPeriod, [this](const ros::WallTimerEvent&) {
+    logExceptions("timer", [this] { publishWalk(); });
+  });
 }
 
 void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message) {

@@ -66,6 +66,12 @@ TEST_F(Hands, AnLedPutDownIsNoticedOnce) {
   EXPECT_EQ(rest(first_, 20.0), 0);  // the same place again is no corner
 }
 
+TEST_F(Hands, AnLedIsNoticedAlsoWhenTimeJumpsBack) {
+  EXPECT_EQ(rest(first_, 1.0), 0);
+  now_ = 10.0;
+  EXPECT_EQ(rest(first_, options_.hold + 1.0), 1);
+}
+
 TEST_F(Hands, ACarriedLedIsNotStill) {
   EXPECT_EQ(rest(first_, 3.0), 1);
   EXPECT_EQ(carry(first_, second_, 8.0), 0);

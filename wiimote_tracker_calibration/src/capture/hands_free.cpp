@@ -10,6 +10,8 @@ namespace {
 constexpr double kStill = 3.0;
 // Longest gap between detections of a still LED [s].
 constexpr double kDropOut = 0.3;
+// Images come in order, but for a few that are late by less than this [s].
+constexpr double kSetBack = 1.0;
 
 }  // namespace
 
@@ -28,6 +30,11 @@ bool HandsFree::add(const Image& image, const std::vector<CapturedCorner>& captu
   const auto found = cameras_.find(image.camera);
   if (found == cameras_.end())
     return false;
+  if (image.stamp < newest_ - kSetBack) {
+    restart();  // time jumped back
+    newest_ = image.stamp;
+  }
+  newest_ = std::max(newest_, image.stamp);
   Camera& camera = found->second;
   if (image.spots.size() == 1 && image.spots.front().allFinite()) {
     const Eigen::Vector2d& spot = image.spots.front();

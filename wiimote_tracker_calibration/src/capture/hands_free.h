@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,7 +25,7 @@ class HandsFree {
  public:
   HandsFree(const std::vector<std::string>& cameras, const HandsFreeOptions& options);
 
-  /// One image; images in the order of their stamps.
+  /// One image; images in the order of their stamps. After a jump back it starts anew.
   /// @returns whether the LED has been still for long enough, at none of the captured corners.
   bool add(const Image& image, const std::vector<CapturedCorner>& captured);
 
@@ -43,6 +44,7 @@ class HandsFree {
 
   HandsFreeOptions options_;
   std::map<std::string, Camera> cameras_;
+  double newest_ = -std::numeric_limits<double>::infinity();  // stamp [s]
 };
 
 }  // namespace wiimote_tracker::capture

@@ -1,5 +1,7 @@
 #include "calibration_node.h"
 
+#include <utility>
+
 namespace wiimote_tracker {
 
 CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& parameters)
@@ -13,12 +15,21 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
       context_.nh().createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
         runCallback("the status", [this] {
           const Lock lock(context_.mutex());
+          endCaptureOfOtherTime(lock);
           context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
           context_.publishStatus(lock);
         });
       });
   const Lock lock(context_.mutex());
   context_.publishStatus(lock);
+}
+
+/// Its images would be those of a time that may come in an hour, or never.
+void CalibrationNode::endCaptureOfOtherTime(const Lock& lock) {
+  const double before = std::exchange(time_, NodeContext::now());
+  if (time_ < before - NodeContext::kUnderWay)
+    context_.calibration(lock).abandonCapture(
+        "time jumped back, as where a bag starts over or a clock is set: capture it again");
 }
 
 CalibrationNode::~CalibrationNode() {

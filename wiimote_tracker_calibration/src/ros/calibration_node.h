@@ -19,7 +19,10 @@ class CalibrationNode {
   NodeContext& context() { return context_; }
 
  private:
+  void endCaptureOfOtherTime(const Lock& lock);
+
   NodeContext context_;
+  double time_ = 0.0;  // at the last status [s]; only for its timer
   std::vector<Unit> units_;
   ros::WallTimer status_timer_;
 };

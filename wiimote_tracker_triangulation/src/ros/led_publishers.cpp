@@ -6,6 +6,7 @@
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
+#include <chrono>
 
 namespace wiimote_tracker {
 
@@ -17,14 +18,31 @@ LedPublishers::LedPublishers(const ros::NodeHandle& nh,
                              const OutputOptions& options)
     : nh_(nh), listed_(labels.begin(), labels.end()), options_(options) {
   for (const std::string& label : listed_)
-    advertise(label);
+    topics_[label] = advertised(nh_, label, options_.led_odometry);
 }
 
-void LedPublishers::advertise(const std::string& label) {
-  Topics& topics = topics_[label];
-  topics.point = nh_.advertise<PointStamped>(label + "/point", 100);
-  if (options_.led_odometry)
-    topics.odometry = nh_.advertise<nav_msgs::Odometry>(label + "/odometry", 100);
+LedPublishers::Topics LedPublishers::advertised(ros::NodeHandle nh,
+                                                const std::string& label,
+                                                bool with_odometry) {
+  Topics topics;
+  topics.point = nh.advertise<PointStamped>(label + "/point", 100);
+  if (with_odometry)
+    topics.odometry = nh.advertise<nav_msgs::Odometry>(label + "/odometry", 100);
+  return topics;
+}
+
+/// Null until they are advertised.
+const LedPublishers::Topics* LedPublishers::topicsOf(const std::string& label) {
+  if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    topics_[coming_label_] = coming_.get();
+  const auto found = topics_.find(label);
+  if (found != topics_.end())
+    return &found->second;
+  if (!coming_.valid()) {
+    coming_label_ = label;
+    coming_ = std::async(std::launch::async, advertised, nh_, label, options_.led_odometry);
+  }
+  return nullptr;
 }
 
 void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
@@ -32,12 +50,11 @@ void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& point
   for (const TrackedPoint& point : points.points) {
     if (!isPublished(point, options_.publish_predicted))
       continue;
-    if (topics_.count(point.label) == 0)
-      advertise(point.label);
-    const Topics& topics = topics_[point.label];
-    topics.point.publish(boost::make_shared<PointStamped>(pointStamped(points, point)));
-    if (options_.led_odometry)
-      topics.odometry.publish(boost::make_shared<nav_msgs::Odometry>(odometry(points, point)));
+    if (const Topics* topics = topicsOf(point.label)) {
+      topics->point.publish(boost::make_shared<PointStamped>(pointStamped(points, point)));
+      if (options_.led_odometry)
+        topics->odometry.publish(boost::make_shared<nav_msgs::Odometry>(odometry(points, point)));
+    }
     transforms_.push_back(transform(points, point));
   }
   if (!transforms_.empty())

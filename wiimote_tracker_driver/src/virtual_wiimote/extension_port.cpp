@@ -7,11 +7,14 @@ namespace {
 
 using SixBytes = std::array<std::uint8_t, 6>;
 
+constexpr std::uint32_t kExtensionPage = 0xa4;  // address >> 16
+constexpr std::uint32_t kMotionPlusPage = 0xa6;
+
 // Registers, and their values.
 constexpr std::size_t kSetUp = 0xf0;
 constexpr std::uint8_t kSetUpValue = 0x55;
 constexpr std::size_t kEncryption = 0xfb;
-constexpr std::uint8_t kOff = 0x00;
+constexpr std::uint8_t kPlain = 0x00;  // any other value means encrypted
 constexpr std::size_t kActivate = 0xfe;
 // Alone, or with pass-through of a Nunchuk or Classic Controller.
 constexpr std::array<std::uint8_t, 3> kActivateValues{0x04, 0x05, 0x07};
@@ -27,94 +30,73 @@ constexpr SixBytes kMotionPlusAtRest{0x00, 0x00, 0x00, 0x83, 0x82, 0x82};
 
 }  // namespace
 
-Nunchuk::Nunchuk() {
-  // Any value except kOff means encrypted.
-  registers_[kEncryption] = 0xff;
-}
-
-bool Nunchuk::plain() const {
-  return registers_[kSetUp] == kSetUpValue && registers_[kEncryption] == kOff;
-}
-
-std::uint8_t Nunchuk::read(std::uint32_t address) const {
-  if (!plain())
-    return 0xff;
-  const std::size_t at = address % 0x100;
-  if (at < kNunchukAtRest.size())
-    return kNunchukAtRest[at];
-  return at >= kIdAddress ? kNunchukId[at - kIdAddress] : registers_[at];
-}
-
-ExtensionData Nunchuk::data() const {
-  ExtensionData data{};
-  for (std::size_t i = 0; i < kNunchukAtRest.size(); ++i)
-    data[i] = read(static_cast<std::uint32_t>(i));
-  return data;
-}
-
-MotionPlus::MotionPlus() {
-  become(false);
-}
-
-void MotionPlus::write(std::uint32_t address, std::uint8_t value) {
-  const std::size_t at = address % 0x100;
-  registers_[at] = value;
-  const bool activates =
-      std::count(kActivateValues.begin(), kActivateValues.end(), value) > 0 && at == kActivate;
-  if (!active_ && activates)
-    become(true);
-  else if (active_ && at == kSetUp && value == kSetUpValue)
-    become(false);
-}
-
-void MotionPlus::become(bool active) {
-  active_ = active;
-  const auto& id = active ? kActiveId : kInactiveId;
-  std::copy(id.begin(), id.end(), registers_.begin() + kIdAddress);
-}
-
-ExtensionData MotionPlus::data() const {
-  ExtensionData data{};
-  std::copy(kMotionPlusAtRest.begin(), kMotionPlusAtRest.end(), data.begin());
-  return data;
+ExtensionPort::ExtensionPort(bool has_motion_plus) : has_motion_plus_(has_motion_plus) {
+  setNunchuk(false);
+  setMotionPlusActive(false);
 }
 
 void ExtensionPort::setNunchuk(bool plugged) {
   nunchuk_plugged_ = plugged;
-  nunchuk_ = Nunchuk();
+  nunchuk_.fill(0);
+  nunchuk_[kEncryption] = 0xff;
 }
 
-bool ExtensionPort::nunchukHas(std::uint32_t address) const {
-  return nunchuk_plugged_ && !motion_plus_.active() && Nunchuk::hasRegister(address);
+void ExtensionPort::setMotionPlusActive(bool active) {
+  motion_plus_active_ = active;
+  const SixBytes& id = active ? kActiveId : kInactiveId;
+  std::copy(id.begin(), id.end(), motion_plus_.begin() + kIdAddress);
 }
 
-bool ExtensionPort::motionPlusHas(std::uint32_t address) const {
-  return has_motion_plus_ && motion_plus_.hasRegister(address);
+bool ExtensionPort::isNunchuk(std::uint32_t address) const {
+  return nunchuk_plugged_ && !motion_plus_active_ && address >> 16 == kExtensionPage;
+}
+
+bool ExtensionPort::isMotionPlus(std::uint32_t address) const {
+  return has_motion_plus_ &&
+         address >> 16 == (motion_plus_active_ ? kExtensionPage : kMotionPlusPage);
 }
 
 bool ExtensionPort::hasRegister(std::uint32_t address) const {
-  return nunchukHas(address) || motionPlusHas(address);
+  return isNunchuk(address) || isMotionPlus(address);
 }
 
 std::uint8_t ExtensionPort::read(std::uint32_t address) const {
-  return motionPlusHas(address) ? motion_plus_.read(address) : nunchuk_.read(address);
+  const std::size_t at = address % 0x100;
+  return isMotionPlus(address) ? motion_plus_[at] : readNunchuk(at);
+}
+
+std::uint8_t ExtensionPort::readNunchuk(std::size_t at) const {
+  if (nunchuk_[kSetUp] != kSetUpValue || nunchuk_[kEncryption] != kPlain)
+    return 0xff;
+  if (at < kNunchukAtRest.size())
+    return kNunchukAtRest[at];
+  return at >= kIdAddress ? kNunchukId[at - kIdAddress] : nunchuk_[at];
 }
 
 void ExtensionPort::write(std::uint32_t address, std::uint8_t value) {
-  if (motionPlusHas(address))
-    motion_plus_.write(address, value);
-  else if (nunchukHas(address))
-    nunchuk_.write(address, value);
+  const std::size_t at = address % 0x100;
+  if (isNunchuk(address))
+    nunchuk_[at] = value;
+  if (!isMotionPlus(address))
+    return;
+  motion_plus_[at] = value;
+  const bool activates =
+      at == kActivate && std::count(kActivateValues.begin(), kActivateValues.end(), value) > 0;
+  if (!motion_plus_active_ && activates)
+    setMotionPlusActive(true);
+  else if (motion_plus_active_ && at == kSetUp && value == kSetUpValue)
+    setMotionPlusActive(false);
 }
 
 ExtensionData ExtensionPort::data() const {
-  if (motion_plus_.active())
-    return motion_plus_.data();
-  if (nunchuk_plugged_)
-    return nunchuk_.data();
-  ExtensionData none;
-  none.fill(0xff);
-  return none;
+  ExtensionData data{};
+  if (empty()) {
+    data.fill(0xff);
+    return data;
+  }
+  for (std::size_t i = 0; i < kNunchukAtRest.size(); ++i)
+    data[i] = motion_plus_active_ ? kMotionPlusAtRest[i] : readNunchuk(i);
+  return data;
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote

@@ -18,7 +18,7 @@
 #include <algorithm>
 #include <chrono>
 #include <exception>
-#include <iterator>
+#include <thread>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -41,14 +41,10 @@ wiimote_tracker_msgs::CheckPlace placeOf(const Request& request) {
 }  // namespace
 
 Requests::~Requests() {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    must_end_ = true;
-    for (ros::ServiceClient& client : clients_)
-      client.shutdown();
-  }
-  for (std::thread& thread : threads_)
-    thread.join();
+  const std::lock_guard<std::mutex> lock(mutex_);
+  must_end_ = true;
+  for (ros::ServiceClient& client : clients_)
+    client.shutdown();
 }
 
 void Requests::send(const Request& request) {
@@ -61,44 +57,37 @@ void Requests::send(const Request& request) {
     return;
   is_called_off_ = false;
   guide_->onRequest(request.command);
-  threads_.emplace_back();
-  const auto own = std::prev(threads_.end());
-  *own = std::thread([this, request, own] {
-    std::string answer;
-    try {
-      answer = perform(request);
-    } catch (const std::exception& error) {
-      answer = error.what();
-    }
-    report({own, request.command, answer, 0.0});
-  });
+  sent_.push_front({request.command, std::async(std::launch::async, [this, request] {
+                      try {
+                        return perform(request);
+                      } catch (const std::exception& error) {
+                        return std::string(error.what());
+                      }
+                    })});
 }
 
 void Requests::poll() {
-  std::vector<Event> events;
+  std::optional<Progress> progress;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    events.swap(events_);
+    progress.swap(progress_);
   }
-  for (const Event& event : events) {
-    if (event.thread == threads_.end()) {
-      guide_->onProgress(event.text, event.progress);
+  if (progress)
+    guide_->onProgress(progress->text, progress->share);
+  // What was cancelled has the last word.
+  for (auto sent = sent_.begin(); sent != sent_.end();) {
+    if (sent->answer.wait_for(std::chrono::seconds(0)) != std::future_status::ready) {
+      ++sent;
       continue;
     }
-    event.thread->join();
-    threads_.erase(event.thread);
-    guide_->onAnswer(event.command, event.text);
+    guide_->onAnswer(sent->command, sent->answer.get());
+    sent = sent_.erase(sent);
   }
 }
 
 bool Requests::mustEnd() {
   const std::lock_guard<std::mutex> lock(mutex_);
   return must_end_;
-}
-
-void Requests::report(const Event& event) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  events_.push_back(event);
 }
 
 template <class Service>
@@ -194,12 +183,13 @@ std::string Requests::captureCorner(const Request& request) {
   goal.retake = static_cast<std::uint8_t>(request.corner >= 0);
   goal.corner = static_cast<std::uint32_t>(std::max(request.corner, 0));
   client.sendGoal(goal, {}, {}, [this](const auto& feedback) {
-    report({threads_.end(), Command::kCapture, feedback->message, feedback->progress});
+    const std::lock_guard<std::mutex> lock(mutex_);
+    progress_ = Progress{feedback->message, feedback->progress};
   });
   while (!client.getState().isDone()) {
     std::this_thread::sleep_for(kLookPeriod);
     const bool must_end = mustEnd();
-    // Without our lock: the client's own is held while it calls report().
+    // Without our lock: the client's own is held while it reports progress, above.
     if (is_called_off_ || must_end)
       client.cancelGoal();
     if (must_end || !client.isServerConnected())

@@ -6,11 +6,11 @@
 #include <ros/service_client.h>
 
 #include <atomic>
+#include <future>
 #include <list>
 #include <mutex>
+#include <optional>
 #include <string>
-#include <thread>
-#include <vector>
 
 namespace wiimote_tracker::panel {
 
@@ -29,11 +29,13 @@ class Requests {
   void poll();
 
  private:
-  struct Event {
-    std::list<std::thread>::iterator thread;  // that has answered; end(): none
+  struct Sent {
     Command command;
+    std::future<std::string> answer;
+  };
+  struct Progress {
     std::string text;
-    double progress;
+    double share;  // [0..1]
   };
   /// What the node said, or why it said nothing.
   std::string perform(const Request& request);
@@ -41,15 +43,14 @@ class Requests {
   std::string call(const std::string& name, Service service);
   std::string captureCorner(const Request& request);
   bool mustEnd();
-  void report(const Event& event);
 
   Guide* guide_;
-  std::list<std::thread> threads_;
   std::mutex mutex_;
-  std::vector<Event> events_;
+  std::optional<Progress> progress_;        // not told yet
   std::list<ros::ServiceClient> clients_;   // that wait for an answer
   std::atomic<bool> is_called_off_{false};  // the corner that is captured
   bool must_end_ = false;
+  std::list<Sent> sent_;  // the newest first; the end of each waits for its thread
 };
 
 }  // namespace wiimote_tracker::panel

@@ -116,7 +116,6 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
       joy_(nh, optical_frame_),
       log_(parameters_.camera_name, !source_->recorded()),
       stamper_(stamperOptions(parameters_, ir_format_)),
-      stamp_stddev_(std::numeric_limits<double>::quiet_NaN()),
       statistics_(steadyNow()),
       reader_priority_("normal"),
       settings_(private_nh, parameters_, control_),
@@ -130,6 +129,7 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
     ROS_WARN(
         "the driver runs in the namespace /, so its topics are /ir_blobs and so on: start it in "
         "the camera's namespace, for example ROS_NAMESPACE=wiimote_1");
+  time_.stddev = std::numeric_limits<double>::quiet_NaN();
   updater_.setHardwareID("none");
   updater_.add("Wii Remote " + parameters_.camera_name, this, &Driver::diagnose);
   diagnostics_timer_ = nh.createSteadyTimer(
@@ -199,30 +199,37 @@ std::unique_ptr<transport::Transport> Driver::open() {
   return recording::record(std::move(transport), recorder_, [this] { return source_->now(); });
 }
 
-// Stamps that nobody needs are computed ten at a time. That takes half the time, since the clock's
-// code and state then stay in the processor's caches.
+// Stamps that nobody needs are computed once a second, for the diagnostics, or when 200 wait:
+// together they take half the time, since the clock's code and state stay in the caches.
 void Driver::publishImage(const protocol::DataReport& image) {
   const wiimote::Link& link = wiimote_.link();
-  arrivals_[waiting_++] = {source_->readClocks(), link.clock_epoch};
+  const Arrival arrival{source_->readClocks(), link.clock_epoch};
   const bool needed = blobs_.subscribed() || camera_info_.subscribed() || imu_.subscribed() ||
                       joy_.changed(image.buttons);
   ImageTime time;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     statistics_.add(steadyNow());
-    if (!needed && waiting_ < arrivals_.size())
+    waiting_.push_back(arrival);
+    if (!needed && !waiting_.full())
       return;
-    // None waits any more, whatever is thrown.
-    const std::size_t count = std::exchange(waiting_, 0);
-    for (std::size_t i = 0; i < count; ++i)
-      time = stamper_.stamp(arrivals_[i].clocks, arrivals_[i].epoch);
-    stamp_stddev_ = time.stddev;
+    stampWaiting();
+    time = time_;
   }
   blobs_.publish(image, time, link.identity);
   camera_info_.publish(time.stamp);
   if (image.acceleration)
     imu_.publish(*image.acceleration, wiimote_.accelerometer(), time.stamp);
   joy_.publish(image.buttons, time.stamp);
+}
+
+// With the mutex locked.
+void Driver::stampWaiting() {
+  while (!waiting_.empty()) {
+    const Arrival next = waiting_.front();
+    waiting_.pop_front();
+    time_ = stamper_.stamp(next.clocks, next.epoch);
+  }
 }
 
 void Driver::linkChanged() {
@@ -258,11 +265,12 @@ void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
+    stampWaiting();
     state.link = link_;
     state.stream = statistics_.take(steadyNow());
     state.clock = stamper_.statistics();
     state.totals = stamper_.totals();
-    state.stamp_stddev = stamp_stddev_;
+    state.stamp_stddev = time_.stddev;
     state.reader_priority = reader_priority_;
   }
   if (steadyNow() >= users_due_) {

@@ -20,11 +20,10 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
+#include <boost/circular_buffer.hpp>
 
-#include <array>
 #include <atomic>
 #include <condition_variable>
-#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -53,6 +52,7 @@ class Driver {
   bool waitForTurn();
   std::unique_ptr<transport::Transport> open();
   void publishImage(const protocol::DataReport& image);
+  void stampWaiting();
   void linkChanged();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -73,17 +73,16 @@ class Driver {
   JoyPublisher joy_;
   LinkLog log_;
   std::uint64_t seen_changes_ = 0;  // of wiimote_.linkChanges()
+
+  std::mutex mutex_;  // guards the members below
+  wiimote::Link link_;
   struct Arrival {
     ClockReading clocks;
     std::uint32_t epoch;
   };
-  std::array<Arrival, 10> arrivals_;  // not stamped yet
-  std::size_t waiting_ = 0;           // number of them
-
-  std::mutex mutex_;  // guards the members below
-  wiimote::Link link_;
+  boost::circular_buffer<Arrival> waiting_{200};  // not stamped yet
   ImageStamper stamper_;
-  double stamp_stddev_;
+  ImageTime time_;  // of the last image that was stamped
   wiimote::StreamStatistics statistics_;
   std::string reader_priority_;
   std::atomic<bool> stop_{false};  // set under mutex_

@@ -212,8 +212,8 @@ void ClockEstimator::updateModels(double arrival) {
   counter_.predict(
       frame_ + 1 +
       static_cast<std::int64_t>(std::floor((arrival - leader.time()) / leader.period())));
-  std::array<double, FrameCounter::kCapacity> on_time;
-  std::array<double, FrameCounter::kCapacity> number{};
+  std::array<double, FrameCounter::kCapacity> on_time, number;
+  std::fill_n(number.begin(), counter_.size(), 0.0);
   double sum = 0.0, on_steady_edge = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     ClockFilter& filter = filters_[m];
@@ -228,15 +228,16 @@ void ClockEstimator::updateModels(double arrival) {
       evidence += all;
       number[at] += weights_[m] * all;
     }
+    ClockFilter::Hypotheses hypotheses;
     for (int i = 0; i < counter_.size(); ++i) {
       const double probability = on_time[static_cast<std::size_t>(i)] / evidence;
       if (probability > kNegligible)
         filter.addHypothesis(filter.predict(static_cast<double>(counter_.frame(i) - frame_)),
-                             arrival, probability);
+                             arrival, probability, &hypotheses);
       if (m == kSteadyEdge)
         on_steady_edge += probability;
     }
-    filter.applyHypotheses();
+    filter.apply(hypotheses);
     weights_[m] *= evidence;
     sum += weights_[m];
   }

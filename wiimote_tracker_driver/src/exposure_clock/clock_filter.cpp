@@ -103,7 +103,10 @@ double ClockFilter::readyBefore(const Prediction& z, double time) const {
   return hasExponential(z) ? std::max(0.0, normal - spread_ * likelihood(z, time)) : normal;
 }
 
-void ClockFilter::addHypothesis(const Prediction& z, double arrival, double weight) {
+void ClockFilter::addHypothesis(const Prediction& z,
+                                double arrival,
+                                double weight,
+                                Hypotheses* sums) const {
   double innovation = arrival - z.mean;
   double left = 0.0;  // variance of z, given the arrival
   if (hasExponential(z)) {
@@ -115,28 +118,28 @@ void ClockFilter::addHypothesis(const Prediction& z, double arrival, double weig
   const double time_shift = z.time_gain * innovation;
   const double period_shift = z.period_gain * innovation;
   const double gone = z.variance - left;
-  sums_.weight += weight;
-  sums_.time += weight * time_shift;
-  sums_.period += weight * period_shift;
-  sums_.p00 += weight * (square(time_shift) - square(z.time_gain) * gone);
-  sums_.p01 += weight * (time_shift * period_shift - z.time_gain * z.period_gain * gone);
-  sums_.p11 += weight * (square(period_shift) - square(z.period_gain) * gone);
+  sums->weight += weight;
+  sums->time += weight * time_shift;
+  sums->period += weight * period_shift;
+  sums->p00 += weight * (square(time_shift) - square(z.time_gain) * gone);
+  sums->p01 += weight * (time_shift * period_shift - z.time_gain * z.period_gain * gone);
+  sums->p11 += weight * (square(period_shift) - square(z.period_gain) * gone);
 
   // Expectation maximisation of the spread, given the new state.
   if (model_.hard_edge) {
-    sums_.spread += weight * (arrival - z.mean - innovation);
+    sums->spread += weight * (arrival - z.mean - innovation);
   } else {
     const double share = square(spread_) / z.variance;
-    sums_.spread += weight * (square(innovation * share) + (z.variance - square(spread_)) * share);
+    sums->spread += weight * (square(innovation * share) + (z.variance - square(spread_)) * share);
   }
 }
 
-void ClockFilter::applyHypotheses() {
-  state_.time += sums_.time;
-  state_.period += sums_.period;
-  state_.p00 += sums_.p00 - square(sums_.time);
-  state_.p01 += sums_.p01 - sums_.time * sums_.period;
-  state_.p11 += sums_.p11 - square(sums_.period);
+void ClockFilter::apply(const Hypotheses& sums) {
+  state_.time += sums.time;
+  state_.period += sums.period;
+  state_.p00 += sums.p00 - square(sums.time);
+  state_.p01 += sums.p01 - sums.time * sums.period;
+  state_.p11 += sums.p11 - square(sums.period);
   // A period beyond the tolerance would hide wrong frame numbers.
   const double excess =
       state_.period - std::min(std::max(state_.period, nominal_period_ - period_tolerance_),
@@ -145,17 +148,16 @@ void ClockFilter::applyHypotheses() {
     state_.time -= state_.p01 / state_.p11 * excess;
     state_.period -= excess;
   }
-  learnSpread();
-  sums_ = Sums();
+  learnSpread(sums);
 }
 
-void ClockFilter::learnSpread() {
-  sample_count_ = std::min(sample_count_ + sums_.weight, kSpreadMemory);
+void ClockFilter::learnSpread(const Hypotheses& sums) {
+  sample_count_ = std::min(sample_count_ + sums.weight, kSpreadMemory);
   const double rate = 1.0 / (sample_count_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
   if (model_.hard_edge)
-    spread_ += rate * (sums_.spread - sums_.weight * spread_);
+    spread_ += rate * (sums.spread - sums.weight * spread_);
   else
-    spread_ = std::sqrt(square(spread_) + rate * (sums_.spread - sums_.weight * square(spread_)));
+    spread_ = std::sqrt(square(spread_) + rate * (sums.spread - sums.weight * square(spread_)));
   spread_ = std::max(spread_, kMinSpread);
 }
 

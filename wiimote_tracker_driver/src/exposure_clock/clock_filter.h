@@ -59,11 +59,21 @@ class ClockFilter {
   /// Probability that this frame was ready to arrive before `time`.
   double readyBefore(const Prediction& frame, double time) const;
 
+  /// Sums over the hypotheses of one arrival.
+  struct Hypotheses {
+    double weight = 0.0;
+    double time = 0.0, period = 0.0;
+    double p00 = 0.0, p01 = 0.0, p11 = 0.0;
+    double spread = 0.0;
+  };
   /// Probabilistic data association (Bar-Shalom, Tse, Automatica 11, 1975): adds the hypothesis, of
-  /// probability `weight`, that `arrival` is that of this frame. applyHypotheses() then updates the
-  /// state with all hypotheses of the arrival.
-  void addHypothesis(const Prediction& frame, double arrival, double weight);
-  void applyHypotheses();
+  /// probability `weight`, that `arrival` is that of this frame.
+  void addHypothesis(const Prediction& frame,
+                     double arrival,
+                     double weight,
+                     Hypotheses* sums) const;
+  /// Updates the state with all hypotheses of an arrival.
+  void apply(const Hypotheses& sums);
 
   /// Replaces phase and period of the state's frame by those of a better method.
   void setState(const ClockState& state) { state_ = state; }
@@ -73,20 +83,13 @@ class ClockFilter {
  private:
   /// False also where the exponential is negligible beside the uncertainty.
   bool hasExponential(const Prediction& z) const;
-  void learnSpread();
+  void learnSpread(const Hypotheses& sums);
 
   DelayModel model_;
   double nominal_period_, period_tolerance_;
   ClockState state_;
   double spread_;
   double sample_count_ = 0.0;  // number of reports used for the spread
-  // Sums over the hypotheses of one arrival.
-  struct Sums {
-    double weight = 0.0;
-    double time = 0.0, period = 0.0;
-    double p00 = 0.0, p01 = 0.0, p11 = 0.0;
-    double spread = 0.0;
-  } sums_;
 };
 
 }  // namespace wiimote_tracker::exposure_clock

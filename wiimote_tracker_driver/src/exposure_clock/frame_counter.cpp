@@ -46,25 +46,23 @@ void FrameCounter::start(std::int64_t frame) {
   probability_[0] = 1.0;
 }
 
+// In place: each number is read before its probability is replaced.
 void FrameCounter::predict(std::int64_t newest) {
   const std::int64_t earliest = first_;
   newest = std::max(newest, earliest + size_);
-  const std::int64_t first = std::max(earliest, newest - kCapacity + 1);
-  std::array<double, kCapacity> next{};
-  double run = 0.0;  // probability that the frame before was lost
+  first_ = std::max(earliest, newest - kCapacity + 1);
+  double before = 0.0;  // probability of the frame before,
+  double run = 0.0;     // and that it was lost
   for (std::int64_t frame = earliest; frame <= newest; ++frame) {
-    const auto before = [&](std::int64_t i) {
-      return i >= 0 && i < size_ ? probability_[static_cast<std::size_t>(i)] : 0.0;
-    };
-    const double same = before(frame - earliest), direct = before(frame - earliest - 1);
-    if (frame >= first)
-      next[static_cast<std::size_t>(frame - first)] =
-          kDuplicate * same + (1.0 - loss_probability_) * direct + (1.0 - kNextLoss) * run + kFloor;
-    run = loss_probability_ * direct + kNextLoss * run;
+    const double same =
+        frame < earliest + size_ ? (*this)[static_cast<int>(frame - earliest)] : 0.0;
+    if (frame >= first_)
+      (*this)[static_cast<int>(frame - first_)] =
+          kDuplicate * same + (1.0 - loss_probability_) * before + (1.0 - kNextLoss) * run + kFloor;
+    run = loss_probability_ * before + kNextLoss * run;
+    before = same;
   }
-  probability_ = next;
-  first_ = first;
-  size_ = static_cast<int>(newest - first + 1);
+  size_ = static_cast<int>(newest - first_ + 1);
 }
 
 void FrameCounter::normalise() {

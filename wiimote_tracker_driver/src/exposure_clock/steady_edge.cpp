@@ -44,54 +44,48 @@ void SteadyEdge::clear() {
 }
 
 bool SteadyEdge::ready() const {
-  return blocks_begun_ > kMinBlocks;
+  return reports_ > kSkippedReports + kMinBlocks * kBlockReports;
 }
 
 void SteadyEdge::add(std::int64_t frame, double arrival, double weight, double period) {
-  if (skipped_ < kSkippedReports) {
-    ++skipped_;
+  const std::int64_t report = reports_++ - kSkippedReports;
+  if (report < 0)
     return;
-  }
-  if (blocks_begun_ == 0) {
+  if (report == 0) {
     first_frame_ = frame;
     first_arrival_ = arrival;
   }
-  const auto latest = [this]() -> Block& {
-    return blocks_[static_cast<std::size_t>((blocks_begun_ - 1) % kBlocks)];
-  };
-  if (blocks_begun_ == 0 || latest().reports == kBlockReports) {
-    ++blocks_begun_;
-    latest() = Block();
-  }
-  Block& block = latest();
-  ++block.reports;
+  const bool begins = report % kBlockReports == 0;
+  Block& block = blocks_[static_cast<std::size_t>(report / kBlockReports % kBlocks)];
+  if (begins)
+    block = Block();
   const auto n = static_cast<double>(frame - first_frame_);
   block.weight += weight;
   block.weighted_frames += weight * n;
   const Point point{n, arrival - first_arrival_ - n * nominal_period_};
   const double drift = period - nominal_period_;
-  if (block.reports == 1 ||
+  if (begins ||
       point.time - point.frame * drift < block.earliest.time - block.earliest.frame * drift)
     block.earliest = point;
 }
 
 // Andrew's monotone chain; the blocks are in order of their frames.
-int SteadyEdge::lowerHull(std::array<Point, kBlocks>& hull) const {
-  std::size_t size = 0;
-  for (int b = std::max(0, blocks_begun_ - kBlocks); b < blocks_begun_; ++b) {
-    const Block& block = blocks_[static_cast<std::size_t>(b % kBlocks)];
-    if (size > 0 && block.earliest.frame <= hull[size - 1].frame)
+SteadyEdge::Hull SteadyEdge::lowerHull() const {
+  Hull hull;
+  const std::int64_t begun = (reports_ - kSkippedReports + kBlockReports - 1) / kBlockReports;
+  for (std::int64_t i = std::max<std::int64_t>(0, begun - kBlocks); i < begun; ++i) {
+    const Point& p = blocks_[static_cast<std::size_t>(i % kBlocks)].earliest;
+    if (!hull.empty() && p.frame <= hull.back().frame)
       continue;
-    const Point& p = block.earliest;
     const auto bulges = [&] {
-      const Point &a = hull[size - 2], &b = hull[size - 1];
+      const Point &a = hull[hull.size() - 2], &b = hull.back();
       return (b.time - a.time) * (p.frame - a.frame) >= (p.time - a.time) * (b.frame - a.frame);
     };
-    while (size > 1 && bulges())
-      --size;
-    hull[size++] = p;
+    while (hull.size() > 1 && bulges())
+      hull.pop_back();
+    hull.push_back(p);
   }
-  return static_cast<int>(size);
+  return hull;
 }
 
 ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
@@ -103,10 +97,9 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
   center /= weight;
   const double rate = weight / spread;
 
-  std::array<Point, kBlocks> hull;
-  const int size = lowerHull(hull);
+  const Hull hull = lowerHull();
   // Relative to the latest corner, for precision after days.
-  const Point origin = hull[static_cast<std::size_t>(size) - 1];
+  const Point origin = hull.back();
   center -= origin.frame;
   const auto n = static_cast<double>(frame - first_frame_);
   // Drift is the period less the nominal one. Each corner bounds the phase where the slopes of the
@@ -114,14 +107,13 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
   double scale = -std::numeric_limits<double>::infinity();  // logarithm of the greatest weight
   double sum = 0.0, time = 0.0, drift = 0.0, tt = 0.0, td = 0.0, dd = 0.0;
   double begin = -tolerance_;
-  for (int i = 0; i < size && begin < tolerance_; ++i) {
-    const auto relative = [&](int k) {
-      const Point& p = hull[static_cast<std::size_t>(k)];
-      return Point{p.frame - origin.frame, p.time - origin.time};
+  for (std::size_t i = 0; i < hull.size() && begin < tolerance_; ++i) {
+    const auto relative = [&](std::size_t k) {
+      return Point{hull[k].frame - origin.frame, hull[k].time - origin.time};
     };
     const Point corner = relative(i);
     double end = tolerance_;
-    if (i + 1 < size) {
+    if (i + 1 < hull.size()) {
       const Point next = relative(i + 1);
       end = std::min(end, (next.time - corner.time) / (next.frame - corner.frame));
     }

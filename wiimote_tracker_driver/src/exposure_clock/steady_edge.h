@@ -3,6 +3,8 @@
 
 #include "exposure_clock/clock_filter.h"
 
+#include <boost/container/static_vector.hpp>
+
 #include <array>
 #include <cstdint>
 
@@ -42,16 +44,15 @@ class SteadyEdge {
     double time;   // arrival, less the nominal time of the frame
   };
   struct Block {
-    int reports = 0;
     double weight = 0.0, weighted_frames = 0.0;
     Point earliest{};
   };
-  int lowerHull(std::array<Point, kBlocks>& hull) const;
+  using Hull = boost::container::static_vector<Point, kBlocks>;
+  Hull lowerHull() const;
 
   double nominal_period_, tolerance_;
   std::array<Block, kBlocks> blocks_;
-  int skipped_ = 0;       // reports not used, since clear()
-  int blocks_begun_ = 0;  // since clear(); the latest of them are in blocks_
+  std::int64_t reports_ = 0;  // since clear(), with those that were skipped
   std::int64_t first_frame_ = 0;
   double first_arrival_ = 0.0;
 };

@@ -85,7 +85,7 @@ void Session::statusAnswered(AskStatus state, double now) {
   }
   if (state.after_silence) {
     fault_ = "the remote was switched off and on";
-    ++restarts_;
+    restarted_ = true;
   }
   enter(SetLeds{}, now);
 }
@@ -268,10 +268,8 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
   if (watch_.image(*image, now) && fault_ == nullptr)
     noteFault(registers_ == Registers::kUnreadable ? "the camera was switched off"
                                                    : "the camera's logic was switched off");
-  if (fault_ != nullptr && in<Streaming>()) {
-    ++restorations_;
-    last_restoration_ = std::exchange(fault_, nullptr);
-  }
+  if (fault_ != nullptr && in<Streaming>())
+    restored_ = std::exchange(fault_, nullptr);
   return image;
 }
 

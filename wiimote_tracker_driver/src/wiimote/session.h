@@ -17,6 +17,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 
 namespace wiimote_tracker::wiimote {
@@ -89,14 +90,12 @@ class Session {
   /// is therefore repeated while the motor runs.
   void setRumble(bool rumble, double now);
 
-  /// How often the set-up began again from AskStatus, e.g. after a power cycle that did not break
-  /// the connection.
-  int restarts() const { return restarts_; }
+  /// Whether the set-up has begun again from AskStatus since the last call, e.g. after a power
+  /// cycle that did not break the connection.
+  bool takeRestart() { return std::exchange(restarted_, false); }
 
-  /// How often the configuration was found changed and was restored.
-  std::uint64_t restorations() const { return restorations_; }
-  /// What was found at the last restoration, a phrase.
-  const char* lastRestoration() const { return last_restoration_; }
+  /// What was found changed and has been restored since the last call, a phrase; null: nothing.
+  const char* takeRestoration() { return std::exchange(restored_, nullptr); }
 
   /// Calibration of camera and accelerometer from the remote's EEPROM; unreadable parts are unset.
   const FactoryCalibration& factory() const { return factory_; }
@@ -191,10 +190,10 @@ class Session {
 
   bool streaming_ = false;  ///< Since Streaming; until the camera is set up again.
   Registers registers_ = Registers::kUnknown;
-  int set_ups_ = 0;     ///< Of the camera, in a row without success.
-  int silences_ = 0;    ///< In a row, without an image between them.
-  int next_check_ = 0;  ///< Block that the next periodic check reads.
-  int restarts_ = 0;
+  int set_ups_ = 0;           ///< Of the camera, in a row without success.
+  int silences_ = 0;          ///< In a row, without an image between them.
+  int next_check_ = 0;        ///< Block that the next periodic check reads.
+  bool restarted_ = false;    ///< Until it is taken.
   bool acknowledges_ = true;  ///< Commands without another answer; false once one was not.
   bool mode_seen_ = false;    ///< A data report of our mode has come since SetMode.
 
@@ -202,9 +201,8 @@ class Session {
   bool implausible_ = false;                 ///< The check is due to an implausible image.
   double implausible_accepted_until_ = 0.0;  ///< [s] A check has found nothing.
 
-  const char* fault_ = nullptr;  ///< What is being restored; null when nothing.
-  const char* last_restoration_ = "";
-  std::uint64_t restorations_ = 0;
+  const char* fault_ = nullptr;     ///< What is being restored; null when nothing.
+  const char* restored_ = nullptr;  ///< Until it is taken.
 
   std::optional<double> rumble_due_;  ///< [s] While the motor runs: when to repeat it.
 };

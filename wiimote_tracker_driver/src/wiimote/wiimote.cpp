@@ -59,8 +59,6 @@ void Wiimote::connect() {
   link_.kernel_driver = transport_->kernelDriver();
   link_.status.reset();
   ++link_changes_;
-  restarts_ = 0;
-  restorations_ = 0;
   new_epoch_ = had_image_;
   last_read_ = clock_();
   backlog_ = false;
@@ -82,10 +80,8 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
   if (backlog_)
     image.reset();
   session_->tick(now);
-  if (session_->restarts() != restarts_) {
-    restarts_ = session_->restarts();
+  if (session_->takeRestart())
     new_epoch_ = had_image_;
-  }
   if (image) {
     had_image_ = true;
     retry_pause_ = kShortestPause;
@@ -106,10 +102,9 @@ void Wiimote::updateLink(bool image) {
   else if (!session_->streaming())
     state = Link::State::kStarting;
   const bool new_status = session_->status() && !(link_.status == session_->status());
-  if (session_->restorations() != restorations_) {
-    link_.restorations += session_->restorations() - restorations_;
-    link_.last_restoration = session_->lastRestoration();
-    restorations_ = session_->restorations();
+  if (const char* restored = session_->takeRestoration()) {
+    ++link_.restorations;
+    link_.last_restoration = restored;
     ++link_changes_;
   }
   if (state == link_.state && !new_status)

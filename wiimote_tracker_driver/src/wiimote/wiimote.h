@@ -103,9 +103,7 @@ class Wiimote {
   double last_read_ = 0.0;  ///< [s] When the last attempt to read returned.
   bool backlog_ = false;    ///< Reports wait that the kernel kept during a long stall.
   bool had_image_ = false;
-  bool new_epoch_ = false;          ///< The next image is the first of another epoch.
-  int restarts_ = 0;                ///< Of the session, as far as seen.
-  std::uint64_t restorations_ = 0;  ///< Likewise.
+  bool new_epoch_ = false;  ///< The next image is the first of another epoch.
 };
 
 }  // namespace wiimote_tracker::wiimote

@@ -2,21 +2,19 @@
 
 #include <sensor_msgs/Joy.h>
 
-#include <cstddef>
-
 namespace wiimote_tracker::driver {
 namespace {
 
-// Bits of protocol::decodeButtons(), in the order of JoyButton.
-constexpr std::array<std::uint16_t, kButtonCount> kBits{
-    0x0002, 0x0001, 0x0008, 0x0004, 0x1000, 0x0010, 0x0100, 0x0200, 0x0800, 0x0400, 0x0080};
+// Bits of protocol::decodeButtons().
+constexpr std::uint16_t kBits[] = {0x0002, 0x0001, 0x0008, 0x0004, 0x1000, 0x0010,
+                                   0x0100, 0x0200, 0x0800, 0x0400, 0x0080};
 
 }  // namespace
 
-std::array<int, kButtonCount> joyButtons(std::uint16_t buttons) {
-  std::array<int, kButtonCount> pressed{};
-  for (std::size_t i = 0; i < pressed.size(); ++i)
-    pressed[i] = (buttons & kBits[i]) != 0 ? 1 : 0;
+std::vector<int> joyButtons(std::uint16_t buttons) {
+  std::vector<int> pressed;
+  for (const std::uint16_t bit : kBits)
+    pressed.push_back((buttons & bit) != 0 ? 1 : 0);
   return pressed;
 }
 
@@ -27,11 +25,10 @@ void JoyPublisher::publish(std::uint16_t buttons, const ros::Time& stamp) {
   if (!changed(buttons))
     return;
   published_ = buttons;
-  const std::array<int, kButtonCount> pressed = joyButtons(buttons);
   sensor_msgs::Joy message;
   message.header.stamp = stamp;
   message.header.frame_id = frame_id_;
-  message.buttons.assign(pressed.begin(), pressed.end());
+  message.buttons = joyButtons(buttons);
   publisher_.publish(message);
 }
 

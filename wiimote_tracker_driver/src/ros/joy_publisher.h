@@ -4,31 +4,16 @@
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::driver {
 
-/// Index of each button in Joy::buttons, the same as in the node `wiimote` of joystick_drivers.
-enum JoyButton {
-  kButtonOne,
-  kButtonTwo,
-  kButtonA,
-  kButtonB,
-  kButtonPlus,
-  kButtonMinus,
-  kButtonLeft,
-  kButtonRight,
-  kButtonUp,
-  kButtonDown,
-  kButtonHome,
-  kButtonCount,
-};
-
-/// 1 for each pressed button. `buttons`: as protocol::decodeButtons().
-std::array<int, kButtonCount> joyButtons(std::uint16_t buttons);
+/// Joy::buttons, 1 for each pressed one: 1, 2, A, B, plus, minus, left, right, up, down, home, as
+/// in the node `wiimote` of joystick_drivers. `buttons`: as protocol::decodeButtons().
+std::vector<int> joyButtons(std::uint16_t buttons);
 
 /// Publishes the buttons, latched, as `joy` whenever one changes.
 class JoyPublisher {

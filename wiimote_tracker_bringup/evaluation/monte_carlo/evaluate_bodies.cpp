@@ -101,8 +101,8 @@ void measure(const simulation::Description& all, const Session& session, Table* 
            {Motion{0.0, 0.0}, Motion{0.5, 1.0}, Motion{1.0, 2.0}, Motion{2.0, 4.0}}) {
         const Score score = follow(description, motion, size, session.seed);
         const auto root_mean = [&](double sum) { return std::sqrt(sum / score.known); };
-        *table << session.number << static_cast<int>(description.cameras.size()) << size
-               << motion.speed << motion.turning << static_cast<double>(score.known) / score.looked
+        *table << session.number << description.cameras.size() << size << motion.speed
+               << motion.turning << static_cast<double>(score.known) / score.looked
                << 1e3 * root_mean(score.position) << degrees * root_mean(score.rotation)
                << 1e3 * root_mean(score.position_variance)
                << degrees * root_mean(score.rotation_variance);

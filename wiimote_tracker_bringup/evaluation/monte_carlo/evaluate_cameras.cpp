@@ -65,8 +65,8 @@ void measurePoints(const simulation::Description& description,
           std::make_pair(geometry::TriangulationMethod::kMeanClosest, "mean_closest")}) {
       options.method = method;
       const auto point = geometry::triangulate(observations, options);
-      *table << session << static_cast<int>(description.cameras.size()) << name << place.x()
-             << place.y() << place.z() << static_cast<int>(observations.size());
+      *table << session << description.cameras.size() << name << place.x() << place.y() << place.z()
+             << observations.size();
       if (point)
         *table << 1e3 * (point->position - place).norm()
                << 1e3 * std::sqrt(point->covariance.trace());
@@ -96,10 +96,9 @@ void measureTrack(const simulation::Description& description,
     ++count;
   };
   trackImages(trueRig(description), {}, record(&room, kDuration), take);
-  *table << session << static_cast<int>(description.cameras.size()) << "tracks_1_m_per_s"
-         << std::nan("") << std::nan("") << std::nan("")
-         << static_cast<int>(description.cameras.size()) << 1e3 * std::sqrt(squared / count)
-         << 1e3 * std::sqrt(predicted / count);
+  *table << session << description.cameras.size() << "tracks_1_m_per_s" << std::nan("")
+         << std::nan("") << std::nan("") << description.cameras.size()
+         << 1e3 * std::sqrt(squared / count) << 1e3 * std::sqrt(predicted / count);
 }
 
 void measure(const simulation::Description& like, const Session& session, Table* table) {

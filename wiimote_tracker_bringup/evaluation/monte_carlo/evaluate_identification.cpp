@@ -115,9 +115,9 @@ void measure(const simulation::Description& all, const Session& session, Table* 
     const simulation::Description description = withCameras(all, cameras);
     for (const Scheme& scheme : schemes) {
       const Outcome outcome = identify(description, scheme, session.seed);
-      *table << session.number << static_cast<int>(description.cameras.size()) << scheme.name
-             << 1e3 * scheme.length << 1e3 * scheme.period << outcome.labelled << outcome.wrong
-             << static_cast<int>(outcome.ever_wrong) << outcome.seconds;
+      *table << session.number << description.cameras.size() << scheme.name << 1e3 * scheme.length
+             << 1e3 * scheme.period << outcome.labelled << outcome.wrong << outcome.ever_wrong
+             << outcome.seconds;
     }
   }
 }

@@ -135,11 +135,11 @@ void measure(const simulation::Description& all, const Session& session, Table* 
       for (const Method& method : kMethods) {
         const Score score = follow(rig, images, path, method);
         const double points = score.astray + score.published;
-        *table << session.number << static_cast<int>(description.cameras.size()) << hidden_share
-               << method.name << score.covered / (kDuration - kSettled)
-               << shareOfTwoViews(occlusions) << score.astray / points << score.inside / points
+        *table << session.number << description.cameras.size() << hidden_share << method.name
+               << score.covered / (kDuration - kSettled) << shareOfTwoViews(occlusions)
+               << score.astray / points << score.inside / points
                << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
-               << static_cast<int>(score.ids.size());
+               << score.ids.size();
       }
     }
   }

@@ -14,30 +14,6 @@ Table::Table(const std::string& path, const std::vector<std::string>& columns)
     *this << name;
 }
 
-void Table::next() {
-  ++column_;
-  file_ << (column_ == columns_ ? '\n' : ',');
-  column_ %= columns_;
-}
-
-Table& Table::operator<<(double value) {
-  file_ << value;
-  next();
-  return *this;
-}
-
-Table& Table::operator<<(int value) {
-  file_ << value;
-  next();
-  return *this;
-}
-
-Table& Table::operator<<(const std::string& text) {
-  file_ << text;
-  next();
-  return *this;
-}
-
 void Table::close() {
   if (column_ != 0)
     throw std::runtime_error("a row of " + path_ + " is not complete");

@@ -14,17 +14,21 @@ class Table {
   /// @throws std::runtime_error: the file cannot be written.
   Table(const std::string& path, const std::vector<std::string>& columns);
 
-  /// Writes the next cell; a row ends after its last one.
-  Table& operator<<(double value);
-  Table& operator<<(int value);
-  Table& operator<<(const std::string& text);  ///< Without commas and quotes.
+  /// Writes the next cell, a number or a text without commas and quotes; a row ends after its last
+  /// one.
+  template <typename Value>
+  Table& operator<<(const Value& value) {
+    file_ << value;
+    ++column_;
+    file_ << (column_ == columns_ ? '\n' : ',');
+    column_ %= columns_;
+    return *this;
+  }
 
   /// Closes the file. @throws std::runtime_error: a row is incomplete, or the disk is full.
   void close();
 
  private:
-  void next();
-
   std::string path_;
   std::ofstream file_;
   std::size_t columns_;

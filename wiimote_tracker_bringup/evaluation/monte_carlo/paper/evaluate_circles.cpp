@@ -119,9 +119,8 @@ class LapWriter {
       }
     }
     const Eigen::Vector3d center = circleCenters()[circle_];
-    *table_ << session_ << static_cast<int>(method.rig.cameras.size()) << method.name
-            << static_cast<int>(circle_ + 1) << speed_ << time << truth.x() << truth.y()
-            << truth.z() << measured.x() << measured.y() << measured.z()
+    *table_ << session_ << method.rig.cameras.size() << method.name << circle_ + 1 << speed_ << time
+            << truth.x() << truth.y() << truth.z() << measured.x() << measured.y() << measured.z()
             << (measured - center).head<2>().norm() - kCircleRadius << measured.z() - center.z();
   }
 

@@ -201,7 +201,7 @@ class SessionWriter {
     for (std::size_t p = 0; p < session_.points.size(); ++p) {
       const StillLed& led = session_.points[p];
       const Measured measured = measure_point(led);
-      *points_ << number_ << cameras_ << method << model_name << static_cast<int>(p + 1);
+      *points_ << number_ << cameras_ << method << model_name << p + 1;
       for (const Eigen::Vector3d& place : {led.nominal, led.truth, measured.position})
         *points_ << place.x() << place.y() << place.z();
       for (Eigen::Index i = 0; i < 3; ++i) {
@@ -219,10 +219,10 @@ class SessionWriter {
       for (std::size_t i = 0; i < trace.cameras.size(); ++i) {
         const std::size_t camera = numberOf(trace.cameras[i]);
         const geometry::Intrinsics& truth = session_.wave.cameras[camera].intrinsics;
-        *traces_ << number_ << cameras_ << name << model_name << static_cast<int>(round)
-                 << static_cast<int>(camera + 1) << values.principal_points[i].x()
-                 << values.principal_points[i].y() << truth.cx << truth.cy
-                 << values.differences[i].x() << values.differences[i].y() << values.origin_error;
+        *traces_ << number_ << cameras_ << name << model_name << round << camera + 1
+                 << values.principal_points[i].x() << values.principal_points[i].y() << truth.cx
+                 << truth.cy << values.differences[i].x() << values.differences[i].y()
+                 << values.origin_error;
       }
     }
   }

@@ -21,8 +21,7 @@ class SteadyRemote::Transport : public transport::Transport {
   explicit Transport(SteadyRemote* remote) : remote_(remote) {}
   bool read(Report& report, double timeout) override { return remote_->read(report, timeout); }
   void write(const Report& report) override { remote_->write(report); }
-  std::string description() const override { return "in memory"; }
-  std::string identity() const override { return "00:1f:32:00:00:01"; }
+  transport::Remote remote() const override { return {"00:1f:32:00:00:01", "in memory"}; }
 
  private:
   SteadyRemote* remote_;

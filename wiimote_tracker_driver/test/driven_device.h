@@ -74,8 +74,7 @@ class RemoteTransport : public transport::Transport {
     remote_->said.emplace_back(remote_->now + kLatency,
                                virtual_wiimote::Bytes(report.begin(), report.end()));
   }
-  std::string description() const override { return "device"; }
-  std::string identity() const override { return ""; }
+  transport::Remote remote() const override { return {"", "device"}; }
 
  private:
   Remote* remote_;

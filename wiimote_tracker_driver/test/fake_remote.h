@@ -220,8 +220,7 @@ class FakeTransport : public transport::Transport {
     return remote_->take(report, timeout);
   }
   void write(const protocol::Report& report) override { remote_->receive(report); }
-  std::string description() const override { return "fake"; }
-  std::string identity() const override { return "00:1f:32:00:00:01"; }
+  transport::Remote remote() const override { return {"00:1f:32:00:00:01", "fake"}; }
 
  private:
   FakeRemote* remote_;

@@ -101,9 +101,9 @@ class SimulatedTransport : public transport::Transport {
       throw transport::Disconnected("the remote is out of reach");
     remote_->take(remote_->device.handleOutput(Bytes(report.begin(), report.end())));
   }
-  std::string description() const override { return "simulated"; }
-  std::string identity() const override { return "00:1f:32:00:00:07"; }
-  std::string kernelDriver() const override { return "wiimote"; }
+  transport::Remote remote() const override {
+    return {"00:1f:32:00:00:07", "simulated", "wiimote"};
+  }
 
  private:
   SimulatedRemote* remote_;

@@ -41,8 +41,7 @@ class FaultyTransport : public transport::Transport {
   void write(const protocol::Report& report) override {
     add(device_->handleOutput(Bytes(report.begin(), report.end())));
   }
-  std::string description() const override { return "device"; }
-  std::string identity() const override { return ""; }
+  transport::Remote remote() const override { return {"", "device"}; }
 
  private:
   void add(const std::vector<Bytes>& reports) {

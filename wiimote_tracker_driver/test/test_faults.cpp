@@ -292,7 +292,7 @@ TEST_F(Served, RemoteGoesAwayAndComesBackByItself) {
   server_->sample(Senses());
   EXPECT_THROW(connect(), transport::NoSuchDevice);
   server_->sample(Senses());
-  EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
+  EXPECT_EQ("00:1f:32:00:00:01", connect()->remote().identity);
 }
 
 TEST_F(Served, GarbageIsNoDataReport) {

@@ -253,8 +253,7 @@ class ArrivalClock : public transport::Transport {
     return received;
   }
   void write(const Report& report) override { transport_->write(report); }
-  std::string description() const override { return transport_->description(); }
-  std::string identity() const override { return transport_->identity(); }
+  transport::Remote remote() const override { return transport_->remote(); }
 
  private:
   std::unique_ptr<transport::Transport> transport_;

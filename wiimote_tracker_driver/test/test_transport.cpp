@@ -166,9 +166,9 @@ class Sockets : public testing::Test {
 TEST_F(Sockets, ReportsPassInBothDirections) {
   const auto server = serve();
   const auto transport = connect();
-  EXPECT_EQ("00:1f:32:00:00:01", transport->identity());
-  EXPECT_EQ("virtual:" + path_, transport->description());
-  EXPECT_EQ("", transport->kernelDriver());
+  EXPECT_EQ("00:1f:32:00:00:01", transport->remote().identity);
+  EXPECT_EQ("virtual:" + path_, transport->remote().description);
+  EXPECT_EQ("", transport->remote().kernel_driver);
   transport->write({0x15, 0x00});
   EXPECT_EQ((Report{0x20, 0, 0, 0, 0, 0, 0xa0}), next(*transport));
   transport->write({0x12, 0x06, 0x31});
@@ -212,7 +212,7 @@ TEST_F(Sockets, SecondHostIsRefusedUntilTheFirstHasGone) {
   EXPECT_TRUE(server->connected());
   first.reset();
   EXPECT_TRUE(eventually([&] { return !server->connected(); }));
-  EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
+  EXPECT_EQ("00:1f:32:00:00:01", connect()->remote().identity);
 }
 
 TEST_F(Sockets, SecondHostGetsTheOtherProcess) {
@@ -290,7 +290,7 @@ TEST_F(Sockets, StaleFileIsReplacedALiveOneIsNot) {
     ::close(fd);
   }
   const auto server = serve();
-  EXPECT_EQ("00:1f:32:00:00:01", connect()->identity());
+  EXPECT_EQ("00:1f:32:00:00:01", connect()->remote().identity);
   EXPECT_THROW(serve(), std::system_error);
 }
 

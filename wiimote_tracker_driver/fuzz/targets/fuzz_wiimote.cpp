@@ -83,8 +83,7 @@ class HostileWorld {
     explicit Transport(HostileWorld* hostile_world) : world(hostile_world) {}
     bool read(Report& report, double timeout) override { return world->read(report, timeout); }
     void write(const Report& report) override { world->write(report); }
-    std::string description() const override { return "hostile"; }
-    std::string identity() const override { return "00:1f:32:00:00:01"; }
+    transport::Remote remote() const override { return {"00:1f:32:00:00:01", "hostile"}; }
 
     HostileWorld* world;
   };

@@ -17,7 +17,7 @@ void appendText(const std::string& text, std::size_t size, std::vector<std::uint
 }
 
 /// Identity, kernel driver and description, one per line.
-std::string textOf(const Remote& remote) {
+std::string textOf(const transport::Remote& remote) {
   std::string text = remote.identity + "\n" + remote.kernel_driver + "\n" + remote.description;
   text.resize(std::min(text.size(), kLongestPayload));
   return text;

@@ -23,13 +23,6 @@ struct FileHeader {
   std::string software;    ///< Name and version of the writer.
 };
 
-/// The other end of a connection, as in Transport.
-struct Remote {
-  std::string identity;
-  std::string description;
-  std::string kernel_driver;
-};
-
 /// One event.
 struct Record {
   enum class Kind : std::uint8_t {
@@ -39,10 +32,10 @@ struct Record {
     kDisconnected = 4,
   };
   Kind kind = Kind::kConnected;
-  double time = 0.0;        ///< Since the start of the recording [s].
-  protocol::Report report;  ///< Of kReceived and kSent.
-  Remote remote;            ///< Of kConnected.
-  std::string reason;       ///< Of kDisconnected: one sentence; empty: by the host.
+  double time = 0.0;         ///< Since the start of the recording [s].
+  protocol::Report report;   ///< Of kReceived and kSent.
+  transport::Remote remote;  ///< Of kConnected.
+  std::string reason;        ///< Of kDisconnected: one sentence; empty: by the host.
 };
 
 constexpr std::size_t kMagicSize = 8;

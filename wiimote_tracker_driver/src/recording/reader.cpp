@@ -33,9 +33,9 @@ bool isKind(std::uint8_t kind) {
          kind <= static_cast<std::uint8_t>(Record::Kind::kDisconnected);
 }
 
-Remote remoteOf(const std::string& text) {
+transport::Remote remoteOf(const std::string& text) {
   std::istringstream lines(text);
-  Remote remote;
+  transport::Remote remote;
   std::getline(lines, remote.identity);
   std::getline(lines, remote.kernel_driver);
   std::getline(lines, remote.description, '\0');

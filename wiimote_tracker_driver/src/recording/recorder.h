@@ -30,7 +30,7 @@ class Recorder {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  void connected(const Remote& remote, double now) {
+  void connected(const transport::Remote& remote, double now) {
     add({Record::Kind::kConnected, now, {}, remote, ""});
   }
   void received(const protocol::Report& report, double now) {

@@ -11,8 +11,7 @@ class RecordingTransport : public transport::Transport {
                      std::shared_ptr<Recorder> recorder,
                      std::function<double()> clock)
       : transport_(std::move(transport)), recorder_(std::move(recorder)), clock_(std::move(clock)) {
-    recorder_->connected(
-        {transport_->identity(), transport_->description(), transport_->kernelDriver()}, clock_());
+    recorder_->connected(transport_->remote(), clock_());
   }
   ~RecordingTransport() override { lose(""); }
   RecordingTransport(const RecordingTransport&) = delete;
@@ -31,9 +30,7 @@ class RecordingTransport : public transport::Transport {
     recorder_->sent(report, clock_());
   }
 
-  std::string description() const override { return transport_->description(); }
-  std::string identity() const override { return transport_->identity(); }
-  std::string kernelDriver() const override { return transport_->kernelDriver(); }
+  transport::Remote remote() const override { return transport_->remote(); }
 
  private:
   template <typename Action>

@@ -62,7 +62,7 @@ struct Replay::State {
   double now = 0.0;
   bool ended = false;
   bool connected = false;
-  Remote description;
+  transport::Remote description;
   RecordedRemote remote;
   std::string damage;
 
@@ -206,9 +206,10 @@ class Replay::Transport : public transport::Transport {
 
   bool read(Report& report, double timeout) override { return state_->read(report, timeout); }
   void write(const Report& report) override { state_->write(report); }
-  std::string description() const override { return "replay:" + state_->path; }
-  std::string identity() const override { return state_->description.identity; }
-  std::string kernelDriver() const override { return state_->description.kernel_driver; }
+  transport::Remote remote() const override {
+    return {state_->description.identity, "replay:" + state_->path,
+            state_->description.kernel_driver};
+  }
 
  private:
   std::shared_ptr<State> state_;

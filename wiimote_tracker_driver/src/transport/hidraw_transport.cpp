@@ -106,9 +106,9 @@ class HidrawTransport : public Transport {
       throwDisconnected();
   }
 
-  std::string description() const override { return found_.path; }
-  std::string identity() const override { return found_.address; }
-  std::string kernelDriver() const override { return kernelDriverOf(found_.path); }
+  Remote remote() const override {
+    return {found_.address, found_.path, kernelDriverOf(found_.path)};
+  }
 
  private:
   [[noreturn]] void throwDisconnected() const {

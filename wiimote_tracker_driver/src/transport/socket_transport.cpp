@@ -25,20 +25,20 @@ const std::string kTaken = "taken by process ";
 class SocketTransport : public Transport {
  public:
   SocketTransport(FileDescriptor fd, const std::string& path)
-      : fd_(std::move(fd)), description_("virtual:" + path) {}
+      : fd_(std::move(fd)), remote_{"", "virtual:" + path} {}
 
   /// The first packet says who the remote is, or who has it. @throws DeviceTaken.
   void receiveIdentity() {
     char text[64];
     const ssize_t size =
         waitReadable(kGreetingTimeout) ? ::recv(fd_.get(), text, sizeof(text), 0) : 0;
-    const std::string remote = "the virtual Wii Remote at " + description_;
+    const std::string name = "the virtual Wii Remote at " + remote_.description;
     if (size <= 0)
-      throwTaken(remote, std::nullopt);
-    identity_.assign(text, static_cast<std::size_t>(size));
-    if (identity_.compare(0, kTaken.size(), kTaken) == 0) {
-      const auto user = static_cast<pid_t>(std::atoi(identity_.c_str() + kTaken.size()));
-      throwTaken(remote, user > 0 ? std::make_optional(user) : std::nullopt);
+      throwTaken(name, std::nullopt);
+    remote_.identity.assign(text, static_cast<std::size_t>(size));
+    if (remote_.identity.compare(0, kTaken.size(), kTaken) == 0) {
+      const auto user = static_cast<pid_t>(std::atoi(remote_.identity.c_str() + kTaken.size()));
+      throwTaken(name, user > 0 ? std::make_optional(user) : std::nullopt);
     }
   }
 
@@ -58,13 +58,12 @@ class SocketTransport : public Transport {
     if (::send(fd_.get(), report.bytes.data(), report.size, MSG_NOSIGNAL | MSG_DONTWAIT) >= 0)
       return;
     if (errno == EAGAIN || errno == EWOULDBLOCK)
-      throw Disconnected("the virtual Wii Remote at " + description_ +
+      throw Disconnected("the virtual Wii Remote at " + remote_.description +
                          " reads no reports any more: start it again");
     throwDisconnected();
   }
 
-  std::string description() const override { return description_; }
-  std::string identity() const override { return identity_; }
+  Remote remote() const override { return remote_; }
 
  private:
   bool waitReadable(double timeout) const {
@@ -75,12 +74,11 @@ class SocketTransport : public Transport {
   }
 
   [[noreturn]] void throwDisconnected() const {
-    throw Disconnected("the virtual Wii Remote at " + description_ + " has gone away");
+    throw Disconnected("the virtual Wii Remote at " + remote_.description + " has gone away");
   }
 
   FileDescriptor fd_;
-  std::string description_;
-  std::string identity_;
+  Remote remote_;
 };
 
 }  // namespace

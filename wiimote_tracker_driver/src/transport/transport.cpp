@@ -75,7 +75,7 @@ std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last)
 std::function<std::unique_ptr<Transport>()> opener(const DeviceName& name) {
   return [name, last = std::string()]() mutable {
     auto transport = open(name, last);
-    last = transport->description();
+    last = transport->remote().description;
     return transport;
   };
 }

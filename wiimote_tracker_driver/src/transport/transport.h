@@ -34,6 +34,13 @@ struct Disconnected : TransportError {
   using TransportError::TransportError;
 };
 
+/// The other end of a connection.
+struct Remote {
+  std::string identity;     ///< Bluetooth address, lower case with colons; empty when not known.
+  std::string description;  ///< Path for the user: "/dev/hidraw3", "virtual:/tmp/wiimote_1.sock".
+  std::string kernel_driver = {};  ///< "wiimote", "hid-generic"; empty without one.
+};
+
 /// An open remote: HID reports out, HID reports in. Closed on destruction. Not thread-safe.
 class Transport {
  public:
@@ -46,14 +53,7 @@ class Transport {
   /// @throws Disconnected.
   virtual void write(const protocol::Report& report) = 0;
 
-  /// Path of the remote for the user: "/dev/hidraw3", "virtual:/tmp/wiimote_1.sock".
-  virtual std::string description() const = 0;
-
-  /// Bluetooth address, lower case with colons; empty when not known.
-  virtual std::string identity() const = 0;
-
-  /// The kernel driver of the remote ("wiimote", "hid-generic"); empty without one.
-  virtual std::string kernelDriver() const { return ""; }
+  virtual Remote remote() const = 0;
 };
 
 /// How a device is named: "" (the first free remote), a Bluetooth address, /dev/hidrawN,
@@ -68,7 +68,7 @@ struct DeviceName {
 DeviceName parseDeviceName(const std::string& text);
 
 /// Opens the remote for this process alone. A recording (kReplay) has a time of its own and is
-/// opened by recording::Replay instead. `last`: description() of the remote that kAny tries last,
+/// opened by recording::Replay instead. `last`: description of the remote that kAny tries last,
 /// because it was opened before and did not work. @throws NoSuchDevice, PermissionDenied,
 /// DeviceTaken, TransportError.
 std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last = "");

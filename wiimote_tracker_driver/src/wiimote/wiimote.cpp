@@ -54,9 +54,7 @@ void Wiimote::orDrop(Action action) {
 void Wiimote::connect() {
   transport_ = open_();
   link_.state = Link::State::kStarting;
-  link_.description = transport_->description();
-  link_.identity = transport_->identity();
-  link_.kernel_driver = transport_->kernelDriver();
+  static_cast<transport::Remote&>(link_) = transport_->remote();
   link_.status.reset();
   ++link_changes_;
   new_epoch_ = had_image_;

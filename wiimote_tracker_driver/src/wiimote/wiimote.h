@@ -12,8 +12,8 @@
 
 namespace wiimote_tracker::wiimote {
 
-/// The state of the connection.
-struct Link {
+/// The state of the connection with the remote that is or was open last.
+struct Link : transport::Remote {
   enum class State {
     kSearching,  ///< No remote is open.
     kStarting,   ///< It is being set up.
@@ -21,9 +21,6 @@ struct Link {
   };
   State state = State::kSearching;
   std::string error;              ///< Why it is not streaming, one sentence; else empty.
-  std::string description;        ///< Of the transport that is or was open last.
-  std::string identity;           ///< Bluetooth address of the remote that is or was open last.
-  std::string kernel_driver;      ///< Of the remote; empty when none.
   std::uint32_t clock_epoch = 0;  ///< Counts from 0, one more at each reconnect or power cycle.
   std::optional<protocol::Status> status;
   bool accelerometer_calibrated = false;  ///< By the remote's own EEPROM.

@@ -35,7 +35,7 @@ RemoteCheck checkRemote(const transport::DeviceName& device, double timeout) {
   RemoteCheck check;
   try {
     const auto remote = transport::open(device);
-    check.identity = remote->identity();
+    check.identity = remote->remote().identity;
     check.status = askStatus(*remote, timeout);
     if (check.status)
       check.state = RemoteCheck::State::kFree;

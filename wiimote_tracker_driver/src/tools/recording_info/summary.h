@@ -35,7 +35,7 @@ class Intervals {
 };
 
 struct Connection {
-  recording::Remote remote;
+  transport::Remote remote;
   double begin = 0.0;  ///< Since the start of the recording [s].
   double end = 0.0;
   bool ended = false;      ///< False: the recording ended first.

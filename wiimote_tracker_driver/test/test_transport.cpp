@@ -59,13 +59,10 @@ TEST(DeviceNames, AllKinds) {
 }
 
 TEST(DeviceNames, RemotesAreTriedInTurn) {
-  struct Device {
-    std::string path;
-  };
-  std::vector<Device> devices{{"/dev/hidraw0"}, {"/dev/hidraw1"}, {"/dev/hidraw2"}};
+  std::vector<Remote> remotes{{"", "/dev/hidraw0"}, {"", "/dev/hidraw1"}, {"", "/dev/hidraw2"}};
   const auto first = [&](const std::string& last) {
-    beginAfter(last, &devices);
-    return devices.front().path;
+    beginAfter(last, &remotes);
+    return remotes.front().description;
   };
   EXPECT_EQ("/dev/hidraw0", first(""));
   EXPECT_EQ("/dev/hidraw0", first("/dev/hidraw9"));

@@ -25,12 +25,6 @@ constexpr unsigned short kNintendo = 0x057e;
 constexpr unsigned short kRemote = 0x0306;
 constexpr unsigned short kRemotePlus = 0x0330;
 
-/// A remote that the kernel knows.
-struct Found {
-  std::string path;
-  std::string address;
-};
-
 std::string narrowLowerCase(const wchar_t* text) {
   std::string result;
   for (; text != nullptr && *text != L'\0'; ++text) {
@@ -53,23 +47,25 @@ bool hasCamera(const hid_device_info& info) {
          name.find("rvl-wbc-01") == std::string::npos;
 }
 
-std::vector<Found> enumerate() {
+/// Those that the kernel knows, by path. Their drivers are not looked up.
+std::vector<Remote> enumerate() {
   const std::lock_guard<std::mutex> lock(hidapiMutex());
-  std::vector<Found> found;
+  std::vector<Remote> found;
   hid_device_info* const list = hid_enumerate(kNintendo, 0);
   for (const hid_device_info* i = list; i != nullptr; i = i->next) {
     const bool is_remote = i->product_id == kRemote || i->product_id == kRemotePlus;
     if (i->path != nullptr && is_remote && hasCamera(*i))
-      found.push_back({i->path, narrowLowerCase(i->serial_number)});
+      found.push_back({narrowLowerCase(i->serial_number), i->path});
   }
   hid_free_enumeration(list);
   // The kernel's order is not that of plugging in.
   std::sort(found.begin(), found.end(),
-            [](const Found& a, const Found& b) { return a.path < b.path; });
+            [](const Remote& a, const Remote& b) { return a.description < b.description; });
   // Newer versions of hidapi list a device once per use that its descriptor names.
-  found.erase(std::unique(found.begin(), found.end(),
-                          [](const Found& a, const Found& b) { return a.path == b.path; }),
-              found.end());
+  found.erase(
+      std::unique(found.begin(), found.end(),
+                  [](const Remote& a, const Remote& b) { return a.description == b.description; }),
+      found.end());
   return found;
 }
 
@@ -81,10 +77,16 @@ std::string kernelDriverOf(const std::string& path) {
       .string();
 }
 
+std::string nameOf(const Remote& remote) {
+  return "the Wii Remote " + remote.identity + " (" + remote.description + ")";
+}
+
 class HidrawTransport : public Transport {
  public:
-  HidrawTransport(hid_device* device, FileDescriptor lock, Found found)
-      : lock_(std::move(lock)), device_(device), found_(std::move(found)) {}
+  HidrawTransport(hid_device* device, FileDescriptor lock, const Remote& remote)
+      : lock_(std::move(lock)), device_(device), remote_(remote) {
+    remote_.kernel_driver = kernelDriverOf(remote_.description);
+  }
   ~HidrawTransport() override { hid_close(device_); }
   HidrawTransport(const HidrawTransport&) = delete;
   HidrawTransport& operator=(const HidrawTransport&) = delete;
@@ -106,44 +108,43 @@ class HidrawTransport : public Transport {
       throwDisconnected();
   }
 
-  Remote remote() const override {
-    return {found_.address, found_.path, kernelDriverOf(found_.path)};
-  }
+  Remote remote() const override { return remote_; }
 
  private:
   [[noreturn]] void throwDisconnected() const {
-    throw Disconnected("the Wii Remote " + found_.address + " (" + found_.path +
-                       ") has disconnected: press one of its buttons to bring it back");
+    throw Disconnected(nameOf(remote_) +
+                       " has disconnected: press one of its buttons to bring it back");
   }
 
   FileDescriptor lock_;
   hid_device* device_;
-  Found found_;
+  Remote remote_;
 };
 
-std::unique_ptr<Transport> openFound(const Found& found) {
+std::unique_ptr<Transport> openRemote(const Remote& remote) {
   // The lock goes with an own descriptor, since hidapi does not show its own; it also tells why
   // opening fails, which hidapi does not.
-  FileDescriptor lock(::open(found.path.c_str(), O_RDWR | O_CLOEXEC));
+  const std::string& path = remote.description;
+  FileDescriptor lock(::open(path.c_str(), O_RDWR | O_CLOEXEC));
   if (lock.get() < 0)
-    throwOpenError(errno, found.path);
-  lockDevice(lock.get(), "the Wii Remote " + found.address + " (" + found.path + ")");
+    throwOpenError(errno, path);
+  lockDevice(lock.get(), nameOf(remote));
   hid_device* device = nullptr;
   {
     const std::lock_guard<std::mutex> hidapi_lock(hidapiMutex());
-    device = hid_open_path(found.path.c_str());
+    device = hid_open_path(path.c_str());
   }
   if (device == nullptr)
-    throwOpenError(errno, found.path);
-  return std::make_unique<HidrawTransport>(device, std::move(lock), found);
+    throwOpenError(errno, path);
+  return std::make_unique<HidrawTransport>(device, std::move(lock), remote);
 }
 
-std::unique_ptr<Transport> openFirstFree(const std::vector<Found>& all) {
+std::unique_ptr<Transport> openFirstFree(const std::vector<Remote>& all) {
   std::optional<PermissionDenied> denied;
   std::string taken;
-  for (const Found& found : all) {
+  for (const Remote& remote : all) {
     try {
-      return openFound(found);
+      return openRemote(remote);
     } catch (const PermissionDenied& e) {
       denied = e;
     } catch (const DeviceTaken& e) {
@@ -183,31 +184,33 @@ void throwOpenError(int error_number, const std::string& path) {
   }
 }
 
+void beginAfter(const std::string& last, std::vector<Remote>* remotes) {
+  const auto at = std::find_if(remotes->begin(), remotes->end(),
+                               [&](const Remote& remote) { return remote.description == last; });
+  if (at != remotes->end())
+    std::rotate(remotes->begin(), at + 1, remotes->end());
+}
+
 std::unique_ptr<Transport> openHidraw(const DeviceName& name, const std::string& last) {
-  std::vector<Found> all = enumerate();
-  switch (name.kind) {
-    case DeviceName::Kind::kAddress:
-      for (const Found& found : all) {
-        if (found.address == name.value)
-          return openFound(found);
-      }
-      throw NoSuchDevice("no Wii Remote with address " + name.value +
-                         " is connected: press one of its buttons, or pair it first");
-    case DeviceName::Kind::kPath:
-      for (const Found& found : all) {
-        if (found.path == name.value)
-          return openFound(found);
-      }
-      if (::access(name.value.c_str(), F_OK) != 0)
-        throwOpenError(errno, name.value);
-      throw NoSuchDevice(name.value + " is not a Wii Remote: choose the right device");
-    default:
-      if (all.empty())
-        throw NoSuchDevice(
-            "no Wii Remote is connected: press a button of a paired one, or pair one first");
-      beginAfter(last, &all);
-      return openFirstFree(all);
+  std::vector<Remote> all = enumerate();
+  if (name.kind == DeviceName::Kind::kAny) {
+    if (all.empty())
+      throw NoSuchDevice(
+          "no Wii Remote is connected: press a button of a paired one, or pair one first");
+    beginAfter(last, &all);
+    return openFirstFree(all);
   }
+  const bool by_address = name.kind == DeviceName::Kind::kAddress;
+  for (const Remote& remote : all) {
+    if ((by_address ? remote.identity : remote.description) == name.value)
+      return openRemote(remote);
+  }
+  if (by_address)
+    throw NoSuchDevice("no Wii Remote with address " + name.value +
+                       " is connected: press one of its buttons, or pair it first");
+  if (::access(name.value.c_str(), F_OK) != 0)
+    throwOpenError(errno, name.value);
+  throw NoSuchDevice(name.value + " is not a Wii Remote: choose the right device");
 }
 
 }  // namespace wiimote_tracker::transport

@@ -3,7 +3,6 @@
 
 #include "transport/transport.h"
 
-#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -17,14 +16,8 @@ constexpr const char* kUdevRule = "60-wiimote-tracker.rules";
 /// as the first free one, the one after `last` first. @throws as open().
 std::unique_ptr<Transport> openHidraw(const DeviceName& name, const std::string& last);
 
-/// Rotates devices so that the one with path `last`, if there is one, becomes the last.
-template <typename Device>
-void beginAfter(const std::string& last, std::vector<Device>* devices) {
-  const auto at = std::find_if(devices->begin(), devices->end(),
-                               [&](const Device& device) { return device.path == last; });
-  if (at != devices->end())
-    std::rotate(devices->begin(), at + 1, devices->end());
-}
+/// Rotates remotes so that the one with path `last`, if there is one, becomes the last.
+void beginAfter(const std::string& last, std::vector<Remote>* remotes);
 
 /// Throws the error, with its sentence, that belongs to a failed open(2) of a hidraw node.
 [[noreturn]] void throwOpenError(int error_number, const std::string& path);

@@ -18,13 +18,6 @@ namespace {
 
 using bundle::Reconstruction;
 
-/// Triangulates points with the present cameras. @returns the number of inliers.
-std::size_t triangulate(const bundle::Options& options, Reconstruction* reconstruction) {
-  bundle::triangulatePoints(reconstruction, options.maximum_error);
-  return static_cast<std::size_t>(
-      std::count(reconstruction->inliers.begin(), reconstruction->inliers.end(), true));
-}
-
 bool hasCenters(const Recording& recording) {
   return std::all_of(recording.cameras.begin(), recording.cameras.end(),
                      [](const RecordedCamera& camera) { return camera.center.has_value(); });
@@ -59,11 +52,10 @@ geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& met
     rig.cameras.push_back(camera);
   }
   const bundle::Statistics all = bundle::statistics(reconstruction);
-  const std::string verdict = format(
+  rig.verdict = format(
       "%zu of %zu observations fit; their reprojection error: median %.2f px, mean %.2f "
       "px, RMS %.2f px",
       all.inliers, all.observations, all.median, all.mean, all.rms);
-  rig.verdict = verdict;
   return rig;
 }
 
@@ -92,7 +84,7 @@ Reference withShippedCenters(const Recording& recording, Reconstruction start) {
   options.maximum_error = 100.0;  // keeps all inliers of our solution, for comparison
   bundle::Held held;
   held.positions = true;
-  triangulate(options, &start);
+  bundle::triangulatePoints(&start, options.maximum_error);
   bundle::adjust(&start, options, held);
   Reference reference;
   reference.rig = rigOf(start, "import: shipped centres, orientations fitted");

@@ -84,10 +84,8 @@ Reader::Reader(std::istream& in) : in_(in) {
 }
 
 bool Reader::end(const char* why) {
-  const std::string text =
-      format("the recording %s at byte %llu, %.3f s after its start", why,
-             static_cast<unsigned long long>(position_), 1e-9 * static_cast<double>(time_));
-  damage_ = text;
+  damage_ = format("the recording %s at byte %llu, %.3f s after its start", why,
+                   static_cast<unsigned long long>(position_), 1e-9 * static_cast<double>(time_));
   ended_ = true;
   return false;
 }

@@ -136,7 +136,6 @@ const ClockFilter& ClockEstimator::best() const {
 Estimate ClockEstimator::update(double arrival) {
   if (!std::isfinite(arrival))
     throw std::invalid_argument("ExposureClock: the arrival time is not a finite number.");
-  ++statistics_.reports;
   if (!running_) {
     running_ = true;
     origin_ = arrival;
@@ -174,11 +173,7 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
   counter_.start(frame);
   Estimate e;
   e.frame = frame;
-  if (statistics_.reports > 1) {
-    ++statistics_.restarts;
-    e.dropped = static_cast<int>(std::min<std::int64_t>(frame - frame_ - 1, 1000000));
-    statistics_.dropped += e.dropped;
-  }
+  e.dropped = static_cast<int>(std::clamp<std::int64_t>(frame - frame_ - 1, 0, 1000000));
   frame_ = frame;
   unexplained_ = uncertain_ = 0;
   log_evidence_ = std::log(kUnexplained);
@@ -343,15 +338,13 @@ Estimate ClockEstimator::estimate(double arrival) {
   e.frame = frame_;
   e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
   e.stale = arrival - time > kStaleAge;
-  statistics_.dropped += frame_ - previous - 1;
-  statistics_.stale += e.stale ? 1 : 0;
   last_arrival_ = arrival;
   last_exposure_ = exposure;
   return e;
 }
 
 Statistics ClockEstimator::statistics() const {
-  Statistics s = statistics_;
+  Statistics s;
   s.period = best().period();
   s.period_stddev = std::sqrt(best().periodVariance());
   for (std::size_t m = 0; m < kModels; ++m) {

@@ -36,6 +36,7 @@ class ClockEstimator {
   void copyLinkFrom(const ClockEstimator& other);
 
   double nominalPeriod() const { return period_; }
+  /// Without the counts.
   Statistics statistics() const;
 
   /// Logarithm of the density [1/s] that was predicted for the latest arrival.
@@ -81,7 +82,6 @@ class ClockEstimator {
   int uncertain_ = 0;       // reports in a row with a stddev above one period
   double log_evidence_ = 0.0;
   bool running_ = false;
-  Statistics statistics_;
 };
 
 }  // namespace wiimote_tracker::exposure_clock

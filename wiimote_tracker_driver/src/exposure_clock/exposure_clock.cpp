@@ -60,11 +60,6 @@ Estimate ExposureClock::update(double arrival) {
     endTrial();
   const Estimate other = challenge(arrival);
   if (advantage_ > kBetter) {
-    const Statistics mine = statistics(), its = challenger_->statistics();
-    before_.dropped = mine.dropped - its.dropped;
-    before_.reports = mine.reports - its.reports;
-    before_.stale = mine.stale - its.stale;
-    before_.restarts = mine.restarts + 1 - its.restarts;
     frame_offset_ = e.frame - other.frame;
     learnError(other.exposure - e.exposure, arrival);
     *leader_ = *challenger_;
@@ -87,6 +82,10 @@ Estimate ExposureClock::update(double arrival) {
   }
   last_arrival_ = arrival;
   last_exposure_ = e.exposure;
+  ++counts_.reports;
+  counts_.dropped = e.frame + 1 - static_cast<std::int64_t>(counts_.reports);
+  counts_.stale += e.stale;
+  counts_.restarts += e.restarted;
   return e;
 }
 
@@ -120,10 +119,10 @@ Estimate ExposureClock::challenge(double arrival) {
 
 Statistics ExposureClock::statistics() const {
   Statistics s = leader_->statistics();
-  s.dropped += before_.dropped;
-  s.reports += before_.reports;
-  s.stale += before_.stale;
-  s.restarts += before_.restarts;
+  s.dropped = counts_.dropped;
+  s.reports = counts_.reports;
+  s.stale = counts_.stale;
+  s.restarts = counts_.restarts;
   return s;
 }
 

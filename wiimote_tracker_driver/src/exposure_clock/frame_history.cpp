@@ -1,6 +1,7 @@
 #include "exposure_clock/frame_history.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace wiimote_tracker::exposure_clock {
 
@@ -13,12 +14,12 @@ void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_ti
   if (size_ == kCapacity)
     return;
   Entry& entry = entries_[static_cast<std::size_t>(size_++)];
-  entry.report = {arrival, on_time, 0, 0.0};
-  entry.first = std::max(numbers.frame(0), numbers.mostProbable() - kNumbersBelow);
-  const int skipped = static_cast<int>(entry.first - numbers.frame(0));
-  entry.size = std::min(kNumbers, numbers.size() - skipped);
-  for (int i = 0; i < entry.size; ++i)
-    entry.probability[static_cast<std::size_t>(i)] = numbers[skipped + i];
+  entry = {{arrival, on_time, 0, 0.0},
+           std::max(numbers.frame(0), numbers.mostProbable() - kNumbersBelow),
+           {}};
+  int number = static_cast<int>(entry.first - numbers.frame(0));
+  for (double& probability : entry.probability)
+    probability = number < numbers.size() ? numbers[number++] : 0.0;
   decide(entry);
 }
 
@@ -38,35 +39,29 @@ int FrameHistory::smooth(const FrameCounter& counter) {
 }
 
 void FrameHistory::smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry) {
-  const auto transition = [&](int from, int to) {
-    return counter.transition(next.first + to - entry->first - from);
-  };
-  std::array<double, kNumbers> factor{};
-  for (int to = 0; to < next.size; ++to) {
+  std::array<double, kNumbers> factor{}, transition{};
+  for (std::size_t to = 0; to < kNumbers; ++to) {
+    if (next.probability[to] == 0.0)
+      continue;
     double predicted = 0.0;
-    for (int from = 0; from < entry->size; ++from)
-      predicted += entry->probability[static_cast<std::size_t>(from)] * transition(from, to);
-    if (predicted > 0.0)
-      for (int from = 0; from < entry->size; ++from)
-        factor[static_cast<std::size_t>(from)] +=
-            transition(from, to) * next.probability[static_cast<std::size_t>(to)] / predicted;
+    for (std::size_t from = 0; from < kNumbers; ++from) {
+      const auto step = static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from);
+      transition[from] = counter.transition(next.first - entry->first + step);
+      predicted += entry->probability[from] * transition[from];
+    }
+    for (std::size_t from = 0; from < kNumbers && predicted > 0.0; ++from)
+      factor[from] += transition[from] * next.probability[to] / predicted;
   }
   for (std::size_t i = 0; i < kNumbers; ++i)
     entry->probability[i] *= factor[i];
 }
 
 void FrameHistory::decide(Entry& entry) {
-  double sum = 0.0;
-  int best = 0;
-  for (int i = 0; i < entry.size; ++i) {
-    const double p = entry.probability[static_cast<std::size_t>(i)];
-    sum += p;
-    if (p > entry.probability[static_cast<std::size_t>(best)])
-      best = i;
-  }
-  entry.report.frame = entry.first + best;
-  entry.report.probability =
-      sum > 0.0 ? entry.probability[static_cast<std::size_t>(best)] / sum : 0.0;
+  const auto& p = entry.probability;
+  const auto best = std::max_element(p.begin(), p.end());
+  const double sum = std::accumulate(p.begin(), p.end(), 0.0);
+  entry.report.frame = entry.first + (best - p.begin());
+  entry.report.probability = sum > 0.0 ? *best / sum : 0.0;
 }
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -4,6 +4,7 @@
 #include "exposure_clock/frame_counter.h"
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace wiimote_tracker::exposure_clock {
@@ -32,11 +33,10 @@ class FrameHistory {
 
  private:
   static constexpr int kCapacity = 32;
-  static constexpr int kNumbers = 8;  // kept of each report
+  static constexpr std::size_t kNumbers = 8;  // kept of each report
   struct Entry {
     Report report;
     std::int64_t first = 0;
-    int size = 0;
     std::array<double, kNumbers> probability{};
   };
   static void smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry);

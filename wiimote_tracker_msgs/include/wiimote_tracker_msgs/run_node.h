@@ -94,10 +94,11 @@ inline std::string runningProcess(const std::string& node) {
 /// their exceptions; those of libraries, such as actionlib's, do not.
 /// @param threads that handle callbacks at the same time.
 inline void spin(std::size_t threads = 1) {
+  // ROS ends the wait at shutdown. So it may be long: waking up costs as much as a callback.
   const auto handle = [] {
     while (ros::ok())
       logExceptions(ros::this_node::getName(),
-                    [] { ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(0.1)); });
+                    [] { ros::getGlobalCallbackQueue()->callOne(ros::WallDuration(1.0)); });
   };
   std::vector<std::thread> others;
   while (others.size() + 1 < threads)

@@ -22,11 +22,8 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth
     sequence.generate(seeds, seeds + 2);
     virtual_wiimote::FrameTimes times(camera.timing, seeds[1]);
     const virtual_wiimote::FrameTime first = times.next();
-    cameras_.push_back({camera.camera.name,
-                        VirtualCamera(camera.camera, description.pixel_noise, seeds[0]),
-                        times,
-                        first,
-                        {}});
+    cameras_.push_back(
+        {VirtualCamera(camera.camera, description.pixel_noise, seeds[0]), times, first, {}});
     push(first.exposure, Event::kExposure, number);
     if (description.board && description.board->before == camera.camera.name)
       board_.emplace(*description.board, camera.camera);
@@ -101,12 +98,7 @@ void Rig::expose(std::size_t number) {
     if (person.present)
       bodies_.push_back(cylinderOf(person, time));
   }
-  reflected_.clear();
-  for (const ReflectionDescription& reflection : reflections_) {
-    if (reflection.lit && reflection.camera == camera.name)
-      reflected_.push_back({reflection.pixel, reflection.size, reflection.brightness});
-  }
-  const Image image{camera.optics.sense(lamps_, bodies_, reflected_), time};
+  const Image image{camera.optics.sense(lamps_, bodies_, reflections_), time};
   if (!camera.next.lost) {
     camera.travelling.push(image);
     push(camera.next.arrival, Event::kDelivery, number);

@@ -67,7 +67,6 @@ class Rig {
   };
 
   struct Camera {
-    std::string name;
     VirtualCamera optics;
     virtual_wiimote::FrameTimes times;
     virtual_wiimote::FrameTime next;
@@ -91,9 +90,8 @@ class Rig {
   std::vector<RigidBodyDescription> rigid_bodies_;
   std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
-  std::vector<Lamp> lamps_;  // reused, as are bodies_ and reflected_
+  std::vector<Lamp> lamps_;  // reused, as is bodies_
   std::vector<Cylinder> bodies_;
-  std::vector<ReflectedLight> reflected_;
   std::priority_queue<Event, std::vector<Event>, std::greater<Event>> events_;
   std::uint64_t event_count_ = 0;
 };

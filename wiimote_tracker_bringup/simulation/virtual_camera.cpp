@@ -37,9 +37,10 @@ virtual_wiimote::Light VirtualCamera::lightAt(const Eigen::Vector2d& pixel,
   return light;
 }
 
-virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
-                                             const std::vector<Cylinder>& bodies,
-                                             const std::vector<ReflectedLight>& reflections) {
+virtual_wiimote::Senses VirtualCamera::sense(
+    const std::vector<Lamp>& lamps,
+    const std::vector<Cylinder>& bodies,
+    const std::vector<ReflectionDescription>& reflections) {
   virtual_wiimote::Senses senses;
   senses.acceleration = {acceleration_.x(), acceleration_.y(), acceleration_.z()};
   std::normal_distribution<double> normal;
@@ -62,9 +63,11 @@ virtual_wiimote::Senses VirtualCamera::sense(const std::vector<Lamp>& lamps,
         lightAt(*pixel, noise, lamp.size,
                 lamp.size ? lamp.brightness : lamp.brightness / squared_distance));
   }
-  for (const ReflectedLight& reflection : reflections)
-    senses.lights.push_back(
-        lightAt(reflection.pixel, draw(), reflection.size, reflection.brightness));
+  for (const ReflectionDescription& reflection : reflections) {
+    if (reflection.lit && reflection.camera == camera_.name)
+      senses.lights.push_back(
+          lightAt(reflection.pixel, draw(), reflection.size, reflection.brightness));
+  }
   return senses;
 }
 

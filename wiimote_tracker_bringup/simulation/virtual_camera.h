@@ -24,13 +24,6 @@ struct Lamp {
   double brightness;
 };
 
-/// A lit reflection in one camera's image.
-struct ReflectedLight {
-  Eigen::Vector2d pixel;       ///< v down [px].
-  std::optional<double> size;  ///< As of a Lamp [0..15].
-  double brightness;           ///< At the camera.
-};
-
 /// Optics and mounting of one Wii Remote: converts lamps in the world to the input of the device.
 /// The device simulates the sensor (rounding, edges, the limit of four).
 class VirtualCamera {
@@ -38,10 +31,11 @@ class VirtualCamera {
   /// `pixel_noise`: standard deviation of each coordinate [px].
   VirtualCamera(const geometry::Camera& camera, double pixel_noise, std::uint32_t seed);
 
-  /// The lights of visible lamps and of reflections, with noise; and gravity.
+  /// The lights of visible lamps and of the lit reflections in this camera, with noise; and
+  /// gravity.
   virtual_wiimote::Senses sense(const std::vector<Lamp>& lamps,
                                 const std::vector<Cylinder>& bodies = {},
-                                const std::vector<ReflectedLight>& reflections = {});
+                                const std::vector<ReflectionDescription>& reflections = {});
 
  private:
   virtual_wiimote::Light lightAt(const Eigen::Vector2d& pixel,

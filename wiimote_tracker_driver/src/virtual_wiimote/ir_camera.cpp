@@ -56,31 +56,29 @@ void IrCamera::look(const std::vector<Light>& lights) {
 
 // Assigns the blobs to slots: nearest pairs first, then new blobs to free slots.
 void IrCamera::follow(const std::vector<Blob>& seen) {
-  const std::array<Slot, 4> before = slots_;
+  struct Pair {
+    int squared_distance;
+    std::size_t slot, blob;
+  };
+  std::vector<Pair> pairs;
+  for (std::size_t slot = 0; slot < slots_.size(); ++slot) {
+    for (std::size_t blob = 0; blob < seen.size() && slots_[slot].lit; ++blob) {
+      const int dx = slots_[slot].blob.x - seen[blob].x;
+      const int dy = slots_[slot].blob.y - seen[blob].y;
+      if (dx * dx + dy * dy <= kMaximumStep * kMaximumStep)
+        pairs.push_back({dx * dx + dy * dy, slot, blob});
+    }
+  }
+  std::stable_sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return a.squared_distance < b.squared_distance;
+  });
   std::array<bool, 4> taken{};
   std::vector<bool> placed(seen.size(), false);
-  for (;;) {
-    int best = kMaximumStep * kMaximumStep + 1;
-    std::size_t best_slot = 0;
-    std::size_t best_blob = 0;
-    for (std::size_t slot = 0; slot < before.size(); ++slot) {
-      for (std::size_t blob = 0; blob < seen.size(); ++blob) {
-        if (!before[slot].lit || taken[slot] || placed[blob])
-          continue;
-        const int dx = before[slot].blob.x - seen[blob].x;
-        const int dy = before[slot].blob.y - seen[blob].y;
-        const int distance = dx * dx + dy * dy;
-        if (distance < best) {
-          best = distance;
-          best_slot = slot;
-          best_blob = blob;
-        }
-      }
-    }
-    if (best > kMaximumStep * kMaximumStep)
-      break;
-    slots_[best_slot].blob = seen[best_blob];
-    taken[best_slot] = placed[best_blob] = true;
+  for (const Pair& pair : pairs) {
+    if (taken[pair.slot] || placed[pair.blob])
+      continue;
+    slots_[pair.slot].blob = seen[pair.blob];
+    taken[pair.slot] = placed[pair.blob] = true;
   }
   for (std::size_t blob = 0; blob < seen.size(); ++blob) {
     if (placed[blob])

@@ -50,20 +50,13 @@ CameraView& TrackerView::camera(const std::string& name, double now) {
   return *cameras_.insert(place, CameraView(name, now));
 }
 
-bool TrackerView::isNamed(const std::string& name) const {
-  if (with_topic_.count(name) > 0 || in_status_.count(name) > 0)
-    return true;
-  return rig_ && std::any_of(rig_->cameras.begin(), rig_->cameras.end(),
-                             [&](const auto& camera) { return camera.name == name; });
-}
-
 void TrackerView::onTopics(const std::set<std::string>& cameras, double now) {
-  with_topic_ = cameras;
   for (const std::string& name : cameras)
     camera(name, now);
   cameras_.erase(std::remove_if(cameras_.begin(), cameras_.end(),
                                 [&](const CameraView& camera) {
-                                  return !isNamed(camera.name) &&
+                                  return cameras.count(camera.name) == 0 &&
+                                         camera.status.name.empty() && !camera.calibration &&
                                          camera.silence(now) > kForgetAfter;
                                 }),
                  cameras_.end());
@@ -81,17 +74,14 @@ void TrackerView::onBattery(const std::string& name, double charge, double now) 
 }
 
 void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now) {
-  in_status_.clear();
   for (CameraView& camera : cameras_)
     camera.status = {};
-  for (const auto& status : message.cameras) {
-    in_status_.insert(status.name);
+  for (const auto& status : message.cameras)
     camera(status.name, now).status = status;
-  }
 }
 
 void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, double now) {
-  rig_ = message;
+  has_rig_ = true;
   for (CameraView& camera : cameras_)
     camera.calibration.reset();
   for (const auto& calibration : message.cameras)
@@ -119,7 +109,7 @@ std::string TrackerView::summary(double now) const {
       text += " (" + joined(names, ", ") + ")";
   }
   return std::to_string(cameras_.size()) + (cameras_.size() == 1 ? " camera: " : " cameras: ") +
-         text + (rig_ ? "" : ". Open the page Calibrate.");
+         text + (has_rig_ ? "" : ". Open the page Calibrate.");
 }
 
 }  // namespace wiimote_tracker::panel

@@ -6,7 +6,6 @@
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
-#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -49,11 +48,9 @@ class TrackerView {
 
  private:
   CameraView& camera(const std::string& name, double now);
-  bool isNamed(const std::string& camera) const;
 
   std::vector<CameraView> cameras_;
-  std::set<std::string> with_topic_, in_status_;  // names of cameras
-  std::optional<wiimote_tracker_msgs::RigCalibration> rig_;
+  bool has_rig_ = false;
 };
 
 }  // namespace wiimote_tracker::panel

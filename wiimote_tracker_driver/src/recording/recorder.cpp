@@ -59,7 +59,6 @@ Recorder::~Recorder() {
   }
   wake_.notify_one();
   thread_.join();
-  ::close(fd_);
 }
 
 std::string Recorder::error() const {
@@ -112,11 +111,11 @@ void Recorder::run() {
 /// @returns what went wrong; empty on success.
 std::string Recorder::write() const {
   struct stat file {};
-  if (::fstat(fd_, &file) == 0 && file.st_nlink == 0)
+  if (::fstat(fd_.get(), &file) == 0 && file.st_nlink == 0)
     return "because it was deleted: leave it in place while the driver runs";
   std::size_t done = 0;
   while (done < writing_.size()) {
-    const ssize_t size = ::write(fd_, writing_.data() + done, writing_.size() - done);
+    const ssize_t size = ::write(fd_.get(), writing_.data() + done, writing_.size() - done);
     if (size < 0 && errno != EINTR)
       return std::string("because it cannot be written (") + std::strerror(errno) +
              "): make room on the disk or record to another one";

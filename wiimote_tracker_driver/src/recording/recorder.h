@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H
 #define WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H
 
+#include "file_descriptor.h"
 #include "recording/format.h"
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/report.h"
@@ -58,7 +59,7 @@ class Recorder {
 
   std::string path_;
   const double begin_;  ///< [s]
-  int fd_ = -1;
+  const FileDescriptor fd_;
 
   mutable std::mutex mutex_;  ///< Guards filling_, error_ and stop_.
   std::condition_variable wake_;

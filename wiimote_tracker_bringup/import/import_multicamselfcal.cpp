@@ -8,8 +8,6 @@
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <rosbag/bag.h>
-#include <sensor_msgs/CameraInfo.h>
-#include <sensor_msgs/distortion_models.h>
 #include <tf2_msgs/TFMessage.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
@@ -80,21 +78,6 @@ wiimote_tracker_msgs::IrBlobArray blobsOf(const geometry::Camera& camera,
   return blobs;
 }
 
-sensor_msgs::CameraInfo infoOf(const geometry::Camera& camera, std::size_t frame) {
-  const geometry::Intrinsics& in = camera.intrinsics;
-  sensor_msgs::CameraInfo info;
-  info.header.stamp = stampOf(frame);
-  info.header.frame_id = opticalFrame(camera.name);
-  info.width = static_cast<std::uint32_t>(in.width);
-  info.height = static_cast<std::uint32_t>(in.height);
-  info.distortion_model = sensor_msgs::distortion_models::PLUMB_BOB;
-  info.D.assign(in.distortion.begin(), in.distortion.end());
-  info.K = {in.fx, 0.0, in.cx, 0.0, in.fy, in.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {in.fx, 0.0, in.cx, 0.0, 0.0, in.fy, in.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
-
 wiimote_tracker_msgs::TrackedPointArray pointsOf(const std::optional<Eigen::Vector3d>& position,
                                                  const std::string& rig_id,
                                                  const std::string& world_frame,
@@ -141,7 +124,9 @@ void writeBag(const Solution& solution, const std::string& path) {
       const ros::Time stamp = stampOf(frame);
       for (std::size_t i = 0; i < solution.rig.cameras.size(); ++i) {
         const geometry::Camera& camera = solution.rig.cameras[i].camera;
-        bag.write("/" + camera.name + "/camera_info", stamp, infoOf(camera, frame));
+        sensor_msgs::CameraInfo info = cameraInfo(camera);
+        info.header.stamp = stamp;
+        bag.write("/" + camera.name + "/camera_info", stamp, info);
         bag.write("/" + camera.name + "/ir_blobs", stamp,
                   blobsOf(camera, solution.frames[frame][i], frame));
       }

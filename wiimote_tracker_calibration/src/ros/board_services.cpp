@@ -3,6 +3,7 @@
 #include "intrinsics/board_run.h"
 #include "rig_storage.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
+#include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <wiimote_tracker_msgs/BoardStatus.h>
 #include <wiimote_tracker_msgs/SolveBoard.h>

@@ -79,21 +79,6 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
   return warnings;
 }
 
-sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera) {
-  const geometry::Intrinsics& lens = camera.intrinsics;
-  sensor_msgs::CameraInfo info;
-  info.header.frame_id = opticalFrame(camera.name);
-  info.width = static_cast<std::uint32_t>(lens.width);
-  info.height = static_cast<std::uint32_t>(lens.height);
-  info.distortion_model = geometry::nameOf(lens.distortion_model);
-  const auto count = static_cast<std::ptrdiff_t>(geometry::coefficientCount(lens.distortion_model));
-  info.D.assign(lens.distortion.begin(), lens.distortion.begin() + count);
-  info.K = {lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0};
-  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
-  info.P = {lens.fx, 0.0, lens.cx, 0.0, 0.0, lens.fy, lens.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
-  return info;
-}
-
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,
                                         double timeout) {

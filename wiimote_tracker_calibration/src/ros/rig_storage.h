@@ -4,7 +4,6 @@
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <ros/node_handle.h>
-#include <sensor_msgs/CameraInfo.h>
 
 #include <string>
 #include <vector>
@@ -17,9 +16,6 @@ namespace wiimote_tracker {
 /// rig or samples.
 /// @throws Error: rig.yaml could not be written; nothing has changed then.
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
-
-/// The camera's name and lens, for the standard ROS tools.
-sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera);
 
 /// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
 /// `timeout` [s], even if a driver never answers. Hold no mutex.

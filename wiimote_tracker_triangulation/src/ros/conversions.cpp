@@ -253,6 +253,21 @@ std::string idOf(const RigCalibration& message, const geometry::Rig& rig) {
   return message.id.empty() ? rig.id() : message.id;
 }
 
+sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera) {
+  const geometry::Intrinsics& lens = camera.intrinsics;
+  sensor_msgs::CameraInfo info;
+  info.header.frame_id = opticalFrame(camera.name);
+  info.width = static_cast<std::uint32_t>(lens.width);
+  info.height = static_cast<std::uint32_t>(lens.height);
+  info.distortion_model = geometry::nameOf(lens.distortion_model);
+  info.D.assign(lens.distortion.begin(),
+                lens.distortion.begin() + geometry::coefficientCount(lens.distortion_model));
+  info.K = {lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0};
+  info.R = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
+  info.P = {lens.fx, 0.0, lens.cx, 0.0, 0.0, lens.fy, lens.cy, 0.0, 0.0, 0.0, 1.0, 0.0};
+  return info;
+}
+
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig) {
   std::vector<geometry_msgs::TransformStamped> transforms;
   for (const geometry::RigCamera& rig_camera : rig.cameras) {

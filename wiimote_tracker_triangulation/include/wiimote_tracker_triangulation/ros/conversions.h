@@ -4,6 +4,7 @@
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/CameraInfo.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
 #include <string>
@@ -22,6 +23,9 @@ geometry::Rig fromMessage(const wiimote_tracker_msgs::RigCalibration& message);
 std::string idOf(const wiimote_tracker_msgs::RigCalibration& message, const geometry::Rig& rig);
 
 using geometry::opticalFrame;
+
+/// The camera's name and lens, for the standard ROS tools.
+sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera);
 
 /// world -> <camera>_optical_frame of every camera, for /tf_static.
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig);

@@ -156,11 +156,7 @@ void Wiimote::close() {
   } catch (const std::exception&) {
     // The remote has disconnected already.
   }
-  session_.reset();
-  transport_.reset();
-  link_.state = Link::State::kSearching;
-  link_.error.clear();
-  ++link_changes_;
+  drop("");
 }
 
 }  // namespace wiimote_tracker::wiimote

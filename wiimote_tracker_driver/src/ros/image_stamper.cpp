@@ -76,10 +76,10 @@ void ImageStamper::beginEpoch(const ClockReading& now) {
 
 void ImageStamper::followRosClock(const ClockReading& now) {
   const double interval = now.steady - steady_arrival_;
-  const double deviation = (now.ros - ros_arrival_).toSec() - interval;
   if (now.simulated) {
     ros_arrival_ = now.ros;
   } else {
+    const double deviation = (now.ros - ros_arrival_).toSec() - interval;
     ros_arrival_ += ros::Duration(interval);
     if (now.uncertainty < kMaxClockUncertainty) {
       ros_arrival_ += ros::Duration(kDriftGain * deviation);

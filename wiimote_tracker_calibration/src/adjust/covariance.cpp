@@ -18,6 +18,19 @@ namespace {
 // below, it is rounding error.
 constexpr double kOpen = 1e-13;
 
+/// The whitened residuals' derivatives, with the rows and columns that the options ask for; empty
+/// where one of them is not defined.
+Eigen::SparseMatrix<double, Eigen::RowMajor> jacobianOf(
+    ceres::Problem* problem,
+    const ceres::Problem::EvaluateOptions& options) {
+  ceres::CRSMatrix rows;
+  if (!problem->Evaluate(options, nullptr, nullptr, nullptr, &rows))
+    return {};
+  return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
+      rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(),
+      rows.cols.data(), rows.values.data());
+}
+
 /// J^T J by the blocks that are estimated, the wanted ones first.
 /// @throws Error: a block has fewer columns than parameters, which would shift those after it.
 Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
@@ -34,14 +47,10 @@ Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
       parameters += problem->ParameterBlockSize(block);
     }
   }
-  ceres::CRSMatrix rows;
-  const bool is_defined = problem->Evaluate(options, nullptr, nullptr, nullptr, &rows);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian = jacobianOf(problem, options);
   // Not ParameterBlockTangentSize(), which Ceres 1.14 calls ParameterBlockLocalSize().
-  if (is_defined && rows.num_cols != parameters)
+  if (jacobian.size() > 0 && jacobian.cols() != parameters)
     throw Error("the covariance of a block of which a part is held is not known: hold it whole");
-  const Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>> jacobian(
-      rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(),
-      rows.cols.data(), rows.values.data());
   return jacobian.transpose() * jacobian;
 }
 
@@ -60,7 +69,7 @@ std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
   const Eigen::SparseMatrix<double> information = informationOf(problem, blocks);
   // Parameters of very different units: scaled to a unit diagonal.
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
-  if (!scale.allFinite())
+  if (information.size() == 0 || !scale.allFinite())
     return std::nullopt;
   const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * information * scale.asDiagonal();
   const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factor(scaled);
@@ -76,6 +85,25 @@ std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
           scale(i) * scale(j) * inverse(i, j);
   }
   return 0.5 * (result + result.transpose());  // symmetric to the last bit
+}
+
+double degreesOfFreedom(ceres::Problem* problem,
+                        const std::vector<ceres::ResidualBlockId>& residuals) {
+  ceres::Problem::EvaluateOptions options;
+  options.residual_blocks = residuals;
+  std::unordered_set<const double*> taken;
+  for (const ceres::ResidualBlockId residual : residuals) {
+    std::vector<double*> own;
+    problem->GetParameterBlocksForResidualBlock(residual, &own);
+    for (double* block : own) {
+      if (!problem->IsParameterBlockConstant(block) && taken.insert(block).second)
+        options.parameter_blocks.push_back(block);
+    }
+  }
+  const Eigen::MatrixXd jacobian = jacobianOf(problem, options);
+  const auto count = static_cast<double>(jacobian.rows());
+  const auto covariance = covarianceOf(problem, options.parameter_blocks);
+  return covariance ? count - (jacobian * *covariance).cwiseProduct(jacobian).sum() : count;
 }
 
 }  // namespace wiimote_tracker::adjust

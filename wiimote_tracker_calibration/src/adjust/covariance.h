@@ -20,6 +20,13 @@ namespace wiimote_tracker::adjust {
 std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
                                             const std::vector<double*>& blocks);
 
+/// What to expect of the sum of squares of some whitened residuals at the solution of a problem
+/// without loss functions: their number less what the fit takes, the trace of J C J^T with their
+/// Jacobian J and the covariance C of the parameters (Foerstner 1979: redundancy numbers). Their
+/// number when some parameter is not determined.
+double degreesOfFreedom(ceres::Problem* problem,
+                        const std::vector<ceres::ResidualBlockId>& residuals);
+
 }  // namespace wiimote_tracker::adjust
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H

@@ -5,7 +5,6 @@
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
 #include "adjust/gravity.h"
-#include "adjust/jacobian.h"
 #include "square/lens_prior.h"
 #include "square/square_terms.h"
 
@@ -15,7 +14,6 @@
 #include <ceres/ceres.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <array>
 #include <cmath>
@@ -58,9 +56,8 @@ class RigModel::Problem {
     for (std::size_t c = 0; c < 4; ++c)
       corners_[c] = (state.corners[c] - model.nominal_corners_[c]).head<2>();
     addSharedOffset(model.uncertainty_, shared_offset_.data(), &problem_);
-    pixels_ = addSquare(model.layout_, model.nominal_corners_, model.sightings_, model.uncertainty_,
-                        &cameras_, &square_, &problem_)
-                  .corner_pixels;
+    addSquare(model.layout_, model.nominal_corners_, model.sightings_, model.uncertainty_,
+              &cameras_, &square_, &problem_);
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
   }
@@ -108,26 +105,6 @@ class RigModel::Problem {
     return *covariance;
   }
 
-  /// Derivatives of the whitened pixels of a camera, one row per coordinate, and of its lens prior.
-  struct Derivatives {
-    Eigen::MatrixXd pixels_by_pose;
-    Eigen::MatrixXd pixels_by_lens;
-    Eigen::MatrixXd pixels_by_corners;
-    Eigen::MatrixXd prior_by_lens;
-  };
-  Derivatives derivatives(std::size_t i) {
-    adjust::CameraBlocks& camera = cameras_[i];
-    const std::vector<double*> lens = {camera.lens.data()};
-    std::vector<double*> corners;
-    for (auto& corner : corners_)
-      corners.push_back(corner.data());
-    return {
-        adjust::jacobianOf(&problem_, pixels_[i], {camera.rotation.data(), camera.position.data()}),
-        adjust::jacobianOf(&problem_, pixels_[i], lens),
-        adjust::jacobianOf(&problem_, pixels_[i], corners),
-        adjust::jacobianOf(&problem_, {lens_priors_[i]}, lens)};
-  }
-
  private:
   void addCamera(std::size_t i) {
     adjust::CameraBlocks& blocks = cameras_[i];
@@ -137,8 +114,8 @@ class RigModel::Problem {
     problem_.SetParameterBlockConstant(blocks.distortion.data());
     problem_.AddParameterBlock(&blocks.time_offset, 1);
     problem_.SetParameterBlockConstant(&blocks.time_offset);
-    lens_priors_.push_back(addLensPrior(sightings.intrinsics, uncertainty, blocks.lens.data(),
-                                        shared_offset_.data(), &problem_));
+    addLensPrior(sightings.intrinsics, uncertainty, blocks.lens.data(), shared_offset_.data(),
+                 &problem_);
     if (sightings.gravity)
       problem_.AddResidualBlock(
           adjust::GravityError{sightings.gravity->normalized(), model_.up(),
@@ -154,8 +131,6 @@ class RigModel::Problem {
   std::array<double, 2> shared_offset_{};   // of the principal points [px]
   std::array<Eigen::Vector2d, 4> corners_;  // displacements [m]
   SquareBlocks square_{&corners_, {}};
-  std::vector<std::vector<ceres::ResidualBlockId>> pixels_;  // per camera
-  std::vector<ceres::ResidualBlockId> lens_priors_;
 };
 
 RigModel::RigModel(std::vector<CameraSightings> sightings,
@@ -210,34 +185,55 @@ CornerEstimates RigModel::cornerEstimates(const RigState& state) const {
 }
 
 Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
-  Problem problem(*this, state);
+  const Uncertainty& stated = uncertainty_;
   const auto cameras = static_cast<Eigen::Index>(sightings_.size());
   constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
   constexpr Eigen::Index kLens = adjust::kLensSize;
-  constexpr Eigen::Index kCorners = kCornerParameters;
   constexpr Eigen::Index kShared = 2;
   constexpr Eigen::Index kPixels = 8;
   // Estimated parameters as a linear function of independent unit errors: of all corners, of the
   // principal points' shared offset, then of the lens and the pixels camera by camera.
-  const Eigen::Index errors = kCorners + kShared + (kLens + kPixels) * cameras;
+  const Eigen::Index errors = kCornerParameters + kShared + (kLens + kPixels) * cameras;
   Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras, errors);
-  for (Eigen::Index i = 0; i < cameras; ++i) {
-    const auto derivatives = problem.derivatives(static_cast<std::size_t>(i));
-    const Eigen::MatrixXd pose_by_pixels = geometry::pseudoInverse(derivatives.pixels_by_pose);
-    const Eigen::MatrixXd lens_by_error = derivatives.prior_by_lens.inverse();
-    const Eigen::Index lens = kCorners + kShared + (kLens + kPixels) * i;
-    auto rows = by_errors.middleRows(geometry::kParameters * i, geometry::kParameters);
-    rows.block(0, 0, kPose, kCorners) =
-        -pose_by_pixels * derivatives.pixels_by_corners * uncertainty_.placement;
-    rows.block(0, lens, kPose, kLens) =
-        -pose_by_pixels * derivatives.pixels_by_lens * lens_by_error;
-    rows.block(0, lens + kLens, kPose, pose_by_pixels.cols()) = -pose_by_pixels;
-    rows.block(geometry::kLens, lens, kLens, kLens) = lens_by_error;
-    if (sharesOffset(sightings_[static_cast<std::size_t>(i)].intrinsics)) {
-      const double shared = uncertainty_.shared_principal_point;
-      rows.block(0, kCorners, kPose, kShared) =
-          -shared * pose_by_pixels * derivatives.pixels_by_lens.middleCols(2, kShared);
-      rows.block(geometry::kLens + 2, kCorners, kShared, kShared).diagonal().setConstant(shared);
+  for (std::size_t i = 0; i < sightings_.size(); ++i) {
+    const CameraSightings& seen = sightings_[i];
+    const auto pixels = 2 * static_cast<Eigen::Index>(seen.cornersSeen());
+    Eigen::Matrix<double, Eigen::Dynamic, geometry::kParameters> by_camera(pixels,
+                                                                           geometry::kParameters);
+    Eigen::MatrixXd by_corners = Eigen::MatrixXd::Zero(pixels, kCornerParameters);
+    Eigen::Index pixel = 0;
+    for (std::size_t c = 0; c < seen.corners.size(); ++c) {
+      if (!seen.corners[c])
+        continue;
+      const auto projection = geometry::projectionOf(state.cameras[i], state.corners[c]).value();
+      by_camera.middleRows<2>(pixel) = projection.by_parameters;
+      by_corners.block<2, 2>(pixel, 2 * static_cast<Eigen::Index>(c)) =
+          projection.by_point.leftCols<2>();
+      pixel += 2;
+    }
+    const geometry::Intrinsics& lens = state.cameras[i].intrinsics;
+    Eigen::Matrix<double, kLens, kLens> lens_by_error = Eigen::Matrix<double, kLens, kLens>::Zero();
+    lens_by_error.topLeftCorner<2, 2>() << lens.fx * stated.focal, 0.5 * lens.fx * stated.aspect,
+        lens.fy * stated.focal, -0.5 * lens.fy * stated.aspect;
+    lens_by_error.diagonal().tail<3>() << stated.principal_point, stated.principal_point, stated.k1;
+
+    const Eigen::MatrixXd pose_by_pixels = -geometry::pseudoInverse(by_camera.leftCols<kPose>());
+    const Eigen::MatrixXd pose_by_lens =
+        pose_by_pixels * by_camera.middleCols<kLens>(geometry::kLens);
+    const Eigen::Index own =
+        kCornerParameters + kShared + (kLens + kPixels) * static_cast<Eigen::Index>(i);
+    auto rows = by_errors.middleRows<geometry::kParameters>(geometry::firstParameter(i));
+    rows.topLeftCorner<kPose, kCornerParameters>() = stated.placement * pose_by_pixels * by_corners;
+    rows.block<kPose, kLens>(0, own) = pose_by_lens * lens_by_error;
+    rows.block(0, own + kLens, kPose, pixels) = stated.pixel * pose_by_pixels;
+    rows.block<kLens, kLens>(geometry::kLens, own) = lens_by_error;
+    if (sharesOffset(seen.intrinsics)) {
+      const double shared = stated.shared_principal_point;
+      rows.block<kPose, kShared>(0, kCornerParameters) =
+          shared * pose_by_lens.middleCols<kShared>(2);
+      rows.block<kShared, kShared>(geometry::kLens + 2, kCornerParameters)
+          .diagonal()
+          .setConstant(shared);
     }
   }
   return by_errors * by_errors.transpose();

@@ -24,23 +24,17 @@ struct SquareBlocks {
   std::vector<std::array<double, 3>> places;  ///< Known places [m].
 };
 
-/// Residuals of a square.
-struct SquareResiduals {
-  std::vector<std::vector<ceres::ResidualBlockId>> corner_pixels;  ///< Per camera.
-  std::vector<ceres::ResidualBlockId> others;  ///< Priors of corners and places, and what else
-                                               ///< was measured of them.
-};
-
 /// Adds a square to a problem: where cameras saw its corners and known places, how exactly the LED
-/// lay there, and the taped lengths. @param cameras in the order of the sightings.
-inline SquareResiduals addSquare(const SquareLayout& layout,
-                                 const Corners& nominal,
-                                 const std::vector<CameraSightings>& sightings,
-                                 const Uncertainty& stated,
-                                 std::vector<adjust::CameraBlocks>* cameras,
-                                 SquareBlocks* blocks,
-                                 ceres::Problem* problem) {
-  SquareResiduals residuals{std::vector<std::vector<ceres::ResidualBlockId>>(cameras->size()), {}};
+/// lay there, and the taped lengths. @param cameras in the order of the sightings. @returns all
+/// residuals.
+inline std::vector<ceres::ResidualBlockId> addSquare(const SquareLayout& layout,
+                                                     const Corners& nominal,
+                                                     const std::vector<CameraSightings>& sightings,
+                                                     const Uncertainty& stated,
+                                                     std::vector<adjust::CameraBlocks>* cameras,
+                                                     SquareBlocks* blocks,
+                                                     ceres::Problem* problem) {
+  std::vector<ceres::ResidualBlockId> residuals;
   const auto pixelError = [&](std::size_t camera, const Eigen::Vector2d& pixel) {
     return adjust::PixelError{pixel, Eigen::Matrix2d::Identity() / stated.pixel,
                               (*cameras)[camera].world_from_start,
@@ -49,11 +43,11 @@ inline SquareResiduals addSquare(const SquareLayout& layout,
   for (std::size_t c = 0; c < nominal.size(); ++c) {
     double* const corner = (*blocks->corners)[c].data();
     const double stddev = stated.placementOf(c);
-    residuals.others.push_back(problem->AddResidualBlock(
+    residuals.push_back(problem->AddResidualBlock(
         adjust::Prior<2>{{0.0, 0.0}, {stddev, stddev}}.cost(), nullptr, corner));
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       if (const auto& seen = sightings[i].corners[c])
-        residuals.corner_pixels[i].push_back((*cameras)[i].addTo(
+        residuals.push_back((*cameras)[i].addTo(
             problem, adjust::CornerPixelError{pixelError(i, *seen), nominal[c]}.cost(), nullptr,
             corner));
     }
@@ -63,17 +57,17 @@ inline SquareResiduals addSquare(const SquareLayout& layout,
     const KnownPlace& known = layout.places[p];
     std::array<double, 3>& place = blocks->places[p];
     place = {known.position.x(), known.position.y(), known.position.z()};
-    residuals.others.push_back(problem->AddResidualBlock(
+    residuals.push_back(problem->AddResidualBlock(
         adjust::Prior<3>{place, {known.stddev, known.stddev, known.stddev}}.cost(), nullptr,
         place.data()));
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       if (p < sightings[i].places.size() && sightings[i].places[p])
-        residuals.others.push_back((*cameras)[i].addTo(
+        residuals.push_back((*cameras)[i].addTo(
             problem, pixelError(i, *sightings[i].places[p]).cost(), nullptr, place.data()));
     }
   }
   for (const TapedLength& taped : layout.lengths)
-    residuals.others.push_back(problem->AddResidualBlock(
+    residuals.push_back(problem->AddResidualBlock(
         adjust::TapedLengthError{(nominal[taped.to] - nominal[taped.from]).head<2>(), taped.length,
                                  taped.stddev}
             .cost(),

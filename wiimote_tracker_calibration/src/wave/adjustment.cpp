@@ -2,7 +2,6 @@
 
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
-#include "adjust/degrees_of_freedom.h"
 #include "adjust/gravity.h"
 #include "adjust/path_acceleration.h"
 #include "adjust/path_pixel.h"
@@ -219,12 +218,10 @@ class WaveProblem {
 
   void addSquare() {
     const square::SquareLayout& layout = *recording_.square;
-    const square::SquareResiduals added =
+    const std::vector<ceres::ResidualBlockId> added =
         square::addSquare(layout, layout.corners(state_.z_up), recording_.sightings(),
                           options_.uncertainty, &cameras_, &square_, &problem_);
-    known_.insert(known_.end(), added.others.begin(), added.others.end());
-    for (const auto& of_camera : added.corner_pixels)
-      known_.insert(known_.end(), of_camera.begin(), of_camera.end());
+    known_.insert(known_.end(), added.begin(), added.end());
   }
 
   /// The wand at rest, whose LEDs define origin and x axis, and the accelerometers.

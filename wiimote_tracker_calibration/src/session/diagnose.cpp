@@ -97,17 +97,15 @@ class Diagnosis {
       if (recording.hasFrames()) {
         wave::WaveOptions options = options_.wave;
         options.uncertainty = uncertainty;
-        wave::WaveSolution solution = wave::solveWave(recording, options);
-        return Attempt{std::move(solution.rig), solution.misfit,         solution.contradicts,
-                       solution.z_up,           solution.corner_offsets, solution.wand_length};
+        return wave::solveWave(recording, options);
       }
       square::SolveOptions options = options_.square;
       options.method = square::Method::kJoint;
       options.uncertainty = uncertainty;
-      square::SquareSolution solution =
+      Attempt attempt;
+      static_cast<square::Solution&>(attempt) =
           square::solveSquare(*recording.square, recording.sightings(), options);
-      return Attempt{std::move(solution.rig), solution.misfit, solution.contradicts, solution.z_up,
-                     solution.corner_offsets};
+      return attempt;
     } catch (const geometry::Error&) {
       return std::nullopt;
     }

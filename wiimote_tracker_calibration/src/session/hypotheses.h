@@ -1,10 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
 
-#include "wiimote_tracker_calibration/square/rig_model.h"
-#include "wiimote_tracker_calibration/wave/recording.h"
-
-#include <wiimote_tracker_triangulation/geometry/rig.h>
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <functional>
 #include <optional>
@@ -13,15 +10,8 @@
 
 namespace wiimote_tracker::session {
 
-/// A recording that could be solved.
-struct Attempt {
-  geometry::Rig rig;
-  double misfit = 0.0;
-  bool contradicts = false;
-  bool z_up = true;
-  square::Corners corner_offsets{};
-  double wand_length = 0.0;
-};
+/// A recording that could be solved; of one without a wave only what is of the square.
+using Attempt = wave::WaveSolution;
 
 /// A mistake that may have been made: the recording without it, or with the quantity free.
 struct Hypothesis {

@@ -26,23 +26,26 @@ bool hasDoubts(const std::vector<std::string>& warnings, bool z_up) {
   return warnings.size() > (z_up ? 0U : 1U);
 }
 
+Solved solvedBy(const square::Solution& solution, const SolveOptions& options) {
+  Solved solved;
+  solved.rig = solution.rig;
+  solved.findings.z_up = solution.z_up;
+  solved.findings.suspect = solution.suspect;
+  solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
+  solved.findings.contradicts = solution.contradicts;
+  solved.findings.joint = {solution.joint_covariance, options.square.uncertainty.pixel};
+  return solved;
+}
+
 Solved solveFromWave(const wave::Recording& recording,
                      const SolveOptions& options,
                      const wave::ProgressCallback& progress) {
   wave::WaveOptions wave_options = options.wave;
   wave_options.uncertainty = options.square.uncertainty;
   wave::WaveSolution solution = wave::solveWave(recording, wave_options, progress);
-  Solved solved;
-  solved.rig = std::move(solution.rig);
-  solved.findings.z_up = solution.z_up;
-  solved.findings.suspect = solution.suspect;
-  solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
+  Solved solved = solvedBy(solution, options);
   solved.findings.led = std::move(solution.path);
-  solved.findings.contradicts = solution.contradicts;
-  if (recording.square)
-    solved.findings.joint = {std::move(solution.joint_covariance),
-                             options.square.uncertainty.pixel};
-  else
+  if (!recording.square)
     solved.findings.shape_error = solution.expected_shape_error;
   if (options.correct_principal_points)
     solved.rig.verdict +=
@@ -64,18 +67,11 @@ Solved solveFromSquare(const square::SquareLayout& layout,
         "lengths and known places need the method joint without principal_point_correction: set "
         "these, record a wave, or drop the lengths and places");
   const square::SquareSolution solution = square::solveSquare(layout, cameras, options.square);
-  Solved solved;
-  solved.findings.suspect = solution.suspect;
-  solved.findings.contradicts = solution.contradicts;
+  Solved solved = solvedBy(solution, options);
   const square::Corners corners = layout.corners(solution.z_up);
   solved.findings.led.assign(corners.begin(), corners.end());
-  if (!options.correct_principal_points) {
-    solved.rig = solution.rig;
-    solved.findings.z_up = solution.z_up;
-    solved.findings.doubts = hasDoubts(solution.warnings, solution.z_up);
-    solved.findings.joint = {solution.joint_covariance, options.square.uncertainty.pixel};
+  if (!options.correct_principal_points)
     return solved;
-  }
   // The suspect corner stays that of the first solution: the correction moves the error of a corner
   // into the lenses.
   principal_point::CorrectionOptions correction = options.correction;
@@ -92,6 +88,7 @@ Solved solveFromSquare(const square::SquareLayout& layout,
   if (result.outcome == principal_point::Outcome::kCancelled)
     throw wave::Cancelled();
   solved.rig = result.rig;
+  solved.findings.joint = {};
   solved.findings.z_up = result.z_up;
   solved.findings.doubts = hasDoubts(result.warnings, result.z_up);
   solved.trace = result.trace;

@@ -172,18 +172,6 @@ Eigen::MatrixXd RigModel::covarianceOfAll(const RigState& state) const {
   return Problem(*this, state).covariance();
 }
 
-CornerEstimates RigModel::cornerEstimates(const RigState& state) const {
-  const Eigen::MatrixXd covariance =
-      covarianceOfAll(state).bottomRightCorner(kCornerParameters, kCornerParameters);
-  CornerEstimates estimates;
-  for (std::size_t c = 0; c < 4; ++c) {
-    const auto at = 2 * static_cast<Eigen::Index>(c);
-    estimates.offsets[c] = state.corners[c] - nominal_corners_[c];
-    estimates.covariances[c] = covariance.block<2, 2>(at, at);
-  }
-  return estimates;
-}
-
 Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   const Uncertainty& stated = uncertainty_;
   const auto cameras = static_cast<Eigen::Index>(sightings_.size());

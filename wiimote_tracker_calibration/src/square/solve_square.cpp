@@ -135,6 +135,14 @@ void checkMisfit(const RigModel& model, const BranchChoice& choice, SquareSoluti
   solution->warnings.push_back(reason);
 }
 
+/// Displacement of the corners from the layout.
+Corners offsetsOf(const RigModel& model, const RigState& state) {
+  Corners offsets;
+  for (std::size_t c = 0; c < offsets.size(); ++c)
+    offsets[c] = state.corners[c] - model.nominalCorners()[c];
+  return offsets;
+}
+
 geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std::size_t i) {
   geometry::RigCamera result;
   result.camera = state.cameras[i];
@@ -191,9 +199,12 @@ SquareSolution solveSquare(const SquareLayout& layout,
   solution.branches = branches;
   solution.chosen = choice.chosen;
   checkGravity(model, choice.state, usable.z_up, options.uncertainty);
-  if (!isAbsurd(model, choice.state))
+  Eigen::MatrixXd joint;
+  if (!isAbsurd(model, choice.state)) {
+    joint = model.covarianceOfAll(choice.state);
     solution.suspect =
-        suspectCorner(model.cornerEstimates(choice.state), options.uncertainty.placement);
+        suspectCorner(offsetsOf(model, choice.state), joint, options.uncertainty.placement);
+  }
   checkMisfit(model, choice, &solution);
   refuseUndecided(model, branches, choice);
 
@@ -201,7 +212,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   geometry::Rig& rig = solution.rig;
   if (options.method == Method::kJoint) {
     rig.method = "square";
-    solution.joint_covariance = model.covarianceOfAll(state);
+    solution.joint_covariance = joint;
     const Eigen::Index cameras = solution.joint_covariance.rows() - kCornerParameters;
     rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
   } else {
@@ -212,8 +223,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
     rig.method = "square, per camera";
     rig.covariance = model.covarianceOfPoses(state);
   }
-  for (std::size_t c = 0; c < 4; ++c)
-    solution.corner_offsets[c] = state.corners[c] - model.nominalCorners()[c];
+  solution.corner_offsets = offsetsOf(model, state);
 
   layout.describeIn(&rig);
   for (std::size_t i = 0; i < state.cameras.size(); ++i)

@@ -16,14 +16,18 @@ constexpr double kLeastKnowledge = 0.01;
 
 }  // namespace
 
-std::optional<SuspectCorner> suspectCorner(const CornerEstimates& estimates, double placement) {
+std::optional<SuspectCorner> suspectCorner(const Corners& offsets,
+                                           const Eigen::MatrixXd& joint_covariance,
+                                           double placement) {
   const double variance = placement * placement;
   std::vector<SuspectCorner> suspects;
-  for (std::size_t c = 0; c < estimates.offsets.size(); ++c) {
-    const Eigen::Vector2d offset = estimates.offsets[c].head<2>();
+  for (std::size_t c = 0; c < offsets.size(); ++c) {
+    const Eigen::Vector2d offset = offsets[c].head<2>();
+    const Eigen::Index at =
+        joint_covariance.rows() - kCornerParameters + 2 * static_cast<Eigen::Index>(c);
     // Variance of the fitted displacement: what the prior allows less what is still unknown.
     const Eigen::Matrix2d fitted =
-        variance * Eigen::Matrix2d::Identity() - estimates.covariances[c];
+        variance * Eigen::Matrix2d::Identity() - joint_covariance.block<2, 2>(at, at);
     const double least = kLeastKnowledge * variance;
     if (!(fitted.determinant() > least * least) || !(fitted.trace() > 0.0))
       continue;

@@ -79,25 +79,6 @@ geometry::RigCamera rigCamera(const CameraRecording& recording,
   return result;
 }
 
-/// @param covariances of the corners' displacements, 2 rows each.
-void describeSquare(const Recording& recording,
-                    const WaveOptions& options,
-                    const State& state,
-                    const Eigen::MatrixXd& covariances,
-                    WaveSolution* solution) {
-  geometry::Rig& rig = solution->rig;
-  rig.method = "square+" + rig.method;
-  recording.square->describeIn(&rig);
-  square::CornerEstimates corners;
-  for (std::size_t c = 0; c < state.corner_offsets.size(); ++c) {
-    const Eigen::Index row = 2 * static_cast<Eigen::Index>(c);
-    solution->corner_offsets[c].head<2>() = state.corner_offsets[c];
-    corners.offsets[c] = solution->corner_offsets[c];
-    corners.covariances[c] = covariances.block<2, 2>(row, row);
-  }
-  solution->suspect = square::suspectCorner(corners, options.uncertainty.placement);
-}
-
 /// Duration, speeds and extent of the path where it was seen.
 void describePath(const State& state, const Matching& matching, WaveSolution* solution) {
   const Trajectory& trajectory = state.trajectory;
@@ -127,23 +108,26 @@ WaveSolution solutionOf(const Recording& recording,
   solution.corner_offsets.fill(Eigen::Vector3d::Zero());
   describePath(state, matching, &solution);
 
-  const Eigen::MatrixXd joint = covarianceOf(recording, options, matching.matches, state);
+  solution.joint_covariance = covarianceOf(recording, options, matching.matches, state);
   const Eigen::Index cameras = geometry::firstParameter(state.cameras.size());
   geometry::Rig& rig = solution.rig;
   rig.method = recording.wand ? "wand" : "wave";
-  rig.covariance = joint.topLeftCorner(cameras, cameras);
+  rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
   addWander(options, solution.seconds_seen, &rig.covariance);
-  solution.joint_covariance = joint;
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
   if (state.floor) {
     rig.method = "floor+wand";
     rig.led_height = *recording.wand->led_height;
   }
-  if (recording.square)
-    describeSquare(recording, options, state,
-                   joint.bottomRightCorner(square::kCornerParameters, square::kCornerParameters),
-                   &solution);
+  if (recording.square) {
+    rig.method = "square+" + rig.method;
+    recording.square->describeIn(&rig);
+    for (std::size_t c = 0; c < state.corner_offsets.size(); ++c)
+      solution.corner_offsets[c].head<2>() = state.corner_offsets[c];
+    solution.suspect = square::suspectCorner(solution.corner_offsets, solution.joint_covariance,
+                                             options.uncertainty.placement);
+  }
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);
   solution.expected_error = square::expectedError(rig, points);
   solution.expected_shape_error = square::expectedShapeError(rig, points);

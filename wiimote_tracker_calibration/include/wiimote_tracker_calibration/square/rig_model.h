@@ -3,7 +3,6 @@
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
-#include "wiimote_tracker_calibration/square/suspect_corner.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -81,9 +80,6 @@ class RigModel {
   /// Covariance of refineAll(): of the cameras, order and units as in RigCalibration.msg, then of
   /// the corners' horizontal displacements (2 each) [m].
   Eigen::MatrixXd covarianceOfAll(const RigState& state) const;
-
-  /// Where the corners are by refineAll().
-  CornerEstimates cornerEstimates(const RigState& state) const;
 
   /// Covariance, to first order, of poses of least reprojection error at exact intrinsics and
   /// corners (the paper, IV.B), from the same uncertainties, order and units as in

@@ -27,28 +27,35 @@ struct SolveOptions {
   double branch_odds = 100.0;
 };
 
-/// A solved square.
-struct SquareSolution {
+/// What was solved, with a square or without.
+struct Solution {
   /// Poses, intrinsics, residuals, joint covariance, verdict; without solved_at and world_frame.
   geometry::Rig rig;
   bool z_up = true;
-  /// Per camera of the rig: the poses that explain what it alone saw, and the index of the one that
-  /// was chosen by all cameras together.
-  std::vector<std::vector<Branch>> branches;
-  std::vector<std::size_t> chosen;
-  /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera.
-  Corners corner_offsets;
-  /// Of the rig's parameters, then of the corners' offsets (2 each); empty with kPerCamera.
+  /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera, and
+  /// without a square.
+  Corners corner_offsets{};
+  /// Of the rig's parameters, without slow errors of the clocks, then of the corners' offsets (2
+  /// each), if there is a square; empty with kPerCamera.
   Eigen::MatrixXd joint_covariance;
   /// The corner that contradicts the rest most; nothing when the data cannot tell.
   std::optional<SuspectCorner> suspect;
-  /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
-  double expected_error = 0.0;
-  /// Ratio of the residuals to those expected, and whether that is significant (99.9 %).
+  /// Ratio of the residuals to those expected, and whether that is significant (99.9 %). Of a wave
+  /// it is that of corners, places, lengths and priors.
   double misfit = 0.0;
   bool contradicts = false;
   /// One sentence each. They are part of rig.verdict too.
   std::vector<std::string> warnings;
+};
+
+/// A solved square.
+struct SquareSolution : Solution {
+  /// Per camera of the rig: the poses that explain what it alone saw, and the index of the one that
+  /// was chosen by all cameras together.
+  std::vector<std::vector<Branch>> branches;
+  std::vector<std::size_t> chosen;
+  /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
+  double expected_error = 0.0;
 };
 
 /// Estimates the cameras' poses. A camera that saw three corners is placed by them and its

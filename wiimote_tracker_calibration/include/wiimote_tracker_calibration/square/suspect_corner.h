@@ -5,17 +5,10 @@
 
 #include <Eigen/Core>
 
-#include <array>
 #include <cstddef>
 #include <optional>
 
 namespace wiimote_tracker::square {
-
-/// Displacement of the corners from the layout as a solver estimated it, and how well.
-struct CornerEstimates {
-  Corners offsets{};                             ///< Horizontal [m].
-  std::array<Eigen::Matrix2d, 4> covariances{};  ///< Of x and y [m^2].
-};
 
 /// A corner that the LED was probably not put on.
 struct SuspectCorner {
@@ -31,9 +24,13 @@ struct SuspectCorner {
 /// The corner whose prior place contradicts the other data most. Without the prior that the LED was
 /// put there within `placement`, the other data determine where it was: deletion of one observation
 /// (Cook and Weisberg, Residuals and Influence in Regression, 1982).
+/// @param offsets horizontal displacement of the corners from the layout, as estimated [m].
+/// @param joint_covariance its last kCornerParameters rows and columns are of these [m^2].
 /// @param placement standard deviation of every corner, per axis [m, > 0].
 /// @returns nothing when the other data determine no corner.
-std::optional<SuspectCorner> suspectCorner(const CornerEstimates& estimates, double placement);
+std::optional<SuspectCorner> suspectCorner(const Corners& offsets,
+                                           const Eigen::MatrixXd& joint_covariance,
+                                           double placement);
 
 /// Whether it is significant: one in 2500 calibrations has such a corner by chance.
 bool isDisplaced(const SuspectCorner& suspect);

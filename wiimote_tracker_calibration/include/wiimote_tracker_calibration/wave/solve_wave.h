@@ -1,16 +1,12 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
 #define WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
 
-#include "wiimote_tracker_calibration/square/rig_model.h"
-#include "wiimote_tracker_calibration/square/suspect_corner.h"
+#include "wiimote_tracker_calibration/square/solve_square.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
-
-#include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <Eigen/Core>
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,22 +24,13 @@ struct WaveOptions {
   double maximum_offset_stddev = 0.0005;  ///< A result less certain of an offset is refused [s].
 };
 
-/// A solved recording.
-struct WaveSolution {
-  /// Poses, intrinsics, time offsets, residuals, joint covariance, verdict; in the order of the
-  /// recording; without solved_at and world_frame. exposure time = stamp + time offset. Without a
-  /// square, the LED of a wand on the floor that is nearer to the first camera lies at x = y = 0,
-  /// the other one at y = 0, both exact; z is up by all accelerometers. Without either, the first
-  /// camera is the origin, exact; its accelerometer's up is z, or its optical frame is the world.
-  geometry::Rig rig;
-  bool z_up = true;
-  double pixel_stddev = 0.0;         ///< Of a moving spot, per axis, as estimated [px].
-  square::Corners corner_offsets{};  ///< Displacement from the layout, as estimated [m].
-  /// Of the rig's parameters, without the slow errors of the clocks, then of the corners' offsets
-  /// (2 each), if there is a square.
-  Eigen::MatrixXd joint_covariance;
-  /// The corner that contradicts the rest most; nothing without square.
-  std::optional<square::SuspectCorner> suspect;
+/// A solved recording. Its rig has time offsets, too, in the order of the recording: exposure time
+/// = stamp + time offset. Without a square, the LED of a wand on the floor that is nearer to the
+/// first camera lies at x = y = 0, the other one at y = 0, both exact; z is up by all
+/// accelerometers. Without either, the first camera is the origin, exact; its accelerometer's up is
+/// z, or its optical frame is the world.
+struct WaveSolution : square::Solution {
+  double pixel_stddev = 0.0;                         ///< Of a moving spot, per axis [px].
   double wand_length = 0.0;                          ///< As estimated [m]; 0 without wand.
   double median_speed = 0.0;                         ///< Of the LED [m/s].
   double seconds_seen = 0.0;                         ///< In which two cameras or more saw it [s].
@@ -53,11 +40,6 @@ struct WaveSolution {
   double expected_error = 0.0;
   /// Same after the best rigid motion: independent of the world frame.
   double expected_shape_error = 0.0;
-  /// Ratio of the residuals of corners and priors to those expected, and whether that is
-  /// significant (99.9 %).
-  double misfit = 0.0;
-  bool contradicts = false;
-  std::vector<std::string> warnings;  ///< One sentence each; part of rig.verdict too.
 };
 
 /// Progress, reported a few times per second or more.

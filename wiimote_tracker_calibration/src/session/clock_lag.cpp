@@ -70,16 +70,9 @@ double correlation(const std::vector<double>& late, const std::vector<double>& o
 }  // namespace
 
 std::optional<double> clockLag(const wave::Recording& recording, std::size_t camera) {
-  double start = std::numeric_limits<double>::infinity();
-  double end = -start;
-  for (const wave::CameraRecording& each : recording.cameras) {
-    if (each.frames.empty())
-      continue;
-    start = std::min(start, each.frames.front().stamp);
-    end = std::max(end, each.frames.back().stamp);
-  }
   if (recording.cameras[camera].frames.empty())
     return std::nullopt;
+  const auto [start, end] = recording.span();
   const auto steps = static_cast<std::size_t>((end - start) / kStep) + 1;
   const std::vector<double> own = speeds(recording.cameras[camera], start, steps);
   std::vector<std::vector<double>> others;

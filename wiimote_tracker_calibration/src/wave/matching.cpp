@@ -50,41 +50,28 @@ double errorOf(const Prediction& prediction, const Eigen::Vector2d& spot) {
   return (prediction.whitening * (prediction.pixel - spot)).norm();
 }
 
-/// Index of the spot that fits best within the limit, leaving out one; -1: none.
-int bestSpot(const Frame& frame, const Prediction& prediction, double limit, int without) {
-  int best = -1;
-  double least = limit;
-  for (int i = 0; i < static_cast<int>(frame.spots.size()); ++i) {
-    const double error = errorOf(prediction, frame.spots[static_cast<std::size_t>(i)]);
-    if (i != without && error < least) {
-      least = error;
-      best = i;
-    }
-  }
-  return best;
-}
-
-/// Spots for both LEDs: the better of two assignments, which give the best spot to the first LED or
-/// to the second.
+/// The spots of the LEDs with the least sum of errors, by index; -1: none, which counts as the
+/// limit.
 std::array<int, 2> bestSpots(const Frame& frame,
                              const std::array<std::optional<Prediction>, 2>& predictions,
                              double limit) {
+  const auto count = static_cast<int>(frame.spots.size());
+  const auto error = [&](std::size_t led, int spot) {
+    if (spot < 0)
+      return limit;
+    return predictions[led]
+               ? errorOf(*predictions[led], frame.spots[static_cast<std::size_t>(spot)])
+               : std::numeric_limits<double>::infinity();
+  };
   std::array<int, 2> best = {-1, -1};
-  double least = std::numeric_limits<double>::infinity();
-  for (int leader = 0; leader < 2; ++leader) {
-    std::array<int, 2> chosen = {-1, -1};
-    double sum = 0.0;
-    for (int turn = 0; turn < 2; ++turn) {
-      const auto led = static_cast<std::size_t>(turn == 0 ? leader : 1 - leader);
-      if (predictions[led])
-        chosen[led] = bestSpot(frame, *predictions[led], limit, chosen[1 - led]);
-      sum += chosen[led] < 0
-                 ? limit
-                 : errorOf(*predictions[led], frame.spots[static_cast<std::size_t>(chosen[led])]);
-    }
-    if (sum < least) {
-      least = sum;
-      best = chosen;
+  double least = 2.0 * limit;
+  for (int first = -1; first < count; ++first) {
+    for (int second = -1; second < count; ++second) {
+      const double sum = error(0, first) + error(1, second);
+      if (sum < least && (first != second || first < 0)) {
+        least = sum;
+        best = {first, second};
+      }
     }
   }
   return best;

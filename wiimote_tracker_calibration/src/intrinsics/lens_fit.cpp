@@ -160,19 +160,8 @@ geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points) {
 }
 
 int parameterCount(LensModel model) {
-  switch (model) {
-    case LensModel::kNoDistortion:
-      return 4;
-    case LensModel::kK1:
-      return 5;
-    case LensModel::kK1K2:
-      return 6;
-    case LensModel::kEquidistant:
-      return 8;
-    case LensModel::kFull:
-      break;
-  }
-  return 9;
+  constexpr int kCounts[] = {4, 5, 6, 9, 8};  // in the order of LensModel
+  return kCounts[static_cast<std::size_t>(model)];
 }
 
 ViewDerivative differentiate(const Fit& fit, const Points& points, std::size_t view) {

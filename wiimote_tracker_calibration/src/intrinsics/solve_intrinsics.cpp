@@ -117,26 +117,6 @@ std::string summaryOf(const IntrinsicsSolution& s) {
       s.reprojection_error);
 }
 
-}  // namespace
-
-std::string nameOf(LensModel model) {
-  switch (model) {
-    case LensModel::kNoDistortion:
-      return "no distortion";
-    case LensModel::kK1:
-      return "k1";
-    case LensModel::kK1K2:
-      return "k1, k2";
-    case LensModel::kEquidistant:
-      return "equidistant k1, k2, k3, k4";
-    case LensModel::kFull:
-      break;
-  }
-  return "k1, k2, p1, p2, k3";
-}
-
-namespace {
-
 /// Fits the models from simple to rich, each starting from the one before, up to options.model.
 Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSolution* solution) {
   Fit fit = firstFit(points, false, options.start_focal_length);
@@ -195,6 +175,13 @@ Fit fitEquidistant(const Points& points,
 }
 
 }  // namespace
+
+std::string nameOf(LensModel model) {
+  // In the order of LensModel.
+  constexpr const char* kNames[] = {"no distortion", "k1", "k1, k2", "k1, k2, p1, p2, k3",
+                                    "equidistant k1, k2, k3, k4"};
+  return kNames[static_cast<std::size_t>(model)];
+}
 
 IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
   checkInput(samples, options);

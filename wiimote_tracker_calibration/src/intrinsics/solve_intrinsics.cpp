@@ -74,17 +74,15 @@ void checkInput(const Samples& samples, const SolverOptions& options) {
 }
 
 void checkPlaces(const Samples& samples) {
-  double left = HUGE_VAL, right = -HUGE_VAL, top = HUGE_VAL, bottom = -HUGE_VAL;
+  Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
+  Eigen::Vector2d high = -low;
   for (std::size_t i = 0; i < samples.views.size(); ++i) {
-    const std::string name = "view " + std::to_string(i + 1);
-    const ViewGeometry geometry = viewGeometry(samples.board, samples.views[i], name);
-    checkOrder(geometry, name);
-    left = std::min(left, geometry.center().x());
-    right = std::max(right, geometry.center().x());
-    top = std::min(top, geometry.center().y());
-    bottom = std::max(bottom, geometry.center().y());
+    const Eigen::Vector2d center =
+        viewGeometry(samples.board, samples.views[i], "view " + std::to_string(i + 1)).center();
+    low = low.cwiseMin(center);
+    high = high.cwiseMax(center);
   }
-  if (std::max(right - left, bottom - top) < kSmallestTravel * samples.width)
+  if ((high - low).maxCoeff() < kSmallestTravel * samples.width)
     throw Error(
         "all views show the board at one place of the image: show it in the "
         "corners of the image too");

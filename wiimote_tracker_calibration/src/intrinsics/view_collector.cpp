@@ -11,11 +11,6 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-constexpr std::size_t kX = 0;
-constexpr std::size_t kY = 1;
-constexpr std::size_t kSize = 2;
-constexpr std::size_t kSkew = 3;
-constexpr std::array<double, 4> kFull = {0.7, 0.7, 0.4, 0.5};  // ranges that fill a bar
 constexpr double kLeastDifference = 0.2;  // between views: sum over x, y, size, skew [0 to 4]
 
 double unit(double value) {
@@ -25,13 +20,6 @@ double unit(double value) {
 /// 0 if the board touches one edge of the image, 1 if it touches the opposite one.
 double placeBetweenEdges(double center, double board, double image) {
   return image > board ? unit((center - board / 2.0) / (image - board)) : 0.5;
-}
-
-double difference(const std::array<double, 4>& a, const std::array<double, 4>& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += std::abs(a[i] - b[i]);
-  return sum;
 }
 
 }  // namespace
@@ -47,19 +35,17 @@ std::string ViewCollector::add(const BoardView& view) {
   Parameters parameters;
   try {
     const ViewGeometry geometry = viewGeometry(samples_.board, view, "this view");
-    checkOrder(geometry, "this view");
     const Eigen::Vector2d center = geometry.center();
     const double size = geometry.size();
-    parameters[kX] = placeBetweenEdges(center.x(), size, samples_.width);
-    parameters[kY] = placeBetweenEdges(center.y(), size, samples_.height);
-    parameters[kSize] =
-        unit(size / std::sqrt(static_cast<double>(samples_.width) * samples_.height));
-    parameters[kSkew] = unit(2.0 * geometry.skew());
+    parameters << placeBetweenEdges(center.x(), size, samples_.width),
+        placeBetweenEdges(center.y(), size, samples_.height),
+        unit(size / std::sqrt(static_cast<double>(samples_.width) * samples_.height)),
+        unit(2.0 * geometry.skew());
   } catch (const Error& error) {
     return error.what();
   }
   for (const Parameters& kept : parameters_) {
-    if (difference(parameters, kept) <= kLeastDifference)
+    if ((parameters - kept).abs().sum() <= kLeastDifference)
       return "this view is too much like one that was kept: move or tilt the board";
   }
   samples_.views.push_back(view);
@@ -80,20 +66,17 @@ Coverage ViewCollector::coverage() const {
   if (missing_views > 0)
     result.missing.push_back(std::to_string(missing_views) + " more views of the board");
   // A small board or one without tilt is not required.
-  Parameters low = {1.0, 1.0, 0.0, 0.0};
-  Parameters high{};
-  Parameters bars;
-  for (std::size_t i = 0; i < bars.size(); ++i) {
-    for (const Parameters& kept : parameters_) {
-      low[i] = std::min(low[i], kept[i]);
-      high[i] = std::max(high[i], kept[i]);
-    }
-    bars[i] = unit((high[i] - low[i]) / kFull[i]);
+  Parameters low(1.0, 1.0, 0.0, 0.0);
+  Parameters high = Parameters::Zero();
+  for (const Parameters& kept : parameters_) {
+    low = low.min(kept);
+    high = high.max(kept);
   }
-  result.x = bars[kX];
-  result.y = bars[kY];
-  result.size = bars[kSize];
-  result.skew = bars[kSkew];
+  const Parameters full(0.7, 0.7, 0.4, 0.5);  // ranges that fill a bar
+  result.x = unit((high[0] - low[0]) / full[0]);
+  result.y = unit((high[1] - low[1]) / full[1]);
+  result.size = unit((high[2] - low[2]) / full[2]);
+  result.skew = unit((high[3] - low[3]) / full[3]);
   if (result.x < 1.0)
     result.missing.push_back("show the board at the left and at the right edge of the image");
   if (result.y < 1.0)

@@ -3,7 +3,8 @@
 
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
-#include <array>
+#include <Eigen/Core>
+
 #include <string>
 #include <vector>
 
@@ -39,7 +40,7 @@ class ViewCollector {
   const Samples& samples() const { return samples_; }
 
  private:
-  using Parameters = std::array<double, 4>;  // x, y, size, skew [0 to 1]
+  using Parameters = Eigen::Array4d;  // x, y, size, skew [0 to 1]
 
   Samples samples_;
   int minimum_views_;

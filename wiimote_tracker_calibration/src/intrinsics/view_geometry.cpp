@@ -81,21 +81,16 @@ ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::
     if (const auto& pixel = view.pixels[static_cast<std::size_t>(led)])
       sum += (mapped(homography, board.position(led)) - *pixel).squaredNorm();
   }
-  geometry.misfit = std::sqrt(sum / static_cast<double>(plane.size()));
-  geometry.mirrored = area(geometry.corners) < 0.0;
-  return geometry;
-}
-
-void checkOrder(const ViewGeometry& geometry, const std::string& name) {
-  const double misfit = geometry.misfit / std::max(geometry.size(), 1.0);
-  if (!(misfit < kLargestMisfit))
+  const double misfit = std::sqrt(sum / static_cast<double>(plane.size()));
+  if (!(misfit / std::max(geometry.size(), 1.0) < kLargestMisfit))
     throw Error(name +
                 " is no 4 x 4 grid: check that each LED of the board is where its "
                 "number says, and that the board is flat");
-  if (geometry.mirrored)
+  if (area(geometry.corners) < 0.0)  // they run counterclockwise
     throw Error(name +
                 " is mirrored: LED 0 must be at the top left and LED 3 at the top "
                 "right of the board's front; correct its wiring");
+  return geometry;
 }
 
 }  // namespace wiimote_tracker::intrinsics

@@ -5,6 +5,7 @@
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 namespace wiimote_tracker::recalibrate {
@@ -27,16 +28,9 @@ constexpr double kLargestSpread = 0.02;
 std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
                                          const std::string& camera) {
   std::vector<capture::Image> own;
-  std::vector<wave::Frame> frames;
-  for (const capture::Image& image : images) {
-    if (image.camera != camera)
-      continue;
-    own.push_back(image);
-    frames.push_back({image.stamp, image.spots});
-  }
-  frames = wave::movingSpots(frames);
-  for (std::size_t i = 0; i < own.size(); ++i)
-    own[i].spots = frames[i].spots;
+  std::copy_if(images.begin(), images.end(), std::back_inserter(own),
+               [&](const capture::Image& image) { return image.camera == camera; });
+  wave::removeStillSpots(&own);
   return own;
 }
 

@@ -1,15 +1,55 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_MOVING_SPOTS_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_MOVING_SPOTS_H
 
-#include "wiimote_tracker_calibration/wave/recording.h"
+#include <Eigen/Core>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <map>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::wave {
 
-/// The frames without spots that do not move (lamps and their reflections): places at which a large
-/// share of the frames has a spot.
-std::vector<Frame> movingSpots(const std::vector<Frame>& frames);
+/// Removes spots that do not move (lamps and their reflections): places at which a large share of
+/// the images has a spot. @param images of one camera, with their `spots` [px].
+template <typename Image>
+void removeStillSpots(std::vector<Image>* images) {
+  constexpr double kCell = 8.0;  // a lamp's spot stays within this [px]
+  // Smallest share of the images in which a lamp is at one place; a moving LED is far below.
+  constexpr double kLampShare = 0.25;
+  constexpr std::size_t kLeastImages = 100;  // to find lamps in
+  using Cell = std::pair<int, int>;
+  const auto cellOf = [](const Eigen::Vector2d& spot) {
+    return Cell(static_cast<int>(std::floor(spot.x() / kCell)),
+                static_cast<int>(std::floor(spot.y() / kCell)));
+  };
+  std::map<Cell, std::size_t> images_with_spot;
+  std::size_t with_spots = 0;
+  for (const Image& image : *images) {
+    with_spots += image.spots.empty() ? 0 : 1;
+    for (const Eigen::Vector2d& spot : image.spots)
+      ++images_with_spot[cellOf(spot)];
+  }
+  if (with_spots < kLeastImages)
+    return;
+  const auto isStill = [&](const Eigen::Vector2d& spot) {
+    // A lamp on the edge of a cell is found in its neighbours.
+    const Cell cell = cellOf(spot);
+    std::size_t count = 0;
+    for (int x = -1; x <= 1; ++x) {
+      for (int y = -1; y <= 1; ++y) {
+        const auto found = images_with_spot.find({cell.first + x, cell.second + y});
+        count += found == images_with_spot.end() ? 0 : found->second;
+      }
+    }
+    return static_cast<double>(count) > kLampShare * static_cast<double>(with_spots);
+  };
+  for (Image& image : *images)
+    image.spots.erase(std::remove_if(image.spots.begin(), image.spots.end(), isStill),
+                      image.spots.end());
+}
 
 }  // namespace wiimote_tracker::wave
 

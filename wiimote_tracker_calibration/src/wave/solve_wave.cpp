@@ -80,7 +80,7 @@ class Reporter {
 Recording prepared(Recording recording) {
   const double start = recording.span().first;
   for (CameraRecording& camera : recording.cameras) {
-    camera.frames = movingSpots(camera.frames);
+    removeStillSpots(&camera.frames);
     for (Frame& frame : camera.frames)
       frame.stamp -= start;
   }

@@ -4,6 +4,8 @@
 #include <Eigen/Core>
 
 #include <algorithm>
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -31,6 +33,24 @@ struct Image {
   Blobs spots;                    ///< Without the masked ones.
   Blobs masked;                   ///< Spots that lie in a masked region.
   std::string identity{};         ///< Of the device; empty: unknown.
+};
+
+constexpr std::size_t kCellColumns = 8;
+constexpr std::size_t kCellRows = 6;
+
+/// Cells of an image, row by row, in which the LED was seen.
+struct ImageCells : std::bitset<kCellColumns * kCellRows> {
+  /// @param width, height of the image [px, > 0]. A pixel beyond its edge counts as on the edge.
+  void add(const Eigen::Vector2d& pixel, int width, int height) {
+    const auto place = [](double coordinate, int size, std::size_t cells) {
+      const double cell = coordinate / size * static_cast<double>(cells);
+      return std::min(static_cast<std::size_t>(std::max(cell, 0.0)), cells - 1);
+    };
+    set(place(pixel.y(), height, kCellRows) * kCellColumns + place(pixel.x(), width, kCellColumns));
+  }
+
+  /// [0..1]
+  double share() const { return static_cast<double>(count()) / static_cast<double>(size()); }
 };
 
 }  // namespace wiimote_tracker::capture

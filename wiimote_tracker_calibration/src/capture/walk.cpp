@@ -2,7 +2,6 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -15,19 +14,13 @@ constexpr double kSameTime = 0.1;
 constexpr int kEnough = 25;
 constexpr std::size_t kMostPairs = 8;  // in the sentence
 
-std::size_t cellOf(double pixel, int size, std::size_t cells) {
-  const double place = pixel / size * static_cast<double>(cells);
-  return std::min(static_cast<std::size_t>(std::max(place, 0.0)), cells - 1);
-}
-
 }  // namespace
 
 void Walk::add(const Image& image, int width, int height) {
   if (image.spots.size() != 1)
     return;
   View& own = views_[image.camera];
-  const Eigen::Vector2d& spot = image.spots.front();
-  own.cells.set(cellOf(spot.y(), height, kRows) * kColumns + cellOf(spot.x(), width, kColumns));
+  own.cells.add(image.spots.front(), width, height);
   own.last = image.stamp;
   for (auto& [name, other] : views_) {
     if (name == image.camera || !(std::abs(image.stamp - other.last) < kSameTime))
@@ -40,9 +33,7 @@ void Walk::add(const Image& image, int width, int height) {
 
 double Walk::share(const std::string& camera) const {
   const auto view = views_.find(camera);
-  return view == views_.end()
-             ? 0.0
-             : static_cast<double>(view->second.cells.count()) / (kColumns * kRows);
+  return view == views_.end() ? 0.0 : view->second.cells.share();
 }
 
 std::vector<std::string> Walk::seenWith(const std::string& camera) const {

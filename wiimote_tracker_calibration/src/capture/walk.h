@@ -3,8 +3,6 @@
 
 #include "capture/image.h"
 
-#include <bitset>
-#include <cstddef>
 #include <limits>
 #include <map>
 #include <string>
@@ -23,7 +21,7 @@ class Walk {
   /// Forgets all, since the cameras stand differently.
   void restart() { views_.clear(); }
 
-  /// Share of the cells of a camera's image, 8 by 6, in which the LED was seen [0..1].
+  /// Share of the cells of a camera's image in which the LED was seen [0..1].
   double share(const std::string& camera) const;
   /// Cameras that saw it at the same time.
   std::vector<std::string> seenWith(const std::string& camera) const;
@@ -31,10 +29,8 @@ class Walk {
   std::string sentence() const;
 
  private:
-  static constexpr std::size_t kColumns = 8;
-  static constexpr std::size_t kRows = 6;
   struct View {
-    std::bitset<kColumns * kRows> cells;
+    ImageCells cells;
     double last = -std::numeric_limits<double>::infinity();  // stamp of the last sight [s]
     std::map<std::string, int> together;                     // images, by the other camera
   };

@@ -47,8 +47,8 @@ void addWave(const std::vector<wave::CameraCoverage>& waved, CalibrationCameraSt
   status->image_coverage = found->image_share;
   status->speed = found->image_speed;
   status->wave_seconds = found->together;
-  for (const auto& row : found->filled)
-    status->image_cells.insert(status->image_cells.end(), row.begin(), row.end());
+  for (std::size_t cell = 0; cell < found->filled.size(); ++cell)
+    status->image_cells.push_back(found->filled[cell]);
 }
 
 }  // namespace

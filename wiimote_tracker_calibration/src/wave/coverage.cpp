@@ -36,16 +36,12 @@ void checkRange(const char* name, double value, double low, double high) {
     throw WaveError(format("%s is %g, but must be %g to %g: correct it", name, value, low, high));
 }
 
-int bounded(double value, int count) {
-  return std::clamp(static_cast<int>(value), 0, count - 1);
-}
-
 /// Where in the image most cells are still empty; of equals the one nearer to the middle.
-std::string emptiestPart(const CameraCoverage& camera) {
+std::string emptiestPart(const capture::ImageCells& cells) {
   struct Part {
     const char* name;
-    int row;
-    int column;
+    std::size_t row;
+    std::size_t column;
   };
   const Part kParts[] = {{"middle", 1, 1},    {"top", 0, 1},         {"bottom", 2, 1},
                          {"left", 1, 0},      {"right", 1, 2},       {"top left", 0, 0},
@@ -55,14 +51,12 @@ std::string emptiestPart(const CameraCoverage& camera) {
   for (const Part& part : kParts) {
     int filled = 0;
     int all = 0;
-    for (int row = 0; row < CameraCoverage::kRows; ++row) {
-      for (int column = 0; column < CameraCoverage::kColumns; ++column) {
-        if (row * 3 / CameraCoverage::kRows != part.row ||
-            column * 3 / CameraCoverage::kColumns != part.column)
-          continue;
-        ++all;
-        filled += camera.filled[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)];
-      }
+    for (std::size_t cell = 0; cell < cells.size(); ++cell) {
+      if (cell / capture::kCellColumns * 3 / capture::kCellRows != part.row ||
+          cell % capture::kCellColumns * 3 / capture::kCellColumns != part.column)
+        continue;
+      ++all;
+      filled += cells[cell] ? 1 : 0;
     }
     const double share = static_cast<double>(filled) / all;
     if (share < least) {
@@ -93,7 +87,7 @@ std::vector<std::string> missing(const CoverageReport& report, const CoverageOpt
     if (camera.seconds > 0.0 && camera.image_share < options.image_share)
       result.push_back(camera.name + " has seen the LED in " +
                        format("%.0f %%", 100.0 * camera.image_share) +
-                       " of its image: wave it at the " + emptiestPart(camera));
+                       " of its image: wave it at the " + emptiestPart(camera.filled));
     if (camera.seconds > 0.0 && camera.image_speed < options.image_speed)
       result.push_back("the LED is slow in the image of " + camera.name + ": wave it faster");
   }
@@ -189,10 +183,7 @@ void Coverage::add(std::size_t camera, const Frame& frame) {
     if (speed < kStill)
       continue;
     view.speeds.add(speed, kImageSpeedStep);
-    const int row = bounded(pixel.y() / lens.height * CameraCoverage::kRows, CameraCoverage::kRows);
-    const int column =
-        bounded(pixel.x() / lens.width * CameraCoverage::kColumns, CameraCoverage::kColumns);
-    view.filled[static_cast<std::size_t>(row)][static_cast<std::size_t>(column)] = true;
+    view.filled.add(pixel, lens.width, lens.height);
     sum += pixel;
     ++moving;
   }
@@ -241,11 +232,7 @@ CoverageReport Coverage::report() const {
     CameraCoverage camera;
     camera.name = cameras_[i].name;
     camera.filled = view.filled;
-    int filled = 0;
-    for (const auto& row : view.filled)
-      filled += static_cast<int>(std::count(row.begin(), row.end(), true));
-    camera.image_share =
-        static_cast<double>(filled) / (CameraCoverage::kColumns * CameraCoverage::kRows);
+    camera.image_share = view.filled.share();
     camera.image_speed = view.speeds.median(kImageSpeedStep);
     if (view.frames > 0)
       camera.distraction = static_cast<double>(view.distracted) / static_cast<double>(view.frames);

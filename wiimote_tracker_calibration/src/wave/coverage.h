@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H
 #define WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H
 
+#include "capture/image.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
@@ -33,17 +34,13 @@ struct CoverageOptions {
 
 /// What one camera has seen.
 struct CameraCoverage {
-  static constexpr int kColumns = 8;  ///< Cells of the image.
-  static constexpr int kRows = 6;
-  using Cells = std::array<std::array<bool, kColumns>, kRows>;  ///< [row][column]
-
   std::string name;
-  Cells filled{};            ///< By a moving spot.
-  double image_share = 0.0;  ///< Filled cells [0 to 1].
-  double seconds = 0.0;      ///< In which it saw the LED move [s].
-  double together = 0.0;     ///< Of these, with another camera [s].
-  double image_speed = 0.0;  ///< Median of the spot's speed [px/s]; 0: never moved.
-  double distraction = 0.0;  ///< Share of its images with more spots than LEDs [0 to 1].
+  capture::ImageCells filled;  ///< By a moving spot.
+  double image_share = 0.0;    ///< Filled cells [0 to 1].
+  double seconds = 0.0;        ///< In which it saw the LED move [s].
+  double together = 0.0;       ///< Of these, with another camera [s].
+  double image_speed = 0.0;    ///< Median of the spot's speed [px/s]; 0: never moved.
+  double distraction = 0.0;    ///< Share of its images with more spots than LEDs [0 to 1].
 };
 
 /// Progress of a wave.
@@ -85,7 +82,7 @@ class Coverage {
   };
   struct View {
     std::vector<Track> tracks;
-    CameraCoverage::Cells filled{};
+    capture::ImageCells filled;
     Speeds speeds;
     std::size_t frames = 0;
     std::size_t distracted = 0;

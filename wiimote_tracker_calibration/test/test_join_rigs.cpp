@@ -228,11 +228,11 @@ TEST_F(JoinRigs, ClocksAreJoinedWhereASharedOneRanOn) {
 }
 
 /// Places in both rooms, measured with the second rig by perfect pixels.
-std::vector<CommonPlace> places(const geometry::Rig& second,
-                                double stddev,
-                                std::mt19937_64& random) {
+std::vector<remap::KnownPoint> places(const geometry::Rig& second,
+                                      double stddev,
+                                      std::mt19937_64& random) {
   std::normal_distribution<double> normal(0.0, stddev);
-  std::vector<CommonPlace> result;
+  std::vector<remap::KnownPoint> result;
   for (const Eigen::Vector3d& truth :
        {Eigen::Vector3d(5.0, 1.0, 1.0), Eigen::Vector3d(5.8, 1.2, 0.6),
         Eigen::Vector3d(4.6, 1.9, 1.3), Eigen::Vector3d(5.2, 0.4, 1.5)}) {
@@ -245,7 +245,7 @@ std::vector<CommonPlace> places(const geometry::Rig& second,
     }
     const Eigen::Vector3d known =
         truth + Eigen::Vector3d(normal(random), normal(random), normal(random));
-    result.push_back({known, geometry::triangulate(observations, {})->position, stddev});
+    result.push_back({geometry::triangulate(observations, {})->position, known});
   }
   return result;
 }
@@ -259,7 +259,7 @@ TEST_F(JoinRigs, PlacesJoinRigsWithoutACommonCamera) {
   for (int run = 0; run < kRuns; ++run) {
     const geometry::Rig measuring = drawn(second, random_);
     const JoinedRigs joined =
-        joinRigs(drawn(first, random_), measuring, places(measuring, 0.003, random_));
+        joinRigs(drawn(first, random_), measuring, places(measuring, 0.003, random_), 0.003);
     sum += normalizedSquare(joined.rig, 0) / kRuns;
     disagreement += joined.chi_squared / kRuns;
   }
@@ -270,15 +270,15 @@ TEST_F(JoinRigs, PlacesJoinRigsWithoutACommonCamera) {
 TEST_F(JoinRigs, PlacesThatTellTooLittleOrContradictAreRefused) {
   const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
   const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
-  std::vector<CommonPlace> common = places(second, 0.003, random_);
-  const auto refusal = [&] { return joinRefusal([&] { joinRigs(first, second, common); }); };
-  common[2].in_first.z() += 0.2;
+  std::vector<remap::KnownPoint> common = places(second, 0.003, random_);
+  const auto refusal = [&] { return joinRefusal([&] { joinRigs(first, second, common, 0.003); }); };
+  common[2].known.z() += 0.2;
   EXPECT_SAYS(refusal(), "place 3 does not lie");
   common.resize(3);
   EXPECT_SAYS(refusal(), "the three common places do not lie");
-  common[2].in_second = common[0].in_second + 2.0 * (common[1].in_second - common[0].in_second);
+  common[2].measured = common[0].measured + 2.0 * (common[1].measured - common[0].measured);
   EXPECT_SAYS(refusal(), "on one line");
-  common[2].in_second = worldFromSecond().inverse() * Eigen::Vector3d(5.0, 1.0, 8.0);
+  common[2].measured = worldFromSecond().inverse() * Eigen::Vector3d(5.0, 1.0, 8.0);
   EXPECT_SAYS(refusal(), "look at place 3");
   common.resize(2);
   EXPECT_SAYS(refusal(), "2 common places do not determine");

@@ -113,10 +113,12 @@ class FileServices {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
       const geometry::Rig second = context_.existingRig("to join", lock);
-      const std::vector<session::CommonPlace> places = commonPlaces(lock);
+      const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).places();
+      const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
       const std::string path = rigPath(request.path, context_.parameters(lock));
-      session::JoinedRigs joined = context_.compute(
-          &lock, [&] { return session::joinRigs(geometry::readRigFile(path), second, places); });
+      session::JoinedRigs joined = context_.compute(&lock, [&] {
+        return session::joinRigs(geometry::readRigFile(path), second, places, stddev);
+      });
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();
       response->rig = toMessage(joined.rig);
@@ -143,15 +145,6 @@ class FileServices {
       }
       return reply;
     });
-  }
-
-  /// The known places that were measured with the rig in use.
-  std::vector<session::CommonPlace> commonPlaces(const Lock& lock) {
-    std::vector<session::CommonPlace> places;
-    for (const remap::KnownPoint& place : context_.knownPlaces(lock).places())
-      places.push_back({place.known, place.measured,
-                        context_.parameters(lock).solve.square.uncertainty.placement});
-    return places;
   }
 
   NodeContext& context_;

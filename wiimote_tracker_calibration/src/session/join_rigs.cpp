@@ -69,44 +69,44 @@ Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
 }
 
 /// @throws Error: too few places, values out of range, or all on one line.
-void checkPlaces(const std::vector<CommonPlace>& places) {
+void checkPlaces(const std::vector<remap::KnownPoint>& places, double stddev) {
   if (places.size() < 3)
     throw Error(std::to_string(places.size()) +
                 " common places do not determine the pose between the rigs: measure three or "
                 "more, not on one line");
   std::vector<Eigen::Vector3d> points;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const CommonPlace& place = places[i];
-    if (!place.in_first.allFinite() || !place.in_second.allFinite() ||
-        !(std::isfinite(place.stddev) && place.stddev > 0.0))
+    if (!places[i].known.allFinite() || !places[i].measured.allFinite() ||
+        !(std::isfinite(stddev) && stddev > 0.0))
       throw Error("place " + std::to_string(i + 1) +
                   " is not finite, or its standard deviation not above 0: correct it");
-    points.push_back(place.in_second);
+    points.push_back(places[i].measured);
   }
   const Eigen::Vector3d extent = geometry::spreadOf(points);
   if (!(extent[1] > kThinnest * extent[0]))
     throw Error("the common places are on one line: measure one beside it, too");
 }
 
-JoinedRigs joinOver(const std::vector<CommonPlace>& places,
+JoinedRigs joinOver(const std::vector<remap::KnownPoint>& places,
+                    double stddev,
                     const geometry::Rig& first,
                     const geometry::Rig& second) {
-  checkPlaces(places);
+  checkPlaces(places, stddev);
   std::vector<Eigen::Vector3d> in_first;
   std::vector<Eigen::Vector3d> in_second;
   std::vector<Shared> shared;
-  for (const CommonPlace& place : places) {
+  for (const remap::KnownPoint& place : places) {
     const auto derivative = geometry::pointByParameters(
-        second, place.in_second, geometry::camerasSeeing(second, place.in_second));
+        second, place.measured, geometry::camerasSeeing(second, place.measured));
     if (!derivative)
       throw Error("no two cameras of the second rig look at place " +
                   std::to_string(shared.size() + 1) + ": measure places that they see");
-    shared.push_back({Eigen::Isometry3d(Eigen::Translation3d(place.in_first)),
-                      Eigen::Isometry3d(Eigen::Translation3d(place.in_second)),
+    shared.push_back({Eigen::Isometry3d(Eigen::Translation3d(place.known)),
+                      Eigen::Isometry3d(Eigen::Translation3d(place.measured)),
                       Eigen::MatrixXd::Zero(3, first.covariance.cols()), *derivative,
-                      Eigen::Vector3d::Constant(place.stddev)});
-    in_first.push_back(place.in_first);
-    in_second.push_back(place.in_second);
+                      Eigen::Vector3d::Constant(stddev)});
+    in_first.push_back(place.known);
+    in_second.push_back(place.measured);
   }
   const Eigen::Isometry3d start = geometry::rigidAlignment(in_first, in_second);
   const RigMotion motion = fitMotion(first, second, shared, start);
@@ -126,7 +126,8 @@ JoinedRigs joinOver(const std::vector<CommonPlace>& places,
 
 JoinedRigs joinRigs(const geometry::Rig& first,
                     const geometry::Rig& second,
-                    const std::vector<CommonPlace>& places) {
+                    const std::vector<remap::KnownPoint>& places,
+                    double stddev) {
   checkRigs(first, second);
   std::vector<Shared> shared;
   std::vector<std::string> names;
@@ -142,7 +143,7 @@ JoinedRigs joinRigs(const geometry::Rig& first,
     }
   }
   if (names.empty() && !places.empty())
-    return joinOver(places, first, second);
+    return joinOver(places, stddev, first, second);
   if (names.empty())
     throw Error(
         "the rigs share no camera: calibrate the second room together with a camera of the first "

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
 #define WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
 
+#include "wiimote_tracker_calibration/remap/fit.h"
+
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <Eigen/Core>
@@ -21,24 +23,19 @@ struct JoinedRigs {
   std::string message;  ///< One sentence: what they share, and how well that agrees.
 };
 
-/// A place known in the first world and measured with the second rig.
-struct CommonPlace {
-  Eigen::Vector3d in_first;   ///< [m]
-  Eigen::Vector3d in_second;  ///< [m]
-  double stddev = 0.005;      ///< Of both together, without the second rig's covariance [m, > 0].
-};
-
 /// Moves the second rig into the world of the first, such that the shared cameras coincide or,
 /// without any, the common places; weighted by the covariances of both rigs. A shared camera must
 /// not have moved in between, and stays as it is in the first rig. The joint covariance is to first
 /// order, both rigs being independent.
-/// @param places three or more, not on a line.
+/// @param places known in the first world, and measured with the second rig: three or more, not on
+/// a line. @param stddev of both together, per axis, without the second rig's covariance [m, > 0].
 /// @throws Error: neither shared camera nor place; a camera or a place, counted from 1, that
 /// contradicts (chi-squared test, 99.9 %); a camera that was moved or is another device; a rig
 /// without covariance; different ray models.
 JoinedRigs joinRigs(const geometry::Rig& first,
                     const geometry::Rig& second,
-                    const std::vector<CommonPlace>& places = {});
+                    const std::vector<remap::KnownPoint>& places = {},
+                    double stddev = 0.005);
 
 }  // namespace wiimote_tracker::session
 

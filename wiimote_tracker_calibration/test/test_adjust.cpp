@@ -1,8 +1,8 @@
 // What the calibrations share: derivatives that are not Ceres' own, and covariances.
+#include "adjust/corner.h"
 #include "adjust/covariance.h"
-#include "adjust/path_pixel.h"
+#include "adjust/path.h"
 #include "adjust/prior.h"
-#include "adjust/taped_length.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>

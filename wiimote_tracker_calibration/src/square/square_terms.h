@@ -2,10 +2,9 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_TERMS_H
 
 #include "adjust/camera_blocks.h"
-#include "adjust/corner_pixel.h"
+#include "adjust/corner.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
-#include "adjust/taped_length.h"
 #include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"

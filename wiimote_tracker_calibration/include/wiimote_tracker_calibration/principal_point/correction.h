@@ -79,26 +79,17 @@ struct CorrectionResult {
 /// @returns false to stop.
 using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
 
-/// The paper's principal point correction (section IV.C): solve each camera's pose from the square;
-/// measure the origin with the rig; project the difference between the ideal and the measured
-/// origin into each camera; move its principal point by a quarter of it; again.
+/// The paper's principal point correction (section IV.C; doc/principal_point.md): solve each
+/// camera's pose from the square; measure the origin with the rig; project the difference between
+/// the ideal and the measured origin into each camera, by the lens that is being corrected; move
+/// its principal point by a quarter of it; again.
 ///
 /// The sign. Write f for the focal length, x for the normalised image of the origin under the
 /// solved pose, u for its pixel, c for the principal point that poses are solved with and p for the
 /// one that rays are built with. Solving makes u = f x + c. The ray of u leaves at (u - p) / f =
-/// x + (c - p) / f: in the image the origin is measured at c - p from its ideal place, as far as
-/// the other cameras let it. So the difference ideal - measured is p - c, and c + (p - c) / 4
-/// closes a quarter of the gap per round (to 0.75^14 = 2 % after 14); the opposite step widens it
-/// by 1.25 per round. With RayModel::kCalibrated p is c: there is no gap, the difference is only
-/// noise and what the lens model lacks, and the correction changes little.
-///
-/// It cannot see displacements of the principal points that leave the measured point where it is:
-/// with four cameras around the square, a shift of all of them to the same side.
-///
-/// With distortion, u = f D(x) + c. A principal point is in distorted pixels, but the difference
-/// between the points is not; they differ by D's derivative. So both points are projected by the
-/// lens that is being corrected, with its distortion. Without distortion and virtual_hfov this is
-/// exactly the paper's step.
+/// x + (c - p) / f: in the image the origin is measured at c - p from its ideal place. So the
+/// difference ideal - measured is p - c, and c + (p - c) / 4 closes a quarter of the gap per round;
+/// the opposite step widens it.
 ///
 /// The points are triangulated from the pixels that the cameras were solved from. A round takes
 /// some hundredths of a second.

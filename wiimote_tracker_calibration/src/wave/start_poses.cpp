@@ -213,46 +213,41 @@ void moveOnSquare(const Recording& recording,
     }
   }
   bundle::triangulatePoints(&corners, options.maximum_error);
-  for (const bool z_up : {true, false}) {
-    const square::Corners nominal = recording.square->corners(z_up);
-    std::vector<Eigen::Vector3d> from;
-    std::vector<Eigen::Vector3d> to;
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (!corners.points[c])
-        continue;
-      from.push_back(*corners.points[c]);
-      to.push_back(nominal[c]);
-    }
-    if (from.size() < 3)
-      throw WaveError(
-          "only " + std::to_string(from.size()) +
-          " corners of the square were seen by two cameras that agree on them, but three tell "
-          "where the world is: capture the corners where two cameras see them");
-    const bundle::Similarity similarity = bundle::fitSimilarity(from, to);
-    double side = 0.0;
-    double error = 0.0;
-    for (std::size_t k = 0; k < from.size(); ++k) {
-      error = std::max(error, (similarity * from[k] - to[k]).norm());
-      side = std::max(side, (to[k] - to[0]).norm());
-    }
-    const double kLargestShare = 0.15;
-    if (error > kLargestShare * side)
-      throw WaveContradiction(
-          "the corners as the cameras saw them do not have the shape of the square: check its "
-          "sides and the order of the corners, and capture them again");
-    double height = 0.0;
-    for (const geometry::Camera& camera : wave->cameras)
-      height += (similarity * camera.center()).z();
-    // All cameras are above the floor.
-    if ((height > 0.0) == z_up) {
-      bundle::transform(similarity, wave);
-      result->z_up = z_up;
-      result->metric = true;
-      return;
-    }
+  const square::Corners nominal = recording.square->corners(true);
+  std::vector<Eigen::Vector3d> from;
+  std::vector<Eigen::Vector3d> to;
+  for (std::size_t c = 0; c < 4; ++c) {
+    if (!corners.points[c])
+      continue;
+    from.push_back(*corners.points[c]);
+    to.push_back(nominal[c]);
   }
-  throw WaveError(
-      "the cameras seem to stand on both sides of the floor: capture the corners again");
+  if (from.size() < 3)
+    throw WaveError(
+        "only " + std::to_string(from.size()) +
+        " corners of the square were seen by two cameras that agree on them, but three tell "
+        "where the world is: capture the corners where two cameras see them");
+  bundle::Similarity similarity = bundle::fitSimilarity(from, to);
+  double side = 0.0;
+  double error = 0.0;
+  for (std::size_t k = 0; k < from.size(); ++k) {
+    error = std::max(error, (similarity * from[k] - to[k]).norm());
+    side = std::max(side, (to[k] - to[0]).norm());
+  }
+  const double kLargestShare = 0.15;
+  if (error > kLargestShare * side)
+    throw WaveContradiction(
+        "the corners as the cameras saw them do not have the shape of the square: check its "
+        "sides and the order of the corners, and capture them again");
+  double height = 0.0;
+  for (const geometry::Camera& camera : wave->cameras)
+    height += (similarity * camera.center()).z();
+  // All cameras are above the floor, as the LED is: with z down it has the opposite height.
+  result->z_up = height > 0.0;
+  if (!result->z_up)
+    similarity.translation.z() -= 2.0 * recording.square->led_height;
+  bundle::transform(similarity, wave);
+  result->metric = true;
 }
 
 }  // namespace

@@ -45,23 +45,19 @@ Reconstruction part(const Reconstruction& all,
 Eigen::Matrix3Xd alongPrincipalAxes(const Reconstruction& all) {
   Eigen::Matrix3Xd points = Eigen::Matrix3Xd::Constant(
       3, static_cast<Eigen::Index>(all.points.size()), std::numeric_limits<double>::quiet_NaN());
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-  double count = 0.0;
+  std::vector<Eigen::Vector3d> known;
   for (std::size_t i = 0; i < all.points.size(); ++i) {
     if (!all.points[i])
       continue;
     points.col(static_cast<Eigen::Index>(i)) = *all.points[i];
-    mean += *all.points[i];
-    count += 1.0;
+    known.push_back(*all.points[i]);
   }
-  points.colwise() -= mean / count;
-  Eigen::Matrix3d scatter = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < points.cols(); ++i) {
-    if (points.col(i).allFinite())
-      scatter += points.col(i) * points.col(i).transpose();
-  }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(scatter);
-  return axes.eigenvectors().transpose() * points;
+  Eigen::Matrix3Xd centred = Eigen::Map<const Eigen::Matrix3Xd>(
+      known.data()->data(), 3, static_cast<Eigen::Index>(known.size()));
+  const Eigen::Vector3d mean = centred.rowwise().mean();
+  centred.colwise() -= mean;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centred * centred.transpose());
+  return axes.eigenvectors().transpose() * (points.colwise() - mean);
 }
 
 /// Mean square of the normalised moves of the lenses.

@@ -27,16 +27,10 @@ constexpr double kLeastScatter = 0.3;
 // 99.9 % quantiles of chi-squared, for one and two degrees of freedom.
 constexpr double kQuantile[] = {10.8, 13.8};
 
-/// Counts samples, and chooses those whose derivative is computed.
-class EveryNth {
- public:
-  explicit EveryNth(std::size_t samples) : stride_(samples / kDerivatives + 1) {}
-  bool next() { return count_++ % stride_ == 0; }
-
- private:
-  std::size_t stride_;
-  std::size_t count_ = 0;
-};
+/// Whether the derivative of the latest residual is computed.
+bool isDifferentiated(const std::vector<Residual>& residuals, std::size_t samples) {
+  return (residuals.size() - 1) % (samples / kDerivatives + 1) == 0;
+}
 
 std::optional<Eigen::Vector3d> triangulated(const std::vector<geometry::Sight>& sights) {
   const auto point = geometry::triangulate(sights.data(), sights.size(), {});
@@ -89,7 +83,6 @@ std::vector<Residual> residualsAgainst(const geometry::Rig& rig,
                                        const std::vector<bool>& active,
                                        std::size_t camera) {
   std::vector<Residual> residuals;
-  EveryNth derivatives(samples.size());
   std::vector<std::size_t> others;
   std::vector<geometry::Sight> sights;
   for (const DriftSample& sample : samples) {
@@ -110,7 +103,7 @@ std::vector<Residual> residualsAgainst(const geometry::Rig& rig,
     if (!point || !(own->depth(*point) > 0.0))
       continue;
     residuals.push_back({own->residual(*point), {}});
-    if (derivatives.next() && geometry::hasCovariance(rig))
+    if (isDifferentiated(residuals, samples.size()) && geometry::hasCovariance(rig))
       residuals.back().by_parameters = derivativeAgainst(rig, others, camera, *point);
   }
   return residuals;
@@ -121,7 +114,6 @@ std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
                                       std::size_t a,
                                       std::size_t b) {
   std::vector<Residual> residuals;
-  EveryNth derivatives(samples.size());
   for (const DriftSample& sample : samples) {
     std::vector<std::size_t> cameras;
     std::vector<geometry::Sight> sights;
@@ -139,7 +131,7 @@ std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
     const double distance = across.head<2>().dot(sights[0].residual(*point)) +
                             across.tail<2>().dot(sights[1].residual(*point));
     residuals.push_back({Eigen::Vector2d(distance, 0.0), {}});
-    if (!derivatives.next() || !geometry::hasCovariance(rig))
+    if (!isDifferentiated(residuals, samples.size()) || !geometry::hasCovariance(rig))
       continue;
     Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(2, rig.covariance.rows());
     bool complete = true;

@@ -26,11 +26,12 @@ constexpr double kOutlier = 5.0;
 // A point is inside if it is deeper in the hull than this, in half the longest edge of the volume.
 constexpr double kInside = 0.1;
 
+Eigen::Map<const Eigen::ArrayXd> arrayOf(const std::vector<double>& values) {
+  return {values.data(), static_cast<Eigen::Index>(values.size())};
+}
+
 double rms(const std::vector<double>& errors) {
-  double squared = 0.0;
-  for (const double error : errors)
-    squared += error * error;
-  return std::sqrt(squared / static_cast<double>(errors.size()));
+  return std::sqrt(arrayOf(errors).square().mean());
 }
 
 std::vector<double> uncorrectedErrors(const std::vector<KnownPoint>& points) {
@@ -72,15 +73,8 @@ std::optional<FittedModel> tryModel(Model model,
 /// Whether the squared errors are smaller by more than the standard error of the difference.
 bool isBetter(const std::vector<double>& errors, const std::vector<double>& than) {
   const auto n = static_cast<double>(errors.size());
-  double mean = 0.0;
-  for (std::size_t i = 0; i < errors.size(); ++i)
-    mean += (than[i] * than[i] - errors[i] * errors[i]) / n;
-  double variance = 0.0;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double deviation = than[i] * than[i] - errors[i] * errors[i] - mean;
-    variance += deviation * deviation / (n - 1.0);
-  }
-  return mean > std::sqrt(variance / n);
+  const Eigen::ArrayXd gain = arrayOf(than).square() - arrayOf(errors).square();
+  return gain.mean() > std::sqrt((gain - gain.mean()).square().sum() / (n - 1.0) / n);
 }
 
 /// Index of the best candidate; nothing if no correction is as good.

@@ -98,11 +98,11 @@ void standInFirstCamera(const Recording& recording, std::vector<geometry::Camera
 }
 
 bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
-  return a.size() == b.size() &&
-         std::equal(a.begin(), a.end(), b.begin(), [](const Match& one, const Match& other) {
-           return one.camera == other.camera && one.led == other.led && one.stamp == other.stamp &&
-                  one.pixel == other.pixel;
-         });
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                    [](const Match& one, const Match& other) {
+                      return one.camera == other.camera && one.led == other.led &&
+                             one.stamp == other.stamp && one.pixel == other.pixel;
+                    });
 }
 
 bool contradicts(const Agreement& agreement) {

@@ -101,7 +101,7 @@ class CovarianceOf : public testing::Test {
 };
 
 TEST_F(CovarianceOf, IsTheInverseOfTheInformationInTheOrderAskedFor) {
-  problem_.AddResidualBlock(Prior<1>{{0.0}, {1e-3}}.cost(), nullptr, &a_);
+  problem_.AddResidualBlock(priorOf(0.0, 1e-3), nullptr, &a_);
   // Given a, b is known to half of the sum's error.
   const auto covariance = covarianceOf(&problem_, {&b_, &c_, &a_});
   ASSERT_TRUE(covariance);

@@ -1,31 +1,20 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PRIOR_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PRIOR_H
 
-#include <ceres/autodiff_cost_function.h>
+#include <ceres/normal_prior.h>
 
-#include <array>
-#include <cstddef>
+#include <Eigen/Core>
 
 namespace wiimote_tracker::adjust {
 
 /// Gaussian prior of independent values, whitened: the place of a corner, the length of a wand, the
 /// offset of a clock, distortion coefficients. Block: the values.
-template <int Size>
-struct Prior {
-  std::array<double, Size> mean;
-  std::array<double, Size> stddev;
-
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<Prior, Size, Size>(new Prior(*this));
-  }
-
-  template <typename T>
-  bool operator()(const T* values, T* residual) const {
-    for (std::size_t i = 0; i < Size; ++i)
-      residual[i] = (values[i] - mean[i]) / stddev[i];
-    return true;
-  }
-};
+inline ceres::CostFunction* priorOf(const Eigen::VectorXd& mean, const Eigen::VectorXd& stddev) {
+  return new ceres::NormalPrior(Eigen::MatrixXd(stddev.cwiseInverse().asDiagonal()), mean);
+}
+inline ceres::CostFunction* priorOf(double mean, double stddev) {
+  return priorOf(Eigen::VectorXd::Constant(1, mean), Eigen::VectorXd::Constant(1, stddev));
+}
 
 }  // namespace wiimote_tracker::adjust
 

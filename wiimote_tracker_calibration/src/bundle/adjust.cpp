@@ -108,10 +108,9 @@ class BundleProblem {
                                  prior.principal_point * mean.width * weight,
                                  prior.distortion[0] * weight};
     problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
-    adjust::Prior<adjust::kDistortionSize> distortion{{}, {}};
-    for (std::size_t i = 0; i < distortion.stddev.size(); ++i)
-      distortion.stddev[i] = prior.distortion[i + 1] * weight;
-    problem_.AddResidualBlock(distortion.cost(), nullptr, camera.distortion.data());
+    const Eigen::Map<const Eigen::Vector4d> distortion(prior.distortion.data() + 1);
+    problem_.AddResidualBlock(adjust::priorOf(Eigen::Vector4d::Zero(), weight * distortion),
+                              nullptr, camera.distortion.data());
   }
 
   ceres::Solver::Options solverOptions() {

@@ -180,8 +180,8 @@ class ResectionProblem {
       matches_.push_back(blocks_.addTo(&problem_, error.cost(), nullptr, &blocks_.time_offset));
     }
     problem_.SetParameterBlockConstant(blocks_.distortion.data());
-    problem_.AddResidualBlock(adjust::Prior<1>{{prior.time_offset}, {kOffsetStddev}}.cost(),
-                              nullptr, &blocks_.time_offset);
+    problem_.AddResidualBlock(adjust::priorOf(prior.time_offset, kOffsetStddev), nullptr,
+                              &blocks_.time_offset);
     problem_.AddResidualBlock(lensCost(prior), nullptr, blocks_.lens.data());
   }
 

@@ -33,8 +33,9 @@ inline std::optional<ceres::ResidualBlockId> addSharedOffset(const Uncertainty& 
                                                              ceres::Problem* problem) {
   const double shared = stated.shared_principal_point;
   if (shared > 0.0)
-    return problem->AddResidualBlock(adjust::Prior<2>{{0.0, 0.0}, {shared, shared}}.cost(), nullptr,
-                                     offset);
+    return problem->AddResidualBlock(
+        adjust::priorOf(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(shared)), nullptr,
+        offset);
   problem->AddParameterBlock(offset, 2);
   problem->SetParameterBlockConstant(offset);
   return std::nullopt;

@@ -19,8 +19,8 @@ namespace wiimote_tracker::square {
 
 /// Where the LED was; must outlive the problem.
 struct SquareBlocks {
-  std::array<Eigen::Vector2d, 4>* corners;    ///< Displacements from the layout [m].
-  std::vector<std::array<double, 3>> places;  ///< Known places [m].
+  std::array<Eigen::Vector2d, 4>* corners;  ///< Displacements from the layout [m].
+  std::vector<Eigen::Vector3d> places;      ///< Known places [m].
 };
 
 /// Adds a square to a problem: where cameras saw its corners and known places, how exactly the LED
@@ -41,9 +41,9 @@ inline std::vector<ceres::ResidualBlockId> addSquare(const SquareLayout& layout,
   };
   for (std::size_t c = 0; c < nominal.size(); ++c) {
     double* const corner = (*blocks->corners)[c].data();
-    const double stddev = stated.placementOf(c);
     residuals.push_back(problem->AddResidualBlock(
-        adjust::Prior<2>{{0.0, 0.0}, {stddev, stddev}}.cost(), nullptr, corner));
+        adjust::priorOf(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(stated.placementOf(c))),
+        nullptr, corner));
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       if (const auto& seen = sightings[i].corners[c])
         residuals.push_back((*cameras)[i].addTo(
@@ -54,10 +54,9 @@ inline std::vector<ceres::ResidualBlockId> addSquare(const SquareLayout& layout,
   blocks->places.resize(layout.places.size());
   for (std::size_t p = 0; p < layout.places.size(); ++p) {
     const KnownPlace& known = layout.places[p];
-    std::array<double, 3>& place = blocks->places[p];
-    place = {known.position.x(), known.position.y(), known.position.z()};
+    Eigen::Vector3d& place = blocks->places[p] = known.position;
     residuals.push_back(problem->AddResidualBlock(
-        adjust::Prior<3>{place, {known.stddev, known.stddev, known.stddev}}.cost(), nullptr,
+        adjust::priorOf(known.position, Eigen::Vector3d::Constant(known.stddev)), nullptr,
         place.data()));
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       if (p < sightings[i].places.size() && sightings[i].places[p])

@@ -199,8 +199,7 @@ class WaveProblem {
   }
 
   void addPrior(double mean, double stddev, double* value) {
-    known_.push_back(
-        problem_.AddResidualBlock(adjust::Prior<1>{{mean}, {stddev}}.cost(), nullptr, value));
+    known_.push_back(problem_.AddResidualBlock(adjust::priorOf(mean, stddev), nullptr, value));
   }
 
   /// Priors of a camera.
@@ -226,12 +225,14 @@ class WaveProblem {
   void addFloor() {
     WandOnFloor& floor = *state_.floor;
     const double height = *recording_.wand->led_height;
-    const std::array<adjust::Prior<3>, 2> places = {
-        {{{0.0, 0.0, height}, {kExact, kExact, kExact}},
-         {{state_.wand_length, 0.0, height}, {kUnknown, kExact, options_.uncertainty.placement}}}};
+    const std::array<Eigen::Vector3d, 2> places = {
+        Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d(state_.wand_length, 0.0, height)};
+    const std::array<Eigen::Vector3d, 2> stddevs = {
+        Eigen::Vector3d::Constant(kExact),
+        Eigen::Vector3d(kUnknown, kExact, options_.uncertainty.placement)};
     for (std::size_t led = 0; led < places.size(); ++led) {
-      known_.push_back(
-          problem_.AddResidualBlock(places[led].cost(), nullptr, floor.leds[led].data()));
+      known_.push_back(problem_.AddResidualBlock(adjust::priorOf(places[led], stddevs[led]),
+                                                 nullptr, floor.leds[led].data()));
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
         if (floor.spots[i])
           known_.push_back(

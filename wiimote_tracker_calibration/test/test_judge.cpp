@@ -57,5 +57,22 @@ TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
   EXPECT_SAYS(verdict.text, "usable: 30 % of what camera_2 saw was not the LED");
 }
 
+TEST(Judge, AWaveIsJudgedByItsDistanceFromTheCameras) {
+  // Without a square the first camera is the world's origin; the other one stands beside it.
+  geometry::Rig rig;
+  for (const double x : {0.0, 0.5}) {
+    geometry::RigCamera& camera = rig.cameras.emplace_back();
+    camera.camera.world_from_camera.translation().x() = x;
+  }
+  Findings findings;
+  findings.shape_error = 0.012;
+  findings.led = {{0.0, 0.0, 3.5}, {0.5, 0.0, 4.5}};
+  EXPECT_EQ(judge({}, rig, findings).grade, Grade::kGood);
+  findings.shape_error = 0.024;
+  EXPECT_EQ(judge({}, rig, findings).grade, Grade::kUsable);
+  findings.shape_error = 0.1;
+  EXPECT_EQ(judge({}, rig, findings).grade, Grade::kRedo);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::session

@@ -111,7 +111,10 @@ Accuracy accuracyOf(const Session& session,
   Accuracy accuracy;
   if (!session.recording.square) {
     if (findings.shape_error) {
-      accuracy.share = *findings.shape_error / meanDistance(rig, Eigen::Vector3d::Zero());
+      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+      for (const Eigen::Vector3d& place : findings.led)
+        middle += place / static_cast<double>(findings.led.size());
+      accuracy.share = *findings.shape_error / meanDistance(rig, middle);
       accuracy.text = "points are known to " + millimetres(*findings.shape_error) +
                       " to one another (RMS where the LED was waved)";
     }

@@ -90,11 +90,14 @@ class Calibration {
   /// Advances the time when no image does.
   void update(double now);
 
-  /// Takes a length by tape; see Captured. A corner that is captured again loses its lengths.
+  /// Takes a length by tape between two captured corners, in place of an earlier one between them;
+  /// a length of 0 drops that. Refused when the sides and the errors of the placement do not allow
+  /// it. A corner that is captured again loses its lengths.
+  /// @param placement of the LED on a corner: standard deviation per axis [m].
   Reply measureLength(const square::TapedLength& taped, double placement);
 
-  /// Takes a known place, while kMeasuring; see Captured. Refused while the rig in use is not
-  /// the solution of what was captured: a camera may have moved since the corners were.
+  /// Takes where cameras saw the LED on a known place, while kMeasuring. Refused while the rig in
+  /// use is not the solution of what was captured: a camera may have moved since the corners were.
   Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
 
   /// Drops the last known place, else the wave, else the last corner.

@@ -5,7 +5,6 @@
 #include "capture/masks.h"
 #include "session/session.h"
 #include "wave/coverage.h"
-#include "workflow/reply.h"
 #include "workflow/square_run.h"
 #include "workflow/wave_recorder.h"
 
@@ -48,14 +47,8 @@ struct Captured {
   /// What it lacks for that, or contradicts itself in, and what to do; empty: it can be solved.
   std::string whyNotSolvable() const;
 
-  /// Takes a length between two captured corners, in place of an earlier one between them; a length
-  /// of 0 drops that. Refused when the sides and the errors of the placement do not allow it.
-  /// @param placement of the LED on a corner: standard deviation per axis [m].
-  Reply takeLength(const square::TapedLength& taped, double placement);
   /// Drops the lengths to a corner of the layout, where the LED does not lie any more as it lay.
   void dropLengthsTo(std::size_t corner);
-  /// Takes where cameras saw the LED on a known place.
-  Reply takePlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
   /// Drops the last known place. @returns false when there is none.
   bool dropLastPlace();
 };

@@ -25,54 +25,48 @@ bool drop(std::vector<square::TapedLength>* lengths, Condition condition) {
 
 }  // namespace
 
-Reply Captured::takeLength(const square::TapedLength& taped, double placement) {
-  if (!layout)
-    return {false, cameras.empty()
-                       ? "no calibration is started: start one first"
-                       : "this calibration has no square to measure: start one with a square"};
-  const std::size_t count = square.corners().size();
+Reply Calibration::measureLength(const square::TapedLength& taped, double placement) {
+  if (busy_)
+    return refuse(occupied());
+  just_solved_ = false;
+  if (!captured_.layout)
+    return refuse(captured_.cameras.empty()
+                      ? "no calibration is started: start one first"
+                      : "this calibration has no square to measure: start one with a square");
+  square::SquareLayout& layout = *captured_.layout;
+  const std::size_t count = captured_.square.corners().size();
   if (taped.from >= count || taped.to >= count || taped.from == taped.to)
-    return {false, format("a length is between two captured corners: %zu are captured, and corner "
-                          "%zu to corner %zu was asked for",
-                          count, taped.from + 1, taped.to + 1)};
+    return refuse(
+        format("a length is between two captured corners: %zu are captured, and corner "
+               "%zu to corner %zu was asked for",
+               count, taped.from + 1, taped.to + 1));
   const std::string name = format("corner %zu to corner %zu", taped.from + 1, taped.to + 1);
   const auto same = [&](const square::TapedLength& other) { return taped.hasCornersOf(other); };
-  std::vector<square::TapedLength>& lengths = layout->lengths;
   if (taped.length == 0.0) {
-    const bool dropped = drop(&lengths, same);
-    return {dropped, (dropped ? "the length from " : "there is no length from ") + name +
-                         (dropped ? " was dropped: solve again" : " to drop")};
+    const bool dropped = drop(&layout.lengths, same);
+    return changed({dropped, (dropped ? "the length from " : "there is no length from ") + name +
+                                 (dropped ? " was dropped: solve again" : " to drop")});
   }
   if (!(taped.length > 0.0 && std::isfinite(taped.length) && taped.stddev > 0.0 &&
         std::isfinite(taped.stddev)))
-    return {false, "a length and its standard deviation must be above 0: give them in metres"};
-  const double by_sides = layout->lengthBetween(taped.from, taped.to);
+    return refuse("a length and its standard deviation must be above 0: give them in metres");
+  const double by_sides = layout.lengthBetween(taped.from, taped.to);
   const double most = kMostDeviation * std::hypot(M_SQRT2 * placement, taped.stddev);
   if (std::abs(taped.length - by_sides) > most)
-    return {false, format("%s is %.3f m by the sides, at most %.0f mm more or less, but the tape "
-                          "says %.3f m: measure again, in metres, or start again with other sides",
-                          name.c_str(), by_sides, 1e3 * most, taped.length)};
-  drop(&lengths, same);
-  lengths.push_back(taped);
-  return {true, format("%s is %.4f m by tape, %+.1f mm against the sides: solve again",
-                       name.c_str(), taped.length, 1e3 * (taped.length - by_sides))};
+    return refuse(
+        format("%s is %.3f m by the sides, at most %.0f mm more or less, but the tape "
+               "says %.3f m: measure again, in metres, or start again with other sides",
+               name.c_str(), by_sides, 1e3 * most, taped.length));
+  drop(&layout.lengths, same);
+  layout.lengths.push_back(taped);
+  return changed({true, format("%s is %.4f m by tape, %+.1f mm against the sides: solve again",
+                               name.c_str(), taped.length, 1e3 * (taped.length - by_sides))});
 }
 
 void Captured::dropLengthsTo(std::size_t corner) {
   drop(&layout->lengths, [&](const square::TapedLength& taped) {
     return taped.from == corner || taped.to == corner;
   });
-}
-
-Reply Captured::takePlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
-  if (!layout || !square.isComplete())
-    return {false,
-            "a known place is solved together with a square: capture its four corners first"};
-  layout->places.push_back(known);
-  places.push_back(seen);
-  return {true, format("place %zu at (%.3f, %.3f, %.3f) m is captured by %zu cameras: solve again",
-                       places.size(), known.position.x(), known.position.y(), known.position.z(),
-                       seen.size())};
 }
 
 bool Captured::dropLastPlace() {
@@ -83,19 +77,19 @@ bool Captured::dropLastPlace() {
   return true;
 }
 
-Reply Calibration::measureLength(const square::TapedLength& taped, double placement) {
-  if (busy_)
-    return refuse(occupied());
-  just_solved_ = false;
-  return changed(captured_.takeLength(taped, placement));
-}
-
 Reply Calibration::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
   if (captured_.square.isComplete() && (!rig_ || rig_->id() != captured_.solved_to))
     return refuse(
         "the rig in use is not the solution of the captured corners: solve first or, if a camera "
         "was changed since they were captured, calibrate again to use known places");
-  return changed(captured_.takePlace(known, seen));
+  if (!captured_.layout || !captured_.square.isComplete())
+    return refuse("a known place is solved together with a square: capture its four corners first");
+  captured_.layout->places.push_back(known);
+  captured_.places.push_back(seen);
+  return changed(
+      {true, format("place %zu at (%.3f, %.3f, %.3f) m is captured by %zu cameras: solve again",
+                    captured_.places.size(), known.position.x(), known.position.y(),
+                    known.position.z(), seen.size())});
 }
 
 }  // namespace wiimote_tracker::workflow

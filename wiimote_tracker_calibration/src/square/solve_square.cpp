@@ -90,7 +90,7 @@ void refuseUndecided(const RigModel& model,
 
 /// Whether the best solution is implausible: a lens far from its starting value, or a corner behind
 /// the camera or in its centre.
-bool isAbsurd(const RigModel& model, const RigState& state) {
+bool isImplausible(const RigModel& model, const RigState& state) {
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
     if (model.lensDeviation(state, i) > kLensLimit ||
         !std::isfinite(model.reprojectionError(state, i)))
@@ -119,18 +119,18 @@ void checkGravity(const RigModel& model,
 void checkMisfit(const RigModel& model, const BranchChoice& choice, SquareSolution* solution) {
   const int freedom = model.degreesOfFreedom();
   solution->misfit = std::sqrt(choice.cost / std::max(1, freedom));
-  const bool absurd = isAbsurd(model, choice.state);
+  const bool implausible = isImplausible(model, choice.state);
   // By chance it is in fewer than one of 1000 calibrations.
   const bool is_significant =
       freedom > 0 && choice.cost > place::chiSquaredQuantile(freedom, place::kThreeNines);
-  solution->contradicts = absurd || is_significant;
+  solution->contradicts = implausible || is_significant;
   if (!solution->contradicts)
     return;
   const std::string reason =
       "the cameras disagree " + format("%.1f", solution->misfit) +
       " times as much as the stated errors explain: check the sides of the square, the starting "
       "intrinsics and that no camera moved";
-  if (solution->misfit > kRefuseRatio || absurd)
+  if (solution->misfit > kRefuseRatio || implausible)
     throw SquareContradiction(reason);
   solution->warnings.push_back(reason);
 }
@@ -200,7 +200,7 @@ SquareSolution solveSquare(const SquareLayout& layout,
   solution.chosen = choice.chosen;
   checkGravity(model, choice.state, usable.z_up, options.uncertainty);
   Eigen::MatrixXd joint;
-  if (!isAbsurd(model, choice.state)) {
+  if (!isImplausible(model, choice.state)) {
     joint = model.covarianceOfAll(choice.state);
     solution.suspect =
         suspectCorner(offsetsOf(model, choice.state), joint, options.uncertainty.placement);

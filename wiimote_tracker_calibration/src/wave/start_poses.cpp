@@ -33,7 +33,7 @@ constexpr std::size_t kLeastCommon = 20;
 // From one to the next, where a camera shares too few of kInstants [s]; and how long it must share
 // them with one other. Less than a wave that is enough has (coverage.cpp), since an image with a
 // stray spot does not count here.
-constexpr double kRareStep = 0.05;
+constexpr double kSharedStep = 0.05;
 constexpr double kLeastShared = 1.5;
 
 /// One point per frame: the LED's spot, or the middle between the wand's.
@@ -106,10 +106,10 @@ std::vector<bundle::Observation> commonViews(const Recording& recording, int att
   return observations;
 }
 
-/// The cameras outside of the largest group that common views or the square tie together.
-std::vector<std::size_t> strangersIn(const std::vector<bundle::Observation>& observations,
-                                     const std::vector<bool>& tied_by_square) {
-  const std::size_t cameras = tied_by_square.size();
+/// The cameras outside of the largest group that common views or the square connect.
+std::vector<std::size_t> unconnectedCameras(const std::vector<bundle::Observation>& observations,
+                                            const std::vector<bool>& connected_by_square) {
+  const std::size_t cameras = connected_by_square.size();
   std::vector<std::vector<std::size_t>> common(cameras, std::vector<std::size_t>(cameras, 0));
   for (std::size_t i = 0; i < observations.size(); ++i) {
     for (std::size_t j = i + 1;
@@ -120,7 +120,7 @@ std::vector<std::size_t> strangersIn(const std::vector<bundle::Observation>& obs
   std::iota(group.begin(), group.end(), std::size_t{0});
   for (std::size_t i = 0; i < cameras; ++i) {
     for (std::size_t j = i + 1; j < cameras; ++j) {
-      if (common[i][j] < kLeastCommon && !(tied_by_square[i] && tied_by_square[j]))
+      if (common[i][j] < kLeastCommon && !(connected_by_square[i] && connected_by_square[j]))
         continue;
       const std::size_t joined = group[j];
       std::replace(group.begin(), group.end(), joined, group[i]);
@@ -130,50 +130,49 @@ std::vector<std::size_t> strangersIn(const std::vector<bundle::Observation>& obs
   std::size_t largest = group[0];
   for (std::size_t g : group)
     largest = size(g) > size(largest) ? g : largest;
-  std::vector<std::size_t> strangers;
+  std::vector<std::size_t> unconnected;
   for (std::size_t i = 0; i < cameras; ++i) {
     if (group[i] != largest)
-      strangers.push_back(i);
+      unconnected.push_back(i);
   }
-  return strangers;
+  return unconnected;
 }
 
-/// Adds what a stranger and that camera of the group saw with which it shares most: in a long wave
-/// kInstants are too far apart for the few seconds that may take.
-void addRareViews(const Recording& recording,
-                  int attempt,
-                  const std::vector<std::size_t>& strangers,
-                  std::size_t stranger,
-                  std::vector<bundle::Observation>* observations) {
+/// Adds what an unconnected camera saw together with that camera of the group with which it shares
+/// most: in a long wave kInstants are too far apart for the few seconds that may take.
+void addSharedViews(const Recording& recording,
+                    int attempt,
+                    const std::vector<std::size_t>& unconnected,
+                    std::size_t camera,
+                    std::vector<bundle::Observation>* observations) {
   const auto [start, end] = recording.span();
   std::vector<std::vector<Views>> shared(recording.cameras.size());
-  for (double time = start + kRareStep * shiftOf(attempt); time < end; time += kRareStep) {
+  for (double time = start + kSharedStep * shiftOf(attempt); time < end; time += kSharedStep) {
     const Views instant = viewsAt(recording, time);
-    const auto sees = [stranger](const bundle::Observation& seen) {
-      return seen.camera == stranger;
-    };
+    const auto sees = [camera](const bundle::Observation& seen) { return seen.camera == camera; };
     if (std::none_of(instant.begin(), instant.end(), sees))
       continue;
     for (const bundle::Observation& seen : instant) {
-      if (std::find(strangers.begin(), strangers.end(), seen.camera) == strangers.end())
+      if (std::find(unconnected.begin(), unconnected.end(), seen.camera) == unconnected.end())
         shared[seen.camera].push_back(instant);
     }
   }
   auto most = std::max_element(shared.begin(), shared.end(),
                                [](const auto& a, const auto& b) { return a.size() < b.size(); });
-  if (static_cast<double>(most->size()) * kRareStep >= kLeastShared)
+  if (static_cast<double>(most->size()) * kSharedStep >= kLeastShared)
     appendThinned(std::move(*most), observations);
 }
 
 /// @throws WaveError: the cameras form groups without common views.
-void tieStrangers(const Recording& recording,
-                  int attempt,
-                  const std::vector<bool>& tied_by_square,
-                  std::vector<bundle::Observation>* observations) {
-  const std::vector<std::size_t> strangers = strangersIn(*observations, tied_by_square);
-  for (const std::size_t stranger : strangers)
-    addRareViews(recording, attempt, strangers, stranger, observations);
-  const std::vector<std::size_t> left = strangersIn(*observations, tied_by_square);
+void connectCameras(const Recording& recording,
+                    int attempt,
+                    const std::vector<bool>& connected_by_square,
+                    std::vector<bundle::Observation>* observations) {
+  const std::vector<std::size_t> unconnected =
+      unconnectedCameras(*observations, connected_by_square);
+  for (const std::size_t camera : unconnected)
+    addSharedViews(recording, attempt, unconnected, camera, observations);
+  const std::vector<std::size_t> left = unconnectedCameras(*observations, connected_by_square);
   // The name of a camera outside the largest group helps most.
   if (!left.empty())
     throw WaveError(recording.cameras[left.front()].sightings.name +
@@ -273,7 +272,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
     placed.assign(recording.cameras.size(), false);
 
   wave.observations = commonViews(recording, attempt);
-  tieStrangers(recording, attempt, placed, &wave.observations);
+  connectCameras(recording, attempt, placed, &wave.observations);
   wave.points.resize(wave.observations.empty() ? 0 : wave.observations.back().point + 1);
   try {
     if (sightings.size() >= 2) {

@@ -111,37 +111,35 @@ std::optional<NextMeasurement> nextMeasurement(const geometry::Rig& rig,
   const Eigen::MatrixXd slopes = placesByParameters(rig, places, parameters);
   const double count = static_cast<double>(slopes.rows()) / 3.0;
   const double now = (slopes * joint.covariance).cwiseProduct(slopes).sum() / count;
-  // Kalman update.
-  const auto after = [&](const Observation& observation) {
+  NextMeasurement best;
+  double least = now;
+  // By a Kalman update.
+  const auto consider = [&](const NextMeasurement& next, const Observation& observation) {
     const Eigen::MatrixXd gain = joint.covariance * observation.slopes.transpose();
     const Eigen::MatrixXd innovation = observation.slopes * gain + observation.covariance;
     const Eigen::MatrixXd moved = slopes * gain;
-    return now - geometry::solveSymmetric(innovation, moved.transpose())
-                         .cwiseProduct(moved.transpose())
-                         .sum() /
-                     count;
+    const double squared = now - geometry::solveSymmetric(innovation, moved.transpose())
+                                         .cwiseProduct(moved.transpose())
+                                         .sum() /
+                                     count;
+    if (squared < least) {
+      least = squared;
+      best = next;
+    }
   };
-  NextMeasurement best;
-  double least = now;
+  NextMeasurement next;
   const square::Corners corners = layout.corners(z_up);
   for (std::size_t from = 0; from < corners.size(); ++from) {
     for (std::size_t to = from + 1; to < corners.size(); ++to) {
-      const double squared = after(lengthBetween(corners, from, to, parameters));
-      if (squared >= least)
-        continue;
-      least = squared;
-      best.corners = {from, to};
+      next.corners = {from, to};
+      consider(next, lengthBetween(corners, from, to, parameters));
     }
   }
+  next.corners.reset();
   for (const Eigen::Vector3d& place : placesOver(corners, z_up)) {
-    if (geometry::camerasSeeing(rig, place).size() < 2)
-      continue;
-    const double squared = after(pixelsOf(rig, place, joint.pixel, parameters));
-    if (squared >= least)
-      continue;
-    least = squared;
-    best.corners.reset();
-    best.place = place;
+    next.place = place;
+    if (geometry::camerasSeeing(rig, place).size() >= 2)
+      consider(next, pixelsOf(rig, place, joint.pixel, parameters));
   }
   best.expected_error = std::sqrt(least);
   if (!(best.expected_error < (1.0 - kLeastGain) * std::sqrt(now)))

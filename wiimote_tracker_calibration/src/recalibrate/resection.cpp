@@ -44,20 +44,15 @@ constexpr int kSteps = 4;  // of the solver, from one matching to the next
 constexpr double kNoiseTolerance = 0.01;
 constexpr double kOffsetTolerance = 1e-6;  // [s]
 
-struct Pose {
-  geometry::Camera camera;
-  double time_offset = 0.0;
-  std::size_t support = 0;
-};
-
-/// A first pose from points and pixels at one time offset.
-std::optional<Pose> searchPose(const SeenPath& path,
-                               const std::vector<capture::Image>& images,
-                               const geometry::Camera& camera,
-                               double time_offset) {
+/// Finds a first pose from points and pixels at one time offset.
+/// @returns how many agree with it; 0: there is none.
+std::size_t searchPose(const SeenPath& path,
+                       const std::vector<capture::Image>& images,
+                       double time_offset,
+                       geometry::Camera* camera) {
   const std::size_t stride = std::max<std::size_t>(1, images.size() / kSearchPoints);
   bundle::Reconstruction seen;
-  seen.cameras = {camera};
+  seen.cameras = {*camera};
   for (std::size_t i = 0; i < images.size(); i += stride) {
     PathPoint point;
     if (images[i].spots.size() != 1 ||
@@ -71,32 +66,40 @@ std::optional<Pose> searchPose(const SeenPath& path,
   options.rough = true;
   std::vector<bool> placed(1, false);
   if (seen.points.size() < options.minimum_common_points)
-    return std::nullopt;
+    return 0;
   try {
     const std::size_t support = bundle::place(options, 0, &seen, &placed);
-    return Pose{seen.cameras.front(), time_offset, support};
+    *camera = seen.cameras.front();
+    return support;
   } catch (const bundle::BundleError&) {
-    return std::nullopt;
+    return 0;
   }
 }
 
-Pose firstPose(const SeenPath& path,
-               const std::vector<capture::Image>& images,
-               const geometry::Camera& start,
-               double time_offset) {
-  std::optional<Pose> best;
+/// Pose and time offset with which most agrees.
+Fit firstPose(const SeenPath& path,
+              const std::vector<capture::Image>& images,
+              const geometry::Camera& start,
+              double time_offset) {
+  Fit fit;
+  std::size_t most = 0;
   const int steps = static_cast<int>(std::lround(kFarthestOffset / kOffsetStep));
   for (int step = -steps; step <= steps; ++step) {
-    auto pose = searchPose(path, images, start, time_offset + kOffsetStep * step);
-    if (pose && (!best || pose->support > best->support))
-      best = pose;
+    geometry::Camera camera = start;
+    const double offset = time_offset + kOffsetStep * step;
+    const std::size_t support = searchPose(path, images, offset, &camera);
+    if (support <= most)
+      continue;
+    most = support;
+    fit.camera = camera;
+    fit.time_offset = offset;
   }
-  if (!best)
+  if (most == 0)
     throw Error(
         "no place of " + start.name +
         " explains what it saw: check that it sees the same LED as the others and no other light, "
         "that it stays where it is, and wave again");
-  return *best;
+  return fit;
 }
 
 /// Inverse square root of the covariance of a spot against the expected pixel [1/px]: errors of the
@@ -243,10 +246,7 @@ Fit resect(const SeenPath& path,
            const geometry::Camera& start,
            const Prior& prior,
            const Options& options) {
-  const Pose pose = firstPose(path, images, start, prior.time_offset);
-  Fit fit;
-  fit.camera = pose.camera;
-  fit.time_offset = pose.time_offset;
+  Fit fit = firstPose(path, images, start, prior.time_offset);
   fit.pixel_stddev = options.pixel;
   for (const double gate : kWideGates) {
     matchSpots(path, images, gate, options.stamp, &fit);

@@ -80,8 +80,6 @@ class Search {
   /// Sets starts, followed and agreeing of the result. @throws BundleError.
   Attempt run(SelfCalibration* result) {
     start(&result->starts);
-    if (attempts_.empty())
-      throw BundleError(reason_);
     followAll("cameras of a few starts", 0.3, 0.5, [&](Attempt* attempt) {
       growTo(std::min(kFewCameras, all_.cameras.size()), attempt);
     });

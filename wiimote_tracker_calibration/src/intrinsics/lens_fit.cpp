@@ -95,8 +95,6 @@ Fit fitFrom(const Fit& start, LensModel model, const Points& points, const cv::T
   } catch (const cv::Exception&) {
     // No solution from this start; the caller tries others.
   }
-  if (!std::isfinite(fit.error))
-    fit.error = HUGE_VAL;
   return fit;
 }
 

@@ -31,7 +31,7 @@ struct Fit {
   cv::Mat distortion;     // 5 coefficients, or the 4 of an equidistant lens
   std::vector<cv::Mat> rotations;
   std::vector<cv::Mat> translations;
-  double error = HUGE_VAL;  // reprojection error [px]; infinite: could not be fitted
+  double error = HUGE_VAL;  // reprojection error [px]; not finite: could not be fitted
 
   bool ok() const { return std::isfinite(error); }
 };

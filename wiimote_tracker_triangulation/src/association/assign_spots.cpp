@@ -17,43 +17,19 @@ class Assignment {
   explicit Assignment(const SpotCosts& costs) : costs_(costs) {
     track_of_spot_.fill(kFalseDetection);
     spot_of_track_.fill(kNobody);
+    spot_price_.fill(0.0);
     track_price_.fill(0.0);
   }
 
-  /// Assigns each spot its cheapest track if that is free, then the other spots by shortest paths.
   const std::array<int, kMaximumSpots>& solve() {
-    std::array<std::size_t, kMaximumSpots> left_over;
-    std::size_t left_over_count = 0;
-    for (std::size_t spot = 0; spot < costs_.spots; ++spot) {
-      const int best = cheapest(spot);
-      if (best != kFalseDetection && spot_of_track_[best] != kNobody)
-        left_over[left_over_count++] = spot;
-      else
-        give(spot, best);
-    }
-    for (std::size_t i = 0; i < left_over_count; ++i)
-      insert(left_over[i]);
+    for (std::size_t spot = 0; spot < costs_.spots; ++spot)
+      insert(spot);
     return track_of_spot_;
   }
 
  private:
   double extra(std::size_t spot, std::size_t track) const {
     return costs_.pair[spot][track] - costs_.miss[track];
-  }
-
-  /// Also sets the spot's price, so that no reduced cost is negative.
-  int cheapest(std::size_t spot) {
-    int best = kFalseDetection;
-    double least = costs_.ghost[spot];
-    for (std::size_t track = 0; track < costs_.tracks; ++track) {
-      const double cost = extra(spot, track);
-      if (cost < least) {
-        least = cost;
-        best = static_cast<int>(track);
-      }
-    }
-    spot_price_[spot] = least;
-    return best;
   }
 
   void give(std::size_t spot, int track) {

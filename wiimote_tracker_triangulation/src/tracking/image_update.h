@@ -45,7 +45,7 @@ class ImageUpdate {
  private:
   /// A track that may be in this camera's image.
   struct Candidate {
-    std::size_t track;
+    Track* track;
     motion::PixelPrediction prediction;
     bool in_view;
     bool expected;                    // without a spot, it is a missed detection
@@ -57,64 +57,36 @@ class ImageUpdate {
     return (a.prediction.pixel() - b.prediction.pixel()).norm();
   }
 
-  void collectCandidates(const GroupCamera& camera,
-                         const StoredImage& image,
-                         std::vector<Track>* tracks);
-  bool isTooUncertain(const Track& track,
-                      const motion::PixelPrediction& prediction,
-                      double time) const;
-  std::size_t othersSeeing(const StoredImage& image, const Track& track) const;
-  void measureFit(const StoredImage& image,
-                  const std::vector<Track>& tracks,
-                  std::vector<CameraFit>* fits) const;
-  bool isExplained(const StoredImage& image, const Candidate& candidate, const Track& track) const;
-  void measureClock(const StoredImage& image,
-                    const std::vector<Track>& tracks,
-                    std::vector<CameraFit>* fits) const;
-  bool isBeside(const Candidate& candidate, double distance) const;
-  bool mayBeMerged(const StoredImage& image,
-                   const Candidate& candidate,
-                   const std::vector<Track>& tracks) const;
-  std::optional<std::size_t> nearestUnassigned(const StoredImage& image,
-                                               const Eigen::Vector2d& pixel,
-                                               double distance) const;
-  std::optional<std::size_t> spotBetween(const StoredImage& image,
-                                         const Candidate& a,
-                                         const Candidate& b) const;
-  std::optional<Eigen::Vector2d> residualOf(const StoredImage& image,
-                                            const Candidate& candidate) const;
-  void assign(const GroupCamera& camera,
-              const StoredImage& image,
-              const std::vector<Track>& tracks);
-  void updateTrack(const GroupCamera& camera,
-                   const StoredImage& image,
-                   const Candidate& candidate,
-                   const Track* other,
-                   Track* track) const;
-  const Candidate* mergedWith(const StoredImage& image,
-                              const Candidate& candidate,
-                              const std::vector<Track>& tracks) const;
-  void updateMerged(const GroupCamera& camera,
-                    const StoredImage& image,
-                    const Candidate& candidate,
-                    const Candidate& other,
-                    std::vector<Track>* tracks) const;
-
-  void findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks);
-  void addMergedPairs(const StoredImage& image,
-                      const std::vector<Track>& tracks,
-                      std::vector<MergedPair>* pairs) const;
-  void updateMergedPairs(const GroupCamera& camera,
-                         const StoredImage& image,
-                         std::vector<Track>* tracks,
-                         std::vector<MergedPair>* pairs);
-  Candidate* find(const std::vector<Track>& tracks, std::uint32_t id);
+  void collectCandidates();
+  bool isTooUncertain(const Track& track, const motion::PixelPrediction& prediction) const;
+  std::size_t othersSeeing(const Track& track) const;
+  void assign();
   void assignSpot(std::size_t spot, Candidate* candidate);
+  void measureFit(std::vector<CameraFit>* fits) const;
+  bool isExplained(const Candidate& candidate) const;
+  void measureClock(CameraFit* fit) const;
+  bool isBeside(const Candidate& candidate, double distance) const;
+  std::optional<Eigen::Vector2d> residualOf(const Candidate& candidate) const;
+  std::optional<std::size_t> nearestUnassigned(const Eigen::Vector2d& pixel, double distance) const;
+  void updateTrack(const Candidate& candidate, const Candidate* other) const;
+
+  bool mayBeMerged(const Candidate& candidate) const;
+  std::optional<std::size_t> spotBetween(const Candidate& a, const Candidate& b) const;
+  const Candidate* mergedWith(const Candidate& candidate) const;
+  void updateMerged(const Candidate& candidate, const Candidate& other) const;
+  void findMergedSpots();
+  void addMergedPairs(std::vector<MergedPair>* pairs) const;
+  void updateMergedPairs(std::vector<MergedPair>* pairs);
+  Candidate* find(std::uint32_t id);
 
   geometry::Rig rig_;
   std::vector<std::size_t> members_;
   TrackerOptions options_;
-  motion::PixelNoise noise_;           // of the image
+  // Of the image.
+  const GroupCamera* camera_ = nullptr;
+  const StoredImage* image_ = nullptr;
+  std::vector<Track>* tracks_ = nullptr;
+  motion::PixelNoise noise_;
   std::vector<Candidate> candidates_;  // at most kMaximumTracks
   association::SpotCosts costs_;
   std::array<int, association::kMaximumSpots> track_of_spot_;

@@ -42,24 +42,20 @@ double mergedProbability(const Eigen::Vector2d& spot,
 
 /// Whether an LED without a spot may be merged with another one, which has a spot or has none, too.
 /// A tentative track without one may be of the LED itself.
-bool ImageUpdate::mayBeMerged(const StoredImage& image,
-                              const Candidate& candidate,
-                              const std::vector<Track>& tracks) const {
+bool ImageUpdate::mayBeMerged(const Candidate& candidate) const {
   return std::any_of(candidates_.begin(), candidates_.end(), [&](const Candidate& other) {
     return other.track != candidate.track &&
            pixelsBetween(candidate, other) < options_.merging_distance &&
-           (other.spot ||
-            (tracks[other.track].isConfirmed() && spotBetween(image, candidate, other)));
+           (other.spot || (other.track->isConfirmed() && spotBetween(candidate, other)));
   });
 }
 
 /// The unassigned spot that is nearest to a pixel, and nearer than this distance [px].
-std::optional<std::size_t> ImageUpdate::nearestUnassigned(const StoredImage& image,
-                                                          const Eigen::Vector2d& pixel,
+std::optional<std::size_t> ImageUpdate::nearestUnassigned(const Eigen::Vector2d& pixel,
                                                           double distance) const {
   std::optional<std::size_t> nearest;
-  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    const double to_spot = (image.pixels[spot] - pixel).norm();
+  for (std::size_t spot = 0; spot < image_->spot_count; ++spot) {
+    const double to_spot = (image_->pixels[spot] - pixel).norm();
     if (track_of_spot_[spot] == association::kFalseDetection && to_spot < distance) {
       distance = to_spot;
       nearest = spot;
@@ -70,34 +66,30 @@ std::optional<std::size_t> ImageUpdate::nearestUnassigned(const StoredImage& ima
 
 /// An unassigned spot between two LEDs that have none is the merged spot of both, if they are close
 /// enough. It may be outside the gates of both.
-std::optional<std::size_t> ImageUpdate::spotBetween(const StoredImage& image,
-                                                    const Candidate& a,
-                                                    const Candidate& b) const {
+std::optional<std::size_t> ImageUpdate::spotBetween(const Candidate& a, const Candidate& b) const {
   if (pixelsBetween(a, b) >= options_.merging_distance)
     return std::nullopt;
   const Eigen::Vector2d middle = 0.5 * (a.prediction.pixel() + b.prediction.pixel());
-  return nearestUnassigned(image, middle, 0.5 * options_.merging_distance);
+  return nearestUnassigned(middle, 0.5 * options_.merging_distance);
 }
 
 /// The LED that a candidate is most probably merged with in one spot, of which one of the two has
 /// none.
-const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
-                                                      const Candidate& candidate,
-                                                      const std::vector<Track>& tracks) const {
+const ImageUpdate::Candidate* ImageUpdate::mergedWith(const Candidate& candidate) const {
   const Candidate* result = nullptr;
   double greatest = 0.5;
   for (const Candidate& other : candidates_) {
     if (other.track == candidate.track || other.spot.has_value() == candidate.spot.has_value() ||
-        !tracks[other.track].isConfirmed())
+        !other.track->isConfirmed())
       continue;
     const Candidate& visible = other.spot ? other : candidate;
     const Candidate& absent = other.spot ? candidate : other;
     // An LED that was hidden from this camera mostly stays hidden.
-    const double hidden = tracks[absent.track].wasMissedBy(image.camera)
+    const double hidden = absent.track->wasMissedBy(image_->camera)
                               ? options_.detection_probability
                               : 1.0 - options_.detection_probability;
     const double probability =
-        mergedProbability(image.pixels[*visible.spot], visible.prediction, absent.prediction,
+        mergedProbability(image_->pixels[*visible.spot], visible.prediction, absent.prediction,
                           hidden, noise_.pixel_stddev, options_.merging_distance);
     if (probability > greatest) {
       greatest = probability;
@@ -107,63 +99,56 @@ const ImageUpdate::Candidate* ImageUpdate::mergedWith(const StoredImage& image,
   return result;
 }
 
-void ImageUpdate::findMergedSpots(const StoredImage& image, const std::vector<Track>& tracks) {
-  const auto isAlone = [&](const Candidate& candidate) {
-    return !candidate.spot && tracks[candidate.track].isConfirmed();
+void ImageUpdate::findMergedSpots() {
+  const auto isAlone = [](const Candidate& candidate) {
+    return !candidate.spot && candidate.track->isConfirmed();
   };
   for (std::size_t i = 0; i < candidates_.size(); ++i) {
     for (std::size_t j = i + 1; j < candidates_.size(); ++j) {
       Candidate &a = candidates_[i], &b = candidates_[j];
-      const auto spot = isAlone(a) && isAlone(b) ? spotBetween(image, a, b) : std::nullopt;
+      const auto spot = isAlone(a) && isAlone(b) ? spotBetween(a, b) : std::nullopt;
       if (!spot)
         continue;
       const Eigen::Vector2d between = b.prediction.pixel() - a.prediction.pixel();
-      const Eigen::Vector2d from_a = image.pixels[*spot] - a.prediction.pixel();
+      const Eigen::Vector2d from_a = image_->pixels[*spot] - a.prediction.pixel();
       assignSpot(*spot, from_a.dot(between) > 0.5 * between.squaredNorm() ? &b : &a);
     }
   }
 }
 
-void ImageUpdate::addMergedPairs(const StoredImage& image,
-                                 const std::vector<Track>& tracks,
-                                 std::vector<MergedPair>* pairs) const {
+void ImageUpdate::addMergedPairs(std::vector<MergedPair>* pairs) const {
   for (const Candidate& candidate : candidates_) {
-    const Candidate* other = candidate.spot ? mergedWith(image, candidate, tracks) : nullptr;
-    if (!other || !tracks[candidate.track].isConfirmed())
+    const Candidate* other = candidate.spot ? mergedWith(candidate) : nullptr;
+    if (!other || !candidate.track->isConfirmed())
       continue;
-    const Track& a = tracks[candidate.track];
-    const Track& b = tracks[other->track];
+    const Track& a = *candidate.track;
+    const Track& b = *other->track;
     const bool is_known = std::any_of(pairs->begin(), pairs->end(), [&](const MergedPair& pair) {
       return pair.has(a.id) || pair.has(b.id);
     });
-    if (!is_known && !a.isShownBeside(b, image.time - options_.birth_window))
+    if (!is_known && !a.isShownBeside(b, image_->time - options_.birth_window))
       pairs->emplace_back(a.id, b.id, MergedPair::Filters{a.filter, b.filter});
   }
 }
 
 /// Lets each pair choose the spots of its two LEDs in an image that shows both. Other images update
 /// the two as any other track.
-void ImageUpdate::updateMergedPairs(const GroupCamera& camera,
-                                    const StoredImage& image,
-                                    std::vector<Track>* tracks,
-                                    std::vector<MergedPair>* pairs) {
+void ImageUpdate::updateMergedPairs(std::vector<MergedPair>* pairs) {
   for (MergedPair& pair : *pairs) {
-    const std::array<Candidate*, 2> both = {find(*tracks, pair.ids()[0]),
-                                            find(*tracks, pair.ids()[1])};
+    const std::array<Candidate*, 2> both = {find(pair.ids()[0]), find(pair.ids()[1])};
     if (!both[0] || !both[1])
       continue;
     MergedPair::View view;
-    view.camera = &camera.forRays();
+    view.camera = &camera_->forRays();
     view.noise = noise_;
-    view.time = image.time;
+    view.time = image_->time;
     std::array<std::size_t, association::kMaximumSpots> spot_of;  // of the view
-    for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-      const int owner = track_of_spot_[spot];
-      if (owner != association::kFalseDetection && owner != static_cast<int>(both[0]->track) &&
-          owner != static_cast<int>(both[1]->track))
+    for (std::size_t spot = 0; spot < image_->spot_count; ++spot) {
+      const bool is_free = track_of_spot_[spot] == association::kFalseDetection;
+      if (!is_free && both[0]->spot != spot && both[1]->spot != spot)
         continue;
       spot_of[view.spot_count] = spot;
-      view.pixels[view.spot_count++] = image.pixels[spot];
+      view.pixels[view.spot_count++] = image_->pixels[spot];
     }
     const auto chosen = pair.update(view, options_.gate);
     if (!chosen)
@@ -174,9 +159,9 @@ void ImageUpdate::updateMergedPairs(const GroupCamera& camera,
       const std::size_t spot = spot_of[(*chosen)[i]];
       assignSpot(spot, both[i]);
       both[i]->updated = true;
-      Track& track = (*tracks)[both[i]->track];
+      Track& track = *both[i]->track;
       track.filter = pair.likeliest()[i];
-      track.hit(image.camera, image.pixels[spot] - both[i]->prediction.pixel(), true);
+      track.hit(image_->camera, image_->pixels[spot] - both[i]->prediction.pixel(), true);
       track.noteOwnSpot();
     }
   }
@@ -184,29 +169,25 @@ void ImageUpdate::updateMergedPairs(const GroupCamera& camera,
 
 /// A merged spot lies between its two LEDs, perhaps nearer to the brighter one. It moves both by
 /// the same, and its noise covers any place between them.
-void ImageUpdate::updateMerged(const GroupCamera& camera,
-                               const StoredImage& image,
-                               const Candidate& candidate,
-                               const Candidate& other,
-                               std::vector<Track>* tracks) const {
+void ImageUpdate::updateMerged(const Candidate& candidate, const Candidate& other) const {
   const bool is_own = candidate.spot.has_value();
   const std::size_t spot = is_own ? *candidate.spot : *other.spot;
-  Track& track = (*tracks)[candidate.track];
+  Track& track = *candidate.track;
   const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
   motion::PixelNoise noise = noise_;
   noise.pixel_stddev =
       std::sqrt(noise_.pixel_stddev * noise_.pixel_stddev + between.squaredNorm() / 12.0 +
                 0.5 * other.prediction.covariance().trace());
-  const auto prediction = track.filter.predictPixel(camera.forRays(), noise);
-  const Eigen::Vector2d pixel = image.pixels[spot] + 0.5 * between;
+  const auto prediction = track.filter.predictPixel(camera_->forRays(), noise);
+  const Eigen::Vector2d pixel = image_->pixels[spot] + 0.5 * between;
   if (!prediction || !(prediction->squaredDistance(pixel) <= options_.gate)) {
-    track.miss(image.camera, image.time);
+    track.miss(image_->camera, image_->time);
     return;
   }
-  if (!track.filter.update(camera.forRays(), *prediction, pixel))
+  if (!track.filter.update(camera_->forRays(), *prediction, pixel))
     return;
-  track.hit(image.camera, pixel - prediction->pixel(), is_own);
-  track.noteSharedSpot((*tracks)[other.track].id, is_own);
+  track.hit(image_->camera, pixel - prediction->pixel(), is_own);
+  track.noteSharedSpot(other.track->id, is_own);
 }
 
 }  // namespace wiimote_tracker::tracking

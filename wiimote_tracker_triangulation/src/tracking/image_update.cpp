@@ -43,7 +43,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
     const Candidate* other = mergedWith(candidate);
     // A merged spot is the other's if only this camera sees this LED.
     const bool is_merged = other && candidate.track->isConfirmed();
-    if (is_merged && othersSeeing(*candidate.track) > 0)
+    if (is_merged && !othersSeeing(*candidate.track).empty())
       updateMerged(candidate, *other);
     else if (!is_merged && candidate.spot)
       updateTrack(candidate, other);
@@ -88,7 +88,7 @@ bool ImageUpdate::isTooUncertain(const Track& track,
 }
 
 /// Other cameras that saw the track's LED lately.
-std::size_t ImageUpdate::othersSeeing(const Track& track) const {
+Track::Cameras ImageUpdate::othersSeeing(const Track& track) const {
   return track.othersSeeing(image_->camera, image_->time - options_.birth_window);
 }
 
@@ -108,7 +108,7 @@ void ImageUpdate::measureFit(std::vector<CameraFit>* fits) const {
   std::size_t explained = 0;
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
-    const std::size_t others = othersSeeing(track);
+    const std::size_t others = othersSeeing(track).size();
     if (!candidate.in_view || !track.isConfirmed() || others == 0)
       continue;
     const bool is_astray = candidate.spot && is_tested && !track.raysMeet();
@@ -131,13 +131,12 @@ bool ImageUpdate::isExplained(const Candidate& candidate) const {
   const auto spot = nearestUnassigned(predicted, kFarthest);
   if (!spot)
     return false;
-  std::array<std::size_t, geometry::kMaximumOthers> others;
-  const std::size_t count =
-      candidate.track->othersSeeing(image_->camera, image_->time - options_.birth_window, &others);
-  for (std::size_t i = 0; i < count; ++i)
-    others[i] = members_[others[i]];
-  const auto of_calibration = geometry::disagreementCovariance(
-      rig_, candidate.track->filter.position(), members_[image_->camera], others.data(), count);
+  Track::Cameras others = othersSeeing(*candidate.track);
+  for (std::size_t& other : others)
+    other = members_[other];
+  const auto of_calibration =
+      geometry::disagreementCovariance(rig_, candidate.track->filter.position(),
+                                       members_[image_->camera], others.data(), others.size());
   if (!of_calibration)
     return false;
   const Eigen::Matrix2d covariance = candidate.prediction.covariance() + *of_calibration;
@@ -150,7 +149,7 @@ void ImageUpdate::measureClock(CameraFit* fit) const {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
-    if (!candidate.in_view || !track.isConfirmed() || othersSeeing(track) < 2)
+    if (!candidate.in_view || !track.isConfirmed() || othersSeeing(track).size() < 2)
       continue;
     const auto residual = residualOf(candidate);
     if (!residual || !(track.filter.velocity().norm() >= kLeastSpeed))
@@ -191,7 +190,8 @@ void ImageUpdate::assign() {
     const Candidate& candidate = candidates_[i];
     if (!candidate.expected)  // a missed detection costs no more than a detection
       costs_.miss[i] = detection_cost;
-    const bool is_certain = candidate.track->isConfirmed() && othersSeeing(*candidate.track) > 0;
+    const bool is_certain =
+        candidate.track->isConfirmed() && !othersSeeing(*candidate.track).empty();
     const double extra = detection_cost + (is_certain ? 0.0 : kUncertainTrackCost);
     for (std::size_t spot = 0; spot < image_->spot_count; ++spot) {
       if (const auto likelihood =

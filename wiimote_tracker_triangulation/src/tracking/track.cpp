@@ -1,7 +1,10 @@
 #include "track.h"
 
 #include <algorithm>
+#include <array>
+#include <bitset>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -19,28 +22,21 @@ constexpr double kMostlyOwn = 0.7;
 // point; a fourth hardly ever is near it.
 constexpr std::size_t kReacquisitionSpots = 4;
 
-int bits(unsigned x) {
-  int count = 0;
-  for (; x; x &= x - 1)
-    ++count;
-  return count;
-}
-
 }  // namespace
 
-CameraRecord& CameraRecords::of(std::size_t camera) {
-  CameraRecord* record =
-      std::find_if(begin(), end(), [&](auto& known) { return known.camera == camera; });
-  if (record != end())
+/// That of a camera: a new one if it has none, in place of the oldest if there are too many.
+CameraRecord& Track::recordOf(std::size_t camera) {
+  const auto record = std::find_if(records_.begin(), records_.end(),
+                                   [&](auto& known) { return known.camera == camera; });
+  if (record != records_.end())
     return *record;
-  record = count_ < kMaximum
-               ? &records_[count_++]
-               : std::min_element(begin(), end(), [](auto& a, auto& b) { return a.time < b.time; });
-  *record = CameraRecord();
-  record->camera = camera;
-  record->time = record->full = record->hit = record->own =
-      -std::numeric_limits<double>::infinity();
-  return *record;
+  if (records_.size() == kMaximumCameras)
+    records_.erase(std::min_element(records_.begin(), records_.end(),
+                                    [](auto& a, auto& b) { return a.time < b.time; }));
+  CameraRecord& added = records_.emplace_back();
+  added.camera = camera;
+  added.time = added.full = added.hit = added.own = -std::numeric_limits<double>::infinity();
+  return added;
 }
 
 Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
@@ -55,19 +51,19 @@ Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
       position_time_(initiated_) {}
 
 void Track::miss(std::size_t camera, double time) {
-  CameraRecord& record = records_.of(camera);
+  CameraRecord& record = recordOf(camera);
   record.time = time;
   record.recent = record.recent << 1 & kRecentImages;
   ++misses_in_a_row_;
 }
 
 void Track::crowdOut(std::size_t camera, double time) {
-  records_.of(camera).full = time;
+  recordOf(camera).full = time;
 }
 
 void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own) {
   const double time = filter.time();
-  CameraRecord& record = records_.of(camera);
+  CameraRecord& record = recordOf(camera);
   if (!record.recent)
     record.ray = RayOffset();
   record.time = time;
@@ -84,7 +80,7 @@ void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own
 }
 
 void Track::noteRay(std::size_t camera, const RayOffset& ray) {
-  records_.of(camera).ray.add(ray);
+  recordOf(camera).ray.add(ray);
 }
 
 void Track::noteOwnSpot() {
@@ -108,7 +104,7 @@ bool Track::isDuplicate() const {
 }
 
 void Track::addInitialSpot(std::size_t camera, double time, double residual) {
-  CameraRecord& record = records_.of(camera);
+  CameraRecord& record = recordOf(camera);
   record.time = record.hit = record.own = time;
   started_ = std::min(started_, time);
   ++initial_spots_;
@@ -208,7 +204,8 @@ void Track::weighRays(double time, const TrackerOptions& options) {
 std::size_t Track::supportingCameras(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
       std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-        return record.time >= time - options.tracked_time && bits(record.recent) >= 2;
+        return record.time >= time - options.tracked_time &&
+               std::bitset<4>(record.recent).count() >= 2;
       }));
 }
 
@@ -233,10 +230,13 @@ bool Track::wasMissedBy(std::size_t camera) const {
   });
 }
 
-std::size_t Track::othersSeeing(std::size_t camera, double since) const {
-  return static_cast<std::size_t>(std::count_if(
-      records_.begin(), records_.end(),
-      [&](const CameraRecord& record) { return record.camera != camera && record.hit >= since; }));
+Track::Cameras Track::othersSeeing(std::size_t camera, double since) const {
+  Cameras others;
+  for (const CameraRecord& record : records_) {
+    if (record.camera != camera && record.hit >= since)
+      others.push_back(record.camera);
+  }
+  return others;
 }
 
 std::size_t Track::camerasShowing(double since) const {

@@ -7,9 +7,8 @@
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -27,36 +26,12 @@ struct CameraRecord {
   unsigned recent = 0;            // one bit per image, the newest lowest: detected or missed
 };
 
-/// Records of at most kMaximum cameras. A copy takes as long as there are records.
-class CameraRecords {
- public:
-  static constexpr std::size_t kMaximum = 64;
-
-  CameraRecords() = default;
-  CameraRecords(const CameraRecords& other) { *this = other; }
-  CameraRecords& operator=(const CameraRecords& other) {
-    count_ = other.count_;
-    std::copy(other.begin(), other.end(), begin());
-    return *this;
-  }
-
-  CameraRecord* begin() { return records_.data(); }
-  CameraRecord* end() { return records_.data() + count_; }
-  const CameraRecord* begin() const { return records_.data(); }
-  const CameraRecord* end() const { return records_.data() + count_; }
-  void clear() { count_ = 0; }
-
-  /// That of a camera: a new one if it has none, or the oldest if there are too many.
-  CameraRecord& of(std::size_t camera);
-
- private:
-  std::array<CameraRecord, kMaximum> records_;
-  std::size_t count_ = 0;
-};
-
 /// The track of one LED, tentative or confirmed. A value type that never allocates.
 class Track {
  public:
+  static constexpr std::size_t kMaximumCameras = 64;  ///< Whose images it remembers.
+  using Cameras = boost::container::static_vector<std::size_t, kMaximumCameras>;
+
   Track(const motion::MotionFilter& start, std::uint32_t led_id);
 
   /// Missed detection: the camera should have shown the LED and did not.
@@ -104,20 +79,7 @@ class Track {
   bool wasMissedBy(std::size_t camera) const;
 
   /// Other cameras that detected it at a time [s] or later.
-  std::size_t othersSeeing(std::size_t camera, double since) const;
-
-  /// The same; `others` gets the first of them. @returns how many it got.
-  template <std::size_t kMost>
-  std::size_t othersSeeing(std::size_t camera,
-                           double since,
-                           std::array<std::size_t, kMost>* others) const {
-    std::size_t count = 0;
-    for (const CameraRecord& record : records_) {
-      if (record.camera != camera && record.hit >= since && count < kMost)
-        (*others)[count++] = record.camera;
-    }
-    return count;
-  }
+  Cameras othersSeeing(std::size_t camera, double since) const;
 
   /// Cameras with a spot of this LED's own at a time [s] or later.
   std::size_t camerasShowing(double since) const;
@@ -145,6 +107,7 @@ class Track {
   std::uint32_t id;
 
  private:
+  CameraRecord& recordOf(std::size_t camera);
   bool isDuplicate() const;
   std::size_t camerasInView(double time, const TrackerOptions& options) const;
   bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
@@ -168,7 +131,7 @@ class Track {
   Eigen::Vector3d position_;  // at position_time_ [m]
   Eigen::Vector3d velocity_;  // [m/s]
   double position_time_;      // [s]
-  CameraRecords records_;
+  boost::container::static_vector<CameraRecord, kMaximumCameras> records_;
 };
 
 }  // namespace wiimote_tracker::tracking

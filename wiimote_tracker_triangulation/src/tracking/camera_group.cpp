@@ -148,8 +148,6 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   removeMergedPairs(image.time);
   show(image, views);
   collectUnassigned(image);
-  if (isMisfit(image.camera) && state_.fits.size() > 2)
-    state_.unassigned[image.camera].count = 0;
   initiation_.apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
   showStarts(views);
   for (Track& track : tracks) {
@@ -182,19 +180,26 @@ void CameraGroup::removeMergedPairs(double time) {
   pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_finished), pairs.end());
 }
 
+/// None of an image that does not fit, unless there are only two cameras.
 void CameraGroup::collectUnassigned(const StoredImage& image) {
   UnassignedSpots& rest = state_.unassigned[image.camera];
-  if (rest.count == 0)
+  if (rest.spots.empty())
     rest.since = image.time;
   rest.time = image.time;
   rest.stamp_stddev = image.stamp_stddev;
   rest.full = image.full;
-  rest.count = 0;
+  rest.spots.clear();
+  rest.sights.clear();
+  if (isMisfit(image.camera) && state_.fits.size() > 2)
+    return;
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
     if (update_.trackOfSpot()[spot] != association::kFalseDetection)
       continue;
-    rest.pixels[rest.count] = image.pixels[spot];
-    rest.keys[rest.count++] = {image.number, spot};
+    const Eigen::Vector2d& pixel = image.pixels[spot];
+    if (const auto sight = geometry::sightFromPixel(cameras_[image.camera].forRays(), pixel)) {
+      rest.spots.push_back({pixel, {image.number, spot}});
+      rest.sights.push_back(*sight);
+    }
   }
 }
 

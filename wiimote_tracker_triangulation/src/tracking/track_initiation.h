@@ -10,26 +10,28 @@
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
-#include <array>
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
 
-/// The spots of a camera's newest image that are assigned to no track.
+/// The spots of a camera's newest image that are assigned to no track and have a ray.
 struct UnassignedSpots {
+  struct Spot {
+    Eigen::Vector2d pixel;
+    SpotKey key;
+  };
+
   double time = -1e300;       // [s]
   double since = 0.0;         // first image of the latest ones that all have some [s]
   double stamp_stddev = 0.0;  // StoredImage::stamp_stddev
   bool full = false;          // StoredImage::full
-  std::size_t count = 0;
-  std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
-  std::array<SpotKey, association::kMaximumSpots> keys;
-
-  void remove(std::size_t spot);
+  boost::container::static_vector<Spot, association::kMaximumSpots> spots;
+  boost::container::static_vector<geometry::Sight, association::kMaximumSpots> sights;  // theirs
 };
 
 /// A spot that began a track.
@@ -66,41 +68,27 @@ class TrackInitiation {
                        std::vector<Track>* tracks) const;
 
  private:
-  bool collectViews(const std::vector<GroupCamera>& cameras,
-                    std::size_t newest,
-                    const std::vector<UnassignedSpots>& unassigned);
-  const std::optional<geometry::Sight>& sightOf(const GroupCamera& camera,
-                                                std::size_t index,
-                                                const UnassignedSpots& unassigned,
-                                                std::size_t spot);
+  bool collectViews(std::size_t newest);
+  const UnassignedSpots::Spot& spotAt(const association::SpotReference& spot) const {
+    return (*unassigned_)[spot.view].spots[spot.spot];
+  }
   bool mayShowInAnother(const association::AssociatedPoint& point,
-                        const association::SpotReference* spots,
-                        const std::vector<GroupCamera>& cameras,
-                        const std::vector<UnassignedSpots>& unassigned) const;
+                        const association::SpotReference* spots) const;
   motion::MotionFilter filterOf(const association::AssociatedPoint& point,
-                                const association::SpotReference* spots,
-                                const std::vector<GroupCamera>& cameras,
-                                const std::vector<UnassignedSpots>& unassigned);
+                                const association::SpotReference* spots);
   bool isAllowed(const association::AssociatedPoint& point) const;
-
-  /// The ray of a spot, kept because spots are searched again with every image of the other
-  /// cameras.
-  struct CachedSight {
-    std::uint64_t image = std::numeric_limits<std::uint64_t>::max();  // its number; none yet
-    std::optional<geometry::Sight> sight;
-  };
 
   const TrackerOptions& options_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
-  std::vector<std::array<CachedSight, association::kMaximumSpots>> sight_cache_;  // per camera
-  std::vector<std::array<geometry::Sight, association::kMaximumSpots>> sights_;
-  std::vector<std::array<std::size_t, association::kMaximumSpots>> spots_;  // of the sights
   std::vector<association::View> views_;
   std::vector<SpotKey> initial_spots_;               // of one point
   std::vector<association::SpotReference> by_time_;  // of one point
   std::vector<association::SpotReference> used_;
   std::vector<StartSpot> starts_;
+  // Of the last apply().
+  const std::vector<GroupCamera>* cameras_ = nullptr;
+  std::vector<UnassignedSpots>* unassigned_ = nullptr;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -1,9 +1,9 @@
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <Eigen/LU>
+#include <boost/container/small_vector.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
@@ -191,20 +191,6 @@ bool isInFront(const Sights& sights, const Vector3& position) {
                      [&](const Sight& s) { return s.depth(position) > 0.0; });
 }
 
-/// On the stack for up to 16 sights.
-class SightBuffer {
- public:
-  explicit SightBuffer(std::size_t size) {
-    if (size > inline_.size())
-      heap_.resize(size);
-  }
-  Sight* data() { return heap_.empty() ? inline_.data() : heap_.data(); }
-
- private:
-  std::array<Sight, 16> inline_;
-  std::vector<Sight> heap_;
-};
-
 }  // namespace
 
 std::optional<TriangulatedPoint> triangulate(const Sight* first,
@@ -240,15 +226,14 @@ std::optional<TriangulatedPoint> triangulate(const Sight* first,
 
 std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
                                              const TriangulationOptions& options) {
-  SightBuffer sights(observations.size());
-  Sight* next = sights.data();
+  boost::container::small_vector<Sight, 16> sights;
   for (const Observation& o : observations) {
     const std::optional<Sight> sight = sightFromPixel(*o.camera, o.pixel);
     if (!sight)
       return std::nullopt;
-    *next++ = *sight;
+    sights.push_back(*sight);
   }
-  std::optional<TriangulatedPoint> point = triangulate(sights.data(), observations.size(), options);
+  std::optional<TriangulatedPoint> point = triangulate(sights.data(), sights.size(), options);
   if (!point)
     return std::nullopt;
   double squared_residuals = 0.0;

@@ -241,7 +241,7 @@ void BodyTracker::update(std::size_t index,
   const double residual = (pixel - group.prediction.pixel).norm();
   const double misfit = group.misfit(pixel);
   body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
-  for (std::size_t i = 0; i < group.count; ++i) {
+  for (std::size_t i = 0; i < group.leds.size(); ++i) {
     body.led_times[group.leds[i]] = image->time;
     image->taken.push_back({index, group.leds[i], i > 0, pixel, misfit, residual,
                             residual * group.prediction.depth / camera.intrinsics.fx});

@@ -40,7 +40,7 @@ double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
   if (!(squared < gate))
     return std::numeric_limits<double>::infinity();
   return squared + std::log(prediction.covariance.determinant()) +
-         kFurtherLed * static_cast<double>(count - 1);
+         kFurtherLed * static_cast<double>(leds.size() - 1);
 }
 
 LedGroups::LedGroups(const PoseState& state,
@@ -63,43 +63,40 @@ LedGroups::LedGroups(const PoseState& state,
   for (std::size_t i = 0; i < leds; ++i) {
     if (!singles_[i])
       continue;
-    std::array<std::size_t, kMaximumLeds> all{i};
-    std::size_t count = 1;
-    add(state, all, count);
+    LedGroup::Leds all{i};
+    add(state, all);
     for (std::size_t k = 0; k < leds; ++k) {
       if (k == i || !singles_[k] || !areNear(i, k))
         continue;
-      all[count++] = k;
+      all.push_back(k);
       if (k > i)
-        add(state, {i, k}, 2);
+        add(state, {i, k});
     }
-    if (count > 2)
-      add(state, all, count);
+    if (all.size() > 2)
+      add(state, all);
   }
 }
 
-void LedGroups::add(const PoseState& state,
-                    const std::array<std::size_t, kMaximumLeds>& leds,
-                    std::size_t count) {
-  LedGroup& group = groups_[count_++];
+void LedGroups::add(const PoseState& state, const LedGroup::Leds& leds) {
+  LedGroup& group = groups_.emplace_back();
   group.leds = leds;
-  group.count = count;
   group.prediction = *singles_[leds[0]];
   group.pixel_stddev = pixel_stddev_;
-  if (count == 1)
+  if (leds.size() == 1)
     return;
   LedPrediction& mean = group.prediction;
-  for (std::size_t i = 1; i < count; ++i) {
+  for (std::size_t i = 1; i < leds.size(); ++i) {
     mean.pixel += singles_[leds[i]]->pixel;
     mean.jacobian += singles_[leds[i]]->jacobian;
     mean.depth += singles_[leds[i]]->depth;
   }
-  mean.pixel /= static_cast<double>(count);
-  mean.jacobian /= static_cast<double>(count);
-  mean.depth /= static_cast<double>(count);
+  const auto count = static_cast<double>(leds.size());
+  mean.pixel /= count;
+  mean.jacobian /= count;
+  mean.depth /= count;
   double farthest = 0.0;
-  for (std::size_t i = 0; i < count; ++i)
-    farthest = std::max(farthest, (singles_[leds[i]]->pixel - mean.pixel).norm());
+  for (const std::size_t led : leds)
+    farthest = std::max(farthest, (singles_[led]->pixel - mean.pixel).norm());
   group.pixel_stddev = std::hypot(pixel_stddev_, kPlaceBetween * 2.0 * farthest);
   mean.covariance = mean.jacobian * state.poseCovariance() * mean.jacobian.transpose();
   mean.covariance.diagonal().array() += group.pixel_stddev * group.pixel_stddev;
@@ -115,13 +112,12 @@ const LedGroup* LedGroups::best(std::size_t led,
                                 const std::array<bool, kMaximumLeds>& has_spot) const {
   const LedGroup* best = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (std::size_t g = 0; g < count_; ++g) {
-    const LedGroup& group = groups_[g];
-    const auto begin = group.leds.begin();
-    const auto end = begin + static_cast<std::ptrdiff_t>(group.count);
-    const bool is_of_led = std::find(begin, end, led) != end;
-    const bool is_free = std::all_of(
-        begin, end, [&](std::size_t other) { return other == led || !has_spot[other]; });
+  for (const LedGroup& group : groups_) {
+    const LedGroup::Leds& leds = group.leds;
+    const bool is_of_led = std::find(leds.begin(), leds.end(), led) != leds.end();
+    const bool is_free = std::all_of(leds.begin(), leds.end(), [&](std::size_t other) {
+      return other == led || !has_spot[other];
+    });
     if (!is_of_led || !is_free)
       continue;
     const double cost = group.cost(pixel, gate_);

@@ -6,6 +6,7 @@
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <cstddef>
@@ -15,8 +16,9 @@ namespace wiimote_tracker::body {
 
 /// One LED, or several neighbouring LEDs of one body, that may cause one spot of an image.
 struct LedGroup {
-  std::array<std::size_t, kMaximumLeds> leds;
-  std::size_t count = 0;
+  using Leds = boost::container::static_vector<std::size_t, kMaximumLeds>;
+
+  Leds leds;
   LedPrediction prediction;   // of the mean of their pixels
   double pixel_stddev = 0.0;  // of the spot; greater for several LEDs of unknown brightness
 
@@ -49,16 +51,13 @@ class LedGroups {
                        const std::array<bool, kMaximumLeds>& has_spot) const;
 
  private:
-  void add(const PoseState& state,
-           const std::array<std::size_t, kMaximumLeds>& leds,
-           std::size_t count);
+  void add(const PoseState& state, const LedGroup::Leds& leds);
 
   double pixel_stddev_;
   double gate_;
   std::array<std::optional<LedPrediction>, kMaximumLeds> singles_;
   // One of each LED, one of each pair, one of each LED with all of its neighbours.
-  std::array<LedGroup, kMaximumLeds*(kMaximumLeds + 3) / 2> groups_;
-  std::size_t count_ = 0;
+  boost::container::static_vector<LedGroup, kMaximumLeds*(kMaximumLeds + 3) / 2> groups_;
 };
 
 }  // namespace wiimote_tracker::body

@@ -22,37 +22,8 @@ double slopeOf(const Coefficients& k, double angle) {
   return 1.0 + s * (3.0 * k[0] + s * (5.0 * k[1] + s * (7.0 * k[2] + s * 9.0 * k[3])));
 }
 
-/// Whether a polynomial of degree 4 is positive on [0, 1], from its Bernstein coefficients: it lies
-/// between the least and the largest. The interval is halved where that does not decide.
-bool isPositive(const std::array<double, 5>& b, int halvings) {
-  if (!(b.front() > 0.0 && b.back() > 0.0))
-    return false;
-  if (*std::min_element(b.begin(), b.end()) > 0.0)
-    return true;
-  if (halvings == 0)
-    return false;  // zero within rounding
-  std::array<double, 5> left, right = b;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    left[i] = right[0];
-    for (std::size_t j = 0; j + 1 < b.size() - i; ++j)
-      right[j] = 0.5 * (right[j] + right[j + 1]);
-  }
-  return isPositive(left, halvings - 1) && isPositive(right, halvings - 1);
-}
-
-/// Whether the radius grows monotonically up to this angle.
 bool growsUpTo(const Coefficients& k, double angle) {
-  if (!(angle <= kLargestAngle))
-    return false;
-  const double s = angle * angle;
-  const double a = 3.0 * k[0] * s;
-  const double b = 5.0 * k[1] * s * s;
-  const double c = 7.0 * k[2] * s * s * s;
-  const double d = 9.0 * k[3] * s * s * s * s;
-  constexpr int kHalvings = 20;
-  return isPositive({1.0, 1.0 + a / 4.0, 1.0 + a / 2.0 + b / 6.0,
-                     1.0 + 3.0 * a / 4.0 + b / 2.0 + c / 4.0, 1.0 + a + b + c + d},
-                    kHalvings);
+  return angle <= kLargestAngle && geometry::growsUpTo({k[0], k[1], k[2], k[3]}, angle * angle);
 }
 
 }  // namespace

@@ -12,28 +12,6 @@ namespace {
 using Vector2 = Eigen::Vector2d;
 using Matrix2 = Eigen::Matrix2d;
 
-/// Whether the radius grows monotonically up to the squared radius s:
-/// d/dr (r + k1 r^3 + k2 r^5 + k3 r^7) = 1 + 3 k1 s + 5 k2 s^2 + 7 k3 s^3 > 0 on [0, s].
-bool radiusGrowsUpTo(const Coefficients& k, double s) {
-  const double a = 3.0 * k[0];
-  const double b = 5.0 * k[1];
-  const double c = 7.0 * k[4];
-  const auto slope = [&](double t) { return 1.0 + t * (a + t * (b + t * c)); };
-  if (!(slope(s) > 0.0))
-    return false;
-  if (a >= 0.0 && b >= 0.0 && c >= 0.0)
-    return true;
-  // The least slope is at an end or where its derivative a + 2 b t + 3 c t^2 is zero. This form of
-  // the roots does not cancel and also holds for c = 0.
-  const double discriminant = b * b - 3.0 * a * c;
-  if (discriminant < 0.0)
-    return true;
-  const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-  const double roots[] = {c != 0.0 ? q / (3.0 * c) : -1.0, q != 0.0 ? a / q : -1.0};
-  return std::all_of(std::begin(roots), std::end(roots),
-                     [&](double t) { return !(t > 0.0 && t < s) || slope(t) > 0.0; });
-}
-
 bool isBeforeFold(const Coefficients& k, const Vector2& n) {
   Matrix2 jacobian;
   return distortBeforeFold(k, n, &jacobian).has_value();
@@ -90,7 +68,7 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
 std::optional<Vector2> distortBeforeFold(const Coefficients& k,
                                          const Vector2& n,
                                          Matrix2* jacobian) {
-  if (!radiusGrowsUpTo(k, n.squaredNorm()))
+  if (!growsUpTo({k[0], k[1], k[4], 0.0}, n.squaredNorm()))
     return std::nullopt;
   const Vector2 distorted = distort(k, n, jacobian);
   if (!(jacobian->determinant() > 0.0))

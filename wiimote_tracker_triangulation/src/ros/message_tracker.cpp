@@ -80,7 +80,7 @@ MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink
       labels_(parameters.labels),
       zones_(parameters.zones),
       trigger_(parameters.trigger) {
-  newest_.snapshot.time = kNever;
+  newest_.time = kNever;
   bodies_.setBodies(parameters.bodies.known);
   if (parameters.identity.codes)
     identifier_ = std::make_unique<identity::Identifier>(*parameters.identity.codes,
@@ -127,7 +127,7 @@ void MessageTracker::useCameras(const geometry::Rig& rig) {
     return;
   camera_index_ = std::move(index);
   is_used_.assign(rig.cameras.size(), true);
-  newest_.snapshot.time = kNever;
+  newest_.time = kNever;
   trigger_.forget();
 }
 
@@ -238,7 +238,7 @@ void MessageTracker::restart() {
     identifier_->reset();
   labels_.clear();
   lost_.clear();
-  newest_.snapshot.time = kNever;
+  newest_.time = kNever;
   newest_output_ = kNever;
   newest_arrival_ = kNever;
   newest_tick_.reset();
@@ -256,12 +256,13 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   if (identifier_)
     findBodiesByLabels(tracked);
   const tracking::Snapshot& snapshot = sink_->onSnapshot(tracked);
-  correction_.apply(snapshot, &newest_);
-  for (std::size_t i = 0; i < snapshot.leds.size(); ++i) {
-    if (snapshot.leds[i].state == tracking::TrackState::kLost)
-      lost_.push_back(trackedPoint(newest_, i, rig_, labels_));
+  newest_ = snapshot;
+  correction_.apply(&newest_);
+  for (const tracking::TrackedLed& led : newest_.leds) {
+    if (led.state == tracking::TrackState::kLost)
+      lost_.push_back(trackedPoint(led, newest_.time, rig_, labels_));
   }
-  publishZoneEvents(newest_.snapshot);
+  publishZoneEvents(newest_);
   trigger_.add(snapshot);
   answerTriggers();
   if (!parameters_.output.on_update)
@@ -313,7 +314,8 @@ void MessageTracker::answerTriggers() {
   while (const events::TriggerAnswer* answer = trigger_.next()) {
     const auto request = triggers_.find(answer->request);
     if (answer->result == events::TriggerResult::kAnswered) {
-      correction_.apply(answer->snapshot, &corrected_);
+      corrected_ = answer->snapshot;
+      correction_.apply(&corrected_);
       TrackedPointArray message = messageOf(corrected_);
       message.header.stamp = request->second.stamp;  // to the nanosecond
       sink_->onTriggeredPoints(message);
@@ -353,23 +355,23 @@ void MessageTracker::publishTicksUntil(double now) {
 }
 
 void MessageTracker::publishAt(double time) {
-  if (time < newest_.snapshot.time || !estimator_->predictTo(time, &predicted_))
+  if (time < newest_.time || !estimator_->predictTo(time, &corrected_))
     return;
-  correction_.apply(predicted_, &corrected_);
+  correction_.apply(&corrected_);
   publish(corrected_);
 }
 
-void MessageTracker::publish(const CorrectedSnapshot& corrected) {
-  if (!(corrected.snapshot.time > newest_output_))
+void MessageTracker::publish(const tracking::Snapshot& corrected) {
+  if (!(corrected.time > newest_output_))
     return;
-  newest_output_ = corrected.snapshot.time;
+  newest_output_ = corrected.time;
   const auto message = boost::make_shared<TrackedPointArray>(messageOf(corrected));
   insertMissing(lost_, message.get());
   lost_.clear();
-  sink_->onPoints(message, corrected.snapshot.views);
+  sink_->onPoints(message, corrected.views);
 }
 
-TrackedPointArray MessageTracker::messageOf(const CorrectedSnapshot& corrected) const {
+TrackedPointArray MessageTracker::messageOf(const tracking::Snapshot& corrected) const {
   TrackedPointArray message = pointMessage(corrected, rig_, labels_);
   message.method = methodWord(parameters_.estimator);
   message.rig_id = rig_id_;

@@ -130,8 +130,8 @@ class MessageTracker {
   bool clocksOutputs(std::size_t camera, double arrival) const;
   void publishTicksUntil(double now);
   void publishAt(double time);
-  void publish(const CorrectedSnapshot& corrected);
-  wiimote_tracker_msgs::TrackedPointArray messageOf(const CorrectedSnapshot& corrected) const;
+  void publish(const tracking::Snapshot& corrected);
+  wiimote_tracker_msgs::TrackedPointArray messageOf(const tracking::Snapshot& corrected) const;
 
   TrackingParameters parameters_;
   MessageSink* sink_;
@@ -159,7 +159,7 @@ class MessageTracker {
   std::uint64_t resets_ = 0;
 
   // Of the output.
-  CorrectedSnapshot newest_;  // time -infinity before the first
+  tracking::Snapshot newest_;  // corrected; time -infinity before the first
   double newest_output_ = -std::numeric_limits<double>::infinity();   // [s]
   double newest_arrival_ = -std::numeric_limits<double>::infinity();  // of used images [s]
   std::vector<bool> is_used_;                // per camera: its last image, or it had none yet
@@ -170,8 +170,7 @@ class MessageTracker {
   std::vector<body::LabelledPoint> labelled_;
   std::vector<bool> bridged_;
   tracking::CameraImage image_;
-  tracking::Snapshot predicted_;
-  CorrectedSnapshot corrected_;
+  tracking::Snapshot corrected_;
 };
 
 }  // namespace wiimote_tracker

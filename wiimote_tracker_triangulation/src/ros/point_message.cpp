@@ -18,11 +18,10 @@ static_assert(static_cast<int>(tracking::TrackState::kTentative) == TrackedPoint
 
 }  // namespace
 
-TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
-                          std::size_t index,
+TrackedPoint trackedPoint(const tracking::TrackedLed& led,
+                          double time,
                           const geometry::Rig& rig,
                           const LedLabels& labels) {
-  const tracking::TrackedLed& led = corrected.snapshot.leds[index];
   TrackedPoint point;
   point.id = led.id;
   const LedLabel label = labels.of(led.id);
@@ -42,23 +41,22 @@ TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
     point.cameras.push_back(rig.cameras[camera].camera.name);
   point.residual = led.residual;
   point.last_observed = timeOf(led.last_observed);
-  point.age = corrected.snapshot.time - led.first_seen;
-  point.remapped = corrected.remapped[index];
+  point.age = time - led.first_seen;
+  point.remapped = led.remapped;
   return point;
 }
 
-TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
+TrackedPointArray pointMessage(const tracking::Snapshot& snapshot,
                                const geometry::Rig& rig,
                                const LedLabels& labels) {
-  const tracking::Snapshot& snapshot = corrected.snapshot;
   TrackedPointArray message;
   message.header.stamp = timeOf(snapshot.time);
   message.header.frame_id = rig.world_frame;
   message.latest_arrival = timeOf(snapshot.latest_arrival);
   message.skew = snapshot.skew;
   message.points.reserve(snapshot.leds.size());
-  for (std::size_t i = 0; i < snapshot.leds.size(); ++i)
-    message.points.push_back(trackedPoint(corrected, i, rig, labels));
+  for (const tracking::TrackedLed& led : snapshot.leds)
+    message.points.push_back(trackedPoint(led, snapshot.time, rig, labels));
   return message;
 }
 

@@ -2,27 +2,25 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 
 #include "led_labels.h"
-#include "volume_correction.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/TransformStamped.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
-#include <cstddef>
-
 namespace wiimote_tracker {
 
 /// The message of a snapshot with all of its LEDs, without method, rig_id and late_frames, which
 /// the snapshot does not tell.
-wiimote_tracker_msgs::TrackedPointArray pointMessage(const CorrectedSnapshot& corrected,
+wiimote_tracker_msgs::TrackedPointArray pointMessage(const tracking::Snapshot& snapshot,
                                                      const geometry::Rig& rig,
                                                      const LedLabels& labels);
 
-/// The LED at `index` in the snapshot.
-wiimote_tracker_msgs::TrackedPoint trackedPoint(const CorrectedSnapshot& corrected,
-                                                std::size_t index,
+/// @param time of the LED's snapshot [s].
+wiimote_tracker_msgs::TrackedPoint trackedPoint(const tracking::TrackedLed& led,
+                                                double time,
                                                 const geometry::Rig& rig,
                                                 const LedLabels& labels);
 

@@ -22,16 +22,13 @@ bool VolumeCorrection::take(const geometry::Rig& rig) {
   return remap_ || !had_none;
 }
 
-void VolumeCorrection::apply(const tracking::Snapshot& snapshot,
-                             CorrectedSnapshot* corrected) const {
-  corrected->snapshot = snapshot;
-  corrected->remapped.clear();
-  for (tracking::TrackedLed& led : corrected->snapshot.leds)
-    corrected->remapped.push_back(apply(&led));
+void VolumeCorrection::apply(tracking::Snapshot* snapshot) const {
+  for (tracking::TrackedLed& led : snapshot->leds)
+    led.remapped = correct(&led);
 }
 
 /// @returns whether the LED is inside the measured volume.
-bool VolumeCorrection::apply(tracking::TrackedLed* led) const {
+bool VolumeCorrection::correct(tracking::TrackedLed* led) const {
   if (!correction_)
     return false;
   const auto corrected = correction_->apply(led->position, led->position_covariance);

@@ -11,20 +11,15 @@
 
 namespace wiimote_tracker {
 
-struct CorrectedSnapshot {
-  tracking::Snapshot snapshot;
-  std::vector<bool> remapped;  ///< Per LED: whether it lay where the correction was measured.
-};
-
 /// The rig's correction of the volume, if it has one, and the reason when it is not used.
 class VolumeCorrection {
  public:
   /// @returns whether the correction changed.
   bool take(const geometry::Rig& rig);
 
-  /// Corrects positions, velocities and their covariances; copies them if there is no correction.
-  /// Outside the measured volume see remap::Correction. Does not allocate once `corrected` is warm.
-  void apply(const tracking::Snapshot& snapshot, CorrectedSnapshot* corrected) const;
+  /// Corrects positions, velocities and their covariances, and says which LEDs are remapped.
+  /// Outside the measured volume see remap::Correction. Does not allocate.
+  void apply(tracking::Snapshot* snapshot) const;
 
   /// "none", the name of the model, or "void".
   std::string state() const;
@@ -33,7 +28,7 @@ class VolumeCorrection {
   const std::string& problem() const { return problem_; }
 
  private:
-  bool apply(tracking::TrackedLed* led) const;
+  bool correct(tracking::TrackedLed* led) const;
 
   std::string rig_id_;
   std::optional<remap::Remap> remap_;

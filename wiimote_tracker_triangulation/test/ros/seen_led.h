@@ -36,28 +36,26 @@ inline tracking::TrackedLed someLed(std::uint32_t id,
 }
 
 /// Cameras 0 and 1 see the LED, camera 2 does not.
-inline CorrectedSnapshot someSnapshot(const geometry::Rig& rig, double time = 100.0) {
-  CorrectedSnapshot corrected;
-  tracking::Snapshot& snapshot = corrected.snapshot;
+inline tracking::Snapshot someSnapshot(const geometry::Rig& rig, double time = 100.0) {
+  tracking::Snapshot snapshot;
   snapshot.time = time;
   snapshot.latest_arrival = time + 0.03;
   snapshot.skew = 0.004;
   snapshot.leds = {someLed(0, time, kLed)};
-  corrected.remapped = {false};
   snapshot.views.resize(3);
   for (std::size_t i = 0; i < 3; ++i)
     snapshot.views[i].time = time - 0.001 * i;
   for (std::size_t i = 0; i < 2; ++i)
     snapshot.views[i].spots = {
         {*rig.cameras[i].camera.project(kLed), tracking::SpotUse::kAssigned, 0}};
-  return corrected;
+  return snapshot;
 }
 
-inline wiimote_tracker_msgs::TrackedPointArray messageOf(const CorrectedSnapshot& corrected,
+inline wiimote_tracker_msgs::TrackedPointArray messageOf(const tracking::Snapshot& snapshot,
                                                          const geometry::Rig& rig) {
   LedLabels labels({"led"});
-  labels.update(corrected.snapshot.time, corrected.snapshot.leds);
-  return pointMessage(corrected, rig, labels);
+  labels.update(snapshot.time, snapshot.leds);
+  return pointMessage(snapshot, rig, labels);
 }
 
 }  // namespace wiimote_tracker

@@ -31,12 +31,12 @@ class Markers : public testing::Test {
     builder_.setRig(rig_);
   }
 
-  MarkerArray draw(const CorrectedSnapshot& corrected) {
-    return builder_.build(messageOf(corrected, rig_), corrected.snapshot.views);
+  MarkerArray draw(const tracking::Snapshot& snapshot) {
+    return builder_.build(messageOf(snapshot, rig_), snapshot.views);
   }
 
   Rig rig_ = threeCameras();
-  CorrectedSnapshot seen_ = someSnapshot(rig_);
+  tracking::Snapshot seen_ = someSnapshot(rig_);
   MarkerBuilder builder_{MarkerOptions()};
 };
 
@@ -123,8 +123,7 @@ TEST_F(Markers, RaysGoFromTheCameraThroughItsBlobToThePoint) {
 TEST_F(Markers, RaysArePalerAndThinnerTheLessIsKnownOfTheirLed) {
   std::vector<Marker> rays;
   for (const double stddev : {0.001, 0.004, 0.02, 0.1, std::nan("")}) {
-    seen_.snapshot.leds[0].position_covariance =
-        stddev * stddev / 3.0 * Eigen::Matrix3d::Identity();
+    seen_.leds[0].position_covariance = stddev * stddev / 3.0 * Eigen::Matrix3d::Identity();
     rays.push_back(find(draw(seen_), "ray", 0));
   }
   for (const std::size_t same : {0, 3}) {
@@ -143,7 +142,7 @@ TEST_F(Markers, EllipsoidHolds95Percent) {
   EXPECT_NEAR(1.0, q.norm(), 1e-12);
   // Draw errors with that covariance; count how many fall into the drawn body.
   geometry::test::Random random(72);
-  const Eigen::Matrix3d L = seen_.snapshot.leds[0].position_covariance.llt().matrixL();
+  const Eigen::Matrix3d L = seen_.leds[0].position_covariance.llt().matrixL();
   constexpr int kDraws = 100000;
   int inside = 0;
   for (int i = 0; i < kDraws; ++i) {
@@ -165,9 +164,9 @@ TEST_F(Markers, ALostPointIsRemovedAndItsTrailFadesWithinHalfASecond) {
     array = draw(someSnapshot(rig_, 100.0 + 0.05 * i));
   const Marker trail = find(array, "trail", 0);
   EXPECT_NEAR(21.0, static_cast<double>(trail.points.size()), 1.0);
-  CorrectedSnapshot lost = someSnapshot(rig_, 102.0);
-  lost.snapshot.leds[0].state = TrackState::kLost;
-  for (tracking::CameraView& view : lost.snapshot.views)
+  tracking::Snapshot lost = someSnapshot(rig_, 102.0);
+  lost.leds[0].state = TrackState::kLost;
+  for (tracking::CameraView& view : lost.views)
     view.spots.clear();
   array = draw(lost);
   for (const std::string ns : {"point", "covariance", "height", "shadow", "label"})
@@ -175,18 +174,17 @@ TEST_F(Markers, ALostPointIsRemovedAndItsTrailFadesWithinHalfASecond) {
   EXPECT_EQ(2u, numberOfRays(array, Marker::DELETE));
   EXPECT_EQ(0u, numberOfRays(array));
   EXPECT_EQ(Marker::ADD, find(array, "trail", 0).action);
-  lost.snapshot.leds.clear();
-  lost.snapshot.time = 102.2;
+  lost.leds.clear();
+  lost.time = 102.2;
   EXPECT_LT(find(draw(lost), "trail", 0).color.a, 0.6f * trail.color.a);
-  lost.snapshot.time = 102.45;
+  lost.time = 102.45;
   array = draw(lost);
   EXPECT_EQ(Marker::DELETE, find(array, "trail", 0).action);
 }
 
 TEST_F(Markers, EveryLedIsDrawnWithItsName) {
-  seen_.snapshot.leds.push_back(someLed(3, 100.0, {1.0, 0.0, 0.5}));
-  seen_.snapshot.leds[1].state = TrackState::kPredicted;
-  seen_.remapped.push_back(false);
+  seen_.leds.push_back(someLed(3, 100.0, {1.0, 0.0, 0.5}));
+  seen_.leds[1].state = TrackState::kPredicted;
   MarkerArray array = draw(seen_);
   EXPECT_EQ("led", find(array, "label", 0).text);
   EXPECT_EQ("led_3", find(array, "label", 3).text);
@@ -195,8 +193,8 @@ TEST_F(Markers, EveryLedIsDrawnWithItsName) {
       << "what is not seen is pale";
   EXPECT_EQ(Marker::ADD, find(array, "covariance", 3).action);
   // A point that vanishes without being reported lost is removed too.
-  seen_.snapshot.leds.pop_back();
-  seen_.snapshot.time = 100.1;
+  seen_.leds.pop_back();
+  seen_.time = 100.1;
   array = draw(seen_);
   EXPECT_EQ(Marker::DELETE, find(array, "point", 3).action);
   EXPECT_EQ(Marker::ADD, find(array, "point", 0).action);
@@ -205,8 +203,8 @@ TEST_F(Markers, EveryLedIsDrawnWithItsName) {
 TEST_F(Markers, ShowMaskedAndUnassignedSpots) {
   rig_.cameras[0].masks = {{{300.0, 200.0}, 25.0}};
   builder_.setRig(rig_);
-  seen_.snapshot.views[0].spots.push_back({{310.0, 200.0}, tracking::SpotUse::kMasked, 0});
-  seen_.snapshot.views[0].spots.push_back({{500.0, 300.0}, tracking::SpotUse::kUnassigned, 0});
+  seen_.views[0].spots.push_back({{310.0, 200.0}, tracking::SpotUse::kMasked, 0});
+  seen_.views[0].spots.push_back({{500.0, 300.0}, tracking::SpotUse::kUnassigned, 0});
   const MarkerArray array = draw(seen_);
   const Marker mask = find(array, "mask", 0);
   ASSERT_FALSE(mask.points.empty());
@@ -223,20 +221,20 @@ TEST_F(Markers, ShowMaskedAndUnassignedSpots) {
   EXPECT_NE(blobs.colors[1], blobs.colors[2]);
   EXPECT_NE(blobs.colors[0], blobs.colors[2]);
   EXPECT_EQ(3u, numberOfRays(array)) << "none of the masked spot";
-  seen_.snapshot.views[0].spots.clear();
+  seen_.views[0].spots.clear();
   EXPECT_EQ(2u, numberOfRays(draw(seen_), Marker::DELETE));
 }
 
 TEST_F(Markers, OldSpotsAreNotDrawn) {
-  seen_.snapshot.views[1].time = 98.0;
+  seen_.views[1].time = 98.0;
   const MarkerArray array = draw(seen_);
   EXPECT_EQ(Marker::ADD, find(array, "ray", 0).action);
   EXPECT_EQ(1u, numberOfRays(array));
 }
 
 TEST_F(Markers, ACameraWithoutImagesIsGreyAndSaysSo) {
-  seen_.snapshot.views[1].time = 99.2;
-  seen_.snapshot.views[2].time.reset();
+  seen_.views[1].time = 99.2;
+  seen_.views[2].time.reset();
   const MarkerArray array = draw(seen_);
   EXPECT_EQ("camera_0", find(array, "camera", 0).text);
   for (int i = 1; i < 3; ++i) {

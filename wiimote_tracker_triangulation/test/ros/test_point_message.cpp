@@ -2,6 +2,7 @@
 #include "seen_led.h"
 
 #include "ros/point_message.h"
+#include "ros/volume_correction.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
@@ -11,6 +12,7 @@ namespace {
 
 using Eigen::Vector3d;
 using geometry::Rig;
+using tracking::Snapshot;
 using tracking::TrackedLed;
 using tracking::TrackState;
 using wiimote_tracker_msgs::TrackedPoint;
@@ -44,14 +46,14 @@ TEST(PointMessage, HoldsOnlyKnownValues) {
 
 TEST(PointMessage, SaysVelocityAndStateOfEachLed) {
   const Rig rig = threeCameras();
-  CorrectedSnapshot corrected = someSnapshot(rig);
-  corrected.snapshot.leds.push_back(someLed(4, 100.0, {1.0, 0.0, 0.0}));
-  corrected.remapped.push_back(true);
-  TrackedLed& second = corrected.snapshot.leds[1];
+  Snapshot snapshot = someSnapshot(rig);
+  snapshot.leds.push_back(someLed(4, 100.0, {1.0, 0.0, 0.0}));
+  TrackedLed& second = snapshot.leds[1];
   second.state = TrackState::kPredicted;
+  second.remapped = true;
   second.velocity = Vector3d(1.0, 2.0, 3.0);
   second.velocity_covariance = Vector3d(4.0, 5.0, 6.0).asDiagonal();
-  const auto message = messageOf(corrected, rig);
+  const auto message = messageOf(snapshot, rig);
   ASSERT_EQ(2u, message.points.size());
   const TrackedPoint& point = message.points[1];
   EXPECT_EQ(4u, point.id);
@@ -64,9 +66,9 @@ TEST(PointMessage, SaysVelocityAndStateOfEachLed) {
 
 TEST(PointMessage, IsEmptyWithoutALed) {
   const Rig rig = threeCameras();
-  CorrectedSnapshot corrected = someSnapshot(rig);
-  corrected.snapshot.leds.clear();
-  const auto message = messageOf(corrected, rig);
+  Snapshot snapshot = someSnapshot(rig);
+  snapshot.leds.clear();
+  const auto message = messageOf(snapshot, rig);
   EXPECT_TRUE(message.points.empty());
   EXPECT_EQ(ros::Time(100.0), message.header.stamp);
 }
@@ -95,40 +97,38 @@ TEST(VolumeCorrection, MovesPositionsAndVelocitiesAndTheirCovariances) {
                                     corner / 4 ? 1.0 : -1.0);
   VolumeCorrection correction;
   EXPECT_TRUE(correction.take(rig));
-  CorrectedSnapshot raw = someSnapshot(rig);
-  raw.snapshot.leds.push_back(someLed(1, 100.0, {0.0, 0.0, 5.0}));
-  raw.snapshot.leds[0].velocity = Vector3d(1.0, 2.0, 3.0);
-  raw.snapshot.leds[0].velocity_covariance.setIdentity();
-  CorrectedSnapshot corrected;
-  correction.apply(raw.snapshot, &corrected);
-  ASSERT_EQ(2u, corrected.snapshot.leds.size());
-  EXPECT_EQ((std::vector<bool>{true, false}), corrected.remapped);
+  const auto corrected = [&](Snapshot snapshot) {
+    correction.apply(&snapshot);
+    return snapshot.leds;
+  };
+  Snapshot raw = someSnapshot(rig);
+  raw.leds.push_back(someLed(1, 100.0, {0.0, 0.0, 5.0}));
+  raw.leds[0].velocity = Vector3d(1.0, 2.0, 3.0);
+  raw.leds[0].velocity_covariance.setIdentity();
+  const std::vector<TrackedLed> leds = corrected(raw);
+  ASSERT_EQ(2u, leds.size());
+  EXPECT_TRUE(leds[0].remapped);
+  EXPECT_FALSE(leds[1].remapped);
   // The velocity matches differences of corrected positions.
   constexpr double kStep = 1e-6;
-  CorrectedSnapshot later = raw;
-  later.snapshot.leds[0].position += kStep * *raw.snapshot.leds[0].velocity;
-  CorrectedSnapshot later_corrected;
-  correction.apply(later.snapshot, &later_corrected);
-  const Vector3d expected =
-      (later_corrected.snapshot.leds[0].position - corrected.snapshot.leds[0].position) / kStep;
-  EXPECT_LT((*corrected.snapshot.leds[0].velocity - expected).norm(), 1e-6);
-  EXPECT_GT((expected - *raw.snapshot.leds[0].velocity).norm(), 0.1);
-  EXPECT_NEAR(kLed.z() + 0.1, corrected.snapshot.leds[0].position.z(), 1e-9);
+  Snapshot later = raw;
+  later.leds[0].position += kStep * *raw.leds[0].velocity;
+  const Vector3d expected = (corrected(later)[0].position - leds[0].position) / kStep;
+  EXPECT_LT((*leds[0].velocity - expected).norm(), 1e-6);
+  EXPECT_GT((expected - *raw.leds[0].velocity).norm(), 0.1);
+  EXPECT_NEAR(kLed.z() + 0.1, leds[0].position.z(), 1e-9);
   // So do both covariances.
   Eigen::Matrix3d jacobian;
   for (int axis = 0; axis < 3; ++axis) {
-    CorrectedSnapshot moved = raw;
-    moved.snapshot.leds[0].position += kStep * Vector3d::Unit(axis);
-    CorrectedSnapshot moved_corrected;
-    correction.apply(moved.snapshot, &moved_corrected);
-    jacobian.col(axis) =
-        (moved_corrected.snapshot.leds[0].position - corrected.snapshot.leds[0].position) / kStep;
+    Snapshot moved = raw;
+    moved.leds[0].position += kStep * Vector3d::Unit(axis);
+    jacobian.col(axis) = (corrected(moved)[0].position - leds[0].position) / kStep;
   }
-  const TrackedLed& led = corrected.snapshot.leds[0];
+  const TrackedLed& led = leds[0];
   EXPECT_LT((led.velocity_covariance - jacobian * jacobian.transpose()).norm(), 1e-6);
   EXPECT_GT((led.velocity_covariance - Eigen::Matrix3d::Identity()).norm(), 0.1);
   const Eigen::Matrix3d covariance =
-      jacobian * raw.snapshot.leds[0].position_covariance * jacobian.transpose();
+      jacobian * raw.leds[0].position_covariance * jacobian.transpose();
   EXPECT_LT((led.position_covariance - covariance).norm(), 1e-6 * covariance.norm());
 }
 

@@ -29,6 +29,7 @@ struct TrackedLed {
   double residual = std::numeric_limits<double>::quiet_NaN();
   double first_seen = 0.0;     ///< [s]
   double last_observed = 0.0;  ///< [s]
+  bool remapped = false;       ///< Corrected where the correction of the volume was measured.
 };
 
 /// How one spot was used. kStart: it began an LED's track, together with spots of other cameras.

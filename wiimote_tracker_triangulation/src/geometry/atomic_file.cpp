@@ -8,11 +8,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <mutex>
 
 namespace wiimote_tracker::geometry {
@@ -23,40 +24,20 @@ namespace {
                   "); check its permissions and free space, or choose another path");
 }
 
-class FileDescriptor {
- public:
-  explicit FileDescriptor(int fd) : fd_(fd) {}
-  FileDescriptor(const FileDescriptor&) = delete;
-  FileDescriptor& operator=(const FileDescriptor&) = delete;
-  ~FileDescriptor() {
-    if (fd_ >= 0)
-      ::close(fd_);
-  }
-  int get() const { return fd_; }
-
- private:
-  int fd_;
-};
+using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 void writeAndSync(const std::string& path, const std::string& content) {
-  const FileDescriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666));
-  if (file.get() < 0)
+  const File file(std::fopen(path.c_str(), "we"), std::fclose);
+  if (!file)
     fail("create", path, errno);
-  for (std::size_t done = 0; done < content.size();) {
-    const ssize_t n = ::write(file.get(), content.data() + done, content.size() - done);
-    if (n < 0 && errno == EINTR)
-      continue;
-    if (n < 0)
-      fail("write", path, errno);
-    done += static_cast<std::size_t>(n);
-  }
-  if (::fsync(file.get()) != 0)
+  if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
+      std::fflush(file.get()) != 0 || ::fsync(::fileno(file.get())) != 0)
     fail("write", path, errno);
 }
 
 /// Replaces the file by a rename, which is atomic within a folder.
 void replace(const std::filesystem::path& path, const std::string& content) {
-  static std::atomic<unsigned> count{0};
+  static unsigned count = 0;
   const std::string fresh =
       path.string() + ".new" + std::to_string(::getpid()) + "." + std::to_string(count++);
   try {
@@ -68,10 +49,11 @@ void replace(const std::filesystem::path& path, const std::string& content) {
     throw;
   }
   // So that the rename survives a power failure, if the file system supports it.
-  const FileDescriptor folder(
-      ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (folder.get() >= 0)
-    ::fsync(folder.get());
+  const int folder = ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (folder >= 0) {
+    ::fsync(folder);
+    ::close(folder);
+  }
 }
 
 }  // namespace
@@ -95,10 +77,11 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
 }
 
 std::string readFile(const std::string& path, std::size_t largest) {
-  // Opening a FIFO would wait for its writer.
-  const FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  // std::fopen would wait for the writer of a FIFO.
+  const int descriptor = ::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  const File file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "r"), std::fclose);
   struct stat status {};
-  if (file.get() < 0 || ::fstat(file.get(), &status) != 0)
+  if (!file || ::fstat(descriptor, &status) != 0)
     fail("read", path, errno);
   if (!S_ISREG(status.st_mode))
     throw FileError("cannot read " + path + ", it is " +
@@ -111,16 +94,9 @@ std::string readFile(const std::string& path, std::size_t largest) {
         "file of this kind; name another file",
         path.c_str(), 1e-6 * static_cast<double>(size), 1e-6 * static_cast<double>(largest)));
   std::string content(size, '\0');
-  for (std::size_t done = 0; done < size;) {
-    const ssize_t n = ::read(file.get(), content.data() + done, size - done);
-    if (n < 0 && errno == EINTR)
-      continue;
-    if (n < 0)
-      fail("read", path, errno);
-    if (n == 0)
-      content.resize(done);  // became shorter
-    done = n == 0 ? size : done + static_cast<std::size_t>(n);
-  }
+  content.resize(std::fread(content.data(), 1, size, file.get()));  // it may be shorter now
+  if (std::ferror(file.get()) != 0)
+    fail("read", path, errno);
   return content;
 }
 

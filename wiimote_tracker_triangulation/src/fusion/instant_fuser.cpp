@@ -5,7 +5,6 @@
 #include "synchronizer.h"
 
 #include <algorithm>
-#include <iterator>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -23,7 +22,6 @@ struct InstantFuser::Parts {
       : options(fuser_options), synchronizer(fuser_options), memory(fuser_options) {}
 
   void report();
-  TrackedLed& nextLed();
   void describe(const LedMemory::Led& led);
   void describeRays(const Locator::Point& point, TrackedLed* led);
 
@@ -33,7 +31,6 @@ struct InstantFuser::Parts {
   std::unique_ptr<Locator> locator;
   LedMemory memory;
   Snapshot snapshot;
-  std::vector<TrackedLed> spare_leds;  // keep their memory
 };
 
 InstantFuser::InstantFuser(const geometry::Rig& rig, const InstantFuserOptions& options)
@@ -84,7 +81,6 @@ void InstantFuser::Parts::report() {
     for (const Eigen::Vector2d& pixel : view.masked)
       reported.spots.push_back({pixel, SpotUse::kMasked, 0});
   }
-  std::move(snapshot.leds.begin(), snapshot.leds.end(), std::back_inserter(spare_leds));
   snapshot.leds.clear();
   for (const LedMemory::Led& led : memory.leds()) {
     if (led.point != LedMemory::kNone || led.state == TrackState::kLost)
@@ -93,18 +89,15 @@ void InstantFuser::Parts::report() {
 }
 
 void InstantFuser::Parts::describe(const LedMemory::Led& led) {
-  TrackedLed& reported = nextLed();
+  TrackedLed& reported = snapshot.leds.emplace_back();
   reported.id = led.id;
   reported.state = led.state;
   reported.position = led.position;
   reported.position_covariance = led.covariance;
   reported.first_seen = led.first_seen;
   reported.last_observed = led.last_observed;
-  reported.cameras.clear();
-  reported.residual = std::numeric_limits<double>::quiet_NaN();
   if (led.point != LedMemory::kNone)
     describeRays(locator->points()[led.point], &reported);
-  reported.rays_possible = 0;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     if (std::binary_search(reported.cameras.begin(), reported.cameras.end(), c) ||
         cameras[c].sees(led.position))
@@ -121,17 +114,6 @@ void InstantFuser::Parts::describeRays(const Locator::Point& point, TrackedLed* 
     spot.use = SpotUse::kAssigned;
     spot.led = led->id;
   }
-}
-
-TrackedLed& InstantFuser::Parts::nextLed() {
-  if (spare_leds.empty()) {
-    snapshot.leds.emplace_back();
-    snapshot.leds.back().cameras.reserve(cameras.size());
-  } else {
-    snapshot.leds.push_back(std::move(spare_leds.back()));
-    spare_leds.pop_back();
-  }
-  return snapshot.leds.back();
 }
 
 }  // namespace wiimote_tracker::fusion

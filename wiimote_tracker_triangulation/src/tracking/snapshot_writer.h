@@ -23,15 +23,11 @@ class SnapshotWriter {
   void write(const Groups& groups, double time, Snapshot* snapshot);
 
   /// Without lost LEDs.
-  void predict(const Groups& groups, double time, Snapshot* snapshot);
+  void predict(const Groups& groups, double time, Snapshot* snapshot) const;
 
  private:
-  void writeLeds(const Groups& groups, double time, Snapshot* snapshot) const;
-  void resize(std::size_t count, std::vector<TrackedLed>* leds);
-
   TrackerOptions options_;
-  std::vector<TrackedLed> before_;               // of the last snapshot, without the lost
-  std::vector<std::vector<std::size_t>> spare_;  // storage of TrackedLed::cameras
+  std::vector<TrackedLed> before_;  // of the last snapshot, without the lost
 };
 
 }  // namespace wiimote_tracker::tracking

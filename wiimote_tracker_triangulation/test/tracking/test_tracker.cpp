@@ -180,7 +180,7 @@ TEST(Tracker, MaskedSpotsAreReportedAndNotUsed) {
   Tracker tracker(rig, exactOptions());
   const Snapshot last = track(&tracker, imagesOf(rig, {still(place)}, SceneOptions(), 400)).back();
   ASSERT_EQ(1u, last.leds.size());
-  EXPECT_EQ((std::vector<std::size_t>{1, 2, 3}), last.leds[0].cameras);
+  EXPECT_EQ((CameraList{1, 2, 3}), last.leds[0].cameras);
   EXPECT_EQ(3u, last.leds[0].rays_possible);
   ASSERT_EQ(1u, last.views[0].spots.size());
   EXPECT_EQ(SpotUse::kMasked, last.views[0].spots[0].use);

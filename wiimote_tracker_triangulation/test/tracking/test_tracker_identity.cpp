@@ -57,7 +57,7 @@ TEST(Tracker, AnLedSeenByOneCameraIsPredicted) {
     EXPECT_EQ(0u, led.id);
     if (s.time > 1001.0 + tracker_options.tracked_time && s.time < 1001.4) {
       EXPECT_EQ(TrackState::kPredicted, led.state) << s.time;
-      EXPECT_EQ(std::vector<std::size_t>{2}, led.cameras);
+      EXPECT_EQ(CameraList{2}, led.cameras);
       EXPECT_LE(s.time - led.last_observed, 0.011) << "one image";
       ++alone;
     } else if (s.time < 1001.0 || s.time > 1001.41) {

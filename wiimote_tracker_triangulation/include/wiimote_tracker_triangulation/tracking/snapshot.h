@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H
 
 #include <Eigen/Core>
+#include <boost/container/small_vector.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +15,10 @@ namespace wiimote_tracker::tracking {
 /// As in TrackedPoint.msg.
 enum class TrackState { kTentative, kTracked, kPredicted, kLost };
 
+/// Indices of cameras in a rig. Up to 64 take no memory of their own, so that LEDs are copied,
+/// added and removed without allocating.
+using CameraList = boost::container::small_vector<std::size_t, 64>;
+
 /// One LED at the time of its snapshot; fields as in TrackedPoint.msg.
 struct TrackedLed {
   std::uint32_t id = 0;  ///< Never used again for another LED.
@@ -22,8 +27,8 @@ struct TrackedLed {
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< World [m^2].
   std::optional<Eigen::Vector3d> velocity;                        ///< World [m/s].
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; with a velocity.
-  std::vector<std::size_t> cameras;  ///< Whose rays were used, in the order of the rig.
-  std::size_t rays_possible = 0;     ///< Cameras that should see it, or whose rays were used.
+  CameraList cameras;             ///< Whose rays were used, in the order of the rig.
+  std::size_t rays_possible = 0;  ///< Cameras that should see it, or whose rays were used.
 
   /// sqrt(mean(du^2 + dv^2)) over the rays used [px]; NaN without any.
   double residual = std::numeric_limits<double>::quiet_NaN();

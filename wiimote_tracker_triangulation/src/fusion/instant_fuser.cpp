@@ -5,8 +5,6 @@
 #include "synchronizer.h"
 
 #include <algorithm>
-#include <limits>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::fusion {

@@ -208,8 +208,8 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
   view.time = image.time;
   view.stamp_stddev = image.stamp_stddev;
   view.full = image.full;
-  view.spots.resize(image.total_count);
-  for (std::size_t spot = 0; spot < image.total_count; ++spot) {
+  view.spots.resize(image.pixels.size());
+  for (std::size_t spot = 0; spot < image.pixels.size(); ++spot) {
     SeenSpot& seen = view.spots[spot];
     seen = SeenSpot();
     seen.pixel = image.pixels[spot];

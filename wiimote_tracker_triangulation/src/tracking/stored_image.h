@@ -4,8 +4,8 @@
 #include "association/assign_spots.h"
 
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -13,16 +13,15 @@ namespace wiimote_tracker::tracking {
 
 /// An image in the history, with as many spots as one assignment takes.
 struct StoredImage {
-  std::size_t camera = 0;       // in its group
-  double time = 0.0;            // of the exposure, in the rig's time [s]
-  double arrival = 0.0;         // [s]
-  double stamp_stddev = 0.0;    // with that of the clock's offset [s]
-  std::uint32_t clocks = 0;     // version of the clocks' corrections in the time
-  bool full = false;            // as many spots as the camera can report: more LEDs may be visible
-  std::uint64_t number = 0;     // counts all images in the order of add()
-  std::size_t spot_count = 0;   // usable spots, which come first
-  std::size_t total_count = 0;  // including masked ones
-  std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
+  std::size_t camera = 0;      // in its group
+  double time = 0.0;           // of the exposure, in the rig's time [s]
+  double arrival = 0.0;        // [s]
+  double stamp_stddev = 0.0;   // with that of the clock's offset [s]
+  std::uint32_t clocks = 0;    // version of the clocks' corrections in the time
+  bool full = false;           // as many spots as the camera can report: more LEDs may be visible
+  std::uint64_t number = 0;    // counts all images in the order of add()
+  std::size_t spot_count = 0;  // usable spots, which come first; then the masked ones
+  boost::container::static_vector<Eigen::Vector2d, association::kMaximumSpots> pixels;
 
   /// The order in which images update the tracks, whatever the order of their arrival.
   bool operator<(const StoredImage& other) const {

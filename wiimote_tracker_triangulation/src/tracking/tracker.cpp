@@ -3,9 +3,7 @@
 #include "association/shared_views.h"
 #include "camera_group.h"
 #include "ids.h"
-#include "snapshot_writer.h"
 #include "tracking/time_watch.h"
-#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,13 +15,15 @@ namespace {
 
 constexpr double kNever = -std::numeric_limits<double>::infinity();
 
+bool hasSmallerId(const TrackedLed& a, const TrackedLed& b) {
+  return a.id < b.id;
+}
+
 }  // namespace
 
 Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
     : options_(options),
       ids_(std::make_unique<Ids>()),
-      image_(std::make_unique<StoredImage>()),
-      writer_(std::make_unique<SnapshotWriter>(options)),
       newest_time_(kNever),
       newest_arrival_(kNever),
       last_output_(kNever) {
@@ -37,7 +37,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
   rig.check();
   if (rig.id() == rig_id_) {
     rig_ = rig;
-    uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
+    uncertainty_.emplace(rig_);
     for (const auto& group : groups_)
       group->setCovariance(rig_);
     return;
@@ -51,7 +51,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
 void Tracker::useRig(const geometry::Rig& rig) {
   rig_ = rig;
   rig_id_ = rig.id();
-  uncertainty_ = std::make_unique<geometry::CalibrationUncertainty>(rig_);
+  uncertainty_.emplace(rig_);
   groups_.clear();
   places_.resize(rig_.cameras.size());
   const auto partners = association::sharedViews(rig_, options_.maximum_range);
@@ -110,11 +110,11 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     views_.assign(views_.size(), CameraView());
     newest_time_ = newest_arrival_ = last_output_ = kNever;
   }
-  store(camera, image);
-  image_->time = time;
-  image_->stamp_stddev = std::hypot(image_->stamp_stddev, std::sqrt(clock.variance));
-  image_->clocks = group.clocks().version();
-  switch (group.add(*image_, ids_.get(), &views_)) {
+  StoredImage stored_image = stored(camera, image);
+  stored_image.time = time;
+  stored_image.stamp_stddev = std::hypot(stored_image.stamp_stddev, std::sqrt(clock.variance));
+  stored_image.clocks = group.clocks().version();
+  switch (group.add(stored_image, ids_.get(), &views_)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
       return;
@@ -135,28 +135,29 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
 }
 
-/// Fills image_: the usable spots, then the masked ones. Spots outside the image are left out.
-void Tracker::store(std::size_t camera, const CameraImage& image) {
+/// The usable spots, then the masked ones. Spots outside the image are left out.
+StoredImage Tracker::stored(std::size_t camera, const CameraImage& image) {
   const Place& place = places_[camera];
   const GroupCamera& view = groups_[place.group]->camera(place.member);
-  image_->camera = place.member;
-  image_->arrival = image.arrival;
-  image_->number = images_++;
-  image_->stamp_stddev = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0
-                             ? image.stamp_stddev
-                             : options_.stamp_stddev;
-  image_->full = image.spots.size() >= image.maximum_spots;
+  StoredImage result;
+  result.camera = place.member;
+  result.arrival = image.arrival;
+  result.number = images_++;
+  result.stamp_stddev = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0
+                            ? image.stamp_stddev
+                            : options_.stamp_stddev;
+  result.full = image.spots.size() >= image.maximum_spots;
   const auto collect = [&](bool masked) {
     for (const Spot& spot : image.spots) {
       if (view.isInImage(spot.pixel, 0.5) && view.isMasked(spot.pixel) == masked &&
-          image_->total_count < image_->pixels.size())
-        image_->pixels[image_->total_count++] = spot.pixel;
+          result.pixels.size() < result.pixels.capacity())
+        result.pixels.push_back(spot.pixel);
     }
   };
-  image_->total_count = 0;
   collect(false);
-  image_->spot_count = image_->total_count;
+  result.spot_count = result.pixels.size();
   collect(true);
+  return result;
 }
 
 void Tracker::updateGroups() {
@@ -169,13 +170,13 @@ const Snapshot* Tracker::next() {
     return nullptr;
   last_output_ = newest_time_;
   updateGroups();
-  writer_->write(groups_, newest_time_, &snapshot_);
+  report(newest_time_, &snapshot_);
+  addLost();
   for (TrackedLed& led : snapshot_.leds) {
     if (const auto covariance =
             uncertainty_->covarianceNear(led.position, led.cameras.data(), led.cameras.size()))
       led.position_covariance += *covariance;
   }
-  describeImages(&snapshot_);
   return &snapshot_;
 }
 
@@ -183,25 +184,56 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) {
   if (newest_time_ == kNever || !(time >= newest_time_))
     return false;
   updateGroups();
-  writer_->predict(groups_, time, snapshot);
+  report(time, snapshot);
   for (TrackedLed& led : snapshot->leds) {
     if (const auto covariance =
             uncertainty_->covarianceOf(led.position, led.cameras.data(), led.cameras.size()))
       led.position_covariance += *covariance;
   }
-  describeImages(snapshot);
   return true;
 }
 
-/// Writes which images the snapshot contains.
-void Tracker::describeImages(Snapshot* snapshot) const {
+/// Writes the images and all LEDs, without the covariance of the calibration.
+void Tracker::report(double time, Snapshot* snapshot) const {
+  snapshot->time = time;
   snapshot->latest_arrival = newest_arrival_;
   snapshot->views = views_;
   snapshot->skew = 0.0;
   for (const CameraView& view : views_) {
-    if (view.time && *view.time >= snapshot->time - options_.tracked_time)
-      snapshot->skew = std::max(snapshot->skew, snapshot->time - *view.time);
+    if (view.time && *view.time >= time - options_.tracked_time)
+      snapshot->skew = std::max(snapshot->skew, time - *view.time);
   }
+  std::size_t count = 0;
+  for (const auto& group : groups_)
+    count += group->tracks().size();
+  snapshot->leds.resize(count);
+  auto led = snapshot->leds.begin();
+  for (const auto& group : groups_) {
+    for (const Track& track : group->tracks()) {
+      track.report(time, options_, group->members(), &*led);
+      if (led->state == TrackState::kTracked && group->isDoubtful())
+        led->state = TrackState::kPredicted;
+      ++led;
+    }
+  }
+  std::sort(snapshot->leds.begin(), snapshot->leds.end(), hasSmallerId);
+}
+
+/// Adds those whose tracks have ended since the last snapshot.
+void Tracker::addLost() {
+  std::vector<TrackedLed>& leds = snapshot_.leds;
+  const auto count = static_cast<std::ptrdiff_t>(leds.size());
+  for (const TrackedLed& led : before_) {
+    if (std::binary_search(leds.begin(), leds.begin() + count, led, hasSmallerId))
+      continue;
+    TrackedLed& lost = leds.emplace_back(led);
+    lost.state = TrackState::kLost;
+    lost.cameras.clear();
+    lost.rays_possible = 0;
+    lost.residual = std::numeric_limits<double>::quiet_NaN();
+  }
+  before_.assign(leds.begin(), leds.begin() + count);
+  std::sort(leds.begin(), leds.end(), hasSmallerId);
 }
 
 std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
 
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
@@ -12,15 +13,10 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::geometry {
-class CalibrationUncertainty;
-}
-
 namespace wiimote_tracker::tracking {
 
 class CameraGroup;
 class Ids;
-class SnapshotWriter;
 class TimeWatch;
 struct StoredImage;
 
@@ -63,9 +59,10 @@ class Tracker : public Estimator {
 
   void useRig(const geometry::Rig& rig);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
-  void store(std::size_t camera, const CameraImage& image);
+  StoredImage stored(std::size_t camera, const CameraImage& image);
   void updateGroups();
-  void describeImages(Snapshot* snapshot) const;
+  void report(double time, Snapshot* snapshot) const;
+  void addLost();
 
   TrackerOptions options_;
   geometry::Rig rig_;
@@ -74,9 +71,7 @@ class Tracker : public Estimator {
   std::vector<Place> places_;  // per camera of the rig
   std::unique_ptr<TimeWatch> time_watch_;
   std::unique_ptr<Ids> ids_;
-  std::unique_ptr<StoredImage> image_;
-  std::unique_ptr<SnapshotWriter> writer_;
-  std::unique_ptr<geometry::CalibrationUncertainty> uncertainty_;
+  std::optional<geometry::CalibrationUncertainty> uncertainty_;  // always
   std::vector<CameraView> views_;
   Counters counters_;
   std::uint64_t images_ = 0;
@@ -84,6 +79,7 @@ class Tracker : public Estimator {
   double newest_arrival_;  // of these [s]
   double last_output_;     // [s]
   Snapshot snapshot_;
+  std::vector<TrackedLed> before_;  // in the last snapshot, without the lost
 };
 
 }  // namespace wiimote_tracker::tracking

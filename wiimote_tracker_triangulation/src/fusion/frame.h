@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_H
 #define WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_H
 
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
+
 #include <Eigen/Core>
 
 #include <vector>
@@ -10,9 +12,7 @@ namespace wiimote_tracker::fusion {
 constexpr int kNoSpot = -1;
 
 /// A spot of an image, and the same LED's spot in the image before.
-struct FrameSpot {
-  Eigen::Vector2d pixel = Eigen::Vector2d::Zero();     ///< Distorted [px].
-  int slot = -1;                                       ///< As in tracking::Spot.
+struct FrameSpot : tracking::Spot {
   int before = kNoSpot;                                ///< Index in the image before.
   Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< Since then [px/s]; 0 with kNoSpot.
 };

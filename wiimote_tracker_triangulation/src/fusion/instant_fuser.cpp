@@ -74,8 +74,8 @@ void InstantFuser::Parts::report() {
     reported.time = view.exposure;
     reported.full = view.is_full;
     reported.spots.clear();
-    for (const InstantSpot& spot : view.spots)
-      reported.spots.push_back({spot.pixel, SpotUse::kUnassigned, 0});
+    for (const Eigen::Vector2d& pixel : view.spots)
+      reported.spots.push_back({pixel, SpotUse::kUnassigned, 0});
     for (const Eigen::Vector2d& pixel : view.masked)
       reported.spots.push_back({pixel, SpotUse::kMasked, 0});
   }
@@ -87,13 +87,7 @@ void InstantFuser::Parts::report() {
 }
 
 void InstantFuser::Parts::describe(const LedMemory::Led& led) {
-  TrackedLed& reported = snapshot.leds.emplace_back();
-  reported.id = led.id;
-  reported.state = led.state;
-  reported.position = led.position;
-  reported.position_covariance = led.covariance;
-  reported.first_seen = led.first_seen;
-  reported.last_observed = led.last_observed;
+  TrackedLed& reported = snapshot.leds.emplace_back(led);
   if (led.point != LedMemory::kNone)
     describeRays(locator->points()[led.point], &reported);
   for (std::size_t c = 0; c < cameras.size(); ++c) {

@@ -85,7 +85,7 @@ void LedMemory::update(double time,
                        Led* led) const {
   led->point = index;
   led->position = point.located.position;
-  led->covariance = point.located.covariance;
+  led->position_covariance = point.located.covariance;
   led->last_seen = time;
   led->last_observed = point.last_observed;
   ++led->sightings;

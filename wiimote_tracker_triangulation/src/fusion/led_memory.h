@@ -5,10 +5,7 @@
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
-#include <Eigen/Core>
-
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 namespace wiimote_tracker::fusion {
@@ -18,14 +15,9 @@ class LedMemory {
  public:
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 
-  struct Led {
-    std::uint32_t id = 0;
-    tracking::TrackState state = tracking::TrackState::kTentative;
-    Eigen::Vector3d position;    ///< When last seen [m].
-    Eigen::Matrix3d covariance;  ///< Of the position [m^2].
-    double first_seen = 0.0;     ///< [s]
-    double last_seen = 0.0;      ///< Instant [s].
-    double last_observed = 0.0;  ///< Image [s].
+  /// Without its rays. Position and covariance: when it was last seen.
+  struct Led : tracking::TrackedLed {
+    double last_seen = 0.0;  ///< Instant [s].
     std::size_t sightings = 0;
     std::size_t point = kNone;  ///< Of this instant.
   };

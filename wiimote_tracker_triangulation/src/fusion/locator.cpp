@@ -42,7 +42,7 @@ void Locator::locate(const std::vector<InstantView>& views) {
       const association::SpotReference& sight = association_->spots[associated.first_spot + i];
       const std::size_t spot = spot_of_sight_[sight.view][sight.spot];
       rays_.push_back({sight.view, spot});
-      observations_.push_back({&ray_cameras_[sight.view], views[sight.view].spots[spot].pixel});
+      observations_.push_back({&ray_cameras_[sight.view], views[sight.view].spots[spot]});
     }
     auto located = geometry::triangulate(observations_, options_.triangulation);
     if (!fits(located))
@@ -51,7 +51,7 @@ void Locator::locate(const std::vector<InstantView>& views) {
       continue;
     double observed = -std::numeric_limits<double>::infinity();
     for (const association::SpotReference& ray : rays_)
-      observed = std::max(observed, views[ray.view].spots[ray.spot].observed);
+      observed = std::max(observed, *views[ray.view].exposure);
     points_.push_back({*located, observed, spots_.size(), rays_.size()});
     spots_.insert(spots_.end(), rays_.begin(), rays_.end());
   }
@@ -67,7 +67,7 @@ void Locator::associate(const std::vector<InstantView>& views) {
     sights_[v].clear();
     spot_of_sight_[v].clear();
     for (std::size_t i = 0; i < views[v].spots.size(); ++i) {
-      const auto sight = geometry::sightFromPixel(ray_cameras_[v], views[v].spots[i].pixel);
+      const auto sight = geometry::sightFromPixel(ray_cameras_[v], views[v].spots[i]);
       if (!sight)
         continue;
       sights_[v].push_back(*sight);

@@ -105,9 +105,7 @@ void Synchronizer::readFrame(const geometry::RigCamera& camera,
     if (geometry::isMasked(camera.masks, spot.pixel)) {
       frame_.masked.push_back(spot.pixel);
     } else {
-      frame_.spots.emplace_back();
-      frame_.spots.back().pixel = spot.pixel;
-      frame_.spots.back().slot = spot.slot;
+      frame_.spots.push_back({spot, kNoSpot, Eigen::Vector2d::Zero()});
     }
   }
 }
@@ -144,7 +142,7 @@ void Synchronizer::interpolate(const CameraState& camera, InstantView* view) {
   skew_ = std::max({skew_, time_ - before.time, after.time - time_});
   if (bracket->before == bracket->after) {
     for (const FrameSpot& spot : before.spots)
-      view->spots.push_back({spot.pixel, before.time});
+      view->spots.push_back(spot.pixel);
     return;
   }
   const double share = bracket->shareAt(time_);
@@ -152,7 +150,7 @@ void Synchronizer::interpolate(const CameraState& camera, InstantView* view) {
     if (spot.before == kNoSpot)
       continue;
     const Eigen::Vector2d& start = before.spots[static_cast<std::size_t>(spot.before)].pixel;
-    view->spots.push_back({start + share * (spot.pixel - start), before.time});
+    view->spots.push_back(start + share * (spot.pixel - start));
   }
 }
 

@@ -17,18 +17,12 @@
 
 namespace wiimote_tracker::fusion {
 
-/// A spot, interpolated to an instant.
-struct InstantSpot {
-  Eigen::Vector2d pixel;  ///< Distorted [px].
-  double observed;        ///< Newest image not after the instant that shows it [s].
-};
-
 /// One camera's view, interpolated to an instant.
 struct InstantView {
-  std::optional<double> exposure;  ///< Newest image not after the instant [s].
-  bool is_watching = false;        ///< There are images on both sides of the instant.
-  bool is_full = false;            ///< As many spots as the camera can report.
-  std::vector<InstantSpot> spots;
+  std::optional<double> exposure;       ///< Newest image not after the instant [s].
+  bool is_watching = false;             ///< There are images on both sides of the instant.
+  bool is_full = false;                 ///< As many spots as the camera can report.
+  std::vector<Eigen::Vector2d> spots;   ///< Distorted [px].
   std::vector<Eigen::Vector2d> masked;  ///< [px]
 };
 

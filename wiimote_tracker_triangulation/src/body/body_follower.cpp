@@ -75,29 +75,25 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
     case tracking::TimeWatch::Result::kUsable:
       break;
   }
+  const auto isMasked = [&](const tracking::Spot& spot) {
+    return geometry::isMasked(calibration.masks, spot.pixel);
+  };
   pixels_.clear();
-  spots_.clear();
-  for (std::size_t i = 0; i < image->spots.size(); ++i) {
-    if (geometry::isMasked(calibration.masks, image->spots[i].pixel))
-      continue;
-    pixels_.push_back(image->spots[i].pixel);
-    spots_.push_back(i);
+  for (const tracking::Spot& spot : image->spots) {
+    if (!isMasked(spot))
+      pixels_.push_back(spot.pixel);
   }
   if (!tracker_->add(camera, time, pixels_))
     return;
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
-
-  is_taken_.assign(image->spots.size(), false);
-  for (std::size_t i = 0; i < spots_.size(); ++i)
-    is_taken_[spots_[i]] = tracker_->taken()[i];
+  auto taken = tracker_->taken().begin();  // of each spot that is not masked
   std::size_t left = 0;
-  for (std::size_t i = 0; i < image->spots.size(); ++i) {
-    if (!is_taken_[i])
-      image->spots[left++] = image->spots[i];
+  for (const tracking::Spot& spot : image->spots) {
+    if (isMasked(spot) || !*taken++)
+      image->spots[left++] = spot;
   }
   // Spots of bodies use up places in the camera's list of spots.
-  const std::size_t taken = image->spots.size() - left;
-  image->maximum_spots -= std::min(taken, image->maximum_spots);
+  image->maximum_spots -= std::min(image->spots.size() - left, image->maximum_spots);
   image->spots.resize(left);
 }
 

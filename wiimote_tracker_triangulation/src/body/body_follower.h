@@ -69,10 +69,7 @@ class BodyFollower {
   double last_output_ = -std::numeric_limits<double>::infinity();
   BodySnapshot snapshot_;
 
-  // Reused buffers.
-  std::vector<Eigen::Vector2d> pixels_;
-  std::vector<std::size_t> spots_;  // index in the image, per pixel
-  std::vector<bool> is_taken_;      // per spot of the image
+  std::vector<Eigen::Vector2d> pixels_;  // reused
 };
 
 }  // namespace wiimote_tracker::body

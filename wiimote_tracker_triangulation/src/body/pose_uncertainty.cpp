@@ -16,15 +16,10 @@ using geometry::kParameters;
 
 constexpr std::size_t kMaximumCameras = 16;  // more are left out
 
-/// J^T A of one camera's pixels.
-struct CameraPart {
-  std::size_t camera;
-  Eigen::Matrix<double, 6, kParameters> by_parameters;
-};
-
 struct Sums {
   PoseCovariance information = PoseCovariance::Zero();  // J^T J of all cameras
-  std::array<CameraPart, kMaximumCameras> parts;
+  std::array<std::size_t, kMaximumCameras> cameras;
+  std::array<Eigen::Matrix<double, 6, kParameters>, kMaximumCameras> by_parameters;  // their J^T A
   std::size_t count = 0;
 };
 
@@ -42,9 +37,9 @@ Sums sumsOf(const geometry::Rig& rig,
             Pixels pixels) {
   Sums sums;
   for (std::size_t c = 0; c < rig.cameras.size() && sums.count < kMaximumCameras; ++c) {
-    CameraPart& part = sums.parts[sums.count];
-    part.camera = c;
-    part.by_parameters.setZero();
+    Eigen::Matrix<double, 6, kParameters>& by_parameters = sums.by_parameters[sums.count];
+    by_parameters.setZero();
+    sums.cameras[sums.count] = c;
     bool has_pixels = false;
     for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
       const LedEstimate& led = estimate.leds[i];
@@ -60,7 +55,7 @@ Sums sumsOf(const geometry::Rig& rig,
       Eigen::Matrix<double, 2, 6> by_pose;
       by_pose << projection->by_point, -projection->by_point * geometry::so3::skew(arm);
       sums.information.noalias() += by_pose.transpose() * by_pose;
-      part.by_parameters.noalias() += by_pose.transpose() * projection->by_parameters;
+      by_parameters.noalias() += by_pose.transpose() * projection->by_parameters;
     }
     sums.count += has_pixels ? 1 : 0;
   }
@@ -74,17 +69,8 @@ std::optional<PoseCovariance> covarianceOf(const Eigen::MatrixXd& rig_covariance
   const Eigen::LLT<PoseCovariance> factor(sums.information);
   if (sums.count == 0 || factor.info() != Eigen::Success || !(factor.rcond() > kSingular))
     return std::nullopt;
-  PoseCovariance sum = PoseCovariance::Zero();
-  for (std::size_t i = 0; i < sums.count; ++i) {
-    for (std::size_t j = 0; j < sums.count; ++j) {
-      const auto block = rig_covariance.block<kParameters, kParameters>(
-          geometry::firstParameter(sums.parts[i].camera),
-          geometry::firstParameter(sums.parts[j].camera));
-      const Eigen::Matrix<double, 6, kParameters> left =
-          sums.parts[i].by_parameters.lazyProduct(block);
-      sum.noalias() += left * sums.parts[j].by_parameters.transpose();
-    }
-  }
+  const PoseCovariance sum = geometry::propagatedErrors(rig_covariance, sums.by_parameters.data(),
+                                                        sums.cameras.data(), sums.count);
   const PoseCovariance half = factor.solve(sum);
   const PoseCovariance covariance = factor.solve(half.transpose());
   if (!covariance.allFinite())

@@ -28,18 +28,8 @@ std::optional<Matrix3> CalibrationUncertainty::covarianceOf(const Vector3& point
   std::array<PointJacobian, kMaximumCameras> by_camera;
   if (!pointSensitivity(rig_, point, cameras, count, by_camera.data()))
     return std::nullopt;
-  Matrix3 covariance = Matrix3::Zero();
-  for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t j = 0; j < count; ++j) {
-      const auto block = rig_.covariance.block<kParameters, kParameters>(
-          firstParameter(cameras[i]), firstParameter(cameras[j]));
-      const PointJacobian left = by_camera[i].lazyProduct(block);
-      covariance.noalias() += left * by_camera[j].transpose();
-    }
-  }
-  if (!covariance.allFinite())
-    return std::nullopt;
-  return Matrix3(0.5 * (covariance + covariance.transpose()));
+  const Matrix3 covariance = propagatedErrors(rig_.covariance, by_camera.data(), cameras, count);
+  return covariance.allFinite() ? std::make_optional(covariance) : std::nullopt;
 }
 
 std::optional<Matrix3> CalibrationUncertainty::covarianceNear(const Vector3& point,

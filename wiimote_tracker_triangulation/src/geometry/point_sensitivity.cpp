@@ -45,22 +45,14 @@ std::optional<Eigen::Matrix2d> disagreementCovariance(const Rig& rig,
       !pointSensitivity(rig, point, others, count, point_by_others.data()))
     return std::nullopt;
   std::array<ParameterJacobian, kMaximumOthers + 1> by_camera;
-  std::array<Eigen::Index, kMaximumOthers + 1> first;
+  std::array<std::size_t, kMaximumOthers + 1> cameras;
   for (std::size_t i = 0; i < count; ++i) {
     by_camera[i] = projection->by_point.lazyProduct(point_by_others[i]);
-    first[i] = firstParameter(others[i]);
+    cameras[i] = others[i];
   }
   by_camera[count] = projection->by_parameters;
-  first[count] = firstParameter(camera);
-  Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
-  for (std::size_t i = 0; i <= count; ++i) {
-    for (std::size_t j = 0; j <= count; ++j) {
-      const auto block = rig.covariance.block<kParameters, kParameters>(first[i], first[j]);
-      const ParameterJacobian left = by_camera[i].lazyProduct(block);
-      covariance += left.lazyProduct(by_camera[j].transpose());
-    }
-  }
-  return Eigen::Matrix2d(0.5 * (covariance + covariance.transpose()));
+  cameras[count] = camera;
+  return propagatedErrors(rig.covariance, by_camera.data(), cameras.data(), count + 1);
 }
 
 std::optional<Eigen::MatrixXd> pointByParameters(const Rig& rig,

@@ -49,6 +49,28 @@ std::optional<Projection> rayProjection(const Rig& rig,
                                         std::size_t camera,
                                         const Eigen::Vector3d& point);
 
+/// Covariance of what changes by D_i with the parameters of the i-th of some cameras, due to errors
+/// of the calibration: the sum of D_i C_ij D_j^T over all pairs of them. Does not allocate.
+/// @param covariance of the rig. @param by_camera `count` blocks D_i, in the order of `cameras`.
+template <int kRows>
+Eigen::Matrix<double, kRows, kRows> propagatedErrors(
+    const Eigen::MatrixXd& covariance,
+    const Eigen::Matrix<double, kRows, kParameters>* by_camera,
+    const std::size_t* cameras,
+    std::size_t count) {
+  using Square = Eigen::Matrix<double, kRows, kRows>;
+  Square sum = Square::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t j = 0; j < count; ++j) {
+      const auto block = covariance.block<kParameters, kParameters>(firstParameter(cameras[i]),
+                                                                    firstParameter(cameras[j]));
+      const Eigen::Matrix<double, kRows, kParameters> left = by_camera[i].lazyProduct(block);
+      sum += left.lazyProduct(by_camera[j].transpose());
+    }
+  }
+  return 0.5 * (sum + sum.transpose());
+}
+
 }  // namespace wiimote_tracker::geometry
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_PARAMETERS_H

@@ -58,17 +58,22 @@ void TimeWatch::Pair::add(double lead) {
     agrees = 4 * (recent[0].near + recent[1].near) > total;
 }
 
-TimeWatch::Pair& TimeWatch::pairOf(std::size_t a, std::size_t b) {
-  return pairs_[std::min(a, b) * cameras_.size() + std::max(a, b)];
+std::size_t TimeWatch::indexOf(std::size_t a, std::size_t b) const {
+  return std::min(a, b) * cameras_.size() + std::max(a, b);
 }
 
-/// Nothing while one of the two is silent.
+/// Nothing while one of the two is silent, or if they are one.
 const TimeWatch::Pair* TimeWatch::activePair(std::size_t a, std::size_t b) const {
-  const Pair& pair = pairs_[std::min(a, b) * cameras_.size() + std::max(a, b)];
+  const Pair& pair = pairs_[indexOf(a, b)];
   return pair.recent[0].count > 0 && pair.unanswered[0] <= kSilence &&
                  pair.unanswered[1] <= kSilence
              ? &pair
              : nullptr;
+}
+
+bool TimeWatch::doAgree(std::size_t a, std::size_t b) const {
+  const Pair* pair = activePair(a, b);
+  return pair && pair->agrees;
 }
 
 /// Compares the camera's new image with the others' newest. @returns whether anything changed that
@@ -78,7 +83,7 @@ bool TimeWatch::comparePairs(std::size_t camera, double arrival) {
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
     if (other == camera || !cameras_[other].newest)
       continue;
-    Pair& pair = pairOf(camera, other);
+    Pair& pair = pairs_[indexOf(camera, other)];
     const bool is_first = camera < other;
     int& unanswered = pair.unanswered[is_first ? 0 : 1];
     int& other_unanswered = pair.unanswered[is_first ? 1 : 0];
@@ -102,18 +107,15 @@ void TimeWatch::vote() {
   const std::size_t n = cameras_.size();
   for (std::size_t i = 0; i < n; ++i) {
     votes_[i] = 1;
-    for (std::size_t j = 0; j < n; ++j) {
-      const Pair* pair = i == j ? nullptr : activePair(i, j);
-      votes_[i] += pair && pair->agrees;
-    }
+    for (std::size_t j = 0; j < n; ++j)
+      votes_[i] += doAgree(i, j);
   }
   for (std::size_t i = 0; i < n; ++i) {
     cameras_[i].trusted = true;
     for (std::size_t j = 0; j < n; ++j) {
-      const Pair* pair = i == j ? nullptr : activePair(i, j);
-      if (!pair || pair->agrees)
-        continue;
-      if (votes_[j] > votes_[i] || (votes_[j] == votes_[i] && !someAgreesWith(i, j)))
+      const Pair* pair = activePair(i, j);
+      if (pair && !pair->agrees &&
+          (votes_[j] > votes_[i] || (votes_[j] == votes_[i] && !someAgreesWith(i, j))))
         cameras_[i].trusted = false;
     }
   }
@@ -123,11 +125,7 @@ void TimeWatch::vote() {
 /// slow, its camera disagrees with one of the others first.
 bool TimeWatch::someAgreesWith(std::size_t a, std::size_t b) const {
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
-    if (other == a || other == b)
-      continue;
-    const Pair* with_a = activePair(a, other);
-    const Pair* with_b = activePair(b, other);
-    if (with_a && with_a->agrees && with_b && with_b->agrees)
+    if (doAgree(a, other) && doAgree(b, other))
       return true;
   }
   return false;
@@ -142,7 +140,7 @@ bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
   int ahead_of = 0;
   int compared = 0;
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
-    if (other == camera || !cameras_[other].trusted || !activePair(camera, other))
+    if (!cameras_[other].trusted || !activePair(camera, other))
       continue;
     ++compared;
     ahead_of += arrival > *cameras_[other].newest + kTolerance;
@@ -170,7 +168,7 @@ std::optional<double> TimeWatch::ahead(std::size_t camera) const {
   double sum = 0.0;
   int count = 0;
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
-    const Pair* pair = other == camera ? nullptr : activePair(camera, other);
+    const Pair* pair = activePair(camera, other);
     if (!pair || !cameras_[other].trusted)
       continue;
     const double lead = pair->meanLead();

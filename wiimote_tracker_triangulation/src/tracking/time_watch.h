@@ -76,8 +76,9 @@ class TimeWatch {
   /// Images of one camera after which another is silent; more than come together after a pause.
   static constexpr int kSilence = 100;
 
-  Pair& pairOf(std::size_t a, std::size_t b);
+  std::size_t indexOf(std::size_t a, std::size_t b) const;
   const Pair* activePair(std::size_t a, std::size_t b) const;
+  bool doAgree(std::size_t a, std::size_t b) const;
   static void note(double arrival, Camera* camera);
   bool comparePairs(std::size_t camera, double arrival);
   void vote();

@@ -124,17 +124,8 @@ void SpotCosts::reset(std::size_t spot_count,
   std::fill_n(miss.begin(), tracks, miss_cost);
 }
 
-SpotAssignment assignSpots(const SpotCosts& costs) {
-  SpotAssignment result;
-  result.track_of_spot = Assignment(costs).solve();
-  for (std::size_t track = 0; track < costs.tracks; ++track)
-    result.cost += costs.miss[track];
-  for (std::size_t spot = 0; spot < costs.spots; ++spot) {
-    const int track = result.track_of_spot[spot];
-    result.cost +=
-        track == kFalseDetection ? costs.ghost[spot] : costs.pair[spot][track] - costs.miss[track];
-  }
-  return result;
+std::array<int, kMaximumSpots> assignSpots(const SpotCosts& costs) {
+  return Assignment(costs).solve();
 }
 
 }  // namespace wiimote_tracker::association

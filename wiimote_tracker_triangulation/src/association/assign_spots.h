@@ -24,15 +24,10 @@ struct SpotCosts {
 
 constexpr int kFalseDetection = -1;
 
-struct SpotAssignment {
-  /// For each spot its track or kFalseDetection; undefined from SpotCosts::spots on.
-  std::array<int, kMaximumSpots> track_of_spot;
-  double cost = 0.0;  ///< Sum over pairs, false and missed detections.
-};
-
 /// The assignment of least cost in which each spot has at most one track and each track at most one
 /// spot: shortest augmenting paths (Jonker and Volgenant 1987), exact. Never allocates.
-SpotAssignment assignSpots(const SpotCosts& costs);
+/// @returns for each spot its track or kFalseDetection; undefined from SpotCosts::spots on.
+std::array<int, kMaximumSpots> assignSpots(const SpotCosts& costs);
 
 }  // namespace wiimote_tracker::association
 

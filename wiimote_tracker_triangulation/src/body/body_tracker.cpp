@@ -185,11 +185,11 @@ void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>&
       columns[costs.tracks++] = {b, led};
     }
   }
-  const association::SpotAssignment assignment = association::assignSpots(costs);
+  const auto track_of_spot = association::assignSpots(costs);
   led_of_spot_.assign(pixels.size(), std::nullopt);
   for (std::size_t s = 0; s < spots; ++s) {
-    if (assignment.track_of_spot[s] != association::kFalseDetection)
-      led_of_spot_[s] = columns[static_cast<std::size_t>(assignment.track_of_spot[s])];
+    if (track_of_spot[s] != association::kFalseDetection)
+      led_of_spot_[s] = columns[static_cast<std::size_t>(track_of_spot[s])];
   }
 }
 

@@ -25,14 +25,14 @@ void followSpots(const Frame& before, double maximum_speed, Frame* frame) {
         costs.pair[i][j] = distance_squared + (spot.slot == old.slot ? 0.0 : kOtherSlot);
     }
   }
-  const association::SpotAssignment assignment = association::assignSpots(costs);
+  const auto track_of_spot = association::assignSpots(costs);
   for (std::size_t i = 0; i < frame->spots.size(); ++i) {
     FrameSpot& spot = frame->spots[i];
     spot.before = kNoSpot;
     spot.velocity.setZero();
-    if (i >= costs.spots || assignment.track_of_spot[i] == association::kFalseDetection)
+    if (i >= costs.spots || track_of_spot[i] == association::kFalseDetection)
       continue;
-    spot.before = assignment.track_of_spot[i];
+    spot.before = track_of_spot[i];
     const FrameSpot& old = before.spots[static_cast<std::size_t>(spot.before)];
     spot.velocity = (spot.pixel - old.pixel) / elapsed;
   }

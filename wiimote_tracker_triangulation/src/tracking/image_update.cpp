@@ -199,12 +199,12 @@ void ImageUpdate::assign() {
         costs_.pair[spot][i] = extra - *likelihood;
     }
   }
-  const association::SpotAssignment best = association::assignSpots(costs_);
+  const auto candidate_of_spot = association::assignSpots(costs_);
   track_of_spot_.fill(association::kFalseDetection);
   for (std::size_t spot = 0; spot < image_->spot_count; ++spot) {
-    if (best.track_of_spot[spot] == association::kFalseDetection)
+    if (candidate_of_spot[spot] == association::kFalseDetection)
       continue;
-    assignSpot(spot, &candidates_[static_cast<std::size_t>(best.track_of_spot[spot])]);
+    assignSpot(spot, &candidates_[static_cast<std::size_t>(candidate_of_spot[spot])]);
   }
 }
 

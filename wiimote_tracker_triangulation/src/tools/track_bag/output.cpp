@@ -21,6 +21,8 @@ using wiimote_tracker_msgs::RigCalibration;
 using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::TrackedPointArray;
 
+constexpr char kTransforms[] = "/tf";
+
 Output::Output(const OutputFiles& files,
                const Topics& topics,
                const OutputOptions& options,
@@ -52,12 +54,13 @@ Output::~Output() {
 }
 
 void Output::leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies) {
-  earlier_topics_ = {topics_.points(), topics_.triggeredPoints(), topics_.zoneEvents(),
-                     topics_.bodies(), topics_.markers()};
+  for (const char* name : {"points", "triggered_points", "zone_events", "bodies", "markers"})
+    earlier_topics_.insert(topics_(name));
   for (const std::string& label : labels)
-    earlier_topics_.insert({topics_.point(label), topics_.odometry(label)});
+    earlier_topics_.insert({topics_(label + "/point"), topics_(label + "/odometry")});
   for (const std::string& body : bodies)
-    earlier_topics_.insert({topics_.pose(body), topics_.twist(body), topics_.odometry(body)});
+    earlier_topics_.insert(
+        {topics_(body + "/pose"), topics_(body + "/twist"), topics_(body + "/odometry")});
   earlier_frames_ = labels;
   earlier_frames_.insert(bodies.begin(), bodies.end());
 }
@@ -66,7 +69,7 @@ void Output::copy(const rosbag::MessageInstance& recorded) {
   const std::string& topic = recorded.getTopic();
   if (earlier_topics_.count(topic) > 0)
     return;
-  if (topic != Topics::transforms() || !recorded.isType<TFMessage>()) {
+  if (topic != kTransforms || !recorded.isType<TFMessage>()) {
     write(topic, recorded.getTime(), recorded, recorded.getConnectionHeader());
     return;
   }
@@ -87,7 +90,7 @@ void Output::writeRig(const RigCalibration& rig, const ros::Time& time) {
   (*header)["message_definition"] = ros::message_traits::definition(rig);
   (*header)["latching"] = "1";
   (*header)["callerid"] = "/track_bag";
-  write(topics_.rig(), time, rig, header);
+  write(topics_("calibration/rig"), time, rig, header);
 }
 
 void Output::onRig(const geometry::Rig& rig) {
@@ -102,51 +105,51 @@ const tracking::Snapshot& Output::onSnapshot(const tracking::Snapshot& snapshot)
 void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                       const std::vector<tracking::CameraView>& /*views*/) {
   ++points_;
-  write(topics_.points(), now_, *points);
+  write(topics_("points"), now_, *points);
   TFMessage transforms;
   for (const TrackedPoint& point : points->points) {
     ids_.insert(point.id);
     if (!isPublished(point, options_.publish_predicted))
       continue;
-    write(topics_.point(point.label), now_, pointStamped(*points, point));
+    write(topics_(point.label + "/point"), now_, pointStamped(*points, point));
     if (options_.led_odometry)
-      write(topics_.odometry(point.label), now_, odometry(*points, point));
+      write(topics_(point.label + "/odometry"), now_, odometry(*points, point));
     transforms.transforms.push_back(transform(*points, point));
   }
   if (!transforms.transforms.empty())
-    write(Topics::transforms(), now_, transforms);
+    write(kTransforms, now_, transforms);
   writeTables(*points, false);
 }
 
 void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
                       const std::vector<bool>& bridged) {
-  write(topics_.bodies(), now_, bodies);
+  write(topics_("bodies"), now_, bodies);
   trajectories_.add(bodies);
   TFMessage transforms;
   for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
     const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
     if (!isPublished(body, options_.publish_predicted || bridged[i]))
       continue;
-    write(topics_.pose(body.name), now_, poseStamped(bodies, body));
+    write(topics_(body.name + "/pose"), now_, poseStamped(bodies, body));
     const nav_msgs::Odometry motion = odometry(bodies, body);
-    write(topics_.twist(body.name), now_, twistOf(motion));
-    write(topics_.odometry(body.name), now_, motion);
+    write(topics_(body.name + "/twist"), now_, twistOf(motion));
+    write(topics_(body.name + "/odometry"), now_, motion);
     if (options_.body_transforms)
       transforms.transforms.push_back(transform(bodies, body));
   }
   if (!transforms.transforms.empty())
-    write(Topics::transforms(), now_, transforms);
+    write(kTransforms, now_, transforms);
 }
 
 void Output::onTriggeredPoints(const TrackedPointArray& points) {
   ++triggers_answered_;
-  write(topics_.triggeredPoints(), now_, points);
+  write(topics_("triggered_points"), now_, points);
   writeTables(points, true);
 }
 
 void Output::onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) {
   ++zone_events_;
-  write(topics_.zoneEvents(), now_, event);
+  write(topics_("zone_events"), now_, event);
 }
 
 void Output::onProblem(const std::string& sentence) {

@@ -16,27 +16,12 @@ class Topics {
       name_space_ += "/";
   }
 
-  std::string rig() const { return resolve("calibration/rig"); }
-  std::string trigger() const { return resolve("trigger"); }
-  std::string points() const { return resolve("points"); }
-  std::string triggeredPoints() const { return resolve("triggered_points"); }
-  std::string zoneEvents() const { return resolve("zone_events"); }
-  std::string bodies() const { return resolve("bodies"); }
-  std::string imu(const std::string& topic) const { return resolve(topic); }
-  std::string pose(const std::string& body) const { return resolve(body + "/pose"); }
-  std::string twist(const std::string& body) const { return resolve(body + "/twist"); }
-  /// Of a body or an LED.
-  std::string odometry(const std::string& name) const { return resolve(name + "/odometry"); }
-  std::string markers() const { return resolve("markers"); }
-  std::string blobs(const std::string& camera) const { return resolve(camera + "/ir_blobs"); }
-  std::string point(const std::string& label) const { return resolve(label + "/point"); }
-  static std::string transforms() { return "/tf"; }
-
- private:
-  std::string resolve(const std::string& name) const {
+  /// The topic that the tracker means by a name.
+  std::string operator()(const std::string& name) const {
     return name[0] == '/' ? name : name_space_ + name;
   }
 
+ private:
   std::string name_space_;
 };
 

@@ -43,7 +43,7 @@ class Player {
       : tracker_(parameters, sink), topics_(topics), sink_(sink) {
     for (const body::Constellation& body : parameters.bodies.known) {
       if (body.imu)
-        imus_.emplace(topics_.imu(body.imu->topic), body.name);
+        imus_.emplace(topics_(body.imu->topic), body.name);
     }
   }
 
@@ -59,15 +59,15 @@ class Player {
     }
     cameras_.clear();
     for (const geometry::RigCamera& camera : tracker_.rig().cameras)
-      cameras_[topics_.blobs(camera.camera.name)] = camera.camera.name;
+      cameras_[topics_(camera.camera.name + "/ir_blobs")] = camera.camera.name;
   }
 
   void play(const rosbag::MessageInstance& message) {
     const std::string& topic = message.getTopic();
-    if (topic == topics_.rig()) {
+    if (topic == topics_("calibration/rig")) {
       if (const auto rig = read<RigCalibration>(message))
         play(*rig);
-    } else if (topic == topics_.trigger()) {
+    } else if (topic == topics_("trigger")) {
       if (const auto trigger = read<std_msgs::Header>(message))
         tracker_.takeTrigger(*trigger);
     } else if (const auto camera = cameras_.find(topic); camera != cameras_.end()) {
@@ -87,10 +87,12 @@ class Player {
   void finish() {
     if (!tracker_.hasRig())
       throw BagError(refusal_.empty()
-                         ? "no rig is on " + topics_.rig() + ": say where with --namespace"
+                         ? "no rig is on " + topics_("calibration/rig") +
+                               ": say where with --namespace"
                          : "no rig can be used, name another one with --rig: " + refusal_);
     if (images_used_ == 0)
-      throw BagError("no image is of a camera of the rig, such as on " + topics_.blobs("CAMERA") +
+      throw BagError("no image is of a camera of the rig, such as on " +
+                     topics_("CAMERA/ir_blobs") +
                      ": name its rig with --rig, or the topics' namespace with --namespace");
     tracker_.finish();
   }
@@ -124,10 +126,10 @@ void leaveOutEarlierResults(const Recording& recording,
                             const Topics& topics,
                             const TrackingParameters& parameters,
                             Output* output) {
-  std::set<std::string> labels = recording.labels(topics.points());
+  std::set<std::string> labels = recording.labels(topics("points"));
   for (const std::string& label : parameters.allLabels())
     labels.insert(label);
-  std::set<std::string> bodies = recording.bodies(topics.bodies());
+  std::set<std::string> bodies = recording.bodies(topics("bodies"));
   if (parameters.bodies.known.empty() && !bodies.empty())
     std::fprintf(stderr,
                  "The recorded tracker had a body '%s', whose LEDs are single ones now: name the "
@@ -150,7 +152,7 @@ tracking::Counters play(const Recording& recording,
     player.play(*own_rig);
   for (std::size_t i = 0; i < recording.size(); ++i) {
     const rosbag::MessageInstance& message = recording[i];
-    if (own_rig && message.getTopic() == topics.rig())
+    if (own_rig && message.getTopic() == topics("calibration/rig"))
       continue;
     before(message);
     player.play(message);

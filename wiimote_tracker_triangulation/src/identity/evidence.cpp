@@ -47,13 +47,12 @@ void Evidence::accumulate(const Sighting& sighting,
   const double time = sighting.time - origin_;
   float* cell = cells->data();
   for (const double frequency : hypotheses_->frequencies()) {
-    const Hypotheses::Lookup lookup = hypotheses_->lookup(sighting, frequency, time * frequency);
-    const float* row = lookup.row;
+    const float* row = hypotheses_->rowsOf(sighting, frequency, time * frequency);
     for (std::size_t label = 0; label < hypotheses_->labels(); ++label) {
       Eigen::Map<Eigen::ArrayXf>(cell, phases) +=
           factor * Eigen::Map<const Eigen::ArrayXf>(row, phases);
       cell += phases;
-      row += lookup.stride;
+      row += 2 * phases;
     }
   }
   *steady += weight * hypotheses_->steady(sighting.seen);

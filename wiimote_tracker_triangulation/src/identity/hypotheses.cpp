@@ -90,9 +90,7 @@ void Hypotheses::fillRow(std::size_t blur, bool seen, std::size_t step, std::siz
   }
 }
 
-Hypotheses::Lookup Hypotheses::lookup(const Sighting& sighting,
-                                      double frequency,
-                                      double periods) const {
+const float* Hypotheses::rowsOf(const Sighting& sighting, double frequency, double periods) const {
   const double blurs = sighting.exposure * frequency / kBlurStep + 0.5;
   const auto blur = static_cast<std::size_t>(std::min(blurs, kBlurs - 1.0));
   const double phase = periods - std::floor(periods);
@@ -102,7 +100,7 @@ Hypotheses::Lookup Hypotheses::lookup(const Sighting& sighting,
   const std::size_t step = fine % kStepsPerPhase;
   // A row holds two periods, so that a whole period is contiguous from any phase.
   const std::size_t first = phases_ - fine / kStepsPerPhase;
-  return {&log_likelihoods_[rowStart(blur, sighting.seen, step) + first], 2 * phases_};
+  return &log_likelihoods_[rowStart(blur, sighting.seen, step) + first];
 }
 
 double Hypotheses::steady(bool seen) const {

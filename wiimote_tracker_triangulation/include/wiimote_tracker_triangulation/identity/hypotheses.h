@@ -48,16 +48,11 @@ class Hypotheses {
   /// * phases().
   std::size_t cells() const { return frequencies_.size() * labels() * phases_; }
 
-  /// Likelihoods of a sighting at one frequency.
-  struct Lookup {
-    const float* row;    ///< First label, phases 0, 1, ...
-    std::size_t stride;  ///< Between the rows of two labels.
-  };
-
-  /// Log likelihoods of a sighting, relative to those of a hidden LED.
+  /// Log likelihoods of a sighting at one frequency, relative to those of a hidden LED: a row of
+  /// phases() for each label, every 2 * phases() values.
   /// @param frequency [Hz]. @param periods periods since phase 0, any number. The phase of a
   /// hypothesis is minus that of the waveform at periods = 0.
-  Lookup lookup(const Sighting& sighting, double frequency, double periods) const;
+  const float* rowsOf(const Sighting& sighting, double frequency, double periods) const;
 
   /// Log likelihood for a light that does not blink.
   double steady(bool seen) const;

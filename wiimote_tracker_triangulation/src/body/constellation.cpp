@@ -9,6 +9,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <set>
 
 namespace wiimote_tracker::body {
@@ -17,65 +19,20 @@ namespace {
 // Longest distance of two LEDs of a body [m]: a larger one was not given in metres.
 constexpr double kLargest = 3.0;
 
-/// Depth-first search over permutations; prunes those whose distances differ too much.
-class SymmetrySearch {
- public:
-  explicit SymmetrySearch(const std::vector<Eigen::Vector3d>& leds) : leds_(leds) {}
-
-  Symmetry run() {
-    extend();
-    return best_;
-  }
-
- private:
-  void extend() {
-    const std::size_t i = chosen_.size();
-    if (i == leds_.size()) {
-      judge();
-      return;
-    }
-    for (std::size_t candidate = 0; candidate < leds_.size(); ++candidate) {
-      if (!isPossible(i, candidate))
-        continue;
-      chosen_.push_back(candidate);
-      extend();
-      chosen_.pop_back();
-    }
-  }
-
-  /// An RMS residual r of n points changes no distance by more than r sqrt(2 n).
-  bool isPossible(std::size_t i, std::size_t candidate) const {
-    const double slack = best_.residual * std::sqrt(2.0 * static_cast<double>(leds_.size()));
+/// Whether a permutation changes the distance of two LEDs by more than a limit [m].
+bool changesADistance(const std::vector<Eigen::Vector3d>& leds,
+                      const std::vector<std::size_t>& permutation,
+                      double limit) {
+  for (std::size_t i = 0; i < leds.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (chosen_[k] == candidate)
-        return false;
       const double change =
-          (leds_[i] - leds_[k]).norm() - (leds_[candidate] - leds_[chosen_[k]]).norm();
-      if (std::abs(change) > slack)
-        return false;
+          (leds[i] - leds[k]).norm() - (leds[permutation[i]] - leds[permutation[k]]).norm();
+      if (std::abs(change) > limit)
+        return true;
     }
-    return true;
   }
-
-  void judge() {
-    bool is_identity = true;
-    std::vector<PointPair> pairs;
-    for (std::size_t i = 0; i < leds_.size(); ++i) {
-      is_identity = is_identity && chosen_[i] == i;
-      pairs.push_back({leds_[i], leds_[chosen_[i]], 1.0});
-    }
-    if (is_identity)
-      return;
-    const double residual =
-        std::sqrt(align(pairs.data(), pairs.size()).cost / static_cast<double>(pairs.size()));
-    if (residual < best_.residual)
-      best_ = {chosen_, residual};
-  }
-
-  const std::vector<Eigen::Vector3d>& leds_;
-  std::vector<std::size_t> chosen_;
-  Symmetry best_;
-};
+  return false;
+}
 
 void checkLabels(const Constellation& body) {
   const std::set<std::string> different(body.labels.begin(), body.labels.end());
@@ -133,7 +90,23 @@ std::string Constellation::labelOf(std::size_t led) const {
 }
 
 Symmetry nearestSymmetry(const Constellation& constellation) {
-  return SymmetrySearch(constellation.leds).run();
+  const std::vector<Eigen::Vector3d>& leds = constellation.leds;
+  const auto count = static_cast<double>(leds.size());
+  Symmetry best;
+  std::vector<std::size_t> permutation(leds.size());
+  std::iota(permutation.begin(), permutation.end(), std::size_t{0});
+  while (std::next_permutation(permutation.begin(), permutation.end())) {
+    // An RMS residual r of n points changes no distance by more than r sqrt(2 n).
+    if (changesADistance(leds, permutation, best.residual * std::sqrt(2.0 * count)))
+      continue;
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 0; i < leds.size(); ++i)
+      pairs.push_back({leds[i], leds[permutation[i]], 1.0});
+    const double residual = std::sqrt(align(pairs.data(), pairs.size()).cost / count);
+    if (residual < best.residual)
+      best = {permutation, residual};
+  }
+  return best;
 }
 
 std::string describe(const Constellation& constellation, const Symmetry& symmetry) {

@@ -37,8 +37,6 @@ double epipolarChiSquared(const EpipolarSpot& a,
   return f * f / (by_a + by_b);
 }
 
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
 /// [px^2]
 double meanImageArea(const geometry::Rig& rig) {
   double sum = 0.0;
@@ -68,47 +66,35 @@ AssociationOptions typicalCosts(const geometry::Rig& rig,
 }
 
 struct ViewAssociator::Workspace {
-  /// One spot: a node of the graph of possible pairs, and of the union-find of its components.
+  /// One spot: a node of the union-find of the components of possible pairs.
   struct Node {
     std::size_t view;
-    std::size_t index;              // in its view
-    std::size_t root;               // towards the first spot of its component
-    std::size_t next_in_component;  // kNone: the last
-    std::size_t last_in_component;  // of a root
-    std::size_t first_edge;         // to a later spot; kNone: none
-    std::size_t edge_count;         // to later spots
-    std::size_t place;              // in the component
-  };
-  /// Two spots that can belong to one point.
-  struct Edge {
-    std::size_t later_spot;
-    std::size_t next;  // of the same earlier spot; kNone: the last
-    double chi_squared;
+    std::size_t index;  // in its view
+    std::size_t root;   // towards the first spot of its component
   };
 
   Workspace(const geometry::Rig& rig,
             std::vector<std::vector<std::size_t>> partners,
             const AssociationOptions& association_options)
       : options(association_options), search(rig, std::move(partners), association_options) {
-    constexpr std::size_t kUsual = 64;  // spots of a component; larger ones allocate
+    constexpr std::size_t kUsual = 64;  // spots of all views; more allocate
     component.spots.reserve(kUsual);
-    component.pair_chi_squared.reserve(kUsual * kUsual);
+    pair_chi_squared.reserve(kUsual * kUsual);
   }
 
   void collectSpots(const std::vector<View>& views);
-  void findEdges(const std::vector<View>& views, std::size_t a, std::size_t b);
+  void findPairs(const std::vector<View>& views, std::size_t a, std::size_t b);
   std::size_t rootOf(std::size_t spot);
-  void listComponents();
-  void solve(const std::vector<View>& views, std::size_t root);
-  void collectComponent(const std::vector<View>& views, std::size_t root);
-  void collectPairs(std::size_t root);
+  void solveComponents(const std::vector<View>& views);
+  void solveComponent(const std::vector<View>& views);
 
   AssociationOptions options;
   PointSearch search;
-  std::vector<std::size_t> first_spot;  // of each view, and one past the last of all
-  std::vector<Node> nodes;              // of all spots
-  std::vector<EpipolarSpot> epipolar;   // of all spots
-  std::vector<Edge> edges;
+  std::vector<std::size_t> first_spot;    // of each view, and one past the last of all
+  std::vector<Node> nodes;                // of all spots
+  std::vector<EpipolarSpot> epipolar;     // of all spots
+  std::vector<double> pair_chi_squared;   // see Component
+  std::vector<std::size_t> by_component;  // numbers of all spots
   std::vector<Eigen::Vector3d> normals;
   Component component;
   Association result;
@@ -129,19 +115,15 @@ const Association& ViewAssociator::associate(const std::vector<View>& views) {
       continue;
     for (const std::size_t b : w.search.partners(a)) {
       if (b > a && views[b].count > 0)
-        w.findEdges(views, a, b);
+        w.findPairs(views, a, b);
     }
   }
-  w.listComponents();
   w.result.points.clear();
   w.result.spots.clear();
   w.result.cost = 0.0;
   w.result.steps = 0;
   w.result.proven = true;
-  for (std::size_t spot = 0; spot < w.nodes.size(); ++spot) {
-    if (w.nodes[spot].root == spot)
-      w.solve(views, spot);
-  }
+  w.solveComponents(views);
   return w.result;
 }
 
@@ -149,20 +131,20 @@ void ViewAssociator::Workspace::collectSpots(const std::vector<View>& views) {
   first_spot.clear();
   nodes.clear();
   epipolar.clear();
-  edges.clear();
   for (std::size_t view = 0; view < views.size(); ++view) {
     first_spot.push_back(nodes.size());
     for (std::size_t i = 0; i < views[view].count; ++i) {
       const std::size_t spot = nodes.size();
-      nodes.push_back({view, i, spot, kNone, spot, kNone, 0, 0});
+      nodes.push_back({view, i, spot});
       epipolar.emplace_back(views[view].sights[i], options.pixel_stddev);
     }
   }
   first_spot.push_back(nodes.size());
+  pair_chi_squared.assign(nodes.size() * nodes.size(), std::numeric_limits<double>::infinity());
 }
 
 /// Finds the pairs of spots of two views that can be one point.
-void ViewAssociator::Workspace::findEdges(const std::vector<View>& views,
+void ViewAssociator::Workspace::findPairs(const std::vector<View>& views,
                                           std::size_t a,
                                           std::size_t b) {
   const Eigen::Vector3d baseline = views[b].sights[0].origin - views[a].sights[0].origin;
@@ -183,9 +165,8 @@ void ViewAssociator::Workspace::findEdges(const std::vector<View>& views,
           epipolarChiSquared(one, normal, other, normals[spot_b - first_spot[b]], f);
       if (!(chi_squared <= options.maximum_pair_chi_squared))
         continue;
-      edges.push_back({spot_b, nodes[spot_a].first_edge, chi_squared});
-      nodes[spot_a].first_edge = edges.size() - 1;
-      ++nodes[spot_a].edge_count;
+      pair_chi_squared[spot_a * nodes.size() + spot_b] = chi_squared;
+      pair_chi_squared[spot_b * nodes.size() + spot_a] = chi_squared;
       const std::size_t root_a = rootOf(spot_a);
       const std::size_t root_b = rootOf(spot_b);
       nodes[std::max(root_a, root_b)].root = std::min(root_a, root_b);
@@ -201,23 +182,35 @@ std::size_t ViewAssociator::Workspace::rootOf(std::size_t spot) {
   return spot;
 }
 
-void ViewAssociator::Workspace::listComponents() {
+void ViewAssociator::Workspace::solveComponents(const std::vector<View>& views) {
+  by_component.resize(nodes.size());
   for (std::size_t spot = 0; spot < nodes.size(); ++spot) {
-    Node& root = nodes[rootOf(spot)];
-    if (root.last_in_component != spot)
-      nodes[root.last_in_component].next_in_component = spot;
-    root.last_in_component = spot;
+    by_component[spot] = spot;
+    nodes[spot].root = rootOf(spot);
+  }
+  std::sort(by_component.begin(), by_component.end(), [&](std::size_t a, std::size_t b) {
+    return nodes[a].root != nodes[b].root ? nodes[a].root < nodes[b].root : a < b;
+  });
+  component.pair_chi_squared = pair_chi_squared.data();
+  component.spots_of_all_views = nodes.size();
+  for (auto spot = by_component.begin(); spot != by_component.end();) {
+    component.spots.clear();
+    const std::size_t root = nodes[*spot].root;
+    for (; spot != by_component.end() && nodes[*spot].root == root; ++spot) {
+      const Node& node = nodes[*spot];
+      component.spots.push_back(
+          {node.view, node.index, *spot, &views[node.view].sights[node.index]});
+    }
+    solveComponent(views);
   }
 }
 
-void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_t root) {
-  if (nodes[root].next_in_component == kNone) {  // a spot without a possible pair
+void ViewAssociator::Workspace::solveComponent(const std::vector<View>& views) {
+  if (component.spots.size() == 1) {
     result.cost += options.ghost;
     return;
   }
-  collectComponent(views, root);
   if (!search.solveAsOnePoint(component, views)) {
-    collectPairs(root);
     result.steps += search.solve(component, views, options.maximum_steps - result.steps);
     result.proven = result.proven && result.steps < options.maximum_steps;
   }
@@ -228,30 +221,6 @@ void ViewAssociator::Workspace::solve(const std::vector<View>& views, std::size_
     for (const std::size_t place : point.spots) {
       const Component::Spot& spot = component.spots[place];
       result.spots.push_back({spot.view, spot.index});
-    }
-  }
-}
-
-void ViewAssociator::Workspace::collectComponent(const std::vector<View>& views, std::size_t root) {
-  component.spots.clear();
-  component.pair_count = 0;
-  for (std::size_t spot = root; spot != kNone; spot = nodes[spot].next_in_component) {
-    Node& link = nodes[spot];
-    link.place = component.spots.size();
-    component.spots.push_back({link.view, link.index, &views[link.view].sights[link.index]});
-    component.pair_count += link.edge_count;
-  }
-}
-
-void ViewAssociator::Workspace::collectPairs(std::size_t root) {
-  const std::size_t size = component.spots.size();
-  component.pair_chi_squared.assign(size * size, std::numeric_limits<double>::infinity());
-  for (std::size_t spot = root; spot != kNone; spot = nodes[spot].next_in_component) {
-    for (std::size_t edge = nodes[spot].first_edge; edge != kNone; edge = edges[edge].next) {
-      const std::size_t place = nodes[spot].place;
-      const std::size_t later_place = nodes[edges[edge].later_spot].place;
-      component.pair_chi_squared[place * size + later_place] = edges[edge].chi_squared;
-      component.pair_chi_squared[later_place * size + place] = edges[edge].chi_squared;
     }
   }
 }

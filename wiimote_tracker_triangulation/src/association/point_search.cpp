@@ -42,8 +42,14 @@ void PointSearch::reserve(std::size_t spots) {
 
 bool PointSearch::solveAsOnePoint(const Component& component, const std::vector<View>& views) {
   const std::size_t size = component.spots.size();
-  if (component.pair_count != size * (size - 1) / 2 || size < options_.minimum_rays)
-    return false;  // also if two spots are of one view
+  if (size < options_.minimum_rays)
+    return false;
+  for (std::size_t a = 0; a < size; ++a) {
+    for (std::size_t b = a + 1; b < size; ++b) {
+      if (component.pair(a, b) == kInfinity)
+        return false;  // also if two spots are of one view
+    }
+  }
   begin(component, views);
   Draft& draft = drafts_[draft_count_++];
   draft.spots.resize(size);

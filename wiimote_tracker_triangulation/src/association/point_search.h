@@ -13,16 +13,19 @@ namespace wiimote_tracker::association {
 struct Component {
   struct Spot {
     std::size_t view;
-    std::size_t index;  ///< In its view.
+    std::size_t index;   ///< In its view.
+    std::size_t number;  ///< Among the spots of all views.
     const geometry::Sight* sight;
   };
   std::vector<Spot> spots;
-  std::size_t pair_count = 0;  ///< Of spots that can be one point.
+  /// Of the spots of all views, row by row: chi^2 of a pair; infinite when they can not be one
+  /// point.
+  const double* pair_chi_squared = nullptr;
+  std::size_t spots_of_all_views = 0;
 
-  /// Of two spots, chi^2 of their pair; infinite when they can not be one point. Row by row.
-  std::vector<double> pair_chi_squared;
-
-  double pair(std::size_t a, std::size_t b) const { return pair_chi_squared[a * spots.size() + b]; }
+  double pair(std::size_t a, std::size_t b) const {
+    return pair_chi_squared[spots[a].number * spots_of_all_views + spots[b].number];
+  }
 };
 
 /// Finds the association of least cost for one component by depth-first branch and bound. Each spot
@@ -41,8 +44,8 @@ class PointSearch {
 
   const std::vector<std::size_t>& partners(std::size_t camera) const { return partners_[camera]; }
 
-  /// Solves the usual case without a search or pair_chi_squared: all spots are one point, and this
-  /// is optimal. False otherwise.
+  /// Solves the usual case without a search: all spots are one point, and this is optimal. False
+  /// otherwise.
   bool solveAsOnePoint(const Component& component, const std::vector<View>& views);
 
   /// @returns the number of steps taken: `maximum_steps` when the result is not proven.

@@ -3,12 +3,15 @@
 
 #include "body/body_follower.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <sensor_msgs/Imu.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +31,12 @@ geometry_msgs::PoseWithCovarianceStamped poseStamped(
 /// World frame -> body.
 geometry_msgs::TransformStamped transform(const wiimote_tracker_msgs::TrackedBodyArray& array,
                                           const wiimote_tracker_msgs::TrackedBody& body);
+
+/// Along the body's axes, by the clock of the images. Nothing if the message says that it has no
+/// angular velocity or acceleration (REP 145: a covariance that begins with -1), or if a number is
+/// not finite.
+std::optional<body::InertialSample> inertialSample(const sensor_msgs::Imu& message,
+                                                   const body::ImuMount& mount);
 
 }  // namespace wiimote_tracker
 

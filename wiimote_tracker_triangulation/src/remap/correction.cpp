@@ -1,7 +1,6 @@
 #include "wiimote_tracker_triangulation/remap/correction.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/remap/model_math.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_REMAP_CORRECTION_H
 
 #include "wiimote_tracker_triangulation/remap/convex_hull.h"
-#include "wiimote_tracker_triangulation/remap/frame.h"
+#include "wiimote_tracker_triangulation/remap/model_math.h"
 #include "wiimote_tracker_triangulation/remap/remap.h"
 
 #include <Eigen/Core>

@@ -92,7 +92,7 @@ void Trigger::add(const tracking::Snapshot& snapshot) {
     forget();
   while (kept_.size() > 1 && kept_.at(kept_.begin() + 1).time < snapshot.time - options_.history)
     kept_.popFront();
-  Kept& kept = kept_.push();
+  tracking::Snapshot& kept = kept_.push();
   kept.time = snapshot.time;
   kept.latest_arrival = snapshot.latest_arrival;
   kept.skew = snapshot.skew;
@@ -132,8 +132,8 @@ bool Trigger::answer(const Request& request) {
     std::uint64_t number = kept_.begin();
     while (kept_.at(number).time < request.time)
       ++number;
-    const Kept& after = kept_.at(number);
-    const Kept& before = after.time == request.time ? after : kept_.at(number - 1);
+    const tracking::Snapshot& after = kept_.at(number);
+    const tracking::Snapshot& before = after.time == request.time ? after : kept_.at(number - 1);
     answer_.result = after.time - before.time <= options_.maximum_gap ? TriggerResult::kAnswered
                                                                       : TriggerResult::kGap;
     if (answer_.result == TriggerResult::kAnswered)
@@ -142,7 +142,7 @@ bool Trigger::answer(const Request& request) {
   return true;
 }
 
-void Trigger::answerBetween(const Kept& before, const Kept& after) {
+void Trigger::answerBetween(const tracking::Snapshot& before, const tracking::Snapshot& after) {
   tracking::Snapshot& snapshot = answer_.snapshot;
   snapshot.latest_arrival = std::max(before.latest_arrival, after.latest_arrival);
   snapshot.skew = std::max(before.skew, after.skew);

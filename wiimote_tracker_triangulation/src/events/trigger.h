@@ -82,18 +82,11 @@ class Trigger {
     bool is_one_too_many;
   };
 
-  struct Kept {
-    double time = 0.0;
-    double latest_arrival = 0.0;
-    double skew = 0.0;
-    std::vector<tracking::TrackedLed> leds;
-  };
-
   bool answer(const Request& request);
-  void answerBetween(const Kept& before, const Kept& after);
+  void answerBetween(const tracking::Snapshot& before, const tracking::Snapshot& after);
 
   TriggerOptions options_;
-  tracking::NumberedQueue<Kept> kept_;
+  tracking::NumberedQueue<tracking::Snapshot> kept_;  // without views
   bool finished_ = false;
   std::deque<Request> pending_;
   TriggerAnswer answer_;

@@ -114,19 +114,16 @@ const BodySnapshot* BodyFollower::next() {
   const auto& bodies = tracker_->bodies();
   snapshot_.time = last_output_;
   snapshot_.latest_arrival = latest_arrival_;
-  // Bodies lost in the previous snapshot have been reported.
-  for (const std::size_t lost : snapshot_.lost)
-    snapshot_.bodies[lost].reset();
-  snapshot_.lost.clear();
   snapshot_.bodies.resize(bodies.size());
   for (std::size_t b = 0; b < bodies.size(); ++b) {
-    if (bodies[b]) {
-      snapshot_.bodies[b] = bodies[b];
-    } else if (snapshot_.bodies[b]) {
-      snapshot_.lost.push_back(b);
-      for (LedEstimate& led : snapshot_.bodies[b]->leds)
-        led.cameras.clear();
+    std::optional<BodyEstimate>& body = snapshot_.bodies[b];
+    if (bodies[b] || !body || body->lost) {
+      body = bodies[b];
+      continue;
     }
+    body->lost = true;
+    for (LedEstimate& led : body->leds)
+      led.cameras.clear();
   }
   return &snapshot_;
 }

@@ -19,12 +19,9 @@ struct BodySnapshot {
   double time = 0.0;            ///< [s]
   double latest_arrival = 0.0;  ///< Of the newest image [s].
 
-  /// One per constellation; nothing while the body's pose is unknown.
+  /// One per constellation; nothing while the body's pose is unknown. A body that was lost since
+  /// the snapshot before is there once more.
   std::vector<std::optional<BodyEstimate>> bodies;
-
-  /// Indices of bodies lost since the previous snapshot; `bodies` holds their last estimate this
-  /// once.
-  std::vector<std::size_t> lost;
 };
 
 /// Tracks bodies in each image and removes their spots from it, before the image goes to the

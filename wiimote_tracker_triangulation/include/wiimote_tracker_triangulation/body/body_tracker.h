@@ -70,6 +70,7 @@ struct LedEstimate {
 struct BodyEstimate {
   bool tracked = false;   ///< False: hidden, the pose is extrapolated.
   bool inertial = false;  ///< By an IMU, since the body was last seen.
+  bool lost = false;      ///< The last estimate: the pose is unknown from here on.
   Eigen::Isometry3d world_from_body = Eigen::Isometry3d::Identity();  ///< [m]
 
   /// Order: position [m^2], rotation about the world axes [rad^2], velocity [m^2/s^2], angular

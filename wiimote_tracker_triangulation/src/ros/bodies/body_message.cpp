@@ -2,7 +2,6 @@
 
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -28,13 +27,12 @@ BodyLed ledMessage(const body::LedEstimate& led,
 }
 
 TrackedBody bodyMessage(const body::BodyEstimate& estimate,
-                        bool is_lost,
                         const body::Constellation& constellation,
                         const geometry::Rig& rig,
                         double time) {
   TrackedBody message;
   message.name = constellation.name;
-  message.state = is_lost            ? TrackedBody::LOST
+  message.state = estimate.lost      ? TrackedBody::LOST
                   : estimate.tracked ? TrackedBody::TRACKED
                                      : TrackedBody::PREDICTED;
   setVector(estimate.world_from_body.translation(), &message.pose.pose.position);
@@ -75,10 +73,8 @@ TrackedBodyArray bodyMessage(const body::BodySnapshot& snapshot,
   for (std::size_t b = 0; b < snapshot.bodies.size(); ++b) {
     if (!snapshot.bodies[b])
       continue;
-    const bool is_lost =
-        std::find(snapshot.lost.begin(), snapshot.lost.end(), b) != snapshot.lost.end();
     message.bodies.push_back(
-        bodyMessage(*snapshot.bodies[b], is_lost, constellations[b], rig, snapshot.time));
+        bodyMessage(*snapshot.bodies[b], constellations[b], rig, snapshot.time));
   }
   return message;
 }

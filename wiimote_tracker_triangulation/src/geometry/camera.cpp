@@ -19,20 +19,6 @@ void require(bool good, const std::string& what, double value) {
     throw InvalidRigError(what + " (is " + std::to_string(value) + "); calibrate again");
 }
 
-/// As Intrinsics::pixelFromNormalized; nothing beyond the fold.
-std::optional<Vector2> pixelBeforeFold(const Intrinsics& lens,
-                                       const Vector2& normalized,
-                                       Matrix2* jacobian) {
-  const auto distorted = lens.distortion_model == DistortionModel::kEquidistant
-                             ? equidistant::distortBeforeFold(lens.distortion, normalized, jacobian)
-                             : plumb_bob::distortBeforeFold(lens.distortion, normalized, jacobian);
-  if (!distorted)
-    return std::nullopt;
-  jacobian->row(0) *= lens.fx;
-  jacobian->row(1) *= lens.fy;
-  return Vector2(lens.fx * distorted->x() + lens.cx, lens.fy * distorted->y() + lens.cy);
-}
-
 }  // namespace
 
 const char* nameOf(DistortionModel model) {
@@ -94,9 +80,14 @@ std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,
   if (!normalized.allFinite())
     return std::nullopt;
   Matrix2 pixel_by_normalized;
-  const std::optional<Vector2> pixel =
-      pixelBeforeFold(intrinsics, normalized, &pixel_by_normalized);
-  if (!pixel || !jacobian)
+  const Vector2 pixel = intrinsics.pixelFromNormalized(normalized, &pixel_by_normalized);
+  const bool is_before_fold =
+      intrinsics.distortion_model == DistortionModel::kEquidistant
+          ? equidistant::isBeforeFold(intrinsics.distortion, normalized)
+          : plumb_bob::isBeforeFold(intrinsics.distortion, normalized, pixel_by_normalized);
+  if (!is_before_fold)
+    return std::nullopt;
+  if (!jacobian)
     return pixel;
   // Of (x, y) = (X, Y) / Z: d x = (d X - x d Z) / Z.
   const auto rotation = world_from_camera.linear();

@@ -55,10 +55,8 @@ Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::
 /// Nothing where no point before the fold has this image. The target must be finite.
 std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
 
-/// distort(), or nothing beyond the fold. `jacobian` must not be null.
-std::optional<Eigen::Vector2d> distortBeforeFold(const Coefficients& k,
-                                                 const Eigen::Vector2d& n,
-                                                 Eigen::Matrix2d* jacobian);
+/// @param jacobian of distort() at n, perhaps with rows scaled by positive numbers.
+bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n, const Eigen::Matrix2d& jacobian);
 
 }  // namespace plumb_bob
 
@@ -70,10 +68,8 @@ Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::
 
 std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
 
-/// Nothing beyond 1.55 rad from the axis either.
-std::optional<Eigen::Vector2d> distortBeforeFold(const Coefficients& k,
-                                                 const Eigen::Vector2d& n,
-                                                 Eigen::Matrix2d* jacobian);
+/// Not beyond 1.55 rad from the axis either.
+bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
 
 }  // namespace equidistant
 

@@ -77,12 +77,8 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
   return std::tan(angle) / radius * target;
 }
 
-std::optional<Vector2> distortBeforeFold(const Coefficients& k,
-                                         const Vector2& n,
-                                         Matrix2* jacobian) {
-  if (!growsUpTo(k, std::atan(n.norm())))
-    return std::nullopt;
-  return distort(k, n, jacobian);
+bool isBeforeFold(const Coefficients& k, const Vector2& n) {
+  return growsUpTo(k, std::atan(n.norm()));
 }
 
 }  // namespace wiimote_tracker::geometry::equidistant

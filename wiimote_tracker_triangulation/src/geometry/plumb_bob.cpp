@@ -14,7 +14,8 @@ using Matrix2 = Eigen::Matrix2d;
 
 bool isBeforeFold(const Coefficients& k, const Vector2& n) {
   Matrix2 jacobian;
-  return distortBeforeFold(k, n, &jacobian).has_value();
+  distort(k, n, &jacobian);
+  return plumb_bob::isBeforeFold(k, n, jacobian);
 }
 
 }  // namespace
@@ -65,15 +66,8 @@ std::optional<Vector2> undistort(const Coefficients& k, const Vector2& target) {
   return n;
 }
 
-std::optional<Vector2> distortBeforeFold(const Coefficients& k,
-                                         const Vector2& n,
-                                         Matrix2* jacobian) {
-  if (!growsUpTo({k[0], k[1], k[4], 0.0}, n.squaredNorm()))
-    return std::nullopt;
-  const Vector2 distorted = distort(k, n, jacobian);
-  if (!(jacobian->determinant() > 0.0))
-    return std::nullopt;
-  return distorted;
+bool isBeforeFold(const Coefficients& k, const Vector2& n, const Matrix2& jacobian) {
+  return growsUpTo({k[0], k[1], k[4], 0.0}, n.squaredNorm()) && jacobian.determinant() > 0.0;
 }
 
 }  // namespace wiimote_tracker::geometry::plumb_bob

@@ -7,14 +7,14 @@ namespace wiimote_tracker::identity {
 
 Evidence::Evidence(const Hypotheses& hypotheses)
     : hypotheses_(&hypotheses),
-      cells_(Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(hypotheses.cells()))) {}
+      sum_{Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(hypotheses.cells()))} {}
 
 void Evidence::reset(double origin) {
   origin_ = origin;
   weight_ = 1.0;
   weight_origin_ = origin;
-  cells_.setZero();
-  steady_ = 0.0;
+  sum_.cells.setZero();
+  sum_.steady = 0.0;
   for (Darkness& darkness : darkness_)
     darkness.lasts = false;
 }
@@ -23,13 +23,14 @@ double Evidence::weightAt(double time) {
   constexpr double kLargest = 1e3;
   double weight = std::exp((time - weight_origin_) / hypotheses_->memory());
   if (weight > kLargest) {
-    const auto scale = static_cast<float>(1.0 / weight);
-    cells_ *= scale;
-    steady_ /= weight;
+    const auto divide = [weight](LogLikelihoods* sum) {
+      sum->cells *= static_cast<float>(1.0 / weight);
+      sum->steady /= weight;
+    };
+    divide(&sum_);
     for (Darkness& darkness : darkness_) {
       darkness.weight /= weight;
-      darkness.steady /= weight;
-      darkness.cells *= scale;
+      divide(&darkness.sum);
     }
     weight_origin_ = time;
     weight_ = weight = 1.0;
@@ -38,14 +39,11 @@ double Evidence::weightAt(double time) {
   return weight;
 }
 
-void Evidence::accumulate(const Sighting& sighting,
-                          double weight,
-                          Eigen::ArrayXf* cells,
-                          double* steady) {
+void Evidence::accumulate(const Sighting& sighting, double weight, LogLikelihoods* sum) const {
   const auto phases = static_cast<Eigen::Index>(hypotheses_->phases());
   const auto factor = static_cast<float>(weight);
   const double time = sighting.time - origin_;
-  float* cell = cells->data();
+  float* cell = sum->cells.data();
   for (const double frequency : hypotheses_->frequencies()) {
     const float* row = hypotheses_->rowsOf(sighting, frequency, time * frequency);
     for (std::size_t label = 0; label < hypotheses_->labels(); ++label) {
@@ -55,50 +53,45 @@ void Evidence::accumulate(const Sighting& sighting,
       row += 2 * phases;
     }
   }
-  *steady += weight * hypotheses_->steady(sighting.seen);
+  sum->steady += weight * hypotheses_->steady(sighting.seen);
 }
 
-float Evidence::least(const Darkness& darkness) const {
-  return static_cast<float>(darkness.weight * std::log(hypotheses_->seeing().hidden));
-}
-
-void Evidence::endDarkness(Darkness* darkness) {
-  cells_ += darkness->cells.max(least(*darkness));
-  steady_ += std::max(darkness->steady, static_cast<double>(least(*darkness)));
-  darkness->lasts = false;
+/// Not less than that of an occlusion.
+void Evidence::addLimited(const Darkness& darkness, LogLikelihoods* sum) const {
+  const auto least = static_cast<float>(darkness.weight * std::log(hypotheses_->seeing().hidden));
+  sum->cells += darkness.sum.cells.max(least);
+  sum->steady += std::max(darkness.sum.steady, static_cast<double>(least));
 }
 
 void Evidence::add(const Sighting& sighting) {
   while (darkness_.size() <= sighting.camera)
-    darkness_.push_back({false, 1.0, Eigen::ArrayXf::Zero(cells_.size()), 0.0});
+    darkness_.push_back({false, 1.0, {Eigen::ArrayXf::Zero(sum_.cells.size())}});
   const double weight = weightAt(sighting.time);
   Darkness& darkness = darkness_[sighting.camera];
   if (sighting.seen) {
     if (darkness.lasts)
-      endDarkness(&darkness);
-    accumulate(sighting, weight, &cells_, &steady_);
+      addLimited(darkness, &sum_);
+    darkness.lasts = false;
+    accumulate(sighting, weight, &sum_);
     return;
   }
   if (!darkness.lasts) {
     darkness.lasts = true;
     darkness.weight = weight;
-    darkness.cells.setZero();
-    darkness.steady = 0.0;
+    darkness.sum.cells.setZero();
+    darkness.sum.steady = 0.0;
   }
-  accumulate(sighting, weight, &darkness.cells, &darkness.steady);
+  accumulate(sighting, weight, &darkness.sum);
 }
 
-void Evidence::read(Eigen::ArrayXf* cells, double* steady) const {
-  *cells = cells_;
-  *steady = steady_;
+void Evidence::read(LogLikelihoods* now) const {
+  *now = sum_;
   for (const Darkness& darkness : darkness_) {
-    if (!darkness.lasts)
-      continue;
-    *cells += darkness.cells.max(least(darkness));
-    *steady += std::max(darkness.steady, static_cast<double>(least(darkness)));
+    if (darkness.lasts)
+      addLimited(darkness, now);
   }
-  *cells *= static_cast<float>(1.0 / weight_);
-  *steady /= weight_;
+  now->cells *= static_cast<float>(1.0 / weight_);
+  now->steady /= weight_;
 }
 
 }  // namespace wiimote_tracker::identity

@@ -18,20 +18,16 @@ LabelPosterior::LabelPosterior(const Hypotheses& hypotheses, double steady)
     : hypotheses_(hypotheses), steady_prior_(steady) {}
 
 double LabelPosterior::logWeightOfSteady(std::size_t led) const {
-  return steady_[led] + std::log(steady_prior_ / (1.0 - steady_prior_) *
-                                 static_cast<double>(hypotheses_.labels()));
+  return leds_[led].steady + std::log(steady_prior_ / (1.0 - steady_prior_) *
+                                      static_cast<double>(hypotheses_.labels()));
 }
 
 const Eigen::MatrixXd& LabelPosterior::compute(const std::vector<const Evidence*>& leds) {
-  while (cells_.size() < leds.size()) {
-    cells_.emplace_back(static_cast<Eigen::Index>(hypotheses_.cells()));
-    steady_.push_back(0.0);
-  }
+  leds_.resize(std::max(leds_.size(), leds.size()));
   posterior_.setZero(static_cast<Eigen::Index>(hypotheses_.labels() + 1),
                      static_cast<Eigen::Index>(leds.size()));
-  for (std::size_t led = 0; led < leds.size(); ++led) {
-    leds[led]->read(&cells_[led], &steady_[led]);
-  }
+  for (std::size_t led = 0; led < leds.size(); ++led)
+    leds[led]->read(&leds_[led]);
   if (hypotheses_.codes().synchronous && leds.size() > 1) {
     computeTogether(leds.size());
   } else {
@@ -46,10 +42,10 @@ void LabelPosterior::computeAlone(std::size_t led) {
   const std::size_t labels = hypotheses_.labels();
   const std::size_t frequencies = hypotheses_.frequencies().size();
   const double steady = logWeightOfSteady(led);
-  const double reference = std::max(steady, static_cast<double>(cells_[led].maxCoeff()));
+  const double reference = std::max(steady, static_cast<double>(leds_[led].cells.maxCoeff()));
   auto column = posterior_.col(static_cast<Eigen::Index>(led));
   for (std::size_t i = 0; i < frequencies * labels; ++i) {
-    const auto cells = cells_[led].segment(static_cast<Eigen::Index>(i) * phases, phases);
+    const auto cells = leds_[led].cells.segment(static_cast<Eigen::Index>(i) * phases, phases);
     if (cells.maxCoeff() < reference - kNegligible)
       continue;
     column(static_cast<Eigen::Index>(i % labels)) +=
@@ -71,7 +67,7 @@ void LabelPosterior::computeTogether(std::size_t leds) {
     for (Eigen::Index f = 0; f < frequencies; ++f) {
       best_.setConstant(phases, steady);
       for (Eigen::Index label = 0; label < labels; ++label)
-        best_ = best_.max(cells_[led].segment((f * labels + label) * phases, phases));
+        best_ = best_.max(leds_[led].cells.segment((f * labels + label) * phases, phases));
       bound_.segment(f * phases, phases) += best_;
     }
   }
@@ -89,8 +85,8 @@ void LabelPosterior::computeTogether(std::size_t leds) {
     for (Eigen::Index label = 0; label < labels; ++label)
       reference_[led] =
           std::max(reference_[led],
-                   static_cast<double>(cells_[led]((likeliest / phases * labels + label) * phases +
-                                                   likeliest % phases)));
+                   static_cast<double>(leds_[led].cells(
+                       (likeliest / phases * labels + label) * phases + likeliest % phases)));
   }
   for (Eigen::Index cell = 0; cell < bound_.size(); ++cell) {
     if (bound_(cell) > best - kNegligible)
@@ -112,7 +108,7 @@ void LabelPosterior::addCell(std::size_t frequency, std::size_t phase, std::size
   for (std::size_t led = 0; led < leds; ++led) {
     for (std::size_t label = 0; label < labels; ++label)
       weights_[led * (labels + 1) + label] =
-          std::exp(cells_[led](static_cast<Eigen::Index>(
+          std::exp(leds_[led].cells(static_cast<Eigen::Index>(
                        (frequency * labels + label) * hypotheses_.phases() + phase)) -
                    reference_[led]);
     weights_[led * (labels + 1) + labels] = std::exp(logWeightOfSteady(led) - reference_[led]);

@@ -191,22 +191,21 @@ TEST(Evidence, DarknessIsNeverLessLikelyThanOcclusion) {
   const Hypotheses hypotheses(oneWord(), seeing, 1.0);
   Evidence evidence(hypotheses);
   evidence.reset(0.0);
-  Eigen::ArrayXf cells(static_cast<Eigen::Index>(hypotheses.cells()));
-  double steady = 0.0;
+  LogLikelihoods now;
   // Darkness counts from its beginning and fades with the memory; 2000 images exceed the range in
   // which numbers keep one scale.
   for (int i = 0; i < 2000; ++i) {
     const double time = 0.01 * i;
     evidence.add({0, time, 0.001, false});
-    evidence.read(&cells, &steady);
+    evidence.read(&now);
     const double least = 1.001 * std::log(seeing.hidden) * std::exp(-time);
-    ASSERT_GE(cells.minCoeff(), least) << time;
-    ASSERT_GE(steady, least) << time;
+    ASSERT_GE(now.cells.minCoeff(), least) << time;
+    ASSERT_GE(now.steady, least) << time;
   }
   // Seen again: the faded darkness, and the light.
   evidence.add({0, 20.0, 0.001, true});
-  evidence.read(&cells, &steady);
-  EXPECT_NEAR(steady, std::log(seeing.seen_when_on), 1e-6);
+  evidence.read(&now);
+  EXPECT_NEAR(now.steady, std::log(seeing.seen_when_on), 1e-6);
 }
 
 }  // namespace

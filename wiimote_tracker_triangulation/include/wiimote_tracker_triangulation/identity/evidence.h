@@ -9,6 +9,12 @@
 
 namespace wiimote_tracker::identity {
 
+/// Of all hypotheses.
+struct LogLikelihoods {
+  Eigen::ArrayXf cells;  ///< Hypotheses::cells() values.
+  double steady = 0.0;   ///< Of a light that does not blink.
+};
+
 /// Log likelihoods of all hypotheses given the sightings of one LED, with exponential forgetting
 /// (Hypotheses::memory).
 ///
@@ -24,23 +30,20 @@ class Evidence {
   /// Does not allocate once each camera has had a sighting.
   void add(const Sighting& sighting);
 
-  /// Present log likelihoods of all cells, and of a light that does not blink.
-  /// @param cells output, Hypotheses::cells() values.
-  void read(Eigen::ArrayXf* cells, double* steady) const;
+  /// The present log likelihoods.
+  void read(LogLikelihoods* now) const;
 
  private:
   /// The present dark interval of a camera.
   struct Darkness {
     bool lasts = false;
     double weight = 1.0;  // at its start
-    Eigen::ArrayXf cells;
-    double steady = 0.0;
+    LogLikelihoods sum;
   };
 
   double weightAt(double time);
-  void accumulate(const Sighting& sighting, double weight, Eigen::ArrayXf* cells, double* steady);
-  void endDarkness(Darkness* darkness);
-  float least(const Darkness& darkness) const;
+  void accumulate(const Sighting& sighting, double weight, LogLikelihoods* sum) const;
+  void addLimited(const Darkness& darkness, LogLikelihoods* sum) const;
 
   const Hypotheses* hypotheses_;
   double origin_ = 0.0;  // of the phases [s]
@@ -48,9 +51,8 @@ class Evidence {
   // All sums are multiplied by weight_, which grows with time, so that forgetting needs no
   // multiplication of old sums.
   double weight_ = 1.0;
-  double weight_origin_ = 0.0;  // time of weight 1 [s]
-  Eigen::ArrayXf cells_;
-  double steady_ = 0.0;
+  double weight_origin_ = 0.0;      // time of weight 1 [s]
+  LogLikelihoods sum_;              // without darkness that lasts
   std::vector<Darkness> darkness_;  // per camera
 };
 

@@ -30,8 +30,7 @@ class LabelPosterior {
 
   const Hypotheses& hypotheses_;
   double steady_prior_;
-  std::vector<Eigen::ArrayXf> cells_;  // per LED
-  std::vector<double> steady_;         // per LED
+  std::vector<LogLikelihoods> leds_;
   Eigen::MatrixXd posterior_;
   Eigen::ArrayXf best_, bound_;
   std::vector<double> reference_, weights_, forward_, backward_;

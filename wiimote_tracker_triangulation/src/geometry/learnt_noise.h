@@ -6,23 +6,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <optional>
 
 namespace wiimote_tracker::geometry {
 
-/// Standard deviation of a pixel coordinate [px], 0.1 to 2, from the residual that the camera was
-/// calibrated with, which tells it if many moving spots were used; else nothing. The four still
-/// corners of a square do not tell it.
-inline std::optional<double> learntNoise(const RigCamera& camera) {
-  constexpr std::uint32_t kMany = 100;
-  if (camera.inliers < kMany || !std::isfinite(camera.residual_px))
-    return std::nullopt;
-  return std::clamp(camera.residual_px / std::sqrt(2.0), 0.1, 2.0);
-}
-
-/// That of a camera to use [px]: the learnt one, if it may be used and is known, or pixel_stddev.
+/// Standard deviation of a camera's pixel coordinates [px]: if `use_learnt`, that of the residual
+/// with which it was calibrated, within 0.1 and 2. Many moving spots tell it; the four still
+/// corners of a square do not. Else pixel_stddev.
 inline double pixelNoise(const RigCamera& camera, bool use_learnt, double pixel_stddev) {
-  return use_learnt ? learntNoise(camera).value_or(pixel_stddev) : pixel_stddev;
+  constexpr std::uint32_t kMany = 100;
+  if (!use_learnt || camera.inliers < kMany || !std::isfinite(camera.residual_px))
+    return pixel_stddev;
+  return std::clamp(camera.residual_px / std::sqrt(2.0), 0.1, 2.0);
 }
 
 }  // namespace wiimote_tracker::geometry

@@ -1,5 +1,7 @@
 #include "capture/hands_free.h"
 
+#include "capture/camera_monitor.h"
+
 #include <algorithm>
 
 namespace wiimote_tracker::capture {
@@ -10,8 +12,6 @@ namespace {
 constexpr double kStill = 3.0;
 // Longest gap between detections of a still LED [s].
 constexpr double kDropOut = 0.3;
-// Images come in order, but for a few that are late by less than this [s].
-constexpr double kSetBack = 1.0;
 
 }  // namespace
 
@@ -30,7 +30,7 @@ bool HandsFree::add(const Image& image, const std::vector<CapturedCorner>& captu
   const auto found = cameras_.find(image.camera);
   if (found == cameras_.end())
     return false;
-  if (image.stamp < newest_ - kSetBack) {
+  if (image.stamp < newest_ - kLongestDelay) {
     restart();  // time jumped back
     newest_ = image.stamp;
   }

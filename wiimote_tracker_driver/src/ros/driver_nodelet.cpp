@@ -1,7 +1,7 @@
 #include "driver.h"
 
 #include <nodelet/nodelet.h>
-#include <wiimote_tracker_msgs/own_thread.h>
+#include <wiimote_tracker_msgs/run_node.h>
 #include <pluginlib/class_list_macros.hpp>
 
 namespace wiimote_tracker::driver {

@@ -6,7 +6,6 @@
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
-#include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <cstddef>
@@ -30,7 +29,8 @@ class MergedPair {
     const geometry::Camera* camera;
     motion::PixelNoise noise;
     double time;  // [s]
-    boost::container::static_vector<Eigen::Vector2d, association::kMaximumSpots> pixels;
+    std::size_t spot_count = 0;
+    std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
   };
   using SpotIndices = std::array<std::size_t, 2>;  // each LED's spot in a View
 
@@ -49,7 +49,7 @@ class MergedPair {
   std::optional<SpotIndices> update(const View& view, double gate);
 
   /// The filters of the most likely hypothesis, at the last view that updated them.
-  const Filters& likeliest() const { return hypotheses_[0].filters; }
+  const Filters& likeliest() const { return hypotheses_[0]->filters; }
 
   /// Whether some view showed two spots just before a time [s].
   bool areSeparate(double time) const;
@@ -83,7 +83,8 @@ class MergedPair {
   double last_separate_;        // last view with two spots [s]; opened_at_ before the first
   bool has_separated_ = false;  // there was such a view
   double separated_at_ = 0.0;   // when the spots last separated [s]
-  boost::container::static_vector<Hypothesis, kMaximumHypotheses> hypotheses_;  // likeliest first
+  std::size_t hypothesis_count_ = 1;
+  std::array<std::optional<Hypothesis>, kMaximumHypotheses> hypotheses_;  // most likely first
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -284,7 +284,7 @@ TEST_F(GesturesTest, GoOnAfterTheButtonWasHeldWhereABagStartsOver) {
   ASSERT_NO_FATAL_FAILURE(recordCircle());
   bench_->publishButton(bench_->time_, true);
   bench_->list();  // its answer shows that the button event has arrived
-  bench_->time_ -= 200.0;
+  bench_->time_ -= 20.0;
   bench_->draw(circle, {0.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECOGNISED);
   EXPECT_TRUE(bench_->remove("circle"));

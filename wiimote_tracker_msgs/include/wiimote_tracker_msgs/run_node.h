@@ -8,9 +8,9 @@
 #include <ros/callback_queue.h>
 #include <ros/network.h>
 #include <ros/ros.h>
-#include <ros/spinner.h>
 #include <xmlrpcpp/XmlRpc.h>
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
@@ -172,6 +172,10 @@ int runNode(int argc, char** argv, const std::string& name, const std::string& p
 template <typename Object>
 class OwnThread {
  public:
+  OwnThread() = default;
+  OwnThread(const OwnThread&) = delete;
+  OwnThread& operator=(const OwnThread&) = delete;
+
   /// Makes the object of both handles, then handles its callbacks. After a refused parameter it may
   /// do nothing (see staysRefused()).
   /// @throws what the object throws: the manager reports that it could not load.
@@ -188,14 +192,28 @@ class OwnThread {
       ROS_FATAL("%s", e.what());
       throw;
     }
-    thread_.start();
+    thread_ = std::thread([this] { handle(); });
+  }
+
+  /// The thread ends first, then what its callbacks use.
+  ~OwnThread() {
+    is_ending_ = true;
+    queue_.disable();  // ends the wait
+    if (thread_.joinable())
+      thread_.join();
   }
 
  private:
-  // The thread ends first, then what its callbacks use.
+  void handle() {
+    while (!is_ending_)
+      logExceptions(ros::this_node::getName(),
+                    [this] { queue_.callOne(ros::WallDuration(1.0)); });  // as in spin()
+  }
+
   ros::CallbackQueue queue_;
   std::unique_ptr<Object> object_;
-  ros::AsyncSpinner thread_{1, &queue_};
+  std::atomic<bool> is_ending_{false};
+  std::thread thread_;
 };
 
 }  // namespace wiimote_tracker

@@ -2,6 +2,7 @@
 // its driver gets. Images come faster than real ones; all times are theirs.
 #include "board_lenses.h"
 #include "board_table.h"
+#include "call_service.h"
 #include "expect_says.h"
 
 #include "session/session_file.h"
@@ -115,10 +116,7 @@ class Bench {
   template <typename Service>
   static typename Service::Response call(const std::string& name,
                                          typename Service::Request request = {}) {
-    typename Service::Response response;
-    EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(kPatience)));
-    EXPECT_TRUE(ros::service::call(name, request, response)) << name;
-    return response;
+    return callService<Service>(name, request);
   }
 
   static std_srvs::Trigger::Response trigger(const std::string& name) {

@@ -6,6 +6,6 @@
 #include <string>
 
 /// The text contains this part. A failure shows the whole text.
-#define EXPECT_SAYS(text, part) EXPECT_NE((text).find(part), std::string::npos) << (text)
+#define EXPECT_SAYS(text, part) EXPECT_PRED_FORMAT2(testing::IsSubstring, part, text)
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_EXPECT_SAYS_H

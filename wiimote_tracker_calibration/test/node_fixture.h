@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H
 
+#include "call_service.h"
 #include "expect_says.h"
 #include "fake_cameras.h"
 
@@ -131,11 +132,7 @@ class Node : public ::testing::Test {
   template <typename Service>
   static typename Service::Response call(const std::string& name,
                                          const typename Service::Request& request = {}) {
-    typename Service::Response response;
-    EXPECT_TRUE(ros::service::waitForService(name, ros::Duration(kPatience)));
-    EXPECT_TRUE(ros::service::call(name, const_cast<typename Service::Request&>(request), response))
-        << name;
-    return response;
+    return callService<Service>(name, request);
   }
 
   static wiimote_tracker_msgs::StartCalibration::Response start(double side_x,

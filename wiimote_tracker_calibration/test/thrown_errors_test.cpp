@@ -41,8 +41,7 @@ void setFault(const std::function<void()>& fault) {
 
 template <typename Service>
 Reply replyTo(const std::string& name, typename Service::Request request = {}) {
-  typename Service::Response response;
-  EXPECT_TRUE(ros::service::call(name, request, response)) << name;
+  const auto response = callService<Service>(name, request);
   return {response.success != 0, response.message};
 }
 

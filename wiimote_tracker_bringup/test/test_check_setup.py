@@ -113,10 +113,11 @@ def test_each_problem_gives_advice(check, situation, advice):
     assert advice in lines[-1], lines
 
 
-def test_an_address_of_a_master_that_is_none_is_to_be_corrected(monkeypatch):
-    monkeypatch.setenv('ROS_MASTER_URI', 'robot:11311')
+@pytest.mark.parametrize('address', ['robot:11311', 'htp://robot:11311'])
+def test_an_address_of_a_master_that_is_none_is_to_be_corrected(monkeypatch, address):
+    monkeypatch.setenv('ROS_MASTER_URI', address)
     (_, is_fine, advice), = check_setup.check_master()
-    assert not is_fine and 'ROS_MASTER_URI is robot:11311' in advice
+    assert not is_fine and f'ROS_MASTER_URI is {address}' in advice
 
 
 def test_a_list_that_is_not_there_is_to_be_written(tmp_path):

@@ -27,7 +27,8 @@ def test_a_path_for_cd_does_not_confuse_the_scripts(shell):
 
 
 def test_packages_of_the_user_do_not_come_before_those_of_debian(shell):
-    assert shell('python3 -c "import site; print(site.ENABLE_USER_SITE)"') == 'False\n'
+    said = shell('python3 -c "import site; print(site.ENABLE_USER_SITE)"', PYTHONNOUSERSITE='')
+    assert said == 'False\n'
 
 
 @pytest.mark.skipif(not shutil.which('apt-get'), reason='this computer has no apt-get')

@@ -135,9 +135,16 @@ install_missing_packages() {
 
 # --- Workspace
 
-# Jobs: one per processor, but no more than memory allows (1.7 GB for the largest compiler run).
+# Jobs: one per processor, but no more than memory allows (1.7 GB for the largest compiler run): that
+# of the computer [kB], and that of a container [bytes], by version 2 or 1 of control groups.
 jobs_that_fit() {
-  awk -v cpus="$(nproc)" '/^MemAvailable/ { n = int($2 / 1.7e6); print n < 1 ? 1 : n < cpus ? n : cpus }' /proc/meminfo
+  local groups=/sys/fs/cgroup
+  { cat /proc/meminfo $groups/memory.max $groups/memory/memory.limit_in_bytes 2>/dev/null || true; } |
+    awk -v cpus="$(nproc)" '
+      BEGIN { n = cpus + 0 }
+      /^MemAvailable/ { fit = int($2 / 1.7e6); if (fit < n) n = fit }
+      /^[0-9]+$/ { fit = int($1 / 1.7e9); if (fit < n) n = fit }
+      END { print n < 1 ? 1 : n }'
 }
 
 # Makes the workspace and locks it until the script ends.

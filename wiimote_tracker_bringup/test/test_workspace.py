@@ -52,6 +52,17 @@ def test_what_only_some_releases_have_is_installed_though_package_lists_come_fir
     assert said.splitlines()[-1] == 'installs always' + (' newer' if release_has_it else '')
 
 
+@pytest.mark.parametrize('kilobytes, limit, jobs', [
+    (16000000, 'max', 8), (16000000, '4000000000', 2), (4000000, '16000000000', 2),
+    (16000000, '9223372036854771712', 8), (16000000, '1000000000', 1), (1000000, 'max', 1)])
+def test_the_memory_of_a_container_limits_the_jobs(shell, kilobytes, limit, jobs):
+    said = shell(f"""
+        nproc() {{ echo 8; }}
+        cat() {{ printf 'MemAvailable: {kilobytes} kB\\n{limit}\\n'; false; }}
+        jobs_that_fit""")
+    assert said == f'{jobs}\n'
+
+
 @pytest.mark.skipif(os.geteuid() == 0, reason='root may write everywhere')
 def test_a_workspace_of_another_user_is_refused(shell, tmp_path):
     (tmp_path / 'own/src').mkdir(parents=True)

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <chrono>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -24,7 +25,7 @@ constexpr char kPurpose[] =
     "Private parameters:\n"
     "  description       a rig description such as simulation/paper_rig.yaml (needed)\n"
     "  socket_directory  folder for the sockets <camera>.sock, made if absent\n"
-    "                    (default: /tmp/wiimote_tracker_simulation)";
+    "                    (default: /tmp/wiimote_tracker_simulation_$USER)";
 
 // For a simulation of the same name to end, as the master told it when this one registered.
 constexpr std::chrono::seconds kPatience(20);
@@ -56,8 +57,10 @@ void simulate(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
   wiimote_tracker::ParameterReader parameters(private_nh);
   const auto path = parameters.required<std::string>(
       "description", "the path of a rig description such as simulation/paper_rig.yaml");
-  const auto directory =
-      parameters.optional<std::string>("socket_directory", "/tmp/wiimote_tracker_simulation");
+  const char* const user = std::getenv("USER");
+  const auto directory = parameters.optional<std::string>(
+      "socket_directory",
+      std::string("/tmp/wiimote_tracker_simulation_") + (user != nullptr ? user : ""));
   parameters.refuseUnknown();
   const auto description = wiimote_tracker::simulation::readDescription(path);
 

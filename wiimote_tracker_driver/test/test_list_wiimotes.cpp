@@ -224,6 +224,12 @@ TEST(CameraList, RefusesTextsThatItCannotPreserve) {
                        "line 2 is '  - a'"));
 }
 
+TEST(CameraList, AZeroByteIsNotTheEndOfTheFile) {
+  const TemporaryFolder folder;
+  folder.write("cameras.yaml", std::string("cameras:\n# ") + '\0' + "\n  door: \"x\"\n");
+  EXPECT_EQ("door", readCameraList(folder / "cameras.yaml").nameOf("x"));
+}
+
 TEST(CameraList, WritingKeepsTheOldFile) {
   const TemporaryFolder folder;
   const std::string path = folder / "cameras.yaml";

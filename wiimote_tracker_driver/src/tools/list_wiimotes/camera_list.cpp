@@ -8,6 +8,7 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <sstream>
 
 namespace wiimote_tracker::list_wiimotes {
@@ -149,8 +150,8 @@ std::string CameraList::text() const {
 
 CameraList readCameraList(const std::string& path) {
   std::ifstream file(path);
-  std::string text;
-  std::getline(file, text, '\0');  // all of it; an empty one is no error
+  file >> std::noskipws;
+  const std::string text(std::istream_iterator<char>(file), {});  // an empty one is no error
   if (!file.is_open() || file.bad())
     throw CameraListError(path + " cannot be read (" + std::strerror(errno) +
                           "): correct the path of the cameras.yaml");

@@ -223,6 +223,18 @@ TEST_F(ImageStamperTest, AClockThatWasWrongByACenturyMayBeSet) {
   }
 }
 
+TEST_F(ImageStamperTest, SimulatedTimeMayLeapByACentury) {
+  ClockReading now;
+  now.simulated = true;
+  for (const ros::Time& time : {ros::Time(1, 0), ros::Time(4200000000u, 0)}) {
+    now.steady += 1.0;
+    now.ros = time;
+    const ImageTime image = stamper_.stamp(now, 0);
+    EXPECT_EQ(0u, image.clock_epoch);
+    EXPECT_EQ(time, image.stamp);
+  }
+}
+
 TEST_F(ImageStamperTest, AReconnectIsANewEpochThatStartsUncertain) {
   ImageTime time;
   for (int n = 0; n < 501; ++n) {

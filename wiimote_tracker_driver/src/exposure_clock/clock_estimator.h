@@ -36,7 +36,7 @@ class ClockEstimator {
   void copyLinkFrom(const ClockEstimator& other);
 
   double nominalPeriod() const { return period_; }
-  /// Without the counts.
+  /// Its counts are 0: ExposureClock counts.
   Statistics statistics() const;
 
   /// Logarithm of the density [1/s] that was predicted for the latest arrival.

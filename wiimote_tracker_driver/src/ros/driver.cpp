@@ -223,7 +223,7 @@ void Driver::publishImage(const protocol::DataReport& image) {
   joy_.publish(image.buttons, time.stamp);
 }
 
-// With the mutex locked.
+// Call it with mutex_ locked.
 void Driver::stampWaiting() {
   while (!waiting_.empty()) {
     const Arrival next = waiting_.front();

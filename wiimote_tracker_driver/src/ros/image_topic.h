@@ -13,8 +13,8 @@ namespace wiimote_tracker::driver {
 
 /// A topic with a message for each image, made only for subscribers. Whether there are any is asked
 /// at the first image, and again after each of ROS's notices: ros::Publisher::getNumSubscribers()
-/// searches all topics, which is too long per image. None of the notices may be dropped, as a
-/// nodelet manager may do (see OwnThread).
+/// searches all topics, which takes too long per image. No notice may get lost; a nodelet manager
+/// may drop some, so nodelets use OwnThread.
 template <typename Message>
 class ImageTopic {
  public:

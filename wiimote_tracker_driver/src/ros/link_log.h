@@ -7,7 +7,7 @@
 
 namespace wiimote_tracker::driver {
 
-// As the log and the diagnostics say it.
+// Sentences of both the log and the diagnostics.
 inline constexpr char kDamagedAccelerometer[] =
     "the accelerometer calibration of the remote is damaged, a typical one is used: expect errors "
     "of about 0.5 m/s^2";

@@ -12,12 +12,12 @@ class StreamStatistics {
   /// Longer than this between two images [s] counts as a gap: five images at a remote's 100 Hz.
   static constexpr double kGap = 0.05;
 
-  /// Of a shorter time from the beginning of a stream the rate says little [s].
+  /// The rate of a stream that began less than this before take() says little [s].
   static constexpr double kShortest = 0.5;
 
   struct Summary {
     double rate = 0.0;         ///< [Hz] Since the stream began, if that was in this window.
-    bool has_rate = true;      ///< Else the stream began less than kShortest ago; rate is low.
+    bool has_rate = true;      ///< False: it began less than kShortest ago, and `rate` is too low.
     double longest_gap = 0.0;  ///< [s] Including the time since the last image.
     std::uint64_t gaps = 0;    ///< Since the beginning.
   };

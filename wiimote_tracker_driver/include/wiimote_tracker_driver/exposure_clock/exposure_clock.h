@@ -78,7 +78,7 @@ class ExposureClock {
   double error_variance_ = 0.0;  ///< Average over replaced leaders and time since [s^2].
   double last_arrival_, last_exposure_;
   std::int64_t frame_offset_ = 0;  ///< Our frame number less the leader's.
-  Statistics counts_;              ///< Only the counts.
+  Statistics counts_;              ///< Its other members are unused.
 };
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -12,6 +12,7 @@
 #include <array>
 #include <cerrno>
 #include <cstddef>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
@@ -169,6 +170,16 @@ TEST_F(AConverter, AnAddressIsThatOfOneRemote) {
   EXPECT_GT(run({&driver}, 3.0)[0], 50);
   EXPECT_EQ((std::vector<std::size_t>{2}), bar.opened);
   EXPECT_EQ("00:1f:32:00:00:0a", driver.link().identity);
+}
+
+TEST_F(AConverter, WhatCannotBeOpenedIsNotSaidToBeInUse) {
+  for (const std::string& path : bar.paths) {
+    std::filesystem::remove(path);
+    std::filesystem::create_directory(path);
+  }
+  Wiimote driver = anyRemote();
+  driver.step(0.01);
+  EXPECT_EQ(0U, driver.link().error.find("cannot open ")) << driver.link().error;
 }
 
 TEST_F(AConverter, TwoDriversFindTwoRemotes) {

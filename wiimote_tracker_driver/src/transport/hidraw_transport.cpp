@@ -141,6 +141,7 @@ std::unique_ptr<Transport> openRemote(const Remote& remote) {
 
 std::unique_ptr<Transport> openFirstFree(const std::vector<Remote>& all) {
   std::optional<PermissionDenied> denied;
+  std::optional<TransportError> other;
   std::string taken;
   for (const Remote& remote : all) {
     try {
@@ -149,13 +150,15 @@ std::unique_ptr<Transport> openFirstFree(const std::vector<Remote>& all) {
       denied = e;
     } catch (const DeviceTaken& e) {
       taken = e.what();
-    } catch (const TransportError&) {
-      // Gone since it was listed: try the next.
+    } catch (const TransportError& e) {
+      other = e;  // such as gone since it was listed
     }
   }
   if (denied)
     throw PermissionDenied(*denied);
-  if (all.size() == 1 && !taken.empty())
+  if (other && taken.empty())
+    throw TransportError(*other);
+  if (all.size() == 1)
     throw DeviceTaken(taken);
   throw DeviceTaken(
       "all " + std::to_string(all.size()) +

@@ -33,8 +33,6 @@ LedPublishers::Topics LedPublishers::advertised(ros::NodeHandle nh,
 
 /// Null until they are advertised.
 const LedPublishers::Topics* LedPublishers::topicsOf(const std::string& label) {
-  if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    topics_[coming_label_] = coming_.get();
   const auto found = topics_.find(label);
   if (found != topics_.end())
     return &found->second;
@@ -46,6 +44,8 @@ const LedPublishers::Topics* LedPublishers::topicsOf(const std::string& label) {
 }
 
 void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
+  if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    topics_[coming_label_] = coming_.get();
   transforms_.clear();
   for (const TrackedPoint& point : points.points) {
     if (!isPublished(point, options_.publish_predicted))

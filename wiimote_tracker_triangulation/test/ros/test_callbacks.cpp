@@ -1,8 +1,9 @@
 // Image callbacks: in order and bounded; neither an exception in one nor the end of a tracker stops
-// the process.
+// the process. Topics of LEDs end with these.
 #include "geometry/random_rigs.h"
 #include "ros/blob_image.h"
 #include "ros/callbacks.h"
+#include "ros/led_publishers.h"
 #include "ros/triangulation.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
@@ -97,6 +98,30 @@ TEST_F(Callbacks, GoOnAfterAnException) {
     publish(publisher, i);
   EXPECT_NO_THROW(queue_.callAvailable());
   EXPECT_EQ((std::vector<std::uint32_t>{0, 2}), handled_);
+}
+
+TEST(LedTopics, EndWithAnLedThatIsSeenForAMomentOnly) {
+  const auto isAdvertised = [] {
+    ros::V_string topics;
+    ros::this_node::getAdvertisedTopics(topics);
+    return std::count(topics.begin(), topics.end(), ros::names::resolve("led_7/point")) > 0;
+  };
+  LedPublishers publishers(ros::NodeHandle(), {}, OutputOptions());
+  wiimote_tracker_msgs::TrackedPointArray points;
+  points.points.resize(1);
+  points.points[0].label = "led_7";
+  points.points[0].state = wiimote_tracker_msgs::TrackedPoint::TRACKED;
+  publishers.publish(points);
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(20.0);
+  while (!isAdvertised() && ros::WallTime::now() < deadline)
+    ros::WallDuration(0.01).sleep();
+  ASSERT_TRUE(isAdvertised());
+  points.points.clear();
+  while (isAdvertised() && ros::WallTime::now() < deadline) {
+    publishers.publish(points);
+    ros::WallDuration(0.01).sleep();
+  }
+  EXPECT_FALSE(isAdvertised());
 }
 
 /// An image of LEDs that move, whose tracks come and go.

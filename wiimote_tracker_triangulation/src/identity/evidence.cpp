@@ -56,7 +56,7 @@ void Evidence::accumulate(const Sighting& sighting, double weight, LogLikelihood
   sum->steady += weight * hypotheses_->steady(sighting.seen);
 }
 
-/// Not less than that of an occlusion.
+/// Adds the log likelihoods of a dark interval, none below that of an occlusion.
 void Evidence::addLimited(const Darkness& darkness, LogLikelihoods* sum) const {
   const auto least = static_cast<float>(darkness.weight * std::log(hypotheses_->seeing().hidden));
   sum->cells += darkness.sum.cells.max(least);

@@ -328,8 +328,8 @@ void MessageTracker::answerTriggers() {
   }
 }
 
-/// Not an image that the estimator may drop for its wrong clock: an output at its time, years ahead
-/// perhaps, would be the last one.
+/// Whether an image may clock outputs. One with a wrong clock, which the estimator will drop, must
+/// not: after an output at its time, perhaps years ahead, there would be no other.
 bool MessageTracker::clocksOutputs(std::size_t camera, double arrival) const {
   return is_used_[camera] && arrival <= newest_arrival_ + kLongestSilence;
 }

@@ -82,7 +82,7 @@ class ImageUpdate {
   geometry::Rig rig_;
   std::vector<std::size_t> members_;
   TrackerOptions options_;
-  // Of the image.
+  // Of the last apply(); the pointers are valid while it runs.
   const GroupCamera* camera_ = nullptr;
   const StoredImage* image_ = nullptr;
   std::vector<Track>* tracks_ = nullptr;

@@ -86,7 +86,7 @@ class TrackInitiation {
   std::vector<association::SpotReference> by_time_;  // of one point
   std::vector<association::SpotReference> used_;
   std::vector<StartSpot> starts_;
-  // Of the last apply().
+  // Of the last apply(); valid while it runs.
   const std::vector<GroupCamera>* cameras_ = nullptr;
   std::vector<UnassignedSpots>* unassigned_ = nullptr;
 };

@@ -24,7 +24,7 @@ class SteadyUpdater : public diagnostic_updater::Updater {
     force_update();
   }
 
-  /// Is not due for `duration` from now on: before, a report would say little.
+  /// Puts off the next report for at least `duration` from now: an earlier one would say little.
   void wait(const ros::WallDuration& duration) {
     due_ = std::max(due_, ros::SteadyTime::now() + duration);
   }

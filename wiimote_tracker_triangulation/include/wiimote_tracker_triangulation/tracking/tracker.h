@@ -71,7 +71,7 @@ class Tracker : public Estimator {
   std::vector<Place> places_;  // per camera of the rig
   std::unique_ptr<TimeWatch> time_watch_;
   std::unique_ptr<Ids> ids_;
-  std::optional<geometry::CalibrationUncertainty> uncertainty_;  // always
+  std::optional<geometry::CalibrationUncertainty> uncertainty_;  // never empty
   std::vector<CameraView> views_;
   Counters counters_;
   std::uint64_t images_ = 0;

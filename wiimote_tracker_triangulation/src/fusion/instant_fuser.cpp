@@ -3,8 +3,10 @@
 #include "led_memory.h"
 #include "locator.h"
 #include "synchronizer.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 
 #include <algorithm>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::fusion {
@@ -27,6 +29,7 @@ struct InstantFuser::Parts {
   std::vector<geometry::Camera> cameras;
   Synchronizer synchronizer;
   std::unique_ptr<Locator> locator;
+  std::optional<geometry::CalibrationUncertainty> uncertainty;  // always
   LedMemory memory;
   Snapshot snapshot;
 };
@@ -45,6 +48,7 @@ void InstantFuser::setRig(const geometry::Rig& rig) {
     parts_->cameras.push_back(camera.camera);
   parts_->synchronizer.setRig(rig);
   parts_->locator = std::make_unique<Locator>(rig, parts_->options);
+  parts_->uncertainty.emplace(rig);
   parts_->snapshot.views.assign(rig.cameras.size(), CameraView());
 }
 
@@ -90,6 +94,9 @@ void InstantFuser::Parts::describe(const LedMemory::Led& led) {
   TrackedLed& reported = snapshot.leds.emplace_back(led);
   if (led.point != LedMemory::kNone)
     describeRays(locator->points()[led.point], &reported);
+  if (const auto covariance = uncertainty->covarianceNear(
+          reported.position, reported.cameras.data(), reported.cameras.size()))
+    reported.position_covariance += *covariance;
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     if (std::binary_search(reported.cameras.begin(), reported.cameras.end(), c) ||
         cameras[c].sees(led.position))

@@ -1,5 +1,6 @@
 // One LED in front of unsynchronised cameras: where it is found, and what is refused.
 #include "fusion/film.h"
+#include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
@@ -37,6 +38,22 @@ TEST(InstantFuser, FindsALedAtRest) {
   }
   EXPECT_GT(complete, 290);
   EXPECT_EQ(0u, lateImages(fuser));
+}
+
+TEST(InstantFuser, TheCovarianceContainsTheCalibrations) {
+  Rig rig = threeCameras();
+  InstantFuser exactly(rig, {});
+  const TrackedLed known = *ledOf(fuse(exactly, film(rig, 100.0, 101.0, still)).back());
+  rig.covariance = 1e-6 * Eigen::MatrixXd::Identity(48, 48);
+  geometry::CalibrationUncertainty uncertainty(rig);
+  const auto share =
+      uncertainty.covarianceNear(known.position, known.cameras.data(), known.cameras.size());
+  ASSERT_TRUE(share);
+  EXPECT_GT(share->trace(), 0.0);
+  InstantFuser uncertain(rig, {});
+  const TrackedLed led = *ledOf(fuse(uncertain, film(rig, 100.0, 101.0, still)).back());
+  EXPECT_LT((led.position_covariance - known.position_covariance - *share).norm(),
+            1e-9 * share->norm());
 }
 
 TEST(InstantFuser, InterpolationIsExactForPixelsThatMoveLinearly) {

@@ -18,11 +18,6 @@ constexpr int kPoseSize = 6;
 constexpr int kLensSize = 9;
 constexpr double kGiven = 1e12;  // information of a parameter that is held
 
-/// Weight of a squared residual by the Huber loss.
-double huberWeight(double error, double loss_scale) {
-  return error > loss_scale ? loss_scale / error : 1.0;
-}
-
 }  // namespace
 
 double pixelStddev(const Reconstruction& reconstruction,
@@ -36,7 +31,7 @@ double pixelStddev(const Reconstruction& reconstruction,
     if (!reconstruction.inliers[i] || !error)
       continue;
     ++views[observation.point];
-    squares += huberWeight(*error, options.loss_scale) * *error * *error;
+    squares += *error * *error;
   }
   const auto cameras = static_cast<double>(reconstruction.cameras.size());
   const double lenses = fixed_lenses ? 0.0 : options.one_lens ? 1.0 : cameras;
@@ -56,7 +51,7 @@ Certainty::Certainty(const Reconstruction& reconstruction,
   const Eigen::Index size = poseColumn(camera_count_);
   information_ = Eigen::MatrixXd::Zero(size, size);
   gradient_ = Eigen::VectorXd::Zero(size);
-  addObservations(reconstruction, options, pixelStddev(reconstruction, options, fixed_lenses));
+  addObservations(reconstruction, pixelStddev(reconstruction, options, fixed_lenses));
   if (fixed_lenses)
     information_.diagonal().head(poseColumn(0)).array() += kGiven;
   else
@@ -77,9 +72,7 @@ Eigen::Index Certainty::poseColumn(std::size_t camera) const {
 
 /// Information of the observations about lenses and poses, the points being free.
 /// @param stddev of a pixel coordinate [px].
-void Certainty::addObservations(const Reconstruction& reconstruction,
-                                const Options& options,
-                                double stddev) {
+void Certainty::addObservations(const Reconstruction& reconstruction, double stddev) {
   std::vector<std::vector<const Observation*>> views(reconstruction.points.size());
   for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
     const Observation& observation = reconstruction.observations[i];
@@ -102,13 +95,12 @@ void Certainty::addObservations(const Reconstruction& reconstruction,
       if (!projection)
         continue;
       const Eigen::Vector2d error = view->pixel - projection->pixel;
-      const double weight = std::sqrt(huberWeight(error.norm(), options.loss_scale)) / stddev;
       by_parameters.block<2, kPoseSize>(row, poseColumn(view->camera)) =
-          weight * projection->by_parameters.leftCols<kPoseSize>();
+          projection->by_parameters.leftCols<kPoseSize>() / stddev;
       by_parameters.block<2, kLensSize>(row, lensColumn(view->camera)) =
-          weight * projection->by_parameters.middleCols<kLensSize>(geometry::kLens);
-      by_point.middleRows<2>(row) = weight * projection->by_point;
-      residual.segment<2>(row) = weight * error;
+          projection->by_parameters.middleCols<kLensSize>(geometry::kLens) / stddev;
+      by_point.middleRows<2>(row) = projection->by_point / stddev;
+      residual.segment<2>(row) = error / stddev;
       row += 2;
     }
     const Eigen::Matrix3d covariance = (by_point.transpose() * by_point).inverse();

@@ -12,14 +12,14 @@
 
 namespace wiimote_tracker::bundle {
 
-/// Standard deviation of one pixel coordinate, estimated from the residuals of the inliers with
-/// their Huber weights [px].
+/// Standard deviation of one pixel coordinate, estimated from the residuals of the inliers [px].
 /// @param fixed_lenses the lenses were held: no degrees of freedom went into them.
 double pixelStddev(const Reconstruction& reconstruction, const Options& options, bool fixed_lenses);
 
 /// Covariance of the lenses and poses of an adjusted reconstruction, to first order: the inverse of
-/// the information of the inliers, the points eliminated (Schur complement), with Huber weights and
-/// pixelStddev(). Options::lens counts too, except what it says of the focal lengths.
+/// the information of the inliers, the points eliminated (Schur complement), with
+/// pixelStddev(). The Huber loss hardly changes it. Options::lens counts too, but not its focal
+/// length.
 class Certainty {
  public:
   /// @param fixed_lenses the lenses are given, and exact.
@@ -46,7 +46,7 @@ class Certainty {
 
   Eigen::Index lensColumn(std::size_t camera) const;
   Eigen::Index poseColumn(std::size_t camera) const;
-  void addObservations(const Reconstruction& reconstruction, const Options& options, double stddev);
+  void addObservations(const Reconstruction& reconstruction, double stddev);
   void addLensPrior(const Reconstruction& reconstruction, const Options& options);
   void fixWorld(const Reconstruction& reconstruction);
 

@@ -72,6 +72,17 @@ TEST_F(Hands, AnLedIsNoticedAlsoWhenTimeJumpsBack) {
   EXPECT_EQ(rest(first_, options_.hold + 1.0), 1);
 }
 
+TEST_F(Hands, ACameraWhoseClockIsBehindDoesNotPreventIt) {
+  HandsFree hands_free({"a", "b", "behind"}, options_);
+  int noticed = 0;
+  for (int i = 0; i < 300; ++i, now_ += kFramePeriod) {
+    for (const char* camera : {"a", "b"})
+      noticed += hands_free.add({camera, now_, 0, {first_}, {}}, {});
+    noticed += hands_free.add({"behind", now_ - 5.0, 0, {first_}, {}}, {});
+  }
+  EXPECT_GT(noticed, 0);
+}
+
 TEST_F(Hands, ACarriedLedIsNotStill) {
   EXPECT_EQ(rest(first_, 3.0), 1);
   EXPECT_EQ(carry(first_, second_, 8.0), 0);

@@ -30,12 +30,10 @@ bool HandsFree::add(const Image& image, const std::vector<CapturedCorner>& captu
   const auto found = cameras_.find(image.camera);
   if (found == cameras_.end())
     return false;
-  if (image.stamp < newest_ - kLongestDelay) {
-    restart();  // time jumped back
-    newest_ = image.stamp;
-  }
-  newest_ = std::max(newest_, image.stamp);
   Camera& camera = found->second;
+  // By its own stamps: the clocks of others may be ahead.
+  if (image.stamp < camera.latest - kLongestDelay)
+    restart();  // time jumped back
   if (image.spots.size() == 1 && image.spots.front().allFinite()) {
     const Eigen::Vector2d& spot = image.spots.front();
     if (!camera.seen || image.stamp > camera.latest + kDropOut ||

@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <limits>
 #include <map>
 #include <string>
 #include <vector>
@@ -44,7 +43,6 @@ class HandsFree {
 
   HandsFreeOptions options_;
   std::map<std::string, Camera> cameras_;
-  double newest_ = -std::numeric_limits<double>::infinity();  // stamp [s]
 };
 
 }  // namespace wiimote_tracker::capture

@@ -1,5 +1,6 @@
 #include "calibration_node.h"
 
+#include <string>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -28,8 +29,8 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
 void CalibrationNode::endCaptureOfOtherTime(const Lock& lock) {
   const double before = std::exchange(time_, NodeContext::now());
   if (time_ < before - NodeContext::kUnderWay)
-    context_.calibration(lock).abandonCapture(
-        "time jumped back, as where a bag starts over or a clock is set: capture it again");
+    context_.calibration(lock).abandonCapture(std::string(NodeContext::kTimeJumpedBack) +
+                                              "capture it again");
 }
 
 CalibrationNode::~CalibrationNode() {

@@ -79,6 +79,10 @@ class NodeContext {
   /// @returns done().
   bool waitUntil(Lock* lock, double end, const std::function<bool()>& done);
 
+  /// Why a capture cannot go on; what to do follows.
+  static constexpr char kTimeJumpedBack[] =
+      "time jumped back, as where a bag starts over or a clock is set: ";
+
   /// Why waitUntil() returned false before its end.
   static const char* whyEndedEarly();
 

@@ -16,6 +16,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -231,8 +232,12 @@ class PlaceServices {
     const double start = NodeContext::now();
     capture_.emplace(names, options, start);
     const double end_time = start + options.timeout + 2.0 * NodeContext::kUnderWay;
+    double time = start;
     const bool over = context_.waitUntil(lock, end_time, [&] {
-      capture_->update(NodeContext::now() - NodeContext::kUnderWay);
+      const double before = std::exchange(time, NodeContext::now());
+      if (time < before - NodeContext::kUnderWay && capture_->state() == State::kCollecting)
+        throw Refusal(std::string(NodeContext::kTimeJumpedBack) + "measure it again");
+      capture_->update(time - NodeContext::kUnderWay);
       context_.setProgress(capture_->progress(), *lock);
       return context_.isCancelled(Step::kMeasuring, *lock) ||
              capture_->state() != State::kCollecting;

@@ -276,7 +276,7 @@ geometry::RigCamera rigCamera(const geometry::RigCamera& before,
   camera.observations = static_cast<std::uint32_t>(fit.expected);
   camera.inliers = static_cast<std::uint32_t>(fit.matches.size());
   const geometry::Intrinsics& lens = fit.camera.intrinsics;
-  double squared_scale = 0.0;  // sum of those of the image at the LED [m^2/px^2]
+  double squared_scale = 0.0;  // sum of the squared sizes of a pixel at the LED [m^2/px^2]
   for (const Match& match : fit.matches)
     squared_scale +=
         (match.point.position - fit.camera.center()).squaredNorm() / (lens.fx * lens.fy);

@@ -25,7 +25,7 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
   context_.publishStatus(lock);
 }
 
-/// Its images would be those of a time that may come in an hour, or never.
+/// After a jump back: a capture takes only images that are stamped after its start.
 void CalibrationNode::endCaptureOfOtherTime(const Lock& lock) {
   const double before = std::exchange(time_, NodeContext::now());
   if (time_ < before - NodeContext::kUnderWay)

@@ -35,8 +35,8 @@ class FileServices {
       const Lock lock(context_.mutex());
       path = rigPath("", context_.parameters(lock));
     }
-    std::error_code unknown;  // whether there is one: then loading says why
-    if (std::filesystem::exists(path, unknown) || unknown) {
+    std::error_code error;
+    if (std::filesystem::exists(path, error) || error) {  // after an error loading says why
       const Reply reply = loadRig(path);
       if (reply.success)
         ROS_INFO_STREAM(path << ": " << reply.message);

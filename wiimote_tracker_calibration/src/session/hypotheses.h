@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::session {
 
-/// A recording that could be solved; of one without a wave only what is of the square.
+/// The solution of a recording; without a wave only what square::Solution has is set.
 using Attempt = wave::WaveSolution;
 
 /// A mistake that may have been made: the recording without it, or with the quantity free.

@@ -86,8 +86,10 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
   if (!is_collecting_)
     return;
   body::LedsInstant instant{points.header.stamp.toSec(), {}};
-  if (!instants_.empty() && instant.time < instants_.back().time)
-    instants_.clear();  // time jumped back
+  if (!instants_.empty() && instant.time < instants_.back().time) {
+    instants_.clear();
+    ++jumps_;
+  }
   for (const TrackedPoint& point : points.points) {
     if (point.state != TrackedPoint::TRACKED ||
         (!labels_.empty() && labels_.count(point.label) == 0))
@@ -97,7 +99,8 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
       blinks_[point.id] = point.label;
   }
   instants_.push_back(instant);
-  is_collecting_ = instant.time - instants_.front().time < duration_;
+  // Between two jumps lies a whole round of a bag that is played in a loop.
+  is_collecting_ = jumps_ < 2 && instant.time - instants_.front().time < duration_;
   changed_.notify_all();
 }
 
@@ -154,6 +157,7 @@ void BodyLearning::collect(const LearnBody::Request& request) {
   duration_ += until_free;
   instants_.clear();
   blinks_.clear();
+  jumps_ = 0;
   is_collecting_ = true;
   while (is_collecting_ && !is_over_) {
     const std::size_t count = instants_.size();
@@ -167,6 +171,10 @@ void BodyLearning::collect(const LearnBody::Request& request) {
   }
   if (is_over_)
     throw Error("the tracker was stopped");
+  if (jumps_ > 1)
+    throw Error(
+        "time jumped back twice before it was seen long enough, as where a bag is played in a "
+        "loop: give a shorter duration, or play a longer bag");
   const double begin = instants_.front().time + until_free;
   instants_.erase(instants_.begin(),
                   std::find_if(instants_.begin(), instants_.end(),

@@ -67,6 +67,7 @@ class BodyLearning {
   bool is_over_ = false;
   std::vector<std::string> frames_;              // of the rig
   double duration_ = 0.0;                        // [s]
+  int jumps_ = 0;                                // how often time jumped back meanwhile
   std::set<std::string> labels_;                 // empty: all
   std::vector<body::LedsInstant> instants_;      // collected
   std::map<std::uint32_t, std::string> blinks_;  // labels of LEDs that blink, by id

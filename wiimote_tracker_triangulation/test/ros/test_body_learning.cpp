@@ -1,0 +1,76 @@
+// What learn_body answers where a bag is played in a loop.
+#include "ros/bodies/body_learning.h"
+
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <unistd.h>
+#include <Eigen/Core>
+
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <future>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+namespace {
+
+using wiimote_tracker_msgs::LearnBody;
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
+
+constexpr double kPeriod = 0.01;  // of images [s]
+
+/// Three LEDs at rest.
+TrackedPointArray pointsAt(double time) {
+  TrackedPointArray points;
+  points.header.stamp = ros::Time(time);
+  const std::vector<Eigen::Vector3d> leds = {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}};
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    TrackedPoint point;
+    point.id = static_cast<std::uint32_t>(i);
+    point.state = TrackedPoint::TRACKED;
+    point.position.x = leds[i].x();
+    point.position.y = leds[i].y();
+    point.position_covariance[0] = point.position_covariance[4] = point.position_covariance[8] =
+        1e-6;
+    points.points.push_back(point);
+  }
+  return points;
+}
+
+/// Learns 0.5 s of a bag that starts over after so many images.
+LearnBody::Response learnInLoopsOf(int images) {
+  const std::string file = testing::TempDir() + "learned_" + std::to_string(::getpid()) + ".yaml";
+  BodyLearning learning(ros::NodeHandle(), file, {}, {}, {});
+  auto answer = std::async(std::launch::async, [] {
+    LearnBody call;
+    call.request.name = "wand";
+    call.request.duration = 0.5;
+    EXPECT_TRUE(ros::service::call("learn_body", call));
+    return call.response;
+  });
+  // Without end the service would give up, since no more points come.
+  for (int i = 0;
+       i < 20000 && answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready; ++i)
+    learning.addPoints(pointsAt(1000.0 + kPeriod * (i % images)));
+  const LearnBody::Response response = answer.get();
+  std::remove(file.c_str());
+  return response;
+}
+
+TEST(BodyLearning, EndsWhereTheLoopOfABagIsTooShort) {
+  const LearnBody::Response response = learnInLoopsOf(30);
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(std::string::npos, response.message.find("play a longer bag")) << response.message;
+}
+
+TEST(BodyLearning, GoesOnAfterABagHasStartedOver) {
+  const LearnBody::Response response = learnInLoopsOf(80);
+  EXPECT_TRUE(response.success) << response.message;
+  EXPECT_EQ(3u, response.leds.size());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

@@ -36,6 +36,22 @@ TEST_F(Workflow, CancelStopsWhatGoesOnAndASecondOneDropsTheRun) {
   EXPECT_FALSE(calibration_.beginCapture(std::nullopt, now_).success);
 }
 
+TEST_F(Workflow, AnAbandonedWaveKeepsWhatWasRecorded) {
+  captureAll();
+  const std::string before = calibration_.message();
+  calibration_.abandonWave("time jumped back");
+  EXPECT_EQ(calibration_.message(), before) << "there is none";
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(5.0);
+  const std::size_t refusals = calibration_.refusals();
+  calibration_.abandonWave("time jumped back");
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  EXPECT_EQ(calibration_.refusals(), refusals + 1);
+  EXPECT_SAYS(calibration_.message(), "the wave was ended: time jumped back; recorded ");
+  ASSERT_TRUE(calibration_.wave());
+  EXPECT_GT(calibration_.wave()->report().seconds, 2.0);
+}
+
 TEST_F(Workflow, ACancelledWaveIsDroppedAndTheSquareStays) {
   captureAll();
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);

@@ -16,7 +16,7 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
       context_.nh().createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
         runCallback("the status", [this] {
           const Lock lock(context_.mutex());
-          endCaptureOfOtherTime(lock);
+          endRecordingOfOtherTime(lock);
           context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
           context_.publishStatus(lock);
         });
@@ -25,12 +25,14 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
   context_.publishStatus(lock);
 }
 
-/// After a jump back: a capture takes only images that are stamped after its start.
-void CalibrationNode::endCaptureOfOtherTime(const Lock& lock) {
+/// A capture or wave takes only images that are stamped after its start.
+void CalibrationNode::endRecordingOfOtherTime(const Lock& lock) {
   const double before = std::exchange(time_, NodeContext::now());
-  if (time_ < before - NodeContext::kUnderWay)
-    context_.calibration(lock).abandonCapture(std::string(NodeContext::kTimeJumpedBack) +
-                                              "capture it again");
+  if (time_ >= before - NodeContext::kUnderWay)
+    return;
+  const std::string why = NodeContext::kTimeJumpedBack;
+  context_.calibration(lock).abandonCapture(why + "capture it again");
+  context_.calibration(lock).abandonWave(why + "record it again, unless it was enough");
 }
 
 CalibrationNode::~CalibrationNode() {

@@ -19,7 +19,7 @@ class CalibrationNode {
   NodeContext& context() { return context_; }
 
  private:
-  void endCaptureOfOtherTime(const Lock& lock);
+  void endRecordingOfOtherTime(const Lock& lock);
 
   NodeContext context_;
   double time_ = 0.0;  // at the last status [s]; only for its timer

@@ -138,6 +138,11 @@ Reply Calibration::endWave() {
                                : ", that is enough; " + captured_.square.next()));
 }
 
+void Calibration::abandonWave(const std::string& why) {
+  if (isBusyWith(Step::kWaving))
+    refuse("the wave was ended: " + why + "; " + endWave().message);
+}
+
 void Calibration::addImage(const capture::Image& image) {
   if ((isBusyWith(Step::kWaving) || isBusyWith(Step::kCapturing)) && !image.identity.empty()) {
     const std::string& first =

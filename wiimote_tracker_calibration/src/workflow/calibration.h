@@ -84,6 +84,9 @@ class Calibration {
                   double now);
   Reply endWave();
 
+  /// Ends the wave that is being recorded, if any; what was recorded stays.
+  void abandonWave(const std::string& why);
+
   /// One image of one camera; images in the order of their stamps.
   void addImage(const capture::Image& image);
 

@@ -127,6 +127,7 @@ void Synchronizer::interpolate(const CameraState& camera, InstantView* view) {
   view->spots.clear();
   view->masked.clear();
   view->exposure.reset();
+  view->is_full = false;
   if (const Frame* newest = camera.frames.lastUpTo(time_)) {
     view->exposure = newest->time;
     view->masked = newest->masked;

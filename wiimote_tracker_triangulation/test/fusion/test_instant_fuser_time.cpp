@@ -140,7 +140,8 @@ TEST(InstantFuser, DoesNotInterpolateAcrossALongGap) {
   const Rig rig = threeCameras();
   InstantFuser fuser(rig, {});
   std::vector<Delivery> deliveries;
-  for (const Delivery& d : film(rig, 100.0, 101.0, circle)) {
+  for (Delivery& d : film(rig, 100.0, 101.0, circle)) {
+    d.image.maximum_spots = 1;
     // 80 ms: longer than maximum_gap, shorter than camera_timeout.
     if (!(d.camera == 0 && d.image.stamp > 100.5 && d.image.stamp < 100.58))
       deliveries.push_back(d);
@@ -149,6 +150,7 @@ TEST(InstantFuser, DoesNotInterpolateAcrossALongGap) {
   for (const Snapshot& instant : fuse(fuser, deliveries)) {
     if (instant.time > 100.502 && instant.time < 100.579) {
       EXPECT_TRUE(instant.views[0].spots.empty());
+      EXPECT_FALSE(instant.views[0].full);
       EXPECT_TRUE(ledOf(instant));
       ++inside;
     }

@@ -38,6 +38,8 @@ void alignToCenters(const Recording& recording, Reconstruction* reconstruction) 
   }
 }
 
+/// The residuals are as measured, to compare them with those of others: smaller than the noise,
+/// since the points were fitted to it. Those of a wave are corrected for that.
 geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& method) {
   geometry::Rig rig;
   rig.method = method;

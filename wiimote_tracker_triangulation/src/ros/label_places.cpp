@@ -10,6 +10,12 @@ namespace wiimote_tracker {
 
 namespace fs = std::filesystem;
 
+std::string placesFile(const std::string& parameter, const std::string& name_space) {
+  if (parameter.empty() || parameter.back() != '/')
+    return parameter;
+  return fs::path(parameter + name_space + "/label_places").lexically_normal().string();
+}
+
 bool writePlaces(const std::string& file, const LedLabels::Places& places) {
   const std::string fresh = file + ".new";
   std::error_code error;

@@ -8,6 +8,10 @@
 
 namespace wiimote_tracker {
 
+/// The file that the parameter names: in a folder, which ends in a slash, that of the tracker's
+/// namespace.
+std::string placesFile(const std::string& parameter, const std::string& name_space);
+
 /// Keeps where labelled LEDs are for a node that is started right after this one was killed. The
 /// file need not survive a power failure, so the disk is not waited for.
 /// @returns whether it was written.

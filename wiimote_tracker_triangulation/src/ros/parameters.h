@@ -36,7 +36,7 @@ struct IdentityOptions {
 /// Parameters of the node and of track_bag; meaning and ranges: config/triangulation.yaml.
 struct TrackingParameters {
   std::vector<std::string> labels = {"led"};
-  std::string label_places;  ///< File for writePlaces; empty: none. Only the node uses it.
+  std::string label_places;  ///< For placesFile; empty: none. Only the node uses it.
   IdentityOptions identity;
   tracking::EstimatorOptions estimator;  ///< With codes: adapted by forBlinking.
   BodyParameters bodies;

@@ -45,6 +45,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
                 parameters_.allLabels(),
                 parameters_.blinkingLabels()),
       diagnostics_(nh, private_nh, &tracker_, &shedding_, parameters_.clock_tolerance) {
+  parameters_.label_places = placesFile(parameters_.label_places, nh_.getNamespace());
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   const std::string missing_bodies = describeMissingFile(parameters_.bodies.file);

@@ -186,6 +186,14 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   std::remove(file.c_str());
 }
 
+TEST(LedLabels, EachNamespaceHasAFileInTheFolder) {
+  EXPECT_EQ("", placesFile("", "/room"));
+  EXPECT_EQ("/lab/places", placesFile("/lab/places", "/room"));
+  EXPECT_EQ("/lab/label_places", placesFile("/lab/", "/"));
+  EXPECT_EQ("/lab/room/label_places", placesFile("/lab/", "/room"));
+  EXPECT_EQ("/lab/house/room/label_places", placesFile("/lab/", "/house/room"));
+}
+
 TEST(LedLabels, AllOfAPlaceIsInItsFile) {
   LedLabels::Place place;
   place.position = {1.5, -2.0, 0.25};

@@ -268,6 +268,19 @@ TEST_F(Beyond, ALensDoesNotReplaceSamples) {
   EXPECT_FALSE(exists(folder + "/samples.yaml"));
 }
 
+TEST_F(Beyond, ALensDoesNotReplaceARigThatWasSavedBefore) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "rig";
+  const std::string folder = folder_ + "/rigs";
+  for (const char* name : {"/rig.yaml", "/other.yaml"}) {
+    const std::vector<std::string> warnings = saveRig(rig, folder + name);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_SAYS(warnings[0], "rig.yaml is for rigs, so the lens of rig has none: rename");
+  }
+  EXPECT_EQ(geometry::readRigFile(folder + "/rig.yaml").id(), rig.id());
+}
+
 TEST_F(Beyond, ACaptureThatEndsWithItsServerSaysWhy) {
   ros::NodeHandle nh;
   const ros::Publisher cancel =

@@ -13,6 +13,9 @@ namespace wiimote_tracker {
 /// parameter rig_file. @throws Refusal: it lies elsewhere, or is not UTF-8.
 std::string rigPath(const std::string& requested, const Parameters& parameters);
 
+/// Name of the rig's file where the parameter rig_file names none.
+inline constexpr char kRigFile[] = "rig.yaml";
+
 /// Name of the samples' file where a request names none.
 inline constexpr char kSamplesFile[] = "samples.yaml";
 

@@ -1,5 +1,7 @@
 #include "parameters.h"
 
+#include "file_paths.h"
+
 #include <wiimote_tracker_msgs/parameter_reader.h>
 #include <wiimote_tracker_msgs/ros_home.h>
 
@@ -155,7 +157,7 @@ Parameters readParameters(ParameterReader* reader) {
   parameters.second_side_length = reader->bounded("second_side_length", 0.0, 0.0, 20.0);
   parameters.rig_file = reader->optional<std::string>("rig_file", "");
   if (parameters.rig_file.empty())
-    parameters.rig_file = rosHome() + "/wiimote_tracker/rig.yaml";
+    parameters.rig_file = rosHome() + "/wiimote_tracker/" + kRigFile;
   parameters.file_folder = reader->optional<std::string>("file_folder", "");
   reader->read("led_height", &calibration.led_height, 0.0, 1000.0);
   reader->read("world_frame", &calibration.world_frame);

@@ -60,14 +60,15 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
     const std::string file = cameraFile(path, camera.name);
+    const bool is_for_rigs = file == beside(path, kRigFile);
+    if (is_for_rigs || file == beside(path, kSamplesFile)) {
+      warnings.push_back(file + (is_for_rigs ? " is for rigs" : " is for samples") +
+                         ", so the lens of " + camera.name + " has none: rename the camera");
+      continue;
+    }
     if (file == path) {
       warnings.push_back(file + " is the rig's file, so the lens of " + camera.name +
                          " has none: save the rig by another name");
-      continue;
-    }
-    if (file == beside(path, kSamplesFile)) {
-      warnings.push_back(file + " is for samples, so the lens of " + camera.name +
-                         " has none: rename the camera");
       continue;
     }
     try {

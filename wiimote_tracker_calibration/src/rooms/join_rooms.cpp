@@ -8,7 +8,6 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <string>

@@ -3,9 +3,6 @@
 
 #include <Eigen/LU>
 
-#include <algorithm>
-#include <cmath>
-
 namespace wiimote_tracker::geometry::plumb_bob {
 namespace {
 

@@ -3,8 +3,6 @@
 namespace wiimote_tracker::motion {
 namespace {
 
-using Matrix9 = Eigen::Matrix<double, 9, 9>;
-
 /// m becomes m (F (x) I)^T. Each block of columns needs itself and those to its right, since F is
 /// upper triangular.
 template <typename Matrix>

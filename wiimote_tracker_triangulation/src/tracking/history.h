@@ -4,7 +4,6 @@
 #include "stored_image.h"
 #include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
 
-#include <cstddef>
 #include <cstdint>
 #include <optional>
 

@@ -55,9 +55,7 @@ JoinedRigs finish(const geometry::Rig& first,
                std::sqrt(motion.chi_squared / motion.degrees_of_freedom));
   else
     result.message += "; a second shared camera would check that it did not move in between";
-  result.rig.method = first.method + " joined with " + second.method;
   result.rig.verdict = result.message + "; first: " + first.verdict + "; second: " + second.verdict;
-  result.rig.check();
   return result;
 }
 

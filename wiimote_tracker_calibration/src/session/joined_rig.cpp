@@ -114,6 +114,8 @@ geometry::Rig joinedRig(const geometry::Rig& first,
   }
   by_errors.conservativeResize(firstParameter(rig.cameras.size()), Eigen::NoChange);
   rig.covariance = geometry::propagated(by_errors, motion.error_covariance);
+  rig.method = first.method + " joined with " + second.method;
+  rig.check();
   return rig;
 }
 

@@ -25,7 +25,8 @@ struct ClockShift {
 ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second);
 
 /// The first rig with the second's other cameras, moved into its world. The joint covariance is to
-/// first order.
+/// first order. The verdict is left to the caller.
+/// @throws geometry::InvalidRigError as Rig::check().
 geometry::Rig joinedRig(const geometry::Rig& first,
                         const geometry::Rig& second,
                         const RigMotion& motion,

@@ -30,7 +30,7 @@ def main(argv=None):
         prog='body_to_base', description='Finds where the base of a robot, or an IMU, sits on a '
         'tracked body, and what to add to its stamps, from a bag of a minute in which it turns '
         'about two axes or more.')
-    parser.add_argument('bag')
+    parser.add_argument('bag', help='recording of both topics')
     parser.add_argument('--body', required=True, metavar='TOPIC', help='/<body>/odometry')
     base = parser.add_mutually_exclusive_group(required=True)
     base.add_argument('--odom', metavar='TOPIC', help='poses of the base')

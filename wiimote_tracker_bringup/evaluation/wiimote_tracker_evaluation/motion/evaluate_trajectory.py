@@ -65,11 +65,12 @@ def main(argv=None):
         prog='evaluate_trajectory', description='Absolute and relative errors (ATE, RPE) of a topic '
         'with poses against another, of nav_msgs/Odometry, PoseStamped or '
         'PoseWithCovarianceStamped.')
-    parser.add_argument('bag')
+    parser.add_argument('bag', help='recording of both topics')
     parser.add_argument('--estimate', required=True, metavar='TOPIC')
     parser.add_argument('--truth', required=True, metavar='TOPIC', help='/<body>/odometry')
     parser.add_argument('--alignment', choices=alignment.KINDS, default='rigid',
-                        help='none, SE(3) or Sim(3), fitted to the positions (default: rigid)')
+                        help='fitted to the positions; absolute: none, rigid: without scale, '
+                        'similarity: with scale (default: rigid)')
     parser.add_argument('--mount', metavar='FILE', help='result of body_to_base: where the '
                         'estimated frame is on the body, and its clock offset')
     parser.add_argument('--offset', type=float, metavar='S',

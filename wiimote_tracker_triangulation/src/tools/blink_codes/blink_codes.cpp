@@ -57,7 +57,8 @@ int main(int argc, char** argv) {
       "table FILE       prints when each LED of a file of blink codes is on and off\n"
       "sketch FILE      prints an Arduino sketch that blinks the LEDs\n"
       "check FILE       checks a file and prints the properties of its codes\n"
-      "choose LABEL...  prints a file of cyclic codes, one for each label");
+      "choose LABEL...  prints a file of cyclic codes, one for each label, with --chip and\n"
+      "                 --tolerance");
   parser.positional("table|sketch|check|choose", &arguments.command);
   parser.positional("FILE|LABEL...", &arguments.words);
   parser.option("--period S", &arguments.period, 0.02, 5.0,

@@ -20,7 +20,6 @@ using wiimote_tracker_msgs::AddKnownPlace;
 using wiimote_tracker_msgs::JoinRig;
 using wiimote_tracker_msgs::LoadSamples;
 using wiimote_tracker_msgs::SaveSamples;
-using wiimote_tracker_msgs::SolveCalibration;
 
 class Samples : public Node {
  protected:
@@ -142,6 +141,7 @@ TEST_F(Samples, ACancelledSolverStopsAndNothingIsLost) {
   // Whoever is too late to stop the solver loses nothing either, and may try again.
   SolveCalibration::Response response;
   ASSERT_TRUE(waitUntil([&] {
+    EXPECT_TRUE(waitForStatus()) << "that no solver runs";
     auto solving =
         std::async(std::launch::async, [] { return call<SolveCalibration>("calibration/solve"); });
     waitUntil([&] {
@@ -202,11 +202,11 @@ class Rooms : public Node {
   }
 
   static void use(const geometry::Rig& rig) {
-    wiimote_tracker_msgs::LoadRig::Request request;
+    LoadRig::Request request;
     request.path = folder_ + "/second.yaml";
     EXPECT_EQ(std::system(("mkdir -p '" + folder_ + "'").c_str()), 0);
     geometry::writeRigFile(rig, request.path);
-    const auto response = call<wiimote_tracker_msgs::LoadRig>("calibration/load", request);
+    const auto response = call<LoadRig>("calibration/load", request);
     ASSERT_TRUE(response.success) << response.message;
   }
 

@@ -19,6 +19,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <map>
 #include <memory>
 #include <random>
@@ -42,6 +43,18 @@ class DriverTest : public testing::Test {
 };
 
 std::unique_ptr<Remote> DriverTest::remote;
+
+/// A time of Remote::now() on the ROS clock. Both are read again when this process was stopped
+/// meanwhile.
+ros::Time rosTimeOf(double time) {
+  double before = 0.0;
+  ros::Time now;
+  do {
+    before = Remote::now();
+    now = ros::Time::now();
+  } while (Remote::now() - before > 0.0002);
+  return now - ros::Duration(before - time);
+}
 
 TEST_F(DriverTest, BlobsFollowTheImageConvention) {
   remote->sense(lights({{291, 69, 3, 9}, {1023, 767, 1, 8}, {0, 100, 15, 7}}));
@@ -109,7 +122,7 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
   ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 600; }));
 
   // The last 300, after the clock has settled.
-  const ros::Time ros_start = ros::Time::now() - ros::Duration(Remote::now() - remote->exposure(0));
+  const ros::Time ros_start = rosTimeOf(remote->exposure(0));
   const std::uint64_t thousands =
       static_cast<std::uint64_t>((Remote::now() - remote->exposure(0)) / Remote::kPeriod) /
       kNumbers;
@@ -157,11 +170,24 @@ TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
            remote->server.connected();
   }));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 20; }));
-  const IrBlobArray& first = blobs.messages.front();
-  EXPECT_LT(first.stamp_stddev, 0.3 * Remote::kPeriod);
-  EXPECT_LT(std::abs((first.arrival - first.header.stamp).toSec() - 0.02), Remote::kPeriod)
-      << "parameter latency";
+  const auto age = [](const IrBlobArray& message) {
+    return (message.arrival - message.header.stamp).toSec() - 0.02;  // parameter latency
+  };
+  // The first one that no stall of this computer delayed: that widens the standard deviation, as it
+  // should. A clock that only begins has an age of 0.
+  const auto first = [&] {
+    double least = age(blobs.messages.front());
+    for (const IrBlobArray& message : blobs.messages)
+      least = std::min(least, age(message));
+    return *std::find_if(blobs.messages.begin(), blobs.messages.end(), [&](const IrBlobArray& m) {
+      return age(m) <= least + 0.3 * Remote::kPeriod;
+    });
+  };
+  ASSERT_TRUE(eventually([&] {
+    return blobs.messages.size() >= 20 && first().stamp_stddev < 0.3 * Remote::kPeriod;
+  })) << blobs.messages.size()
+      << " images";
+  EXPECT_LT(std::abs(age(first())), Remote::kPeriod);
   for (std::size_t i = 1; i < blobs.messages.size(); ++i)
     EXPECT_GT(blobs.messages[i].header.stamp, blobs.messages[i - 1].header.stamp);
 }
@@ -227,7 +253,11 @@ TEST_F(DriverTest, StaticTransformFromOpticalToImu) {
 TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/camera_info");
-  ASSERT_TRUE(eventually([&] { return infos.messages.size() >= 10; }));
+  // One that came after the images, too, are connected.
+  ASSERT_TRUE(eventually([&] {
+    return infos.messages.size() >= 10 && blobs.any() &&
+           infos.last().header.stamp >= blobs.messages.front().header.stamp;
+  }));
   const sensor_msgs::CameraInfo uncalibrated = infos.messages.back();
   EXPECT_EQ(1024u, uncalibrated.width);
   EXPECT_EQ(768u, uncalibrated.height);
@@ -306,8 +336,10 @@ TEST_F(DriverTest, FeedbackLightsLedsAndRumblesForAWhile) {
   publisher.publish(message);
   EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x1; }));
   message.array = {feedback(sensor_msgs::JoyFeedback::TYPE_RUMBLE, 0, 1.0f)};
-  publisher.publish(message);
-  EXPECT_TRUE(eventually([&] { return remote->server.rumble(); }));
+  EXPECT_TRUE(eventually([&] {  // again, since this process may not look while it lasts
+    publisher.publish(message);
+    return remote->server.rumble();
+  }));
   EXPECT_TRUE(eventually([&] { return !remote->server.rumble(); })) << "after rumble_max";
   EXPECT_EQ(0x1, remote->server.leds());
   message.array = {feedback(sensor_msgs::JoyFeedback::TYPE_LED, 0, 0.0f),
@@ -405,8 +437,12 @@ TEST_F(DriverTest, DiagnosticsDescribeTheState) {
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(eventually([&] {
     const auto status = driverStatus(diagnostics);
+    auto value = values(status);
+    // After a stall of this computer it takes a while to be like this.
     return status.hardware_id == kIdentity &&
-           status.level != diagnostic_msgs::DiagnosticStatus::ERROR;
+           status.level != diagnostic_msgs::DiagnosticStatus::ERROR &&
+           value["link"] == "streaming" && std::atof(value["rate [Hz]"].c_str()) > 1.0 &&
+           std::abs(std::atof(value["period [ms]"].c_str()) - 10.035) < 0.1;
   }));
   auto value = values(driverStatus(diagnostics));
   EXPECT_EQ("streaming", value["link"]);
@@ -446,25 +482,22 @@ TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
   remote->server.setPresent(false);
 
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  EXPECT_TRUE(eventually([&] {
-    for (const auto& array : diagnostics.messages) {
-      for (const auto& status : array.status) {
-        if (status.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
-            status.message.find("no virtual Wii Remote listens") != std::string::npos)
-          return true;
-      }
-    }
-    return false;
+  EXPECT_TRUE(eventually([&] {  // this driver: others have no remote at all
+    const auto status = driverStatus(diagnostics);
+    return status.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
+           status.message.find("no virtual Wii Remote listens") != std::string::npos;
   })) << "diagnostics say what is missing";
 
-  const IrBlobArray before = blobs.messages.back();
-  const std::size_t count = blobs.messages.size();
+  const std::uint32_t epoch = blobs.messages.back().clock_epoch;
   remote->server.setPresent(true);
   ASSERT_TRUE(eventually(
-      [&] { return blobs.messages.size() > count && !blobs.messages.back().blobs.empty(); }));
-  const IrBlobArray& first = blobs.messages[count];
-  EXPECT_EQ(before.clock_epoch + 1, first.clock_epoch);
-  EXPECT_EQ(before.frame + 1, first.frame);
+      [&] { return blobs.last().clock_epoch > epoch && !blobs.messages.back().blobs.empty(); }));
+  const auto first =
+      std::find_if(blobs.messages.begin(), blobs.messages.end(),
+                   [&](const IrBlobArray& message) { return message.clock_epoch > epoch; });
+  ASSERT_TRUE(first != blobs.messages.begin());
+  EXPECT_EQ(epoch + 1, first->clock_epoch);
+  EXPECT_EQ(std::prev(first)->frame + 1, first->frame);
   EXPECT_EQ(698, blobs.messages.back().blobs[0].y);
 }
 

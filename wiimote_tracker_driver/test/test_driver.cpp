@@ -158,8 +158,8 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
   EXPECT_LT(spread(stamp_errors), 0.4 * spread(arrival_errors));
   // A stall widens the standard deviation of the images it delays, as it should.
   EXPECT_LT(median(stamp_stddevs), Remote::kPeriod);
-  // Latency (20 ms by the launch file) is subtracted.
-  EXPECT_LT(median(stamp_errors), -0.010);
+  // Latency (20 ms by the launch file) is subtracted. A busy computer delays all arrivals.
+  EXPECT_LT(median(stamp_errors), median(arrival_errors) - 0.010);
 }
 
 // Nobody sees the images at first.

@@ -41,6 +41,13 @@ class RecordPoints(unittest.TestCase):
         self.addCleanup(shutil.rmtree, self.folder)
         self.path = os.path.join(self.folder, 'out.csv')
 
+    def publish(self, topic, kind, queue_size):
+        """A publisher for this test only: rospy counts a recorder of an earlier test, which has ended,
+        as connected for a while."""
+        publisher = rospy.Publisher(topic, kind, queue_size=queue_size)
+        self.addCleanup(publisher.unregister)
+        return publisher
+
     def start(self, *arguments):
         process = subprocess.Popen([PROGRAM] + list(arguments), stdout=subprocess.PIPE,
                                    stderr=subprocess.STDOUT, universal_newlines=True)
@@ -58,8 +65,8 @@ class RecordPoints(unittest.TestCase):
             return stream.read().count('\n') - 1
 
     def test_rows_arrive_and_the_file_is_whole_at_the_end(self):
-        points = rospy.Publisher('/points', TrackedPointArray, queue_size=100)
-        triggered = rospy.Publisher('/triggered_points', TrackedPointArray, queue_size=100)
+        points = self.publish('/points', TrackedPointArray, 100)
+        triggered = self.publish('/triggered_points', TrackedPointArray, 100)
         process = self.start('_csv:=' + self.path, '_flush_period:=0.05')
         for publisher in (points, triggered):
             wait_for(lambda: publisher.get_num_connections() > 0, publisher.resolved_name)
@@ -78,8 +85,8 @@ class RecordPoints(unittest.TestCase):
             ('1600000000.000000077', '1', '3', '0.25', '1500000000.000000003', 77 / 3.0)])
 
     def test_c3d_trc_and_tum(self):
-        points = rospy.Publisher('/points', TrackedPointArray, queue_size=1000)
-        bodies = rospy.Publisher('/bodies', TrackedBodyArray, queue_size=1000)
+        points = self.publish('/points', TrackedPointArray, 1000)
+        bodies = self.publish('/bodies', TrackedBodyArray, 1000)
         paths = {kind: os.path.join(self.folder, 'out.' + kind) for kind in ('c3d', 'trc')}
         process = self.start('__name:=recorder_of_trajectories', '_tum:=' + self.folder,
                              '_csv:=' + self.path, '_flush_period:=0.05', '_rate:=50',

@@ -173,7 +173,10 @@ class Bodies(unittest.TestCase):
         before = [i for i in self.images if recording.seconds_of(i.arrival) < LEARNED_AT]
         self.show(before[:200])  # its LEDs are tracked
         rospy.wait_for_service('learn_body', 60)
-        service = rospy.ServiceProxy('learn_body', LearnBody)
+        # The calls before connect it: while learning begins, a master that is slow to say where the
+        # service is would let the images run out.
+        service = rospy.ServiceProxy('learn_body', LearnBody, persistent=True)
+        self.addCleanup(service.close)
         self.assertIn('name', service('no word', 1.0, []).message)
         self.assertIn('duration', service('wand', 0.1, []).message)
         self.assertIn('name of an LED', service('led', 1.0, []).message)

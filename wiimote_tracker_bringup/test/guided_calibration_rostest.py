@@ -161,12 +161,12 @@ class GuidedCalibration(unittest.TestCase):
                 return
             self.assertLess(time.monotonic(), end, program.heard)
 
-    def capture(self, program, number):
-        """On a slow computer the LED may still be moving in the images: a refused capture is
-        repeated, as the refusal advises. @return the number of refusals."""
+    def ask(self, program, line, answer):
+        """Repeats a refused command, as the refusal advises: on a slow computer the LED may still be
+        moving in the images, or a driver late. @return the number of refusals."""
         for refused in range(ATTEMPTS):
-            program.type('next')
-            if 'refused' not in program.expect(f'^corner {number} captured by 4|refused'):
+            program.type(line)
+            if 'refused' not in program.expect(f'^({answer}|refused)'):
                 return refused
         self.fail('\n'.join(program.heard))
 
@@ -185,15 +185,13 @@ class GuidedCalibration(unittest.TestCase):
         program.type('masks')
         program.expect('Switch the LED on')
         self.led(on=True)
-        program.type('next')
-        program.expect('all 4 cameras see exactly one spot')
+        refused = self.ask(program, 'next', 'all 4 cameras see exactly one spot')
         program.expect('next: .*SPACE: start with 2.5 m')
         program.type('next')
-        refused = 0
         for number, place in enumerate(experiment.placed_corners(1), 1):
             program.expect(f'Put the LED on corner {number}')
             self.carry(place)
-            refused += self.capture(program, number)
+            refused += self.ask(program, 'next', f'corner {number} captured by 4')
         program.expect('SPACE: begin the wave')
         self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
                  box=Vector3(*WAVE_BOX), path=1)
@@ -251,14 +249,6 @@ class GuidedCalibration(unittest.TestCase):
         screen.expect(r'\d mm from')
         screen.type('q')
         self.assertEqual(screen.end(), 0)
-
-    def ask(self, program, line, answer):
-        """Repeats a refused command: on a slow computer the LED may still be moving."""
-        for _ in range(ATTEMPTS):
-            program.type(line)
-            if 'refused' not in program.expect(f'^({answer}|refused)'):
-                return
-        self.fail('\n'.join(program.heard))
 
     def correct_the_volume_and_recalibrate(self):
         """The other commands of a solved rig, as words."""

@@ -8,6 +8,7 @@
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_ros/transform_listener.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -135,7 +136,12 @@ TEST(Triangulation, GivesPointsAtAFixedRate) {
 
 TEST(Triangulation, PublishesMarkers) {
   ASSERT_TRUE(g_bench->film(0.2, {0, 1, 2}));
-  ASSERT_TRUE(Bench::waitFor([] { return g_bench->markers_.size() > 2; }));
+  // Without those before the rig: one a second of real time, for as long as the tests needed.
+  const auto count = [] {
+    return std::count_if(g_bench->markers_.begin(), g_bench->markers_.end(),
+                         [](const auto& array) { return array.markers.size() > 1; });
+  };
+  ASSERT_TRUE(Bench::waitFor([&] { return count() > 2; }));
   std::set<std::string> kinds;
   for (const auto& marker : g_bench->markers_.back().markers)
     kinds.insert(marker.ns);
@@ -144,7 +150,7 @@ TEST(Triangulation, PublishesMarkers) {
                              "image_plane", "label", "mask", "point", "ray", "shadow", "trail"}),
       kinds);
   // Throttled: 20 per second of the images' time.
-  EXPECT_LT(static_cast<double>(g_bench->markers_.size()), 21.0 * (g_bench->now_ - 1000.0) + 1.0);
+  EXPECT_LT(static_cast<double>(count()), 21.0 * (g_bench->now_ - 1000.0) + 1.0);
 }
 
 /// Films until a status of the tracker matches.

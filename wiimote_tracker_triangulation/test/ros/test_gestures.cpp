@@ -86,6 +86,9 @@ class Bench {
     }
     points_.publish(array);
     time_ += 0.01;
+    // The node keeps the newest 200 arrays while it stands still.
+    if (++published_ % 50 == 0)
+      list();  // its answer shows that the node goes on
   }
 
   /// A thousand other LEDs, at another time.
@@ -179,6 +182,7 @@ class Bench {
   ros::Publisher joy_;
   ros::Publisher rig_;
   std::vector<ros::Subscriber> subscribers_;
+  std::size_t published_ = 0;
   std::size_t taken_ = 0;
 };
 

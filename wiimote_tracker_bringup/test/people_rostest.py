@@ -36,10 +36,7 @@ class Track:
 class People(LiveRigTest):
     def test_four_leds_keep_their_identities(self):
         self.calibrate(self.masks())
-        self.wait(self.all_are_tracked, 'four tracked LEDs')
-        begin = self.points[-1].header.stamp.to_sec() + WARM_UP
-        end = begin + DURATION
-        self.wait_until(end)
+        begin, end = self.in_real_time(self.warm, DURATION, before=WARM_UP)
 
         tracks, labels = collections.defaultdict(Track), collections.defaultdict(set)
         lost = 0
@@ -84,6 +81,11 @@ class People(LiveRigTest):
         self.assertEqual(set.union(*labels.values()), {'a', 'b', 'c', 'd'})
         for led in self.leds:
             self.assertGreater(covered[led], 0.99 * len(inside), led)
+
+    def warm(self):
+        """The time [s] when all LEDs will have been tracked for a while."""
+        self.wait(self.all_are_tracked, 'four tracked LEDs')
+        return self.points[-1].header.stamp.to_sec() + WARM_UP
 
     def all_are_tracked(self):
         return self.points and [point.state for point in self.points[-1].points].count(

@@ -17,6 +17,7 @@ from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
 JUDGED = 3.0     # [s]
+SETTLE = 2.0     # [s]
 HIDDEN = 0.8     # longer than a body is predicted [s]
 RECOVERY = 0.2   # [s]
 SILENT_AFTER = 0.05  # the last sight [s]
@@ -54,9 +55,12 @@ class Bodies(LiveRigTest):
             self.assertTrue(answer.success, answer.message)
         return answer.arrival.to_sec()
 
-    def reach(self, end):
-        self.wait(lambda: self.bodies and self.bodies[-1].header.stamp.to_sec() > end and
-                  self.poses and self.poses[-1].header.stamp.to_sec() > end, 'the time to pass')
+    def wait_until(self, time):
+        """Also until there are bodies and poses of that time [s]."""
+        super().wait_until(time)
+        for messages in (self.bodies, self.poses):
+            self.wait(lambda: messages and messages[-1].header.stamp.to_sec() > time,
+                      f'the instant {time:.3f}')
 
     def seen_between(self, begin, end):
         """Each array's time, and the wand or None."""
@@ -95,20 +99,32 @@ class Bodies(LiveRigTest):
         self.assertGreater(np.median(squared), CHI_SQUARED_001)
         self.assertLess(np.degrees(np.sqrt(max(rotations))), 20.0, 'LEDs were confused')
 
-    def tracker_says(self):
-        return [s.message for s in self.statuses if s.name.endswith('triangulation')][-1]
+    def wait_for_sentence(self, sentence):
+        """The diagnostics say each second what is so by then."""
+        self.wait(lambda: [s.message for s in self.statuses
+                           if s.name.endswith('triangulation')][-1:] == [sentence], sentence)
+
+    def settled(self):
+        """The time [s] when the drivers' clocks have settled."""
+        self.wait(lambda: self.bodies and self.bodies[-1].bodies, 'the body')
+        return self.bodies[-1].header.stamp.to_sec() + SETTLE
+
+    def one_hidden(self):
+        """The time [s] when the images show that an LED is hidden."""
+        return self.switch(LEDS[2:3], False) + 0.1
+
+    def found_again(self):
+        """The time [s] when a body whose LEDs have all been hidden must have been found again."""
+        self.switch(LEDS, False)
+        self.wait(lambda: not self.bodies[-1].bodies, 'the body to be lost')
+        return self.switch(LEDS, True) + RECOVERY
 
     def test_pose(self):
         self.calibrate()
-        self.wait(lambda: self.bodies and self.bodies[-1].bodies, 'the body')
-        begin = self.bodies[-1].header.stamp.to_sec() + 2.0  # the drivers' clocks settle
-        self.reach(begin + JUDGED)
-        self.judge(self.seen_between(begin, begin + JUDGED), 0.98)
-        self.assertEqual(self.tracker_says(), 'no LED is tracked singly')
+        self.judge(self.seen_between(*self.in_real_time(self.settled, JUDGED, before=SETTLE)), 0.98)
+        self.wait_for_sentence('no LED is tracked singly')
 
-        hidden = self.switch(LEDS[2:3], False) + 0.1
-        self.reach(hidden + 1.0)
-        seen = self.seen_between(hidden, hidden + 1.0)
+        seen = self.seen_between(*self.in_real_time(self.one_hidden, 1.0, before=0.1))
         self.judge(seen, 0.98)
         self.assertTrue(any(not b.leds[2].cameras for _, b in seen))
 
@@ -116,15 +132,13 @@ class Bodies(LiveRigTest):
         before = len(self.statuses)
         self.wait(lambda: any('not seen for' in s.message for s in self.statuses[before:]),
                   'a warning')
-        self.reach(dark + HIDDEN)
+        self.wait_until(dark + HIDDEN)
         self.assertLess(self.odometries[-1].header.stamp.to_sec(), dark + SILENT_AFTER)
         self.assertIsNone(self.seen_between(dark, dark + HIDDEN)[-1][1], 'it was lost')
-        self.wait(lambda: self.tracker_says() == 'no LED is seen', 'a sentence about the dark')
+        self.wait_for_sentence('no LED is seen')
         states = collections.Counter(b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
         self.assertEqual(states[TrackedBody.LOST], 1)
-        light = self.switch(LEDS, True) + RECOVERY
-        self.reach(light + 1.0)
-        self.judge(self.seen_between(light, light + 1.0), 0.98)
+        self.judge(self.seen_between(*self.in_real_time(self.found_again, 1.0, before=RECOVERY)), 0.98)
 
 
 if __name__ == '__main__':

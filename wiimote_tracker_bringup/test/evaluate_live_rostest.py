@@ -126,7 +126,8 @@ class Person:
             crossing = first + lap * 2.0 * np.pi * LAP_RADIUS / LAP_SPEED
             self._until(crossing)
             self._trigger.publish(Header(stamp=rospy.Time.from_sec(crossing)))
-            self.ages.append(crossing - max(stamp for stamp, heard in list(self._points)[-200:]
+            # Among all: after a pause of this program, the last ones were heard after the crossing.
+            self.ages.append(crossing - max(stamp for stamp, heard in list(self._points)
                                             if heard <= crossing))
 
     def circle(self):

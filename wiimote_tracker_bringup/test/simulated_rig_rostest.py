@@ -45,11 +45,11 @@ class SimulatedRig(NodeTest):
         return self.set_led(request)
 
     def images_after(self, time, number=IMAGES):
-        """The first images of every camera that arrived more than 50 ms after a time, so that none
-        was exposed before it."""
+        """The first images of every camera that were exposed more than 50 ms after a time. By their
+        stamps: where a driver stood still, older ones arrive even later."""
         def after(name):
             return [image for image in list(self.images[name])
-                    if image.arrival.to_sec() > time + 0.05]
+                    if image.header.stamp.to_sec() > time + 0.05]
         names = [camera.name for camera in self.scene.cameras]
         self.wait(lambda: all(len(after(name)) >= number for name in names),
                   'images of all cameras')

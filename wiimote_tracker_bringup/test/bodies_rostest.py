@@ -138,7 +138,8 @@ class Bodies(LiveRigTest):
         self.wait_for_sentence('no LED is seen')
         states = collections.Counter(b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
         self.assertEqual(states[TrackedBody.LOST], 1)
-        self.judge(self.seen_between(*self.in_real_time(self.found_again, 1.0, before=RECOVERY)), 0.98)
+        period = self.in_real_time(self.found_again, 1.0, before=RECOVERY)
+        self.judge(self.seen_between(*period), 0.98)
 
 
 if __name__ == '__main__':

@@ -162,8 +162,8 @@ class GuidedCalibration(unittest.TestCase):
             self.assertLess(time.monotonic(), end, program.heard)
 
     def ask(self, program, line, answer):
-        """Repeats a refused command, as the refusal advises: on a slow computer the LED may still be
-        moving in the images, or a driver late. @return the number of refusals."""
+        """Repeats a refused command, as the refusal advises: on a slow computer the LED may still
+        be moving in the images, or a driver late. @return the number of refusals."""
         for refused in range(ATTEMPTS):
             program.type(line)
             if 'refused' not in program.expect(f'^({answer}|refused)'):

@@ -74,7 +74,8 @@ class LiveRigTest(NodeTest):
                       f'the instant {time:.3f}')
 
     def in_real_time(self, begin_at, duration, before=0.0, listening=False):
-        """Begin and end [s] of a period of this duration [s] in which the simulation kept real time.
+        """Begin and end [s] of a period of this duration [s], in which the simulation kept real
+        time.
 
         A simulation that the computer stops sends no images, then old ones at once. No remote does,
         and a tracker cannot know where the LEDs were, so a later period is judged instead. The

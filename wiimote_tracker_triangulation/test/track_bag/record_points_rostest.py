@@ -42,8 +42,8 @@ class RecordPoints(unittest.TestCase):
         self.path = os.path.join(self.folder, 'out.csv')
 
     def publish(self, topic, kind, queue_size):
-        """A publisher for this test only: rospy counts a recorder of an earlier test, which has ended,
-        as connected for a while."""
+        """A publisher for this test only: rospy counts a recorder of an earlier test, which has
+        ended, as connected for a while."""
         publisher = rospy.Publisher(topic, kind, queue_size=queue_size)
         self.addCleanup(publisher.unregister)
         return publisher

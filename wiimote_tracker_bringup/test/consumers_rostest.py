@@ -47,18 +47,22 @@ class Consumers(LiveRigTest):
             rospy.Subscriber(topic, TFMessage, lambda message: cls.transforms.update(
                 {t.child_frame_id: t for t in message.transforms}))
 
-    def hear(self, topic, kind, tcp_nodelay):
-        """Messages of a topic with the time when each came, once the body has been tracked for a while."""
+    def hear(self, topic, kind, tcp_nodelay, *limits):
+        """Messages of a topic with the time when each came, once the body has been tracked for a
+        while; they pass check() with these limits."""
         heard = []
         rospy.Subscriber(topic, kind, lambda m: heard.append((rospy.get_time(), m)), queue_size=1000,
                          tcp_nodelay=tcp_nodelay)
         self.calibrate()
         self.wait(lambda: heard, topic)
-        begin, end = self.in_real_time(lambda: heard[-1][1].header.stamp.to_sec() + SETTLE, JUDGED,
-                                       before=SETTLE, listening=True)
-        self.wait(lambda: heard[-1][1].header.stamp.to_sec() > end, topic)
-        # By stamps: what is heard late, then all at once, does not change the rate.
-        return [(t, m) for t, m in list(heard) if begin <= m.header.stamp.to_sec() < end]
+
+        def between(begin, end):  # by stamps: what is heard late, then all at once, counts once
+            self.wait(lambda: heard[-1][1].header.stamp.to_sec() > end, topic)
+            return [(t, m) for t, m in list(heard) if begin <= m.header.stamp.to_sec() < end]
+        return between(*self.in_real_time(
+            lambda *period: self.check(between(*period), *limits),
+            lambda: heard[-1][1].header.stamp.to_sec() + SETTLE, JUDGED, before=SETTLE,
+            listening=True))
 
     def check(self, heard, minimum_rate, maximum_rate, *covariances):
         rate = len(heard) / JUDGED
@@ -76,8 +80,7 @@ class Consumers(LiveRigTest):
                 self.assertGreater(np.linalg.eigvalsh(covariance).min(), 0.0, name)
 
     def test_mavros_odometry(self):
-        heard = self.hear('mavros/odometry/out', Odometry, tcp_nodelay=False)
-        self.check(heard, 30.0, 42.0, 'pose', 'twist')
+        heard = self.hear('mavros/odometry/out', Odometry, False, 30.0, 42.0, 'pose', 'twist')
         for _, message in heard:
             self.assertEqual((message.header.frame_id, message.child_frame_id), ('world', 'wand'))
             q = message.pose.pose.orientation
@@ -95,7 +98,7 @@ class Consumers(LiveRigTest):
         mode, topic, rate, output = nodes['mavros_vision_pose'].args.split()
         self.assertEqual((mode, output), ('messages', 'mavros/vision_pose/pose_cov'))
         self.assertTrue(30.0 <= float(rate) <= 50.0)
-        self.check(self.hear(topic, PoseWithCovarianceStamped, tcp_nodelay=True), LEAST_RATE, 410.0, 'pose')
+        self.hear(topic, PoseWithCovarianceStamped, True, LEAST_RATE, 410.0, 'pose')
 
     def test_robot_localization(self):
         nodes, parameters = load('robot_localization.launch', 'body:=wand')
@@ -113,10 +116,10 @@ class Consumers(LiveRigTest):
             self.assertEqual(own['pose0_config'], 6 * [True] + 9 * [False])
             self.assertEqual(own.get('pose0'), 'wand/pose' if world_frame == 'map' else None)
             self.assertLess(own['frequency'], LEAST_RATE)
-        poses = self.hear(own['pose0'], PoseWithCovarianceStamped, own['pose0_nodelay'])
-        twists = self.hear(own['twist0'], TwistWithCovarianceStamped, own['twist0_nodelay'])
-        self.check(poses, LEAST_RATE, 410.0, 'pose')
-        self.check(twists, LEAST_RATE, 410.0, 'twist')
+        poses = self.hear(own['pose0'], PoseWithCovarianceStamped, own['pose0_nodelay'],
+                          LEAST_RATE, 410.0, 'pose')
+        twists = self.hear(own['twist0'], TwistWithCovarianceStamped, own['twist0_nodelay'],
+                           LEAST_RATE, 410.0, 'twist')
         self.assertEqual({m.header.frame_id for _, m in poses}, {'world'})
         # Twists need no transform, and nobody else publishes the robot's frame.
         self.assertEqual({m.header.frame_id for _, m in twists}, {own['base_link_frame']})

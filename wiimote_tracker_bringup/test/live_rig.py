@@ -73,25 +73,30 @@ class LiveRigTest(NodeTest):
             self.wait(lambda: messages and messages[-1].header.stamp.to_sec() > time,
                       f'the instant {time:.3f}')
 
-    def in_real_time(self, begin_at, duration, before=0.0, listening=False):
-        """Begin and end [s] of a period of this duration [s], in which the simulation kept real
-        time.
+    def in_real_time(self, judge, begin_at, duration, before=0.0, listening=False):
+        """Judges a period, and a later one if it fails where the simulation did not keep real time.
 
         A simulation that the computer stops sends no images, then old ones at once. No remote does,
-        and a tracker cannot know where the LEDs were, so a later period is judged instead. The
-        simulation itself tells, and it does not wait for drivers or tracker: what they miss or
-        delay is judged all the same.
+        and a tracker cannot know where the LEDs were. The simulation itself tells, and it does not
+        wait for drivers or tracker: what they miss or delay always counts.
+        @param judge: gets the begin and the end [s]; raises AssertionError.
         @param begin_at: returns the begin, once the period can begin; called for each one tried.
+        @param duration: of the period [s]
         @param before: this time [s] before the begin matters, too.
         @param listening: this program, too, must have kept real time, since it measures ages.
+        @return: begin and end of the period that passed
         """
-        for _ in range(PERIODS):
+        for period in range(1, PERIODS + 1):
             begin = begin_at()
-            self.wait_until(begin + duration)
-            if self.kept_real_time(begin - before, begin + duration, listening):
-                return begin, begin + duration
-            print(f'real time was not kept before {begin + duration:.3f} s: a later time is judged')
-        self.fail(f'this computer did not keep real time in any of {PERIODS} periods')
+            end = begin + duration
+            self.wait_until(end)
+            try:
+                judge(begin, end)
+                return begin, end
+            except AssertionError as error:
+                if period == PERIODS or self.kept_real_time(begin - before, end, listening):
+                    raise
+                print(f'a later time is judged, since real time was not kept: {error}')
 
     def kept_real_time(self, begin, end, listening=False):
         """Whether all images exposed in that time [s] were handed over in time, by a clock that was

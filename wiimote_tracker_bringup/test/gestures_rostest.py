@@ -15,13 +15,16 @@ import rostest
 from geometry_msgs.msg import Point
 from live_rig import DEADLINE, LiveRigTest
 from wiimote_tracker_msgs.msg import GestureEvent
-from wiimote_tracker_msgs.srv import ListGestures, RecordGesture, SetLed, SetLedRequest
+from wiimote_tracker_msgs.srv import (ListGestures, RecordGesture, RemoveGesture, SetLed,
+                                      SetLedRequest)
 
 NODES = ('by_light', 'by_rest')
+TAUGHT = ('circle', 'check')
 TEACHING = (1.0, 1.2, 1.1)  # where Anna draws [m]
 ELSEWHERE = (1.6, 1.4, 1.3)  # and Ben
 REST_TIME, REST_RADIUS = 0.25, 0.015  # config/gestures.yaml [s], [m]
 APPEARS = 0.15        # an LED that was switched on is tracked within [s]
+ENDED = 1.0           # a node has published the end of a gesture when it was dark for so long [s]
 FRAMES = 0.03         # three of them: tolerance of times [s]
 ROUNDING = 1e-6       # of times in messages [s]
 SIGMAS = 5.0          # largest typical error of a point
@@ -42,9 +45,29 @@ class Gestures(LiveRigTest):
         self.calibrate()
         self.wait(lambda: self.points and any(p.state == p.TRACKED for p in self.points[-1].points),
                   'a tracked LED')
-        self.switch_off()
+        begin = self.points[-1].header.stamp.to_sec()
+        try:
+            self.teach_and_draw()
+        except AssertionError as error:
+            # As in in_real_time(): where the simulation stood still, a drawing may lack a part.
+            if self.kept_real_time(begin, self.points[-1].header.stamp.to_sec()):
+                raise
+            print(f'all is drawn again, since real time was not kept: {error}')
+            self.forget()
+            self.teach_and_draw()
 
-        for gesture in ('circle', 'check'):
+    def forget(self):
+        """Makes the nodes as they were at the start."""
+        self.switch_off()
+        self.wait_until(self.points[-1].header.stamp.to_sec() + ENDED)
+        for node in NODES:
+            for gesture in TAUGHT:
+                rospy.ServiceProxy(node + '/gestures/remove', RemoveGesture)(gesture=gesture)
+            self.taken[node] = len(self.events[node])
+
+    def teach_and_draw(self):
+        self.switch_off()
+        for gesture in TAUGHT:
             self.record(gesture)
             self.draw(gesture, TEACHING, on=True)
             for node in NODES:
@@ -53,7 +76,7 @@ class Gestures(LiveRigTest):
         for node in NODES:
             known = rospy.ServiceProxy(node + '/gestures/list', ListGestures)()
             self.assertEqual(list(zip(known.gestures, known.examples)),
-                             [('circle', 1), ('check', 1)])
+                             [(gesture, 1) for gesture in TAUGHT])
 
         begin, end = self.draw('circle_by_ben', ELSEWHERE, on=True)
         for node in NODES:

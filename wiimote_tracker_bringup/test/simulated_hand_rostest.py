@@ -13,6 +13,8 @@ from std_srvs.srv import Trigger
 from wiimote_tracker_msgs.msg import CalibrationStatus, IrBlobArray
 from wiimote_tracker_msgs.srv import SolveCalibration, StartCalibration
 
+POINTS = 100  # a quarter of a second
+
 
 def position(message):
     return np.array([message.point.x, message.point.y, message.point.z])
@@ -24,14 +26,17 @@ class SimulatedHand(NodeTest):
         rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
         points = []
         rospy.Subscriber('led/point', PointStamped, points.append)
-        self.wait(lambda: len(points) > 50, 'tracked points')
+        self.wait(lambda: len(points) > POINTS, 'tracked points')
         self.wait(lambda: truths[-1].header.stamp > points[-1].header.stamp, 'the truth')
         known = list(truths)  # more arrive meanwhile
         stamps = [truth.header.stamp.to_sec() for truth in known]
-        at = points[49].header.stamp.to_sec()
-        truth = [np.interp(at, stamps, axis) for axis in np.transpose([position(t) for t in known])]
-        # Simulated corners are exact; what is left is the lens' starting value and noise.
-        self.assertLess(np.linalg.norm(position(points[49]) - truth), 0.03)
+        at = [point.header.stamp.to_sec() for point in points[:POINTS]]
+        truth = np.transpose([np.interp(at, stamps, axis)
+                              for axis in np.transpose([position(t) for t in known])])
+        errors = np.linalg.norm([position(point) for point in points[:POINTS]] - truth, axis=1)
+        # Simulated corners are exact; what is left is the lens' starting value and noise. The
+        # median: after a pause of the simulation some stamps are wrong for a moment.
+        self.assertLess(np.median(errors), 0.03)
 
         rospy.wait_for_service('calibration/start', DEADLINE)
         started = rospy.ServiceProxy('calibration/start', StartCalibration)(

@@ -142,8 +142,9 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   for (const char* step : {"LED off", "LED on", "Square", "Corner 1", "Corner 2", "Corner 3",
                            "Corner 4", "Wave", "Enough", "Solve"})
     EXPECT_EQ(titles.count(step), 1u) << step;
-  EXPECT_EQ(find<QTableWidget>("table")->rowCount(), 4);
-  EXPECT_FALSE(label("verdict").isEmpty());
+  // On a topic of their own, so perhaps later than the title.
+  EXPECT_TRUE(waitFor([this] { return find<QTableWidget>("table")->rowCount() == 4; }));
+  EXPECT_TRUE(waitFor([this] { return !label("verdict").isEmpty(); }));
   screenshot("calibrate_ready");
   find<QDoubleSpinBox>("taped")->setValue(3.5355);
   auto* take = find<QPushButton>("Take length");

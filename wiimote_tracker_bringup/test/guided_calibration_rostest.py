@@ -25,7 +25,8 @@ from geometry_msgs.msg import Vector3
 from scipy.optimize import least_squares
 from sensor_msgs.msg import CameraInfo
 from wiimote_tracker_evaluation import experiment, reprojection, scene
-from wiimote_tracker_msgs.msg import BoardStatus, CalibrationVerdict, RigCalibration
+from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationVerdict, IrBlobArray,
+                                      RigCalibration)
 from wiimote_tracker_msgs.srv import (SetLed, SetLedRequest, SolveBoard,
                                       SolveBoardRequest)
 
@@ -153,7 +154,10 @@ class GuidedCalibration(unittest.TestCase):
         self.led(target=target, motion=SetLedRequest.LINE, speed=CARRY_SPEED)
 
     def wait_for_cameras(self, program):
-        """Waits until all drivers deliver; before that, calibrate asks to wait."""
+        """Waits until all drivers deliver; before that, calibrate asks to wait. It does not print a
+        refusal again that is its last line, so the images are waited for first."""
+        for camera in self.scene.cameras:
+            rospy.wait_for_message(camera.name + '/ir_blobs', IrBlobArray, DEADLINE)
         end = time.monotonic() + DEADLINE
         while True:
             program.type('connection')

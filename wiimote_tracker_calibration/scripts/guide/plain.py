@@ -146,10 +146,9 @@ class Plain:
     def _tell_new(self, kind: Any, value: Any, text: str) -> None:
         if self._told.get(kind) != value:
             self._told[kind] = value
-            if text:
+            if text and text != self._last:
                 self._tell(text)
 
     def _tell(self, text: str) -> None:
-        if text != self._last:
-            self._last = text
-            self._say(text)
+        self._last = text
+        self._say(text)

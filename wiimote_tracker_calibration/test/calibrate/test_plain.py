@@ -42,6 +42,14 @@ def test_plain_counts_what_was_refused_and_what_was_not_understood():
     assert 'waited for 0 s; corner 3' in said
 
 
+def test_plain_tells_every_answer_also_when_it_is_the_same_again():
+    refusal = 'only 2 of 4 corners are captured'
+    node = FakeNode({'solve': (False, refusal)})
+    failures, said = plain('solve\nsolve\n', node, status(CalibrationStatus.READY))
+    assert failures == 2
+    assert said.count(f'refused: {refusal}') == 2
+
+
 def test_plain_next_without_a_node_fails_and_does_not_hang():
     said = []
     guide = Guide(-10.0)

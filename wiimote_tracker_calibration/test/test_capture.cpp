@@ -113,6 +113,19 @@ TEST(CornerCapture, WaitsForASlowerCamera) {
   EXPECT_EQ(capture.result().at("a").samples, 50U);
 }
 
+TEST(CornerCapture, WaitsForACameraWhoseFirstImageIsLate) {
+  CornerCaptureOptions options;
+  options.minimum_samples = 20;
+  CornerCapture capture(kThree, options, 0.0);
+  for (int i = 0; i < 400 && capture.state() == State::kCollecting; ++i) {
+    for (const std::string camera : {"a", "b"})
+      capture.add(image(camera, i * kPeriod, one(10, 10)));
+    if (i * kPeriod >= 0.4)
+      capture.add(image("c", i * kPeriod, one(10, 10)));
+  }
+  EXPECT_EQ(capture.message(), "captured by 3 of 3 cameras");
+}
+
 TEST(CornerCapture, AMovedLedIsRefused) {
   CornerCapture capture({"a", "b"}, CornerCaptureOptions(), 0.0);
   const Source jump = [](double t) { return t < 0.3 ? one(100, 100) : one(120, 100); };

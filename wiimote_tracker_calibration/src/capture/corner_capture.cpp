@@ -61,7 +61,7 @@ CornerCapture::State CornerCapture::update(double now) {
   for (const auto& entry : cameras_) {
     if (isComplete(entry.second))
       ++complete;
-    else if (entry.second.last_sample > now_ - kHold)
+    else if (entry.second.last_sample > now_ - kHold || isAwaited(entry.second))
       waits = true;
   }
   const bool timed_out = now_ - start_time_ >= options_.timeout;
@@ -110,8 +110,7 @@ std::string CornerCapture::problem(const std::string& name) const {
     return "";
   if (!camera.clock.empty())
     return camera.clock;
-  const bool just_begun = now_ - start_time_ < std::min(kHold, options_.timeout);
-  if (!camera.seen && !just_begun)
+  if (!camera.seen && !isAwaited(camera))
     return kSendsNoImages;
   if (camera.blobs == 0 && camera.masked > 0)
     return "sees only masked lights: if the LED stands in front of one of them, move that "
@@ -130,6 +129,11 @@ CapturedCorner CornerCapture::result() const {
       corner[entry.first] = CornerView{spot.mean(), spot.spread(), spot.samples()};
   }
   return corner;
+}
+
+/// Whether its first image may still come.
+bool CornerCapture::isAwaited(const Camera& camera) const {
+  return !camera.seen && now_ - start_time_ < std::min(kHold, options_.timeout);
 }
 
 bool CornerCapture::isComplete(const Camera& camera) const {

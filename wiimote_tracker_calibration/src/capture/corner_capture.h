@@ -80,6 +80,7 @@ class CornerCapture {
     double last_sample = -1e9;  // time of the latest image with exactly one spot [s]
   };
 
+  bool isAwaited(const Camera& camera) const;
   bool isComplete(const Camera& camera) const;
   std::string movement(const StillSpot& spot) const;
   std::string clockProblem(double stamp) const;

@@ -17,9 +17,9 @@ namespace wiimote_tracker::bundle {
 double pixelStddev(const Reconstruction& reconstruction, const Options& options, bool fixed_lenses);
 
 /// Covariance of the lenses and poses of an adjusted reconstruction, to first order: the inverse of
-/// the information of the inliers, the points eliminated (Schur complement), with
-/// pixelStddev(). The Huber loss hardly changes it. Options::lens counts too, but not its focal
-/// length.
+/// the information of the inliers, the points eliminated (Schur complement), with pixelStddev().
+/// The adjustment's Huber loss hardly changes it (test_self_calibrate.cpp). Options::lens counts
+/// too, but not its focal length.
 class Certainty {
  public:
   /// @param fixed_lenses the lenses are given, and exact.

@@ -29,7 +29,7 @@ struct InstantFuser::Parts {
   std::vector<geometry::Camera> cameras;
   Synchronizer synchronizer;
   std::unique_ptr<Locator> locator;
-  std::optional<geometry::CalibrationUncertainty> uncertainty;  // always
+  std::optional<geometry::CalibrationUncertainty> uncertainty;  // never empty
   LedMemory memory;
   Snapshot snapshot;
 };

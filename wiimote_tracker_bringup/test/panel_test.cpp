@@ -223,6 +223,13 @@ TEST_F(Panel, AsksForTheWandOnTheFloor) {
   EXPECT_TRUE(waitFor([this] { return title() == "Wand"; })) << title().toStdString();
 }
 
+TEST_F(Panel, SaysWhatUndoDrops) {
+  const auto* undo = find<QPushButton>("Undo");
+  ASSERT_NE(undo, nullptr);
+  for (const char* dropped : {"place", "wave", "corner"})
+    EXPECT_TRUE(undo->toolTip().contains(dropped)) << dropped;
+}
+
 TEST_F(Panel, EndsWhileARequestRuns) {
   open(1);
   auto* connection = find<QPushButton>("Check the LED there");

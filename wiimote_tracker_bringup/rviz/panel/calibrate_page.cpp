@@ -167,7 +167,9 @@ void CalibratePage::addLengths(QVBoxLayout* layout) {
 void CalibratePage::addButtons(QVBoxLayout* layout) {
   auto* rows = new QGridLayout;
   rows->addWidget(addButton("Start again", Command::kStart), 0, 0);
-  rows->addWidget(addButton("Drop the last corner", Command::kUndo), 0, 1);
+  QPushButton* undo = addButton("Undo", Command::kUndo);
+  undo->setToolTip("drops the last place to solve with, else the wave, else the last corner");
+  rows->addWidget(undo, 0, 1);
   rows->addWidget(addButton("Solve now", Command::kSolve), 1, 0);
   rows->addWidget(cancel_ = addButton("Stop", Command::kCancel), 1, 1);
   hands_free_ = new QCheckBox("Capture a corner when the LED is held still", this);

@@ -103,7 +103,7 @@ class Calibration {
   /// use is not the solution of what was captured: a camera may have moved since the corners were.
   Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
 
-  /// Drops the last known place, else the wave, else the last corner.
+  /// Drops the last place to solve with, else the wave, else the last corner.
   Reply undo();
 
   /// Stops the running step; earlier captures stay. When none is running, it drops all that was

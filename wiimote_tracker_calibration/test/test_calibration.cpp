@@ -54,6 +54,14 @@ TEST_F(Workflow, RequestsInTheWrongStepAreRefusedWithAReason) {
   EXPECT_EQ(calibration_.step(), Step::kReady);
 }
 
+TEST_F(Workflow, CamerasThatWouldShareAFileAreRefusedBeforeAnythingIsCaptured) {
+  const Reply reply = calibration_.start(2.5, 2.5, {"a/b", "a_b", "camera_1"});
+  EXPECT_FALSE(reply.success);
+  EXPECT_SAYS(reply.message, "'a/b' and 'a_b', share the frame");
+  EXPECT_EQ(calibration_.step(), Step::kIdle);
+  EXPECT_FALSE(calibration_.startWithoutSquare({"a/b", "a_b"}).success);
+}
+
 TEST_F(Workflow, AnExchangedDeviceIsNamed) {
   captureAll();
   ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);

@@ -9,7 +9,6 @@
 #include <ros/service.h>
 #include <sensor_msgs/SetCameraInfo.h>
 
-#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <exception>
@@ -27,10 +26,8 @@ std::string beside(const std::string& rig_file, const std::string& name) {
 }
 
 /// <camera>.yaml in the folder of the rig file.
-std::string cameraFile(const std::string& rig_file, std::string camera) {
-  camera.erase(0, camera.find_first_not_of('/'));
-  std::replace(camera.begin(), camera.end(), '/', '_');
-  return beside(rig_file, camera + ".yaml");
+std::string cameraFile(const std::string& rig_file, const std::string& camera) {
+  return beside(rig_file, geometry::withoutSlashes(camera) + ".yaml");
 }
 
 /// @returns why the driver does not know its lens now; empty when it does.

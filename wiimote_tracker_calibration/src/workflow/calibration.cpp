@@ -10,7 +10,6 @@
 #include <utility>
 
 namespace wiimote_tracker::workflow {
-
 namespace {
 
 constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
@@ -58,6 +57,8 @@ Reply Calibration::startWith(Captured captured) {
   if (count < 2)
     return refuse("a calibration needs at least two cameras, but there are " +
                   std::to_string(count) + ": connect the cameras and start again");
+  if (const std::string clash = geometry::nameClash(captured.cameras); !clash.empty())
+    return refuse(clash);
   captured_ = std::move(captured);
   just_solved_ = false;
   setHandsFree(hands_free_on_);

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -93,21 +94,21 @@ void Rig::check() const {
   require(!square_pose || (square_pose->origin.allFinite() && std::isfinite(square_pose->yaw)),
           "the square's origin and yaw must be numbers");
 
-  std::set<std::string> frames;
+  std::vector<std::string> names;
   for (const RigCamera& camera : cameras) {
-    const std::string& name = camera.camera.name;
+    const std::string& name = names.emplace_back(camera.camera.name);
     // A namespace, so slashes are allowed.
     require(isWord(withoutSlashes(name)),
             "'" + name +
                 "' is no name for a camera; use a letter, then letters, digits and underscores");
-    require(frames.insert(opticalFrame(name)).second,
-            "two cameras share the name '" + name + "'; rename one");
     try {
       checkCamera(camera);
     } catch (const InvalidRigError& e) {
       throw InvalidRigError("camera '" + name + "': " + e.what());
     }
   }
+  const std::string clash = nameClash(names);
+  require(clash.empty(), clash);
 
   const Eigen::Index parameters = firstParameter(cameras.size());
   require(covariance.size() == 0 ||
@@ -143,6 +144,20 @@ std::string withoutSlashes(const std::string& camera_name) {
 
 std::string opticalFrame(const std::string& camera_name) {
   return withoutSlashes(camera_name) + "_optical_frame";
+}
+
+std::string nameClash(const std::vector<std::string>& camera_names) {
+  std::map<std::string, std::string> by_frame;
+  for (const std::string& name : camera_names) {
+    const auto [other, is_new] = by_frame.emplace(opticalFrame(name), name);
+    if (is_new)
+      continue;
+    if (other->second == name)
+      return "two cameras share the name '" + name + "'; rename one";
+    return "two cameras, '" + other->second + "' and '" + name + "', share the frame " +
+           opticalFrame(name) + " and the file " + withoutSlashes(name) + ".yaml; rename one";
+  }
+  return "";
 }
 
 }  // namespace wiimote_tracker::geometry

@@ -182,6 +182,12 @@ TEST(Rig, CheckNamesTheCameraAndTheFault) {
   EXPECT_TRUE(names([](Rig& r) { r.cameras.clear(); }, "no camera"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "camera_0"; }, "two cameras"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "/camera_0"; }, "two cameras"));
+  EXPECT_TRUE(names(
+      [](Rig& r) {
+        r.cameras[0].camera.name = "a/b";
+        r.cameras[2].camera.name = "a_b";
+      },
+      "'a/b' and 'a_b', share the frame a_b_optical_frame and the file a_b.yaml"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = ""; }, "no name"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "a b"; }, "'a b'"));
   EXPECT_TRUE(names([](Rig& r) { r.cameras[2].camera.name = "1st"; }, "'1st'"));

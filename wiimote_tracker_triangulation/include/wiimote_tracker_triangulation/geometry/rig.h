@@ -114,8 +114,12 @@ struct Rig {
 /// + "_optical_frame".
 std::string opticalFrame(const std::string& camera_name);
 
-/// The same without "_optical_frame".
+/// The same without "_optical_frame". The camera-info file has this name, too.
 std::string withoutSlashes(const std::string& camera_name);
+
+/// @returns which two of these cameras share an optical frame and a camera-info file, as a/b and
+/// a_b, and what to do; empty when no two do.
+std::string nameClash(const std::vector<std::string>& camera_names);
 
 }  // namespace wiimote_tracker::geometry
 

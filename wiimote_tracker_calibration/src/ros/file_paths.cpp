@@ -2,7 +2,7 @@
 
 #include "requests.h"
 
-#include <boost/locale/encoding_utf.hpp>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -25,7 +25,7 @@ fs::path withoutLinks(const fs::path& path) {
 
 std::string permittedPath(const std::string& requested, const Parameters& parameters) {
   // Answers repeat the path; those that are not UTF-8 cannot be read in Python.
-  if (boost::locale::conv::utf_to_utf<char>(requested) != requested)
+  if (validUtf8(requested) != requested)
     throw Refusal("the path is not UTF-8: choose another name for the file");
   const std::string& limit = parameters.file_folder;
   const fs::path folder = withoutLinks(

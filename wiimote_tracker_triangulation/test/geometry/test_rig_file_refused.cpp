@@ -1,6 +1,8 @@
 // rig.yaml: damaged, foreign and unusual files are refused.
 #include "rig_file_fixture.h"
 
+#include <boost/locale/encoding_utf.hpp>
+
 #include <sys/stat.h>
 
 #include <limits>
@@ -56,8 +58,16 @@ TEST_F(RigFile, DamageNeverCrashes) {
     for (int k = 0; k < 3; ++k)
       damaged[static_cast<std::size_t>(random.uniform(0, damaged.size()))] =
           static_cast<char>(random.uniform(0, 256));
-    complaintAbout(damaged);  // a digit may have become another one; anything else throws an Error
+    // A digit may have become another one; anything else throws an Error.
+    const std::string complaint = complaintAbout(damaged);
+    ASSERT_EQ(boost::locale::conv::utf_to_utf<char>(complaint), complaint) << "file " << i;
   }
+}
+
+TEST_F(RigFile, RefusalIsUtf8AlsoWhereItQuotesTheFile) {
+  write(fullRig());
+  const std::string complaint = complaintAbout(with("version: 1", "version: \xE9"));
+  EXPECT_NE(std::string::npos, complaint.find("version is \xEF\xBF\xBD, but")) << complaint;
 }
 
 TEST_F(RigFile, MissingOrUnreadableIsNamed) {

@@ -159,7 +159,7 @@ class WaveMistake : public ::testing::Test {
 
   wave::WaveScene scene_;
   std::vector<geometry::Camera> truth_;
-  square::Corners corners_{};
+  square::Corners corners_ = square::zeroCorners();
   wave::Recording recording_;
 };
 

@@ -9,7 +9,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <new>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker::square {
 namespace {
@@ -23,6 +25,16 @@ std::string refusalOf(const SquareLayout& layout,
     return error.what();
   }
   return "not refused";
+}
+
+TEST(Solution, HasNoOffsetsOfCornersBeforeItIsSolved) {
+  // In memory that is not zero by chance. Volatile: or the compiler leaves it unset, too.
+  std::vector<unsigned char> memory(sizeof(Solution), 0xFF);
+  unsigned char* volatile place = memory.data();
+  auto* solution = new (place) Solution;
+  for (const Eigen::Vector3d& offset : solution->corner_offsets)
+    EXPECT_TRUE(offset.isZero(0.0)) << offset.transpose();
+  solution->~Solution();
 }
 
 /// Four cameras around a 2.5 m square, exact.

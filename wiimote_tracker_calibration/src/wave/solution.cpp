@@ -105,7 +105,6 @@ WaveSolution solutionOf(const Recording& recording,
   WaveSolution solution;
   solution.z_up = state.z_up;
   solution.wand_length = state.wand_length;
-  solution.corner_offsets.fill(Eigen::Vector3d::Zero());
   describePath(state, matching, &solution);
 
   solution.joint_covariance = covarianceOf(recording, options, matching.matches, state);

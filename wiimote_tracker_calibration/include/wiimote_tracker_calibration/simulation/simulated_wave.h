@@ -70,9 +70,10 @@ struct WaveScene {
 /// A recording and the truth behind it.
 struct SimulatedWave {
   std::vector<geometry::Camera> cameras;
-  std::vector<double> offsets;             ///< Less the first camera's [s].
-  square::Corners corners{};               ///< Where the LED really was put [m].
-  std::array<Eigen::Vector3d, 2> floor{};  ///< LEDs of the wand on the floor, the origin first [m].
+  std::vector<double> offsets;                      ///< Less the first camera's [s].
+  square::Corners corners = square::zeroCorners();  ///< Where the LED really was put [m].
+  /// LEDs of the wand on the floor, the origin first [m].
+  std::array<Eigen::Vector3d, 2> floor = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   SimulatedPath path;
   /// Exposures at which a camera saw an LED where it was: for the bound.
   struct View {

@@ -11,9 +11,11 @@ namespace wiimote_tracker::square {
 
 /// One pose that explains what a camera saw.
 struct Branch {
-  Eigen::Isometry3d world_from_camera;  ///< Least reprojection error at the starting intrinsics.
-  double reprojection_error;            ///< sqrt(mean(du^2 + dv^2)) there [px].
-  double cost;  ///< RigModel::refineAll() of this camera alone, from here (-2 log likelihood).
+  /// Least reprojection error at the starting intrinsics.
+  Eigen::Isometry3d world_from_camera = Eigen::Isometry3d::Identity();
+  double reprojection_error = 0.0;  ///< sqrt(mean(du^2 + dv^2)) there [px].
+  /// RigModel::refineAll() of this camera alone, from here (-2 log likelihood).
+  double cost = 0.0;
 };
 
 /// The branches of one camera of the model: one or two, up to four when it saw only three corners;
@@ -24,7 +26,7 @@ std::vector<Branch> findBranches(const RigModel& model, std::size_t camera);
 /// The branch of each camera, chosen by all cameras together.
 struct BranchChoice {
   RigState state;                   ///< Most probable rig on the chosen branches.
-  double cost;                      ///< RigModel::refineAll() of it.
+  double cost = 0.0;                ///< RigModel::refineAll() of it.
   std::vector<std::size_t> chosen;  ///< Index into the branches, per camera.
   /// Indices of cameras for which another branch is nearly as probable.
   std::vector<std::size_t> undecided;

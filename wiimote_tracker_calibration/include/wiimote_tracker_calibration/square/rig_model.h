@@ -43,7 +43,7 @@ struct Uncertainty {
 /// Cameras that saw the corners, and the corners.
 struct RigState {
   std::vector<geometry::Camera> cameras;  ///< In the order of the sightings.
-  Corners corners;                        ///< Where the LED was put [m].
+  Corners corners = zeroCorners();        ///< Where the LED was put [m].
 };
 
 /// All that was observed of one square, and the statistical model of it: Gaussian errors of the

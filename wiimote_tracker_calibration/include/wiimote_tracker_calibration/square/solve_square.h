@@ -34,7 +34,7 @@ struct Solution {
   bool z_up = true;
   /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera, and
   /// without a square.
-  Corners corner_offsets{};
+  Corners corner_offsets = zeroCorners();
   /// Of the rig's parameters, without slow errors of the clocks, then of the corners' offsets (2
   /// each), if there is a square; empty with kPerCamera.
   Eigen::MatrixXd joint_covariance;

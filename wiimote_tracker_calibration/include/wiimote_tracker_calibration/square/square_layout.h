@@ -16,6 +16,13 @@ namespace wiimote_tracker::square {
 /// World points of the four corners, in the order of capture [m].
 using Corners = std::array<Eigen::Vector3d, 4>;
 
+/// Default of a member: Corners{} would leave its numbers unset, as Eigen does.
+inline Corners zeroCorners() {
+  Corners corners;
+  corners.fill(Eigen::Vector3d::Zero());
+  return corners;
+}
+
 /// Parameters of the corners in a joint covariance, after those of the cameras: the horizontal
 /// displacement of each, x and y.
 constexpr Eigen::Index kCornerParameters = 8;

@@ -113,11 +113,12 @@ def test_each_problem_gives_advice(check, situation, advice):
     assert advice in lines[-1], lines
 
 
-@pytest.mark.parametrize('address', ['robot:11311', 'htp://robot:11311'])
-def test_an_address_of_a_master_that_is_none_is_to_be_corrected(monkeypatch, address):
+@pytest.mark.parametrize('address, named', [
+    ('robot:11311', 'robot:11311'), ('htp://robot:11311', 'htp://robot:11311'), ('', 'empty')])
+def test_an_address_of_a_master_that_is_none_is_to_be_corrected(monkeypatch, address, named):
     monkeypatch.setenv('ROS_MASTER_URI', address)
     (_, is_fine, advice), = check_setup.check_master()
-    assert not is_fine and f'ROS_MASTER_URI is {address}' in advice
+    assert not is_fine and f'ROS_MASTER_URI is {named}, but' in advice
 
 
 def test_a_list_that_is_not_there_is_to_be_written(tmp_path):

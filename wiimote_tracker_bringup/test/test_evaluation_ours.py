@@ -255,6 +255,16 @@ def test_a_place_is_one_led_that_lies_still():
     assert listener.Listener._place(two) is None, 'which one?'
 
 
+@pytest.mark.parametrize('address, advice', [
+    ('', 'is empty, but must be such as http://HOST:11311'),
+    ('htp://x', 'is htp://x, but must be such as http://HOST:11311'),
+    ('http://localhost:1', 'at http://localhost:1: start the tracker first')])
+def test_a_live_measurement_needs_a_master(monkeypatch, address, advice):
+    monkeypatch.setenv('ROS_MASTER_URI', address)
+    with pytest.raises(ExperimentError, match=advice):
+        listener.Listener()
+
+
 def test_a_number_is_requested_until_it_is_valid():
     said = io.StringIO()
     person = dialogue.Dialogue(io.StringIO('far\nnan\n300\n2.5\n\n'), said)

@@ -28,6 +28,24 @@ def test_help_tells_the_parameters(program, words):
 
 
 @pytest.mark.parametrize('program', [
+    'launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
+    'evaluation/place_cameras', 'evaluation/probe'])
+@pytest.mark.parametrize('address, advice', [
+    ('', 'ROS_MASTER_URI is empty, but must be such as http://HOST:11311: correct it'),
+    ('htp://x', 'ROS_MASTER_URI is htp://x, but must be such as http://HOST:11311: correct it'),
+    ('http://x.invalid:11311', 'there is no ROS master at http://x.invalid:11311: start roscore or '
+     'use roslaunch'),
+    ('http://localhost:1', 'there is no ROS master at http://localhost:1: start roscore or use '
+     'roslaunch')])
+def test_without_a_master_it_ends_with_what_to_do(program, address, advice):
+    done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          env=dict(os.environ, ROS_MASTER_URI=address))
+    assert done.returncode == 1
+    assert done.stderr == f'{os.path.basename(program)}: {advice}\n'
+
+
+@pytest.mark.parametrize('program', [
     'benchmark/benchmark_latency', 'evaluation/body_to_base', 'evaluation/evaluate',
     'evaluation/evaluate_recording', 'evaluation/evaluate_trajectory', 'evaluation/fault_matrix',
     'evaluation/lead_demo', 'evaluation/place_cameras', 'evaluation/plan_rig', 'evaluation/probe',

@@ -8,6 +8,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
+from wiimote_tracker_evaluation.ros_master import master_problem
 
 KEPT = 60.0         # [s]
 STILL_TIME = 1.5    # at rest, for a measurement [s]
@@ -26,11 +27,11 @@ class Listener:
     master."""
 
     def __init__(self):
-        import rosgraph
         import rospy
-        if not rosgraph.is_master_online():
-            raise ExperimentError('there is no ROS master; start the tracker first: roslaunch '
-                                  'wiimote_tracker_bringup tracker.launch cameras:=FILE')
+        problem = master_problem('start the tracker first: roslaunch wiimote_tracker_bringup '
+                                 'tracker.launch cameras:=FILE')
+        if problem:
+            raise ExperimentError(problem)
         if not rospy.core.is_initialized():
             rospy.init_node('evaluation', anonymous=True, disable_signals=True)
         from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray

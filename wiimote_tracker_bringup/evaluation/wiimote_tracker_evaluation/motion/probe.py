@@ -34,6 +34,7 @@ from std_srvs.srv import Trigger, TriggerResponse
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import pivot
+from wiimote_tracker_evaluation.ros_master import require_master
 
 INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
 REST = 0.5  # of which a saved point is the mean [s]
@@ -233,6 +234,7 @@ def main():
     argparse.ArgumentParser(
         prog='probe', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
     ).parse_args(rospy.myargv()[1:])
+    require_master()
     rospy.init_node('probe')
     try:
         Node()

@@ -24,6 +24,7 @@ from wiimote_tracker_evaluation import rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.planning import (
     cells, handles, plan, plan_rig, prediction, search)
+from wiimote_tracker_evaluation.ros_master import require_master
 
 CORNERS = ('lower corner', 'upper corner')  # of the volume
 LEAST_EDGE = 0.1  # of the volume [m]
@@ -115,6 +116,7 @@ def main():
         prog='place_cameras', description=__doc__,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     ).parse_args(rospy.myargv()[1:])
+    require_master()
     rospy.init_node('place_cameras')
     try:
         chosen = plan.read(rospy.get_param('~plan'))

@@ -80,6 +80,18 @@ def test_a_file_of_parameters_wins_over_those_of_the_coverage(load, tmp_path):
     assert parameters['/coverage/cell_size'] == 0.2
 
 
+def test_a_file_of_parameters_wins_over_those_of_robot_localization(load, monkeypatch, tmp_path):
+    (tmp_path / 'my robot.yaml').write_text(
+        'ekf_odom: {frequency: 50}\nekf_map: {frequency: 20, process_noise_covariance: [0.1]}\n')
+    monkeypatch.setenv('PWD', str(tmp_path))
+    before = load('robot_localization.launch')[1]
+    after = load('robot_localization.launch', 'parameters:=my robot.yaml')[1]
+    changed = {'/ekf_odom/frequency': 50, '/ekf_map/frequency': 20,
+               '/ekf_map/process_noise_covariance': [0.1]}
+    assert after == dict(before, **changed)
+    assert before['/ekf_odom/frequency'] == before['/ekf_map/frequency'] == 100
+
+
 def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):
     (tmp_path / 'my lab.yaml').write_text('triangulation: {mode: instant}\n')
     monkeypatch.setenv('PWD', str(tmp_path))

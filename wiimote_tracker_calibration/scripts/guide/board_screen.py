@@ -4,7 +4,7 @@ from typing import List, Optional, Tuple
 
 from .guide import Advice, Guide
 from .layout import bar, duration, figure, fitted, padded, wrapped
-from .screen import COLUMNS, ROWS, panel, prompt_lines
+from .screen import COLUMNS, ROWS, is_too_small, panel, prompt_lines, too_small
 
 KEYS = ['SPACE next  n start again  u undo  s solve  v save  x cancel  q quit',
         'The board lights its LEDs in turns: see doc/board.md.']
@@ -28,6 +28,8 @@ def advice(guide: Guide, camera: str) -> Advice:
 def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int = COLUMNS,
            prompt: Optional[Tuple[str, str]] = None) -> List[str]:
     """Exactly `rows` lines of at most `columns` characters."""
+    if is_too_small(rows, columns):
+        return too_small(rows, columns)
     board = guide.board if guide.board is not None and guide.board.camera == camera else None
     left = f'LENS OF {camera.upper()}'
     bars = []
@@ -41,6 +43,7 @@ def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int
     cameras = guide.status.cameras if guide.status else []
     seen = [each for each in cameras if each.name == camera]
     if seen:
+        # The title names the camera; the last two lines are of corners and a wave.
         lines += panel(guide, seen[0])[1:-2]
     elif guide.status:
         names = ', '.join(each.name for each in cameras) or 'none'

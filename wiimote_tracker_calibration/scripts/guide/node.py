@@ -19,7 +19,7 @@ from .commands import Request
 
 SERVICE_TIMEOUT = 1.0   # [s] Longest search for a service.
 ACTION_TIMEOUT = 5.0    # [s] Longest search for the action's server.
-SHUTDOWN_PERIOD = 1.0   # [s] Between checks for a shutdown during a capture.
+CHECK_PERIOD = 1.0      # [s] Between checks during a capture that both sides still run.
 
 TOPICS = (('status', 'status', CalibrationStatus), ('verdict', 'verdict', CalibrationVerdict),
           ('board', 'board', BoardStatus), ('trace', 'principal_point_trace', PrincipalPointTrace),
@@ -47,7 +47,9 @@ class Node:
             except rospy.ROSException:
                 good, text = False, (f'{rospy.resolve_name(name)} does not answer: check that the '
                                      'calibration node runs, in the same version')
-            except (rospy.ServiceException, ValueError) as error:
+            # Also errors of sockets and rospy's internal ones, when the node ends meanwhile:
+            # without an answer nothing more could be sent.
+            except Exception as error:
                 good, text = False, f'{name} failed: {error}'
             self.events.put(('answer', word, good, text))
         threading.Thread(target=run, daemon=True).start()
@@ -93,8 +95,10 @@ class Node:
             goal, done_cb=lambda state, result: done.set(),
             feedback_cb=lambda feedback: self.events.put(
                 ('feedback', feedback.message, feedback.progress)))
-        while not done.wait(SHUTDOWN_PERIOD):
-            if rospy.is_shutdown():
+        while not done.wait(CHECK_PERIOD):
+            # A server that has ended says nothing; one that was started again disowns the goal.
+            if rospy.is_shutdown() or not self._capture.wait_for_server(
+                    rospy.Duration(ACTION_TIMEOUT)):
                 raise rospy.ROSException()
         result = self._capture.get_result()
         if result is None:  # the server does not know the goal

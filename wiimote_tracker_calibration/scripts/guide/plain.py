@@ -6,6 +6,7 @@ import threading
 import time
 from typing import Any, Callable, Iterable, List, Optional
 
+from .commands import UsageError, number
 from .dialogue import Dialogue
 from .guide import FOUND_WITHIN
 from .layout import figure
@@ -89,8 +90,8 @@ class Plain:
         may be older than it, so the second one counts."""
         guide = self._dialogue.guide
         try:
-            longest = float(arguments[0]) if arguments else LONGEST_WAIT
-        except ValueError:
+            longest = number(arguments[0], 'the time') if arguments else LONGEST_WAIT
+        except UsageError:
             self._fail(f'wait needs a number of seconds, not "{arguments[0]}"')
             return
         end = time.monotonic() + longest

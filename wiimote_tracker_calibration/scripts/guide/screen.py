@@ -30,10 +30,8 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
            ) -> List[str]:
     """Exactly `rows` lines of at most `columns` characters. view: 'cameras', 'verdict', 'trace' or
     'keys'. prompt: a question with what was typed so far, in the place of the keys."""
-    if rows < ROWS or columns < COLUMNS:
-        lines = wrapped(f'Make this window at least {COLUMNS} x {ROWS}; it is {columns} x {rows} '
-                        'now. Or use --plain.', max(columns, 10), max(rows, 1))
-        return [fitted(line, columns) for line in padded(lines, rows)]
+    if is_too_small(rows, columns):
+        return too_small(rows, columns)
     lines = [title(guide, now, columns)]
     lines += padded(wrapped(guide.silent(now) or guide.advice().sentence, columns, 2), 2)
     room = rows - len(lines) - len(KEYS)
@@ -48,6 +46,17 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
         lines += camera_lines(guide, page, room - len(said), rows, columns) + said
     lines += prompt_lines(prompt, columns) if prompt is not None else KEYS
     return [fitted(line, columns) for line in lines]
+
+
+def is_too_small(rows: int, columns: int) -> bool:
+    return rows < ROWS or columns < COLUMNS
+
+
+def too_small(rows: int, columns: int) -> List[str]:
+    """What is drawn in such a window."""
+    lines = wrapped(f'Make this window at least {COLUMNS} x {ROWS}; it is {columns} x {rows} now. '
+                    'Or use --plain.', max(columns, 10), max(rows, 1))
+    return [fitted(line, columns) for line in padded(lines, rows)]
 
 
 def prompt_lines(prompt: Tuple[str, str], columns: int) -> List[str]:

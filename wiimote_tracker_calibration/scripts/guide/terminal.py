@@ -1,6 +1,7 @@
 """The screen, drawn with curses: reads keys and draws lines."""
 
 import curses
+import os
 import time
 from typing import Callable, Dict, List
 
@@ -9,7 +10,18 @@ from .dialogue import Dialogue
 
 PERIOD = 0.1         # [s] Between two drawings.
 BETWEEN_RINGS = 0.3  # [s] So that two are heard.
+# Codes of keys, of which terminals have several for one.
 ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
+
+
+def terminal_problem() -> str:
+    """Why this terminal can show no screen, and what to do; empty if it can."""
+    try:
+        curses.setupterm()
+    except curses.error:
+        return (f'this computer does not know the terminal "{os.environ.get("TERM", "")}", which '
+                'TERM names: set  TERM=xterm , or use --plain')
+    return ''
 
 
 class Terminal:

@@ -2,9 +2,11 @@
 
 import queue
 
+import pytest
+import rospy
 from actionlib_msgs.msg import GoalStatus
 
-from guide import commands
+from guide import commands, node as node_module
 from guide.node import Node
 
 
@@ -21,11 +23,50 @@ class LostCapture:
         return None
 
 
-def test_a_capture_that_its_server_has_lost_is_answered():
+class EndedCapture:
+    """A client of an action whose server ends after it took the goal."""
+
+    def __init__(self):
+        self._is_there = True
+
+    def wait_for_server(self, timeout):
+        return self._is_there
+
+    def send_goal(self, goal, done_cb, feedback_cb):
+        self._is_there = False
+
+
+def answer_of(capture):
+    """The event that follows a request to capture."""
     node = Node.__new__(Node)
     node.events = queue.Queue()
-    node._capture = LostCapture()
+    node._capture = capture
     node.send('capture', commands.request('capture_corner', 'CaptureCorner'))
-    event, word, good, text = node.events.get(timeout=10.0)
+    return node.events.get(timeout=10.0)
+
+
+def test_a_capture_that_its_server_has_lost_is_answered():
+    event, word, good, text = answer_of(LostCapture())
     assert (event, word, good) == ('answer', 'capture', False)
     assert 'the calibration node was started again' in text
+
+
+def test_a_capture_whose_server_has_ended_is_answered(monkeypatch):
+    monkeypatch.setattr(node_module, 'CHECK_PERIOD', 0.01)
+    event, word, good, text = answer_of(EndedCapture())
+    assert (event, word, good) == ('answer', 'capture', False)
+    assert 'check that the calibration node runs' in text
+
+
+@pytest.mark.parametrize('error', [
+    rospy.exceptions.TransportTerminated('broken pipe'), ConnectionResetError('reset by peer'),
+    rospy.ServiceException('broken pipe')])
+def test_a_request_during_which_the_node_ends_is_answered(monkeypatch, error):
+    def call(name, request):
+        raise error
+    node = Node.__new__(Node)
+    node.events = queue.Queue()
+    monkeypatch.setattr(node, '_call', call)
+    node.send('solve', commands.request('solve', 'SolveCalibration'))
+    assert node.events.get(timeout=10.0) == (
+        'answer', 'solve', False, f'calibration/solve failed: {error}')

@@ -42,6 +42,14 @@ def test_plain_counts_what_was_refused_and_what_was_not_understood():
     assert 'waited for 0 s; corner 3' in said
 
 
+def test_plain_waits_for_a_number_of_seconds():
+    for text in ('nan', 'soon'):
+        failures, said = plain(f'wait {text}\n', FakeNode({}),
+                               status(CalibrationStatus.READY, missing=['corner 3']))
+        assert failures == 1
+        assert f'wait needs a number of seconds, not "{text}"' in said
+
+
 def test_plain_tells_every_answer_also_when_it_is_the_same_again():
     refusal = 'only 2 of 4 corners are captured'
     node = FakeNode({'solve': (False, refusal)})

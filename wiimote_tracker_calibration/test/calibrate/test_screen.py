@@ -266,6 +266,8 @@ def test_a_window_that_is_too_small_is_told_so():
         for lines in screens(rows, columns):
             assert len(lines) == rows and max(len(line) for line in lines) <= columns
     assert 'at least 80 x 24' in ' '.join(screen.render(Guide(0.0), 0.0, rows=5, columns=80))
+    assert 'at least 80 x 24; it is 60 x 24' in ' '.join(
+        board_screen.render(Guide(0.0), 0.0, 'wiimote_1', columns=60))
 
 
 def test_all_keys_are_on_one_screen_and_no_two_are_alike():

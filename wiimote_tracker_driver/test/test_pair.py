@@ -229,6 +229,14 @@ def test_the_adapter_is_named_and_chosen(computer):
     assert 'there is no Bluetooth adapter %s: choose one of %s, %s' % (A, C, other) in err
 
 
+def test_an_adapter_is_missing_where_there_is_none(computer):
+    status, _, err = computer.pair(
+        START + '> list\n> select %s\nController %s not available\n' % (A, A) + SILENCE,
+        '--adapter', A)
+    assert status == 1
+    assert 'plug one in' in err
+
+
 def test_a_bluetoothctl_that_cannot_be_run_is_not_missing(computer):
     os.remove(str(computer.folder / 'bluetoothctl'))
     (computer.folder / 'bluetoothctl').write_text('no program')
@@ -302,6 +310,26 @@ def test_a_camera_that_is_not_in_the_list_is_refused_at_once(computer):
     status, out, err = computer.pair('', '--replace', 'wiimote_3', '--cameras', str(cameras))
     assert (status, out) == (1, '')
     assert 'no camera wiimote_3' in err
+
+
+def test_a_list_that_is_no_text_is_refused_at_once(computer):
+    cameras = computer.folder / 'cameras.yaml'
+    cameras.write_bytes(b'cameras:\n  wiimote_2: \xff\n')
+    status, out, err = computer.pair('', '--replace', 'wiimote_2', '--cameras', str(cameras))
+    assert (status, out) == (1, '')
+    assert f'{cameras} is no text' in err
+
+
+def test_a_list_that_cannot_be_read_is_refused_at_once(computer, monkeypatch):
+    cameras = computer.folder / 'cameras.yaml'
+    cameras.write_text('cameras:\n  wiimote_2: "00:1f:32:00:00:02"\n')
+
+    def refuse(path):  # as open() would, but not for root
+        raise PermissionError(13, 'Permission denied', path)
+    monkeypatch.setattr(pair, 'open', refuse, raising=False)
+    status, out, err = computer.pair('', '--replace', 'wiimote_2', '--cameras', str(cameras))
+    assert (status, out) == (1, '')
+    assert f'{cameras} cannot be read (Permission denied)' in err
 
 
 @pytest.mark.parametrize('arguments', [

@@ -60,7 +60,8 @@ class Pairing:
             'unknown': rf'Controller {adapter} not available',
             'failed': r'Failed to set power',
         }, COMMAND_TIMEOUT)
-        if what == 'none':
+        # "select" answers first, but without any adapter it has none to choose from.
+        if what == 'none' or what == 'unknown' and not self._adapters:
             raise PairingError('there is no Bluetooth adapter: plug one in; if there is one, check '
                                'that  lsusb  shows it')
         if what == 'unknown':

@@ -1,0 +1,101 @@
+"""What find_sensitivity does when something fails, without a driver."""
+
+import importlib.machinery
+import importlib.util
+import io
+import os
+import signal
+import sys
+import threading
+import time
+import types
+
+import pytest
+import rospy
+
+HERE = os.path.dirname(os.path.realpath(__file__))
+sys.dont_write_bytecode = True
+loader = importlib.machinery.SourceFileLoader(
+    'find_sensitivity', os.path.join(HERE, '../scripts/find_sensitivity'))
+program = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
+loader.exec_module(program)
+
+
+class FakeCamera:
+    """Stands in for the driver; `watched` is called for its images."""
+
+    def __init__(self, watched=lambda: [[]]):
+        self.sensitivity = 'wii_2'
+        self._watched = watched
+
+    def set_sensitivity(self, name):
+        self.sensitivity = name
+
+    def watch(self, settle, seconds):
+        return self._watched()
+
+
+@pytest.fixture
+def run(monkeypatch):
+    def run(camera, answers):
+        monkeypatch.setattr(program, 'require_master', lambda: None)
+        monkeypatch.setattr(program, 'Camera', lambda name: camera)
+        monkeypatch.setattr(program.rospy, 'init_node', lambda *_, **__: None)
+        monkeypatch.setattr(sys, 'argv', ['find_sensitivity', 'room'])
+        monkeypatch.setattr(sys, 'stdin', io.StringIO(answers))
+        return program.main()
+    before = {number: signal.getsignal(number) for number in (signal.SIGHUP, signal.SIGTERM)}
+    yield run
+    for number, handler in before.items():
+        signal.signal(number, handler)
+
+
+@pytest.mark.parametrize('answers', ['', '\n'])
+def test_the_end_of_the_input_is_said_and_the_driver_left_as_it_was(run, capsys, answers):
+    camera = FakeCamera()
+    assert run(camera, answers) == 1
+    assert 'the input has ended' in capsys.readouterr().err
+    assert camera.sensitivity == 'wii_2'
+
+
+@pytest.mark.parametrize('number', [signal.SIGINT, signal.SIGHUP, signal.SIGTERM])
+def test_a_signal_leaves_the_driver_as_it_was(run, number):
+    def watched():
+        os.kill(os.getpid(), number)
+        time.sleep(10.0)
+    camera = FakeCamera(watched)
+    assert run(camera, '\n') == 130
+    assert camera.sensitivity == 'wii_2'
+
+
+@pytest.mark.parametrize('error', [
+    rospy.ServiceException('no service'), rospy.exceptions.TransportTerminated('broken pipe'),
+    ConnectionResetError('reset by peer')])
+def test_a_driver_that_ends_meanwhile_is_named(error):
+    def update_configuration(changes):
+        raise error
+    camera = program.Camera.__new__(program.Camera)
+    camera._driver = types.SimpleNamespace(update_configuration=update_configuration)
+    with pytest.raises(program.SensitivityError, match='does not take sensitivity wii_3'):
+        camera.set_sensitivity('wii_3')
+
+
+def test_a_step_of_the_clock_does_not_prolong_a_measurement():
+    camera = program.Camera.__new__(program.Camera)
+    camera._name, camera._images, camera._changed = '/room', None, threading.Condition()
+    done = threading.Event()
+
+    def send():
+        for second in range(1000, 0, -1):
+            if done.wait(0.01):
+                return
+            camera._on_image(types.SimpleNamespace(arrival=rospy.Time(second), blobs=[]))
+    sender = threading.Thread(target=send)
+    sender.start()
+    try:
+        began = time.monotonic()
+        assert camera.watch(settle=0.05, seconds=0.1)
+        assert time.monotonic() - began < 5.0
+    finally:
+        done.set()
+        sender.join()

@@ -1,4 +1,4 @@
-#include "measurements/output_file.h"
+#include "measurements/part_file.h"
 #include "measurements/writer.h"
 
 #include <wiimote_tracker_msgs/text.h>

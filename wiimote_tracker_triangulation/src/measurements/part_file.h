@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_PART_FILE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_PART_FILE_H
 
+#include <cstdio>
+#include <memory>
 #include <string>
 
 namespace wiimote_tracker::measurements {
@@ -18,6 +20,24 @@ void finishPart(const std::string& path);
 
 /// @throws Error with the reason for `error`, an errno.
 [[noreturn]] void failToWrite(const std::string& path, int error);
+
+/// A file that is written as its part until it is complete. All throw Error.
+class OutputFile {
+ public:
+  explicit OutputFile(const std::string& path);
+
+  void write(const std::string& bytes);
+  void flush();
+  void finish();
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
 
 }  // namespace wiimote_tracker::measurements
 

@@ -1,4 +1,4 @@
-#include "measurements/output_file.h"
+#include "measurements/part_file.h"
 #include "measurements/sample_table.h"
 #include "measurements/writer.h"
 

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_TUM_WRITER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_TUM_WRITER_H
 
-#include "measurements/output_file.h"
+#include "measurements/part_file.h"
 
 #include <Eigen/Geometry>
 

@@ -1,8 +1,9 @@
 #include "trajectory_files.h"
 
-#include "wiimote_tracker_triangulation/ros/message_fields.h"
+#include <wiimote_tracker_msgs/text.h>
 
-#include <cstdint>
+#include <locale>
+#include <sstream>
 
 namespace wiimote_tracker {
 
@@ -14,10 +15,17 @@ void TrajectoryFiles::add(const wiimote_tracker_msgs::TrackedBodyArray& bodies) 
   for (const TrackedBody& body : bodies.bodies) {
     if (body.state != TrackedBody::TRACKED)
       continue;
-    measurements::TumWriter& file =
-        files_.try_emplace(body.name, folder_ + "/" + body.name + ".tum").first->second;
-    file.add(static_cast<std::int64_t>(bodies.header.stamp.toNSec()),
-             vectorOf(body.pose.pose.position), rotationOf(body.pose.pose.orientation));
+    std::ostringstream line;
+    line.imbue(std::locale::classic());
+    line.precision(9);
+    line << format("%u.%09u", bodies.header.stamp.sec, bodies.header.stamp.nsec);
+    const geometry_msgs::Point& p = body.pose.pose.position;
+    const geometry_msgs::Quaternion& q = body.pose.pose.orientation;
+    for (const double value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})
+      line << ' ' << value;
+    line << '\n';
+    files_.try_emplace(body.name, folder_ + "/" + body.name + ".tum")
+        .first->second.write(line.str());
   }
 }
 

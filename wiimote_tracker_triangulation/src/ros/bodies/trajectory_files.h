@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
 
-#include "measurements/tum_writer.h"
+#include "measurements/part_file.h"
 
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 
@@ -10,7 +10,9 @@
 
 namespace wiimote_tracker {
 
-/// The poses of each tracked body in a file <folder>/<body>.tum. All throw Error.
+/// The poses of each tracked body in a file <folder>/<body>.tum, as the TUM RGB-D benchmark defines
+/// it and evo reads it: one line `time x y z qx qy qz qw` a pose, [s since 1970] and [m]. All throw
+/// Error.
 class TrajectoryFiles {
  public:
   /// @param folder empty: nothing is written.
@@ -22,7 +24,7 @@ class TrajectoryFiles {
 
  private:
   std::string folder_;
-  std::map<std::string, measurements::TumWriter> files_;  // by body
+  std::map<std::string, measurements::OutputFile> files_;  // by body
 };
 
 }  // namespace wiimote_tracker

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <locale>
 #include <sstream>
 
@@ -20,25 +19,36 @@ const char* const kHeader =
     "vcov_zz [m^2/s^2],rays_used,rays_possible,residual [px],last_observed [s],age [s],remapped,"
     "frame,rig_id,method\n";
 
-/// A row as text; decimal points in any locale.
-class Row {
+/// [s], exactly.
+std::string secondsOf(std::int64_t nanoseconds) {
+  const std::lldiv_t t = std::lldiv(nanoseconds, 1000000000);
+  return format("%lld.%09lld", t.quot, t.rem);
+}
+
+/// Rows as text; decimal points in any locale.
+class Rows {
  public:
-  Row() {
+  Rows() {
     text_.imbue(std::locale::classic());
     text_.precision(17);
   }
 
-  void clear() {
+  template <typename... Cells>
+  std::string of(const Cells&... cells) {
     text_.str("");
-    is_first_ = true;
+    (add(cells), ...);
+    std::string row = text_.str();
+    row.back() = '\n';  // instead of the last comma
+    return row;
   }
 
-  void add(double value) {
-    separate();
-    if (std::isnan(value))
-      text_ << "nan";  // never "-nan"
+ private:
+  template <typename Number>
+  void add(const Number& value) {
+    if (std::isnan(static_cast<double>(value)))
+      text_ << "nan,";  // never "-nan"
     else
-      text_ << value;
+      text_ << value << ',';
   }
 
   void add(const Eigen::Vector3d& v) {
@@ -53,53 +63,16 @@ class Row {
     }
   }
 
-  void addCount(std::uint64_t count) {
-    separate();
-    text_ << count;
-  }
-
-  void addTime(std::int64_t nanoseconds) {
-    separate();
-    const std::lldiv_t t = std::lldiv(nanoseconds, 1000000000);
-    const std::string digits = format("%lld.%09lld", t.quot, t.rem);
-    text_ << digits;
-  }
-
-  /// 0: unknown.
-  void addTimeIfKnown(std::int64_t nanoseconds) {
-    if (nanoseconds == 0)
-      add(std::numeric_limits<double>::quiet_NaN());
-    else
-      addTime(nanoseconds);
-  }
-
   /// Quoted where necessary (RFC 4180).
   void add(const std::string& word) {
-    separate();
-    if (word.find_first_of(",\"\r\n") == std::string::npos) {
-      text_ << word;
-      return;
-    }
-    text_ << '"';
-    for (const char c : word) {
-      if (c == '"')
-        text_ << '"';
-      text_ << c;
-    }
-    text_ << '"';
-  }
-
-  std::string line() const { return text_.str() + "\n"; }
-
- private:
-  void separate() {
-    if (!is_first_)
-      text_ << ',';
-    is_first_ = false;
+    const bool is_quoted = word.find_first_of(",\"\r\n") != std::string::npos;
+    text_ << (is_quoted ? "\"" : "");
+    for (const char c : word)
+      text_ << (c == '"' ? "\"" : "") << c;
+    text_ << (is_quoted ? "\"," : ",");
   }
 
   std::ostringstream text_;
-  bool is_first_ = true;
 };
 
 class CsvWriter : public Writer {
@@ -107,28 +80,11 @@ class CsvWriter : public Writer {
   explicit CsvWriter(const std::string& path) : file_(path) { file_.write(kHeader); }
 
   void add(const Measurement& m) override {
-    row_.clear();
-    row_.addTime(m.stamp);
-    row_.addCount(m.triggered);
-    row_.addCount(m.id);
-    row_.add(m.label);
-    row_.add(m.label_confidence);
-    row_.addTimeIfKnown(m.label_since);
-    row_.add(m.state);
-    row_.add(m.position);
-    row_.add(m.velocity);
-    row_.add(m.position_covariance);
-    row_.add(m.velocity_covariance);
-    row_.addCount(m.rays_used);
-    row_.addCount(m.rays_possible);
-    row_.add(m.residual);
-    row_.addTime(m.last_observed);
-    row_.add(m.age);
-    row_.addCount(m.remapped);
-    row_.add(m.frame);
-    row_.add(m.rig_id);
-    row_.add(m.method);
-    file_.write(row_.line());
+    file_.write(rows_.of(secondsOf(m.stamp), m.triggered, m.id, m.label, m.label_confidence,
+                         m.label_since == 0 ? "nan" : secondsOf(m.label_since), m.state, m.position,
+                         m.velocity, m.position_covariance, m.velocity_covariance, m.rays_used,
+                         m.rays_possible, m.residual, secondsOf(m.last_observed), m.age, m.remapped,
+                         m.frame, m.rig_id, m.method));
   }
 
   void flush() override { file_.flush(); }
@@ -136,7 +92,7 @@ class CsvWriter : public Writer {
 
  private:
   OutputFile file_;
-  Row row_;
+  Rows rows_;
 };
 
 }  // namespace

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CLOCK_WATCH_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CLOCK_WATCH_H
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -16,14 +18,37 @@ class ClockWatch {
   /// `tolerance`: smaller offsets may be transport delays [s].
   explicit ClockWatch(double tolerance) : tolerance_(tolerance) {}
 
-  void clear(std::size_t cameras);
+  void clear(std::size_t cameras) { shortest_.assign(cameras, std::nullopt); }
 
   /// `delay`: from the arrival time of an image to its handling here [s].
-  void add(std::size_t camera, double delay);
+  void add(std::size_t camera, double delay) {
+    std::optional<double>& shortest = shortest_.at(camera);
+    shortest = std::min(shortest.value_or(delay), delay);
+  }
 
   /// How far the camera's clock is ahead of this computer's, or of most cameras' clocks [s];
   /// nothing when it agrees or no image came.
-  std::optional<double> ahead(std::size_t camera) const;
+  std::optional<double> ahead(std::size_t camera) const {
+    if (!shortest_.at(camera))
+      return std::nullopt;
+    const double delay = *shortest_[camera];
+    // No image is handled before it arrives.
+    if (delay < -tolerance_)
+      return -delay;
+    std::vector<double> delays;
+    for (const std::optional<double>& other : shortest_) {
+      if (other)
+        delays.push_back(*other);
+    }
+    // The lower of two middle values: a delay can be too long because of the network, not too
+    // short.
+    const auto middle = delays.begin() + static_cast<std::ptrdiff_t>((delays.size() - 1) / 2);
+    std::nth_element(delays.begin(), middle, delays.end());
+    const double offset = *middle - delay;
+    if (std::abs(offset) <= tolerance_)
+      return std::nullopt;
+    return offset;
+  }
 
  private:
   double tolerance_;

@@ -3,6 +3,7 @@
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
 
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
@@ -36,6 +37,9 @@ ImageFault readImage(const wiimote_tracker_msgs::IrBlobArray& message,
 std::string describe(ImageFault fault,
                      const wiimote_tracker_msgs::IrBlobArray& message,
                      const geometry::Camera& calibrated);
+
+/// The same of a fault of a camera.
+std::string describe(const tracking::CameraFault& fault, const std::string& camera);
 
 }  // namespace wiimote_tracker
 

@@ -18,7 +18,19 @@ class LoadShedding {
   /// @param wait from the image's receipt to now [s]
   /// @param now by a clock that is never set [s]
   /// @returns whether to drop the image.
-  bool drops(double wait, double now);
+  bool drops(double wait, double now) {
+    if (wait <= kLongestWait) {
+      late_since_.reset();
+      return false;
+    }
+    if (!late_since_)
+      late_since_ = now;
+    if (!overloaded(now) && now - *late_since_ < kLongestBacklog)
+      return false;
+    overloaded_until_ = now + kOverloaded;
+    ++dropped_;
+    return true;
+  }
 
   /// Whether images were dropped in the last seconds.
   bool overloaded(double now) const { return now < overloaded_until_; }
@@ -26,6 +38,14 @@ class LoadShedding {
   std::uint64_t dropped() const { return dropped_; }
 
  private:
+  // An image that waited longer is late [s].
+  static constexpr double kLongestWait = 0.05;
+  // Images that are late for no longer than this are worked off [s]: the backlog of a pause of a
+  // second takes less, since one image takes a fraction of the time between two.
+  static constexpr double kLongestBacklog = 0.5;
+  // After the last dropped image, late ones are dropped at once for this long [s].
+  static constexpr double kOverloaded = 5.0;
+
   std::optional<double> late_since_;  ///< [s] Nothing while images are in time.
   double overloaded_until_ = 0.0;     ///< [s]
   std::uint64_t dropped_ = 0;

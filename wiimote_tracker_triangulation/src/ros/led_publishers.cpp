@@ -1,6 +1,5 @@
 #include "led_publishers.h"
 
-#include "odometry.h"
 #include "point_message.h"
 
 #include <boost/make_shared.hpp>

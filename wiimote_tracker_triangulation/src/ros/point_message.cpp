@@ -1,5 +1,6 @@
 #include "point_message.h"
 
+#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker {
@@ -75,6 +76,26 @@ geometry_msgs::TransformStamped transform(const TrackedPointArray& array,
   message.child_frame_id = point.label;
   setVector(vectorOf(point.position), &message.transform.translation);
   message.transform.rotation.w = 1.0;
+  return message;
+}
+
+nav_msgs::Odometry odometry(const TrackedPointArray& array, const TrackedPoint& point) {
+  nav_msgs::Odometry message;
+  message.header = array.header;
+  message.child_frame_id = point.label;
+  message.pose.pose.position = point.position;
+  message.pose.pose.orientation.w = 1.0;
+  using Matrix6 = Eigen::Matrix<double, 6, 6>;
+  Matrix6 covariance = kUnknownVariance * Matrix6::Identity();
+  covariance.topLeftCorner<3, 3>() = matrixOf<3>(point.position_covariance);
+  setMatrix(covariance, &message.pose.covariance);
+  const bool has_velocity = !std::isnan(point.velocity.x);
+  if (has_velocity)
+    message.twist.twist.linear = point.velocity;
+  covariance.topLeftCorner<3, 3>() =
+      has_velocity ? matrixOf<3>(point.velocity_covariance)
+                   : Eigen::Matrix3d(kUnknownVariance * Eigen::Matrix3d::Identity());
+  setMatrix(covariance, &message.twist.covariance);
   return message;
 }
 

@@ -8,6 +8,7 @@
 
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/TransformStamped.h>
+#include <nav_msgs/Odometry.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
 namespace wiimote_tracker {
@@ -30,6 +31,14 @@ geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPoin
 /// World frame -> label, without rotation.
 geometry_msgs::TransformStamped transform(const wiimote_tracker_msgs::TrackedPointArray& array,
                                           const wiimote_tracker_msgs::TrackedPoint& point);
+
+/// Of one LED; its frame has the world's axes. What is unknown is 0 with the variance
+/// kUnknownVariance: orientation, angular velocity, and with mode instant the velocity.
+nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedPointArray& array,
+                            const wiimote_tracker_msgs::TrackedPoint& point);
+
+/// [rad^2], [rad^2/s^2], [m^2/s^2]
+constexpr double kUnknownVariance = 1e6;
 
 }  // namespace wiimote_tracker
 

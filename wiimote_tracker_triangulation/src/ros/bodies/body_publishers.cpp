@@ -1,6 +1,5 @@
 #include "body_publishers.h"
 
-#include "../odometry.h"
 #include "body_message.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 

@@ -4,7 +4,6 @@
 #include "recording.h"
 #include "ros/bodies/body_message.h"
 #include "ros/measurement_message.h"
-#include "ros/odometry.h"
 #include "ros/point_message.h"
 
 #include <tf2_msgs/TFMessage.h>

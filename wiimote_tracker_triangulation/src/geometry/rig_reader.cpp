@@ -1,8 +1,8 @@
-#include "camera_yaml.h"
 #include "geometry/rotation.h"
 #include "rig_words.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -20,6 +20,49 @@ Enum readWord(YamlMap& map, const std::string& key, const std::array<const char*
   if (found == words.end())
     throw map.error(key, "is '" + word + "', but must be one of: " + joined(words));
   return static_cast<Enum>(found - words.begin());
+}
+
+/// {rows, cols, data} of a matrix, row-major.
+Eigen::MatrixXd readMatrix(YamlMap map) {
+  constexpr int kMaximumSize = 10000;
+  const int rows = map.bounded("rows", 0, kMaximumSize);
+  const int cols = map.bounded("cols", 0, kMaximumSize);
+  const std::vector<double> data = map.numbers("data");
+  map.refuseUnknown();
+  if (data.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
+    throw map.error("data", "does not have rows * cols numbers");
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  return Eigen::Map<const RowMajor>(data.data(), rows, cols);
+}
+
+/// In the keys of camera_calibration_parsers: image_width .. distortion_coefficients.
+void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsics) {
+  constexpr int kMaximumSize = std::numeric_limits<int>::max();
+  intrinsics->width = map.bounded("image_width", 0, kMaximumSize);
+  intrinsics->height = map.bounded("image_height", 0, kMaximumSize);
+  *camera_name = map.get<std::string>("camera_name");
+
+  const Eigen::MatrixXd K = readMatrix(map.map("camera_matrix"));
+  if (K.rows() != 3 || K.cols() != 3 || K(0, 1) != 0.0 || K(1, 0) != 0.0 || K(2, 0) != 0.0 ||
+      K(2, 1) != 0.0 || K(2, 2) != 1.0)
+    throw map.error("camera_matrix", "is not [fx, 0, cx, 0, fy, cy, 0, 0, 1]");
+  intrinsics->fx = K(0, 0);
+  intrinsics->fy = K(1, 1);
+  intrinsics->cx = K(0, 2);
+  intrinsics->cy = K(1, 2);
+
+  const auto model = distortionModelFromName(map.get<std::string>("distortion_model"));
+  if (!model)
+    throw map.error("distortion_model", "is neither plumb_bob nor equidistant");
+  intrinsics->distortion_model = *model;
+  const Eigen::MatrixXd D = readMatrix(map.map("distortion_coefficients"));
+  const auto count = static_cast<Eigen::Index>(coefficientCount(*model));
+  if (D.rows() != 1 || D.cols() != count)
+    throw map.error("distortion_coefficients", "is not one row of " + std::to_string(count) +
+                                                   " numbers, as " + nameOf(*model) + " needs");
+  intrinsics->distortion = {};
+  for (Eigen::Index i = 0; i < count; ++i)
+    intrinsics->distortion[static_cast<std::size_t>(i)] = D(0, i);
 }
 
 Eigen::Isometry3d readTransform(YamlMap map) {

@@ -1,15 +1,33 @@
-#include "camera_yaml.h"
 #include "geometry/rotation.h"
 #include "rig_words.h"
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
+#include "wiimote_tracker_triangulation/geometry/yaml_map.h"
 
 #include <wiimote_tracker_msgs/text.h>
+#include <yaml-cpp/emitter.h>
 
+#include <algorithm>
+#include <cmath>
 #include <ctime>
 
 namespace wiimote_tracker::geometry {
 namespace {
+
+/// Plain text of a number that reads back bit for bit, as a floating-point number also where
+/// YAML 1.1 is read.
+std::string yamlNumber(double value) {
+  if (std::isnan(value))
+    return ".nan";
+  if (std::isinf(value))
+    return value > 0.0 ? ".inf" : "-.inf";
+  std::string number = exactNumber(value);
+  // YAML 1.1, as in rosparam, reads 4 as an integer and 1e-09 as a string.
+  if (number.find('.') == std::string::npos)
+    number.insert(std::min(number.find('e'), number.size()), ".0");
+  return number;
+}
 
 template <typename Values>
 void emitNumbers(const std::string& key, const Values& values, YAML::Emitter& out) {
@@ -29,6 +47,41 @@ void emitNumber(const std::string& key, double value, YAML::Emitter& out) {
 
 void emitText(const std::string& key, const std::string& text, YAML::Emitter& out) {
   out << YAML::Key << key << YAML::Value << YAML::DoubleQuoted << text;
+}
+
+/// {rows, cols, data} of a matrix, row-major.
+template <typename Matrix>
+void emitMatrix(const std::string& key, const Matrix& matrix, YAML::Emitter& out) {
+  out << YAML::Key << key << YAML::Value << YAML::BeginMap;
+  out << YAML::Key << "rows" << YAML::Value << matrix.rows();
+  out << YAML::Key << "cols" << YAML::Value << matrix.cols();
+  out << YAML::Key << "data" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
+    for (Eigen::Index c = 0; c < matrix.cols(); ++c)
+      out << yamlNumber(matrix(r, c));
+  }
+  out << YAML::EndSeq << YAML::EndMap;
+}
+
+/// Into an open map, in the keys of camera_calibration_parsers: image_width ..
+/// distortion_coefficients.
+void emitIntrinsics(const std::string& camera_name,
+                    const Intrinsics& intrinsics,
+                    YAML::Emitter& out) {
+  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
+  K(0, 0) = intrinsics.fx;
+  K(1, 1) = intrinsics.fy;
+  K(0, 2) = intrinsics.cx;
+  K(1, 2) = intrinsics.cy;
+  const Eigen::Map<const Eigen::RowVectorXd> D(
+      intrinsics.distortion.data(),
+      static_cast<Eigen::Index>(coefficientCount(intrinsics.distortion_model)));
+  out << YAML::Key << "image_width" << YAML::Value << intrinsics.width;
+  out << YAML::Key << "image_height" << YAML::Value << intrinsics.height;
+  out << YAML::Key << "camera_name" << YAML::Value << camera_name;
+  emitMatrix("camera_matrix", K, out);
+  out << YAML::Key << "distortion_model" << YAML::Value << nameOf(intrinsics.distortion_model);
+  emitMatrix("distortion_coefficients", D, out);
 }
 
 /// The layout of a geometry_msgs/TransformStamped.
@@ -181,6 +234,25 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   const std::string text = std::string(out.c_str()) + "\n";
   checkReadable(text, rig, path);
   writeFileAtomically(path, text);
+}
+
+void writeCameraInfoFile(const Camera& camera, const std::string& path) {
+  const Intrinsics& intrinsics = camera.intrinsics;
+  Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
+  P(0, 0) = intrinsics.fx;
+  P(1, 1) = intrinsics.fy;
+  P(0, 2) = intrinsics.cx;
+  P(1, 2) = intrinsics.cy;
+  P(2, 2) = 1.0;
+
+  YAML::Emitter out;
+  out << YAML::BeginMap;
+  // camera_calibration_parsers allows letters, digits and underscores.
+  emitIntrinsics(withoutSlashes(camera.name), intrinsics, out);
+  emitMatrix("rectification_matrix", Eigen::Matrix3d::Identity(), out);
+  emitMatrix("projection_matrix", P, out);
+  out << YAML::EndMap;
+  writeFileAtomically(path, std::string(out.c_str()) + "\n");
 }
 
 }  // namespace wiimote_tracker::geometry

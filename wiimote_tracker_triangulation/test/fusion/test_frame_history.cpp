@@ -1,7 +1,7 @@
 // The images kept of one camera, and its spots from one to the next.
 #include "wiimote_tracker_triangulation/fusion/frame_history.h"
 
-#include "fusion/frame.h"
+#include "fusion/synchronizer.h"
 
 #include <gtest/gtest.h>
 

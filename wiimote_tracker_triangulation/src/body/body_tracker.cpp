@@ -2,7 +2,6 @@
 
 #include "association/assign_spots.h"
 #include "association/shared_views.h"
-#include "geometry/learnt_noise.h"
 #include "led_groups.h"
 
 #include <algorithm>

@@ -55,6 +55,13 @@ std::optional<double> RigCamera::timeOffsetIn(std::uint32_t clock_epoch) const {
   return time_offset;
 }
 
+double pixelNoise(const RigCamera& camera, bool use_learnt, double pixel_stddev) {
+  constexpr std::uint32_t kMany = 100;
+  if (!use_learnt || camera.inliers < kMany || !std::isfinite(camera.residual_px))
+    return pixel_stddev;
+  return std::clamp(camera.residual_px / std::sqrt(2.0), 0.1, 2.0);
+}
+
 const RigCamera* Rig::find(const std::string& name) const {
   const auto it = std::find_if(cameras.begin(), cameras.end(),
                                [&](const RigCamera& c) { return c.camera.name == name; });

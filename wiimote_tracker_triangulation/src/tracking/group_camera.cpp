@@ -1,7 +1,5 @@
 #include "group_camera.h"
 
-#include "geometry/learnt_noise.h"
-
 #include <algorithm>
 #include <cmath>
 

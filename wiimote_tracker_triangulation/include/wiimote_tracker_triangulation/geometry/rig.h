@@ -64,6 +64,11 @@ struct RigCamera {
   }
 };
 
+/// Standard deviation of a camera's pixel coordinates [px]: if `use_learnt`, that of the residual
+/// with which it was calibrated, within 0.1 and 2. Many moving spots tell it; the four still
+/// corners of a square do not. Else pixel_stddev.
+double pixelNoise(const RigCamera& camera, bool use_learnt, double pixel_stddev);
+
 /// All cameras of a rig, calibrated together. Fields as in RigCalibration.msg.
 struct Rig {
   std::string world_frame = "world";

@@ -1,7 +1,5 @@
 #include "smoothed_tracks.h"
 
-#include "geometry/learnt_noise.h"
-
 #include <algorithm>
 #include <limits>
 

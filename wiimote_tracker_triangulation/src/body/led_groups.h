@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
 
 #include "wiimote_tracker_triangulation/body/constellation.h"
-#include "wiimote_tracker_triangulation/body/led_prediction.h"
+#include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_INERTIAL_FILTER_H
 
 #include "wiimote_tracker_triangulation/body/inertial_samples.h"
-#include "wiimote_tracker_triangulation/body/led_prediction.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
 #include <Eigen/Core>

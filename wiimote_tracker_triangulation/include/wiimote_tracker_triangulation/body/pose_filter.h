@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
 
-#include "wiimote_tracker_triangulation/body/led_prediction.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
 #include <Eigen/Core>

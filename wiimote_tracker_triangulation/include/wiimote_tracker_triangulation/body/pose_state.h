@@ -1,8 +1,12 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H
 
+#include "wiimote_tracker_triangulation/geometry/camera.h"
+
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+
+#include <optional>
 
 namespace wiimote_tracker::body {
 
@@ -41,6 +45,20 @@ struct PoseState {
   Eigen::Isometry3d worldFromBody() const;
   PoseCovariance poseCovariance() const { return covariance.topLeftCorner<6, 6>(); }
 };
+
+/// Predicted measurement of an LED of a body.
+struct LedPrediction {
+  Eigen::Vector2d pixel;                 ///< [px]
+  Eigen::Matrix2d covariance;            ///< Innovation covariance [px^2].
+  Eigen::Matrix<double, 2, 6> jacobian;  ///< d pixel / d (position, rotation) [px/m, px/rad].
+  double depth;                          ///< Along the optical axis [m].
+};
+
+/// Nothing when the LED is behind the camera. @param led in the body's frame [m]
+std::optional<LedPrediction> predictLed(const PoseState& state,
+                                        const geometry::Camera& camera,
+                                        const Eigen::Vector3d& led,
+                                        double pixel_stddev);
 
 }  // namespace wiimote_tracker::body
 

@@ -2,7 +2,7 @@
 #include "benchmark_identity_sections.h"
 #include "identity/blinking.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"

@@ -1,7 +1,7 @@
 #include "parameters.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
-#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
 
 #include <wiimote_tracker_msgs/text.h>

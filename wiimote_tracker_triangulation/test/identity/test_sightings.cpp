@@ -1,7 +1,7 @@
 // Sightings of blinking LEDs in images, and tracks that survive dark intervals.
 #include "identity/blinking.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 

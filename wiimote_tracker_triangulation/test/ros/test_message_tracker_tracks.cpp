@@ -1,7 +1,7 @@
 // What mode tracks adds in the code that node and track_bag share: messages in, messages out.
 #include "ros/studio.h"
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
-#include "wiimote_tracker_triangulation/identity/blinking_tracks.h"
+#include "wiimote_tracker_triangulation/identity/blink_codes.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>

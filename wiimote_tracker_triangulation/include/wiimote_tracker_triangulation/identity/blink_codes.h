@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_BLINK_CODES_H
 
 #include "wiimote_tracker_triangulation/identity/waveform.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <string>
 #include <vector>
@@ -35,6 +36,10 @@ struct BlinkCodes {
   /// Longest time that an LED is dark [s]; tracks must survive it.
   double longestDark() const;
 };
+
+/// Adapts a tracker's options to blinking LEDs: tracks survive the dark chips, and the detection
+/// probability is multiplied by the share of the time that the LEDs are on.
+tracking::TrackerOptions forBlinking(const BlinkCodes& codes, tracking::TrackerOptions options);
 
 }  // namespace wiimote_tracker::identity
 

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 namespace wiimote_tracker {
 
 using identity::Identity;
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -184,6 +188,50 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
+}
+
+std::string placesFile(const std::string& parameter, const std::string& name_space) {
+  if (parameter.empty() || parameter.back() != '/')
+    return parameter;
+  return fs::path(parameter + name_space + "/label_places").lexically_normal().string();
+}
+
+bool writePlaces(const std::string& file, const LedLabels::Places& places) {
+  const std::string fresh = file + ".new";
+  std::error_code error;
+  fs::create_directories(fs::absolute(file).parent_path(), error);
+  std::ofstream out(fresh);
+  for (const auto& [label, place] : places)
+    out << label << ' ' << place.position.transpose() << ' ' << place.speed << ' '
+        << std::max(0.0, place.age) << ' ' << place.confidence << '\n';
+  out.close();
+  if (!out)
+    return false;
+  fs::rename(fresh, file, error);
+  return !error;
+}
+
+LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest) {
+  std::error_code error;
+  const fs::file_time_type written = fs::last_write_time(file, error);
+  if (error)
+    return {};
+  // Not in the future, where a clock that was set back leaves it.
+  const double age = std::max(
+      0.0, std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
+  if (age > oldest.count())
+    return {};
+  std::ifstream in(file);
+  LedLabels::Places places;
+  std::string label;
+  LedLabels::Place place;
+  Eigen::Vector3d& position = place.position;
+  while (in >> label >> position.x() >> position.y() >> position.z() >> place.speed >> place.age >>
+         place.confidence) {
+    place.age += age;
+    places[label] = place;
+  }
+  return in.eof() ? places : LedLabels::Places();
 }
 
 }  // namespace wiimote_tracker

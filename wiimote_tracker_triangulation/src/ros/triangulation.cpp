@@ -1,7 +1,6 @@
 #include "triangulation.h"
 
 #include "callbacks.h"
-#include "label_places.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <visualization_msgs/MarkerArray.h>

@@ -1,5 +1,4 @@
 // The labels of the LEDs: by order, by place, by blinking.
-#include "ros/label_places.h"
 #include "ros/led_labels.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 

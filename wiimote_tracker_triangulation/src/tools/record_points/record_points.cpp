@@ -1,6 +1,6 @@
 // Writes the tracker's points to tables while it runs.
 
-#include "measurements/table_files.h"
+#include "measurements/writer.h"
 #include "ros/bodies/trajectory_files.h"
 #include "ros/measurement_message.h"
 

@@ -1,7 +1,6 @@
 #include "output.h"
 
 #include "measurements/part_file.h"
-#include "recording.h"
 #include "ros/bodies/body_message.h"
 #include "ros/measurement_message.h"
 #include "ros/point_message.h"

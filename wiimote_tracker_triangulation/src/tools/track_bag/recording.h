@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H
 
-#include "topics.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <rosbag/bag.h>
@@ -32,6 +31,26 @@ boost::shared_ptr<const Message> read(const rosbag::MessageInstance& recorded) {
                    recorded.getDataType() + ": convert the bag with rosbag fix");
   return recorded.instantiate<Message>();
 }
+
+/// Names of the topics of a tracker that runs in a namespace.
+class Topics {
+ public:
+  /// @param name_space slashes at its ends may be left out.
+  explicit Topics(const std::string& name_space = "/") : name_space_(name_space) {
+    if (name_space_.empty() || name_space_.front() != '/')
+      name_space_ = "/" + name_space_;
+    if (name_space_.back() != '/')
+      name_space_ += "/";
+  }
+
+  /// The topic that the tracker means by a name.
+  std::string operator()(const std::string& name) const {
+    return name[0] == '/' ? name : name_space_ + name;
+  }
+
+ private:
+  std::string name_space_;
+};
 
 /// The messages of a bag in the order in which a tracker gets them without delays: images by
 /// arrival time, then topic; every other message before all images recorded after it. Otherwise the

@@ -1,5 +1,6 @@
 // Positions at irregular times become positions at one rate.
-#include "measurements/sample_table.h"
+#include "ros/measurements/sample_table.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -9,23 +10,31 @@ namespace wiimote_tracker::measurements {
 namespace {
 
 using Eigen::Vector3d;
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
 
 constexpr std::int64_t kStart = 1700000000000000000;
 constexpr double kRate = 100.0;
 
-Measurement at(double seconds, const std::string& label, double x) {
-  Measurement m;
-  m.stamp = kStart + static_cast<std::int64_t>(1e9 * seconds);
-  m.label = label;
-  m.state = "tracked";
-  m.position = Vector3d(x, 2.0 * x, -x);
-  return m;
+TrackedPointArray at(double seconds, const std::string& label, double x) {
+  TrackedPointArray message;
+  message.header.stamp.fromNSec(
+      static_cast<std::uint64_t>(kStart + static_cast<std::int64_t>(1e9 * seconds)));
+  message.points.resize(1);
+  message.points[0].label = label;
+  message.points[0].state = TrackedPoint::TRACKED;
+  setVector(Vector3d(x, 2.0 * x, -x), &message.points[0].position);
+  return message;
+}
+
+void add(const TrackedPointArray& message, SampleTable* table, bool triggered = false) {
+  table->add({message, message.points[0], triggered});
 }
 
 TEST(SampleTable, InterpolatesBetweenNeighbours) {
   SampleTable table;
   for (const double t : {0.0, 0.003, 0.017, 0.029, 0.041})
-    table.add(at(t, "led", 10.0 * t));
+    add(at(t, "led", 10.0 * t), &table);
   const Samples samples = table.resample(kRate);
   EXPECT_EQ(samples.start, kStart);
   EXPECT_EQ(samples.frames, 5u);
@@ -39,8 +48,8 @@ TEST(SampleTable, InterpolatesBetweenNeighbours) {
 TEST(SampleTable, LongGapsAndTheEndsStayOpen) {
   SampleTable table;
   for (const double t : {0.0, 0.01, 0.10, 0.11, 0.14})
-    table.add(at(t, "gap", 1.0));
-  table.add(at(0.2, "late", 1.0));
+    add(at(t, "gap", 1.0), &table);
+  add(at(0.2, "late", 1.0), &table);
   const Samples samples = table.resample(kRate);
   ASSERT_EQ(samples.frames, 21u);
   for (std::size_t i = 0; i < samples.frames; ++i) {
@@ -53,7 +62,7 @@ TEST(SampleTable, LongGapsAndTheEndsStayOpen) {
 TEST(SampleTable, BridgesOneAndAHalfFramesOfALowRate) {
   SampleTable table;
   for (const double t : {0.0, 0.14, 0.30})
-    table.add(at(t, "led", 10.0 * t));
+    add(at(t, "led", 10.0 * t), &table);
   const Samples samples = table.resample(10.0);
   ASSERT_EQ(samples.frames, 4u);
   EXPECT_NEAR(samples.positions[0][1].x(), 1.0, 1e-6);
@@ -63,14 +72,12 @@ TEST(SampleTable, BridgesOneAndAHalfFramesOfALowRate) {
 
 TEST(SampleTable, TakesOnlyTrackedLedsAndSortsThem) {
   SampleTable table;
-  table.add(at(0.01, "led", 1.0));
-  table.add(at(0.0, "led", 0.0));  // time jumped back
-  Measurement predicted = at(0.5, "led", 9.0);
-  predicted.state = "predicted";
-  table.add(predicted);
-  Measurement triggered = at(0.6, "led", 9.0);
-  triggered.triggered = true;
-  table.add(triggered);
+  add(at(0.01, "led", 1.0), &table);
+  add(at(0.0, "led", 0.0), &table);  // time jumped back
+  TrackedPointArray predicted = at(0.5, "led", 9.0);
+  predicted.points[0].state = TrackedPoint::PREDICTED;
+  add(predicted, &table);
+  add(at(0.6, "led", 9.0), &table, true);
   const Samples samples = table.resample(kRate);
   ASSERT_EQ(samples.frames, 2u);
   EXPECT_EQ(samples.positions[0][1].x(), 1.0);

@@ -1,7 +1,8 @@
 // Tables of measurements: numbers survive bit for bit, files are complete or absent, errors are
 // reported. test_track_bag.py reads the MATLAB file with other programs.
-#include "measurements/writer.h"
+#include "ros/measurements/writer.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -23,6 +24,8 @@ namespace wiimote_tracker::measurements {
 namespace {
 
 namespace fs = std::filesystem;
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string contentOf(const fs::path& path) {
@@ -59,36 +62,39 @@ class WriterTest : public testing::Test {
   }
   ~WriterTest() override { fs::remove_all(folder_); }
 
-  static Measurement measurement() {
-    Measurement m;
-    m.stamp = 1700000000123456789;
-    m.id = 4294967295u;
-    m.label = "led";
-    m.label_confidence = 0.75;
-    m.label_since = 1700000000000000002;
-    m.state = "tracked";
-    m.position = {0.1, -2.0 / 3.0, 1e-300};
-    m.velocity.setConstant(kNaN);
-    m.position_covariance << 1e-6, 2e-7, 3e-7, 2e-7, 4e-6, 5e-7, 3e-7, 5e-7, 6e-6;
-    m.velocity_covariance.setConstant(kNaN);
-    m.rays_used = 3;
-    m.rays_possible = 4;
-    m.residual = 0.3;
-    m.last_observed = 1700000000003000001;
-    m.age = 12.5;
-    m.remapped = true;
-    m.frame = "world";
+  static TrackedPointArray measurement() {
+    TrackedPointArray m;
+    m.header.stamp.fromNSec(1700000000123456789);
+    m.header.frame_id = "world";
     m.rig_id = "0123456789abcdef";
     m.method = "track";
+    m.points.resize(1);
+    TrackedPoint& led = m.points[0];
+    led.id = 4294967295u;
+    led.label = "led";
+    led.label_confidence = 0.75f;
+    led.label_since.fromNSec(1700000000000000002);
+    led.state = TrackedPoint::TRACKED;
+    setVector({0.1, -2.0 / 3.0, 1e-300}, &led.position);
+    setVector(Eigen::Vector3d::Constant(kNaN), &led.velocity);
+    led.position_covariance = {1e-6, 2e-7, 3e-7, 2e-7, 4e-6, 5e-7, 3e-7, 5e-7, 6e-6};
+    led.velocity_covariance.fill(kNaN);
+    led.rays_used = 3;
+    led.rays_possible = 4;
+    led.residual = 0.3;
+    led.last_observed.fromNSec(1700000000003000001);
+    led.age = 12.5;
+    led.remapped = true;
     return m;
   }
 
   /// Cells of the rows, without the header.
-  std::vector<std::vector<std::string>> written(const std::vector<Measurement>& measurements) {
+  std::vector<std::vector<std::string>> written(
+      const std::vector<TrackedPointArray>& measurements) {
     const fs::path path = folder_ / "out.csv";
     const auto writer = makeCsvWriter(path.string());
-    for (const Measurement& m : measurements)
-      writer->add(m);
+    for (const TrackedPointArray& m : measurements)
+      writer->addAll(m, false);
     writer->finish();
     std::istringstream stream(contentOf(path));
     std::string line;
@@ -144,23 +150,25 @@ TEST_F(WriterTest, CsvHoldsEveryFieldUnderItsNameAndUnit) {
 
 TEST_F(WriterTest, CsvGivesNumbersBackBitForBit) {
   std::mt19937_64 random(3);
-  std::vector<Measurement> measurements;
+  std::vector<TrackedPointArray> measurements;
   while (measurements.size() < 500) {
-    Measurement m = measurement();
+    TrackedPointArray m = measurement();
+    Eigen::Vector3d position;
     for (int i = 0; i < 3; ++i) {
       const std::uint64_t bits = random();
-      std::memcpy(&m.position[i], &bits, sizeof bits);
+      std::memcpy(&position[i], &bits, sizeof bits);
     }
-    if (m.position.allFinite())
+    setVector(position, &m.points[0].position);
+    if (position.allFinite())
       measurements.push_back(m);
   }
-  measurements[0].position = {-0.0, std::numeric_limits<double>::denorm_min(),
-                              std::numeric_limits<double>::max()};
+  setVector({-0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::max()},
+            &measurements[0].points[0].position);
   const auto rows = written(measurements);
   ASSERT_EQ(measurements.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      EXPECT_TRUE(isSame(measurements[i].position[axis],
+      EXPECT_TRUE(isSame(vectorOf(measurements[i].points[0].position)[axis],
                          std::strtod(rows[i][static_cast<std::size_t>(7 + axis)].c_str(), nullptr)))
           << rows[i][static_cast<std::size_t>(7 + axis)];
   }
@@ -192,23 +200,23 @@ TEST_F(WriterTest, CsvIgnoresLocales) {
 }
 
 TEST_F(WriterTest, CsvQuotesWordsWithCommas) {
-  Measurement m = measurement();
-  m.label = "left, \"upper\"";
-  EXPECT_EQ(m.label, written({m}).at(0).at(3));
+  TrackedPointArray m = measurement();
+  m.points[0].label = "left, \"upper\"";
+  EXPECT_EQ(m.points[0].label, written({m}).at(0).at(3));
 }
 
 TEST_F(WriterTest, CsvSaysNanOfALabelThatWasNotIdentified) {
-  Measurement m = measurement();
-  m.label_confidence = kNaN;
-  m.label_since = 0;
+  TrackedPointArray m = measurement();
+  m.points[0].label_confidence = std::numeric_limits<float>::quiet_NaN();
+  m.points[0].label_since = ros::Time();
   const auto row = written({m}).at(0);
   EXPECT_EQ("nan", row.at(4));
   EXPECT_EQ("nan", row.at(5));
 }
 
 TEST_F(WriterTest, NeverSaysMinusNan) {
-  Measurement m = measurement();
-  m.residual = -kNaN;
+  TrackedPointArray m = measurement();
+  m.points[0].residual = -kNaN;
   EXPECT_EQ("nan", written({m}).at(0).at(27));
 }
 
@@ -216,7 +224,7 @@ TEST_F(WriterTest, TheFileGetsItsNameWhenComplete) {
   const fs::path path = folder_ / "new folder" / "out.csv";
   {
     const auto writer = makeCsvWriter(path.string());
-    writer->add(measurement());
+    writer->addAll(measurement(), false);
     writer->flush();
     EXPECT_FALSE(fs::exists(path));
     EXPECT_NE(std::string::npos, contentOf(path.string() + ".part").find("4294967295"))
@@ -258,7 +266,7 @@ TEST_F(WriterTest, AdvisesWhenItCannotWrite) {
     fs::create_symlink("/dev/full", folder_ / "full.csv.part");
     try {
       const auto writer = makeCsvWriter((folder_ / "full.csv").string());
-      writer->add(measurement());
+      writer->addAll(measurement(), false);
       writer->finish();
       ADD_FAILURE();
     } catch (const Error& e) {
@@ -274,7 +282,7 @@ TEST_F(WriterTest, EqualMeasurementsGiveEqualMatlabFiles) {
   for (const char* name : {"a.mat", "b.mat"}) {
     const auto writer = makeMatlabWriter((folder_ / name).string());
     for (int i = 0; i < 100; ++i)
-      writer->add(measurement());
+      writer->addAll(measurement(), false);
     writer->finish();
   }
   const std::string content = contentOf(folder_ / "a.mat");

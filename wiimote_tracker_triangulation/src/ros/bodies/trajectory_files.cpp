@@ -1,6 +1,6 @@
 #include "trajectory_files.h"
 
-#include <wiimote_tracker_msgs/text.h>
+#include "ros/measurements/writer.h"
 
 #include <locale>
 #include <sstream>
@@ -18,7 +18,7 @@ void TrajectoryFiles::add(const wiimote_tracker_msgs::TrackedBodyArray& bodies) 
     std::ostringstream line;
     line.imbue(std::locale::classic());
     line.precision(9);
-    line << format("%u.%09u", bodies.header.stamp.sec, bodies.header.stamp.nsec);
+    line << measurements::secondsOf(bodies.header.stamp);
     const geometry_msgs::Point& p = body.pose.pose.position;
     const geometry_msgs::Quaternion& q = body.pose.pose.orientation;
     for (const double value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})

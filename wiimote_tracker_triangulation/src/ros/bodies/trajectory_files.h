@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
 
-#include "measurements/part_file.h"
+#include "ros/measurements/part_file.h"
 
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 

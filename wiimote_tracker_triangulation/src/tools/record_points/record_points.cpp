@@ -1,8 +1,7 @@
 // Writes the tracker's points to tables while it runs.
 
-#include "measurements/writer.h"
 #include "ros/bodies/trajectory_files.h"
-#include "ros/measurement_message.h"
+#include "ros/measurements/writer.h"
 
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
@@ -70,7 +69,7 @@ class Recorder {
         [this, triggered](const auto& points) {
           ++messages_;
           for (const std::unique_ptr<measurements::Writer>& table : tables_)
-            writeMeasurements(*points, triggered, table.get());
+            table->addAll(*points, triggered);
         },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   }

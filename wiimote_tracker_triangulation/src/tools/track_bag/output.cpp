@@ -1,8 +1,7 @@
 #include "output.h"
 
-#include "measurements/part_file.h"
 #include "ros/bodies/body_message.h"
-#include "ros/measurement_message.h"
+#include "ros/measurements/part_file.h"
 #include "ros/point_message.h"
 
 #include <tf2_msgs/TFMessage.h>
@@ -182,7 +181,7 @@ void Output::write(const std::string& topic,
 
 void Output::writeTables(const TrackedPointArray& points, bool triggered) {
   for (const std::unique_ptr<measurements::Writer>& table : tables_)
-    writeMeasurements(points, triggered, table.get());
+    table->addAll(points, triggered);
 }
 
 void Output::fail(const std::string& reason) {

@@ -1,9 +1,9 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
 
-#include "measurements/writer.h"
 #include "recording.h"
 #include "ros/bodies/trajectory_files.h"
+#include "ros/measurements/writer.h"
 #include "ros/message_tracker.h"
 #include "smoothed_tracks.h"
 

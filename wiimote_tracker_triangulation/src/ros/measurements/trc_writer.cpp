@@ -1,6 +1,6 @@
-#include "measurements/part_file.h"
-#include "measurements/sample_table.h"
-#include "measurements/writer.h"
+#include "ros/measurements/part_file.h"
+#include "ros/measurements/sample_table.h"
+#include "ros/measurements/writer.h"
 
 #include <cstddef>
 #include <filesystem>

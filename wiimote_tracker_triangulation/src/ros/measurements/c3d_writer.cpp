@@ -1,8 +1,8 @@
 // The layout follows the C3D File Format User Guide: a header block, blocks of parameters, and
 // blocks of points, each of 512 bytes; numbers of 16 and 32 bits, least byte first.
-#include "measurements/part_file.h"
-#include "measurements/sample_table.h"
-#include "measurements/writer.h"
+#include "ros/measurements/part_file.h"
+#include "ros/measurements/sample_table.h"
+#include "ros/measurements/writer.h"
 
 #include <algorithm>
 #include <cstring>

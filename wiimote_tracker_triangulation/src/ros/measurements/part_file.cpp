@@ -1,4 +1,4 @@
-#include "measurements/part_file.h"
+#include "ros/measurements/part_file.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 

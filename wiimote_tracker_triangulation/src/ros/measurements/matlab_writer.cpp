@@ -1,5 +1,6 @@
-#include "measurements/part_file.h"
-#include "measurements/writer.h"
+#include "ros/measurements/part_file.h"
+#include "ros/measurements/writer.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <matio.h>
 
@@ -10,10 +11,14 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::measurements {
 namespace {
+
+using wiimote_tracker_msgs::TrackedPoint;
+using wiimote_tracker_msgs::TrackedPointArray;
 
 const char* const kReadme =
     "One row per LED and time. time [s since 1970]; stamp, the same exactly [ns since 1970]; "
@@ -88,28 +93,44 @@ class MatlabWriter : public Writer {
  public:
   explicit MatlabWriter(const std::string& path) : path_(path) {
     createPart(path_);
-    addColumn<double>("time",
-                      [](const Measurement& m) { return 1e-9 * static_cast<double>(m.stamp); });
-    addColumn<std::int64_t>("stamp", &Measurement::stamp);
-    addColumn<std::uint8_t>("triggered", &Measurement::triggered, MAT_F_LOGICAL);
-    addColumn<std::uint32_t>("id", &Measurement::id);
-    addWords("label", &Measurement::label);
-    addColumn<double>("label_confidence", &Measurement::label_confidence);
-    addColumn<std::int64_t>("label_since", &Measurement::label_since);
-    addWords("state", &Measurement::state);
-    addMatrices("position", &Measurement::position);
-    addMatrices("velocity", &Measurement::velocity);
-    addMatrices("position_covariance", &Measurement::position_covariance);
-    addMatrices("velocity_covariance", &Measurement::velocity_covariance);
-    addColumn<std::uint32_t>("rays_used", &Measurement::rays_used);
-    addColumn<std::uint32_t>("rays_possible", &Measurement::rays_possible);
-    addColumn<double>("residual", &Measurement::residual);
-    addColumn<std::int64_t>("last_observed", &Measurement::last_observed);
-    addColumn<double>("age", &Measurement::age);
-    addColumn<std::uint8_t>("remapped", &Measurement::remapped, MAT_F_LOGICAL);
-    addWords("frame", &Measurement::frame);
-    addWords("rig_id", &Measurement::rig_id);
-    addWords("method", &Measurement::method);
+    const auto stamp = [](const Measurement& m) { return nanosecondsOf(m.message.header.stamp); };
+    const auto led = [](auto field) {
+      return [=](const Measurement& m) -> const auto& {
+        return m.led.*field;
+      };
+    };
+    const auto message = [](auto field) {
+      return [=](const Measurement& m) -> const auto& {
+        return m.message.*field;
+      };
+    };
+    addColumn<double>("time", [=](auto& m) { return 1e-9 * static_cast<double>(stamp(m)); });
+    addColumn<std::int64_t>("stamp", stamp);
+    addColumn<std::uint8_t>(
+        "triggered", [](auto& m) { return m.triggered; }, MAT_F_LOGICAL);
+    addColumn<std::uint32_t>("id", led(&TrackedPoint::id));
+    addWords("label", led(&TrackedPoint::label));
+    addColumn<double>("label_confidence", led(&TrackedPoint::label_confidence));
+    addColumn<std::int64_t>("label_since",
+                            [](auto& m) { return nanosecondsOf(m.led.label_since); });
+    addWords("state", [](auto& m) { return wordOf(m.led.state); });
+    addMatrices("position", [](auto& m) { return vectorOf(m.led.position); });
+    addMatrices("velocity", [](auto& m) { return vectorOf(m.led.velocity); });
+    addMatrices("position_covariance",
+                [](auto& m) { return matrixOf<3>(m.led.position_covariance); });
+    addMatrices("velocity_covariance",
+                [](auto& m) { return matrixOf<3>(m.led.velocity_covariance); });
+    addColumn<std::uint32_t>("rays_used", led(&TrackedPoint::rays_used));
+    addColumn<std::uint32_t>("rays_possible", led(&TrackedPoint::rays_possible));
+    addColumn<double>("residual", led(&TrackedPoint::residual));
+    addColumn<std::int64_t>("last_observed",
+                            [](auto& m) { return nanosecondsOf(m.led.last_observed); });
+    addColumn<double>("age", led(&TrackedPoint::age));
+    addColumn<std::uint8_t>(
+        "remapped", [](auto& m) { return m.led.remapped != 0; }, MAT_F_LOGICAL);
+    addWords("frame", [](auto& m) { return m.message.header.frame_id; });
+    addWords("rig_id", message(&TrackedPointArray::rig_id));
+    addWords("method", message(&TrackedPointArray::method));
   }
 
   void add(const Measurement& measurement) override {
@@ -143,15 +164,16 @@ class MatlabWriter : public Writer {
   template <typename T, typename Field>
   void addColumn(const char* name, Field field, int flags = 0) {
     const auto values = std::make_shared<std::vector<T>>();
-    columns_.push_back({[=](const Measurement& m) { values->push_back(std::invoke(field, m)); },
+    columns_.push_back({[=](const Measurement& m) { values->push_back(static_cast<T>(field(m))); },
                         [=] {
                           writeArray(name, {values->size(), 1}, *values, flags);
                         }});
   }
 
-  void addWords(const std::string& name, std::string Measurement::*field) {
+  template <typename Field>
+  void addWords(const std::string& name, Field field) {
     const auto words = std::make_shared<Words>();
-    columns_.push_back({[=](const Measurement& m) { words->add(m.*field); },
+    columns_.push_back({[=](const Measurement& m) { words->add(field(m)); },
                         [=] {
                           const auto& rows = words->rows();
                           writeArray(name.c_str(), {rows.size(), 1}, rows, 0);
@@ -160,11 +182,13 @@ class MatlabWriter : public Writer {
   }
 
   /// Vectors: rows x 3; matrices: 3 x 3 x rows.
-  template <typename Matrix>
-  void addMatrices(const char* name, Matrix Measurement::*field) {
+  template <typename Field>
+  void addMatrices(const char* name, Field field) {
+    using Matrix = decltype(field(std::declval<const Measurement&>()));
     const auto values = std::make_shared<std::vector<double>>();
     const auto add = [=](const Measurement& m) {
-      values->insert(values->end(), (m.*field).data(), (m.*field).data() + (m.*field).size());
+      const Matrix matrix = field(m);
+      values->insert(values->end(), matrix.data(), matrix.data() + matrix.size());
     };
     const auto write = [=] {
       const std::size_t rows = values->size() / Matrix::SizeAtCompileTime;

@@ -1,5 +1,5 @@
 // Replaces matlab_writer.cpp where matio is not installed.
-#include "measurements/writer.h"
+#include "ros/measurements/writer.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 namespace wiimote_tracker::measurements {

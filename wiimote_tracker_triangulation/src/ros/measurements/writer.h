@@ -1,39 +1,41 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_WRITER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_WRITER_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
 
-#include <Eigen/Core>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <cstdint>
-#include <limits>
+#include <cstdlib>
+#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::measurements {
 
-/// One row of a table: an LED at a time; fields as in TrackedPoint.msg.
+/// One row of a table: an LED of a message.
 struct Measurement {
-  std::int64_t stamp = 0;  ///< [ns since 1970]
-  bool triggered = false;  ///< Interpolated for a trigger, see events::Trigger.
-  std::uint32_t id = 0;
-  std::string label;
-  double label_confidence = std::numeric_limits<double>::quiet_NaN();  ///< NaN: not estimated.
-  std::int64_t label_since = 0;                        ///< [ns since 1970]; 0: not estimated.
-  std::string state;                                   ///< "tracked", ...
-  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-  Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< [m^2]
-  Eigen::Vector3d velocity = Eigen::Vector3d::Zero();             ///< [m/s]; NaN: unknown.
-  Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; NaN: unknown.
-  std::uint32_t rays_used = 0;
-  std::uint32_t rays_possible = 0;
-  double residual = 0.0;           ///< [px]; NaN: no ray was used.
-  std::int64_t last_observed = 0;  ///< [ns since 1970]
-  double age = 0.0;                ///< [s]
-  bool remapped = false;
-  std::string frame;  ///< World frame.
-  std::string rig_id;
-  std::string method;
+  const wiimote_tracker_msgs::TrackedPointArray& message;
+  const wiimote_tracker_msgs::TrackedPoint& led;
+  bool triggered;  ///< The message answers a trigger.
 };
+
+/// "tracked", ...
+inline std::string wordOf(std::uint8_t state) {
+  static const char* const kWords[] = {"tentative", "tracked", "predicted", "lost"};
+  return state < std::size(kWords) ? kWords[state]
+                                   : std::to_string(state);  // of a later version of the message
+}
+
+inline std::int64_t nanosecondsOf(const ros::Time& time) {
+  return static_cast<std::int64_t>(time.toNSec());
+}
+
+/// [s since 1970], exactly.
+inline std::string secondsOf(const ros::Time& time) {
+  const std::lldiv_t t = std::lldiv(nanosecondsOf(time), 1000000000);
+  return format("%lld.%09lld", t.quot, t.rem);
+}
 
 /// A file of measurements. It gets its name in finish(), when it is complete; an existing file is
 /// kept as path + ".bak". Equal measurements give equal files.
@@ -43,6 +45,12 @@ class Writer {
 
   /// @throws Error.
   virtual void add(const Measurement& measurement) = 0;
+
+  /// Adds each LED of a message. @throws Error.
+  void addAll(const wiimote_tracker_msgs::TrackedPointArray& message, bool triggered) {
+    for (const wiimote_tracker_msgs::TrackedPoint& led : message.points)
+      add({message, led, triggered});
+  }
 
   /// Writes what was added to disk, if the format allows. @throws Error.
   virtual void flush() {}
@@ -69,7 +77,7 @@ std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate);
 /// Whether this program was built with matio.
 bool hasMatlab();
 
-/// A compressed MAT-file of version 5: one variable per field of Measurement, with one row per
+/// A compressed MAT-file of version 5: one variable per field of TrackedPoint, with one row per
 /// measurement; the variable `readme` describes them. Strings are 1-based line numbers of tables
 /// (`label` of `labels`, ...). Data stay in memory until finish(), 0.3 kB per measurement.
 /// @throws Error: the file cannot be created, or the program was built without matio.
@@ -100,4 +108,4 @@ inline std::vector<std::unique_ptr<Writer>> makeWriters(const TableFiles& files)
 
 }  // namespace wiimote_tracker::measurements
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MEASUREMENTS_WRITER_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H

@@ -1,10 +1,8 @@
-#include "measurements/part_file.h"
-#include "measurements/writer.h"
-
-#include <wiimote_tracker_msgs/text.h>
+#include "ros/measurements/part_file.h"
+#include "ros/measurements/writer.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <cmath>
-#include <cstdlib>
 #include <locale>
 #include <sstream>
 
@@ -18,12 +16,6 @@ const char* const kHeader =
     "vcov_xx [m^2/s^2],vcov_xy [m^2/s^2],vcov_xz [m^2/s^2],vcov_yy [m^2/s^2],vcov_yz [m^2/s^2],"
     "vcov_zz [m^2/s^2],rays_used,rays_possible,residual [px],last_observed [s],age [s],remapped,"
     "frame,rig_id,method\n";
-
-/// [s], exactly.
-std::string secondsOf(std::int64_t nanoseconds) {
-  const std::lldiv_t t = std::lldiv(nanoseconds, 1000000000);
-  return format("%lld.%09lld", t.quot, t.rem);
-}
 
 /// Rows as text; decimal points in any locale.
 class Rows {
@@ -80,11 +72,14 @@ class CsvWriter : public Writer {
   explicit CsvWriter(const std::string& path) : file_(path) { file_.write(kHeader); }
 
   void add(const Measurement& m) override {
-    file_.write(rows_.of(secondsOf(m.stamp), m.triggered, m.id, m.label, m.label_confidence,
-                         m.label_since == 0 ? "nan" : secondsOf(m.label_since), m.state, m.position,
-                         m.velocity, m.position_covariance, m.velocity_covariance, m.rays_used,
-                         m.rays_possible, m.residual, secondsOf(m.last_observed), m.age, m.remapped,
-                         m.frame, m.rig_id, m.method));
+    const wiimote_tracker_msgs::TrackedPoint& led = m.led;
+    file_.write(rows_.of(
+        secondsOf(m.message.header.stamp), m.triggered, led.id, led.label, led.label_confidence,
+        led.label_since.isZero() ? "nan" : secondsOf(led.label_since), wordOf(led.state),
+        vectorOf(led.position), vectorOf(led.velocity), matrixOf<3>(led.position_covariance),
+        matrixOf<3>(led.velocity_covariance), led.rays_used, led.rays_possible, led.residual,
+        secondsOf(led.last_observed), led.age, led.remapped != 0, m.message.header.frame_id,
+        m.message.rig_id, m.message.method));
   }
 
   void flush() override { file_.flush(); }

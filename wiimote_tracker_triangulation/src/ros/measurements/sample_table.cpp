@@ -1,4 +1,6 @@
-#include "measurements/sample_table.h"
+#include "ros/measurements/sample_table.h"
+
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +19,10 @@ double seconds(std::int64_t nanoseconds) {
 
 }  // namespace
 
-void SampleTable::add(const Measurement& measurement) {
-  if (measurement.state == "tracked" && !measurement.triggered)
-    samples_[measurement.label].push_back({measurement.stamp, measurement.position});
+void SampleTable::add(const Measurement& m) {
+  if (m.led.state == wiimote_tracker_msgs::TrackedPoint::TRACKED && !m.triggered)
+    samples_[m.led.label].push_back(
+        {nanosecondsOf(m.message.header.stamp), vectorOf(m.led.position)});
 }
 
 Samples SampleTable::resample(double rate) const {

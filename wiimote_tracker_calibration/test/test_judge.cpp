@@ -9,13 +9,19 @@
 namespace wiimote_tracker::session {
 namespace {
 
+Verdict judged(const Session& session, const geometry::Rig& rig) {
+  wave::WaveSolution found;
+  found.rig = rig;
+  return judge(session, found);
+}
+
 /// Of the paper's rig and square, where the positions of the cameras have this error [m].
 Verdict verdictWith(double position_stddev) {
   Session session;
   session.recording.square = square::paperSquare();
   RigErrors errors = wellCalibrated();
   errors.position = position_stddev;
-  return judge(session, paperRigWith(errors), {});
+  return judged(session, paperRigWith(errors));
 }
 
 TEST(Judge, GradesByTheErrorOfPoints) {
@@ -36,11 +42,11 @@ TEST(Judge, AdvisesWhatWasNotDoneYet) {
   session.recording.square = square::paperSquare();
   RigErrors errors = wellCalibrated();
   errors.position = 0.025;
-  EXPECT_SAYS(judge(session, paperRigWith(errors), {}).text,
+  EXPECT_SAYS(judged(session, paperRigWith(errors)).text,
               "wave an LED or a wand through the volume, or use a larger square");
   session.recording.cameras.resize(1);
   session.recording.cameras[0].frames.push_back({0.0, {}});
-  EXPECT_SAYS(judge(session, paperRigWith(errors), {}).text,
+  EXPECT_SAYS(judged(session, paperRigWith(errors)).text,
               "wave longer, through the whole volume, or use a larger square");
 }
 
@@ -50,28 +56,27 @@ TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
   geometry::Rig rig = paperRigWith(wellCalibrated());
   for (geometry::RigCamera& camera : rig.cameras)
     camera.observations = camera.inliers = 200;
-  EXPECT_EQ(judge(session, rig, {}).grade, Grade::kGood);
+  EXPECT_EQ(judged(session, rig).grade, Grade::kGood);
   rig.cameras[1].inliers = 140;
-  const Verdict verdict = judge(session, rig, {});
+  const Verdict verdict = judged(session, rig);
   EXPECT_EQ(verdict.grade, Grade::kUsable);
   EXPECT_SAYS(verdict.text, "usable: 30 % of what camera_2 saw was not the LED");
 }
 
 TEST(Judge, AWaveIsJudgedByItsDistanceFromTheCameras) {
   // Without a square the first camera is the world's origin; the other one stands beside it.
-  geometry::Rig rig;
+  wave::WaveSolution found;
   for (const double x : {0.0, 0.5}) {
-    geometry::RigCamera& camera = rig.cameras.emplace_back();
+    geometry::RigCamera& camera = found.rig.cameras.emplace_back();
     camera.camera.world_from_camera.translation().x() = x;
   }
-  Findings findings;
-  findings.shape_error = 0.012;
-  findings.led = {{0.0, 0.0, 3.5}, {0.5, 0.0, 4.5}};
-  EXPECT_EQ(judge({}, rig, findings).grade, Grade::kGood);
-  findings.shape_error = 0.024;
-  EXPECT_EQ(judge({}, rig, findings).grade, Grade::kUsable);
-  findings.shape_error = 0.1;
-  EXPECT_EQ(judge({}, rig, findings).grade, Grade::kRedo);
+  found.expected_shape_error = 0.012;
+  found.path = {{0.0, 0.0, 3.5}, {0.5, 0.0, 4.5}};
+  EXPECT_EQ(judge({}, found).grade, Grade::kGood);
+  found.expected_shape_error = 0.024;
+  EXPECT_EQ(judge({}, found).grade, Grade::kUsable);
+  found.expected_shape_error = 0.1;
+  EXPECT_EQ(judge({}, found).grade, Grade::kRedo);
 }
 
 }  // namespace

@@ -62,8 +62,7 @@ class Diagnosis {
     const auto attempt = solve(corners, options_.square.uncertainty);
     if (!attempt)
       return "";
-    const square::Corners led = recording_.square->corners(attempt->z_up);
-    return scaleQuestion(recording_, attempt->rig, {led.begin(), led.end()});
+    return scaleQuestion(recording_, attempt->rig, attempt->path);
   }
 
   /// Solves hypotheses. @returns whether one of all so far explains the data well.
@@ -94,18 +93,10 @@ class Diagnosis {
     if (progress_ && !progress_({"looking for the mistake", 1.0}))
       throw wave::Cancelled();
     try {
-      if (recording.hasFrames()) {
-        wave::WaveOptions options = options_.wave;
-        options.uncertainty = uncertainty;
-        return wave::solveWave(recording, options);
-      }
-      square::SolveOptions options = options_.square;
-      options.method = square::Method::kJoint;
-      options.uncertainty = uncertainty;
-      Attempt attempt;
-      static_cast<square::Solution&>(attempt) =
-          square::solveSquare(*recording.square, recording.sightings(), options);
-      return attempt;
+      SolveOptions options = options_;
+      options.square.method = square::Method::kJoint;
+      options.square.uncertainty = uncertainty;
+      return solveRecording(recording, options);
     } catch (const geometry::Error&) {
       return std::nullopt;
     }

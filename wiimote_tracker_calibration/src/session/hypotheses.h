@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker::session {
 
-/// The solution of a recording; without a wave only what square::Solution has is set.
+/// The solution of a recording, by solveRecording().
 using Attempt = wave::WaveSolution;
 
 /// A mistake that may have been made: the recording without it, or with the quantity free.

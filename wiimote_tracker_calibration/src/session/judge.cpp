@@ -1,5 +1,6 @@
 #include "judge.h"
 
+#include "next_measurement.h"
 #include "square/expected_error.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -105,23 +106,21 @@ struct Accuracy {
 };
 
 Accuracy accuracyOf(const Session& session,
-                    const geometry::Rig& rig,
-                    const Findings& findings,
+                    const wave::WaveSolution& found,
                     const Verdict& verdict) {
+  const geometry::Rig& rig = found.rig;
   Accuracy accuracy;
   if (!session.recording.square) {
-    if (findings.shape_error) {
-      Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-      for (const Eigen::Vector3d& place : findings.led)
-        middle += place / static_cast<double>(findings.led.size());
-      accuracy.share = *findings.shape_error / meanDistance(rig, middle);
-      accuracy.text = "points are known to " + millimetres(*findings.shape_error) +
-                      " to one another (RMS where the LED was waved)";
-    }
+    Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+    for (const Eigen::Vector3d& place : found.path)
+      middle += place / static_cast<double>(found.path.size());
+    accuracy.share = found.expected_shape_error / meanDistance(rig, middle);
+    accuracy.text = "points are known to " + millimetres(found.expected_shape_error) +
+                    " to one another (RMS where the LED was waved)";
     return accuracy;
   }
   if (rig.ray_model == geometry::RayModel::kImageCenter) {
-    const double error = cornerError(session, rig, findings.z_up);
+    const double error = cornerError(session, rig, found.z_up);
     accuracy.share = error / meanDistance(rig, verdict.predicted_at[0]);
     accuracy.text = "the corners are measured " + millimetres(error) +
                     " beside their places (RMS), and points elsewhere farther off, because the "
@@ -155,12 +154,11 @@ std::string improvement(const wave::Recording& recording) {
 
 /// Why the rig is not good, or empty.
 std::vector<std::string> shortcomings(const Session& session,
-                                      const geometry::Rig& rig,
                                       const Accuracy& accuracy,
-                                      const Findings& findings,
+                                      const wave::WaveSolution& found,
                                       const Verdict& verdict) {
   std::vector<std::string> reasons;
-  const std::string question = scaleQuestion(session.recording, rig, findings.led);
+  const std::string question = scaleQuestion(session.recording, found.rig, found.path);
   if (!question.empty())
     reasons.push_back(question);
   if (!(accuracy.share <= kGoodShare))
@@ -174,7 +172,8 @@ std::vector<std::string> shortcomings(const Session& session,
           format("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " + camera.name +
           " saw was not the LED: cover lamps and reflections, and see whether its clock jumped");
   }
-  if (findings.doubts)
+  // The warning that z points down does not concern the quality.
+  if (found.warnings.size() > (found.z_up ? 0U : 1U))
     reasons.emplace_back("read the warnings");
   return reasons;
 }
@@ -221,13 +220,14 @@ Verdict verdictOf(const geometry::Rig& rig) {
 
 namespace {
 
-/// Fills predicted_at and what follows. @param rig with the square's world.
+/// Fills predicted_at and what follows.
 void predict(const square::SquareLayout& layout,
-             const geometry::Rig& rig,
-             const Findings& findings,
+             const wave::WaveSolution& found,
+             double pixel,
              Verdict* verdict) {
-  const square::Corners corners = layout.corners(findings.z_up);
-  const Eigen::Vector3d above(0.0, 0.0, findings.z_up ? kAbove : -kAbove);
+  const geometry::Rig& rig = found.rig;
+  const square::Corners corners = layout.corners(found.z_up);
+  const Eigen::Vector3d above(0.0, 0.0, found.z_up ? kAbove : -kAbove);
   verdict->predicted_at.assign(corners.begin(), corners.end());
   for (const Eigen::Vector3d& corner : corners)
     verdict->predicted_at.push_back(corner + above);
@@ -237,23 +237,23 @@ void predict(const square::SquareLayout& layout,
   for (std::size_t i = 0; i < verdict->predicted_at.size(); ++i)
     verdict->predicted_stddev[i] = square::expectedError(rig, {verdict->predicted_at[i]});
   verdict->expected_error = square::expectedError(rig, verdict->predicted_at);
-  if (findings.joint.covariance.size() > 0)  // else the corners were taken as exact
-    verdict->next =
-        nextMeasurement(rig, layout, findings.z_up, verdict->predicted_at, findings.joint);
+  if (found.joint_covariance.size() > 0)  // else the corners were taken as exact
+    verdict->next = nextMeasurement(rig, layout, found.z_up, verdict->predicted_at,
+                                    {found.joint_covariance, pixel});
 }
 
 }  // namespace
 
-Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& findings) {
-  Verdict verdict = verdictOf(rig);
+Verdict judge(const Session& session, const wave::WaveSolution& found, double pixel) {
+  Verdict verdict = verdictOf(found.rig);
   if (session.recording.square)
-    predict(*session.recording.square, rig, findings, &verdict);
-  const Accuracy accuracy = accuracyOf(session, rig, findings, verdict);
-  const std::vector<std::string> reasons = shortcomings(session, rig, accuracy, findings, verdict);
-  if (findings.suspect && square::isDisplaced(*findings.suspect)) {
+    predict(*session.recording.square, found, pixel, &verdict);
+  const Accuracy accuracy = accuracyOf(session, found, verdict);
+  const std::vector<std::string> reasons = shortcomings(session, accuracy, found, verdict);
+  if (found.suspect && square::isDisplaced(*found.suspect)) {
     verdict.grade = Grade::kRedo;
-    verdict.redo_corner = findings.suspect->corner;
-    verdict.text = redoCorner(*findings.suspect);
+    verdict.redo_corner = found.suspect->corner;
+    verdict.text = redoCorner(*found.suspect);
   } else if (accuracy.share > kUsableShare) {
     verdict.grade = Grade::kRedo;
     verdict.text =
@@ -269,7 +269,7 @@ Verdict judge(const Session& session, const geometry::Rig& rig, const Findings& 
   }
   if (!accuracy.text.empty())
     verdict.text += "; " + accuracy.text;
-  verdict.text += "; " + rig.verdict;
+  verdict.text += "; " + found.rig.verdict;
   return verdict;
 }
 

@@ -36,6 +36,13 @@ struct Solution {
   std::optional<principal_point::Trace> trace;  ///< Of the correction, if it was done.
 };
 
+/// Solves the wave of a recording, or without one its square, of which only what square::Solution
+/// has is set, and the corners as the path.
+/// @throws Error as these solvers do.
+wave::WaveSolution solveRecording(const wave::Recording& recording,
+                                  const SolveOptions& options,
+                                  const wave::ProgressCallback& progress = nullptr);
+
 /// Solves a session with wave::solveWave() if it has a wave or a wand, else from its square with
 /// the method of the options. The same session and options give the same solution, bit for bit.
 /// @throws Error as these solvers do, or: neither square nor wave. wave::Cancelled: `progress`

@@ -1,5 +1,6 @@
 #include "intrinsics/view_collector.h"
 
+#include "intrinsics/board_sequence.h"
 #include "view_geometry.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -11,6 +12,7 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
+constexpr double kPeriod = 0.25;          // between two readings [s]
 constexpr double kLeastDifference = 0.2;  // between views: sum over x, y, size, skew [0 to 4]
 
 double unit(double value) {
@@ -29,6 +31,29 @@ ViewCollector::ViewCollector(const Board& board, int width, int height, int mini
   board.check();
   if (width < 1 || height < 1)
     throw Error("the image size must be above 0 px: check the camera's driver");
+}
+
+bool ViewCollector::addImage(double time, const std::vector<Eigen::Vector2d>& spots) {
+  decoder_.add(time, spots);
+  const bool set_back = time < next_reading_ - sequence::kCycle - kPeriod;
+  if (time < next_reading_ && !set_back)
+    return false;
+  next_reading_ = time + kPeriod;
+  const BoardReading reading = decoder_.read();
+  message_ = reading.message;
+  if (!reading.view)
+    return true;
+  const std::string refusal = add(*reading.view);
+  if (!refusal.empty()) {
+    message_ = refusal;
+    return true;
+  }
+  message_ = "view " + std::to_string(samples_.views.size()) + " is kept (" + reading.message +
+             "): hold the board still somewhere else";
+  // Keep this message: the next view takes a whole cycle.
+  decoder_.clear();
+  next_reading_ = time + sequence::kCycle;
+  return true;
 }
 
 std::string ViewCollector::add(const BoardView& view) {
@@ -58,6 +83,7 @@ void ViewCollector::undo() {
     samples_.views.pop_back();
     parameters_.pop_back();
   }
+  message_ = std::to_string(samples_.views.size()) + " views are left";
 }
 
 Coverage ViewCollector::coverage() const {

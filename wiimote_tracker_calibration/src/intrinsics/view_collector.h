@@ -1,10 +1,11 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H
 #define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H
 
-#include "wiimote_tracker_calibration/intrinsics/board.h"
+#include "intrinsics/board_decoder.h"
 
 #include <Eigen/Core>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -23,11 +24,18 @@ struct Coverage {
   bool enough() const { return missing.empty(); }
 };
 
-/// Keeps those views of the board that differ from all kept before.
+/// Collects views of the board from one camera's images: those in which it was held still, and that
+/// differ from all kept before.
 class ViewCollector {
  public:
   /// @param minimum_views that are enough [> 0]. @throws Error: board or image size out of range.
   ViewCollector(const Board& board, int width, int height, int minimum_views);
+
+  /// One image, as BoardDecoder::add. @returns whether message() or the views changed.
+  bool addImage(double time, const std::vector<Eigen::Vector2d>& spots);
+
+  /// What the camera sees, or whether the latest view was kept; one sentence.
+  const std::string& message() const { return message_; }
 
   /// Keeps the view, or says why not.
   /// @returns empty when it was kept, else one sentence.
@@ -42,6 +50,9 @@ class ViewCollector {
  private:
   using Parameters = Eigen::Array4d;  // x, y, size, skew [0 to 1]
 
+  BoardDecoder decoder_;
+  std::string message_ = "hold the board still in front of the camera";
+  double next_reading_ = -std::numeric_limits<double>::infinity();  // [s]
   Samples samples_;
   int minimum_views_;
   std::vector<Parameters> parameters_;  // of samples_.views

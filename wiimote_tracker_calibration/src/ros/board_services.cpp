@@ -1,6 +1,6 @@
 #include "units.h"
 
-#include "intrinsics/board_run.h"
+#include "intrinsics/view_collector.h"
 #include "rig_storage.h"
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
@@ -86,8 +86,8 @@ class BoardServices {
       board.column_spacing = board.row_spacing = request.column_spacing;
     if (request.row_spacing != 0.0)
       board.row_spacing = request.row_spacing;
-    run_ = intrinsics::BoardRun(board, input->second.width, input->second.height,
-                                parameters.board_views);
+    run_ = intrinsics::ViewCollector(board, input->second.width, input->second.height,
+                                     parameters.board_views);
     camera_ = request.camera;
     dropLens();
     const std::string message =
@@ -158,7 +158,7 @@ class BoardServices {
   }
 
   /// @throws Refusal: nothing was started.
-  intrinsics::BoardRun& run() {
+  intrinsics::ViewCollector& run() {
     if (!run_)
       throw Refusal(kNothingStarted);
     return *run_;
@@ -171,7 +171,7 @@ class BoardServices {
   }
 
   void onImage(const capture::Image& image, const Lock& lock) {
-    if (run_ && image.camera == camera_ && run_->add(image.stamp, image.spots))
+    if (run_ && image.camera == camera_ && run_->addImage(image.stamp, image.spots))
       publish(run_->message(), lock);
   }
 
@@ -201,7 +201,7 @@ class BoardServices {
   std::vector<ros::ServiceServer> services_;
   // All of the following with the mutex locked.
   std::string camera_;  // that sees the board; empty: nothing started
-  std::optional<intrinsics::BoardRun> run_;
+  std::optional<intrinsics::ViewCollector> run_;
   std::optional<geometry::Intrinsics> lens_;  // solved from these views
   unsigned lens_number_ = 0;                  // counts dropLens()
 };

@@ -53,27 +53,23 @@ class KeepGoing : public ceres::IterationCallback {
 /// The least-squares problem around one state, whose path, corners and wand it changes in place.
 class WaveProblem {
  public:
-  WaveProblem(const Recording& recording,
-              const WaveOptions& options,
-              const std::vector<Match>& matches,
-              double loss_scale,
-              State* state)
-      : recording_(recording),
-        options_(options),
+  WaveProblem(const Task& task, const std::vector<Match>& matches, double loss_scale, State* state)
+      : recording_(task.recording),
+        options_(task.options),
         state_(*state),
         square_{&state->corner_offsets, {}} {
     for (std::size_t i = 0; i < state->cameras.size(); ++i)
       cameras_.emplace_back(state->cameras[i], state->offsets[i]);
     addMatches(matches, loss_scale);
     addPath();
-    if (recording.wand)
+    if (recording_.wand)
       addWand(matches);
     if (const auto prior =
-            square::addSharedOffset(options.uncertainty, shared_offset_.data(), &problem_))
+            square::addSharedOffset(options_.uncertainty, shared_offset_.data(), &problem_))
       known_.push_back(*prior);
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
-    if (recording.square)
+    if (recording_.square)
       addSquare();
     if (state->floor)
       addFloor();
@@ -282,30 +278,23 @@ class WaveProblem {
 
 }  // namespace
 
-Refinement refine(const Recording& recording,
-                  const WaveOptions& options,
+Refinement refine(const Task& task,
                   const std::vector<Match>& matches,
                   double loss_scale,
                   const std::function<bool()>& keep_going,
                   State* state) {
-  WaveProblem problem(recording, options, matches, loss_scale, state);
+  WaveProblem problem(task, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
   problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
   return {problem.redundancy(), problem.misfit()};
 }
 
-Agreement agreementOf(const Recording& recording,
-                      const WaveOptions& options,
-                      const std::vector<Match>& matches,
-                      State solution) {
-  return WaveProblem(recording, options, matches, kNoLoss, &solution).agreement();
+Agreement agreementOf(const Task& task, const std::vector<Match>& matches, State solution) {
+  return WaveProblem(task, matches, kNoLoss, &solution).agreement();
 }
 
-Eigen::MatrixXd covarianceOf(const Recording& recording,
-                             const WaveOptions& options,
-                             const std::vector<Match>& matches,
-                             State solution) {
-  const auto covariance = WaveProblem(recording, options, matches, kNoLoss, &solution).covariance();
+Eigen::MatrixXd covarianceOf(const Task& task, const std::vector<Match>& matches, State solution) {
+  const auto covariance = WaveProblem(task, matches, kNoLoss, &solution).covariance();
   if (!covariance)
     throw WaveError(
         "the recording does not determine the cameras: wave longer, through more of the volume");

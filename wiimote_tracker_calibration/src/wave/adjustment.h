@@ -3,9 +3,6 @@
 
 #include "state.h"
 
-#include "wiimote_tracker_calibration/wave/recording.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
-
 #include <Eigen/Core>
 
 #include <functional>
@@ -37,25 +34,18 @@ struct Agreement {
 /// infinite: plain least squares.
 /// @param keep_going is asked before each iteration; false throws Cancelled.
 /// @throws WaveError: the minimisation fails.
-Refinement refine(const Recording& recording,
-                  const WaveOptions& options,
+Refinement refine(const Task& task,
                   const std::vector<Match>& matches,
                   double loss_scale,
                   const std::function<bool()>& keep_going,
                   State* state);
 
-Agreement agreementOf(const Recording& recording,
-                      const WaveOptions& options,
-                      const std::vector<Match>& matches,
-                      State solution);
+Agreement agreementOf(const Task& task, const std::vector<Match>& matches, State solution);
 
 /// Joint covariance at a solution of plain least squares: of the cameras, in the order of
 /// geometry::Rig::covariance, then of the corners (2 each), if there are any.
 /// @throws WaveError: the recording does not determine some parameter.
-Eigen::MatrixXd covarianceOf(const Recording& recording,
-                             const WaveOptions& options,
-                             const std::vector<Match>& matches,
-                             State solution);
+Eigen::MatrixXd covarianceOf(const Task& task, const std::vector<Match>& matches, State solution);
 
 }  // namespace wiimote_tracker::wave
 

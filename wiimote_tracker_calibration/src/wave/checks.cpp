@@ -184,12 +184,12 @@ void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution
 }
 
 /// @throws WaveContradiction: a lens is far from its starting intrinsics.
-void checkLenses(const Recording& recording, const WaveOptions& options, const geometry::Rig& rig) {
+void checkLenses(const Task& task, const geometry::Rig& rig) {
   double worst = kLensLimit;
   std::string worst_camera;
-  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const square::CameraSightings& start = recording.cameras[i].sightings;
-    const double deviation = square::lensPrior(start.intrinsics, options.uncertainty)
+  for (std::size_t i = 0; i < task.recording.cameras.size(); ++i) {
+    const square::CameraSightings& start = task.recording.cameras[i].sightings;
+    const double deviation = square::lensPrior(start.intrinsics, task.options.uncertainty)
                                  .deviation(rig.cameras[i].camera.intrinsics);
     if (deviation > worst) {
       worst = deviation;
@@ -205,10 +205,9 @@ void checkLenses(const Recording& recording, const WaveOptions& options, const g
 /// Of a camera, by its number.
 /// @throws WaveContradiction: its accelerometer contradicts its pose. WaveError: its clock is not
 /// known well enough.
-void checkGravityAndClock(const Recording& recording,
-                          const WaveOptions& options,
-                          const WaveSolution& solution,
-                          std::size_t i) {
+void checkGravityAndClock(const Task& task, const WaveSolution& solution, std::size_t i) {
+  const Recording& recording = task.recording;
+  const WaveOptions& options = task.options;
   const geometry::RigCamera& camera = solution.rig.cameras[i];
   const std::string& name = camera.camera.name;
   const auto tilt =
@@ -238,20 +237,21 @@ void checkNoise(const WaveOptions& options, double pixel_stddev) {
         ": check that no camera was moved and that their times are of one clock");
 }
 
-void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution) {
+void checkSolution(const Task& task, WaveSolution* solution) {
+  const Recording& recording = task.recording;
   const Eigen::Vector3d& extent = solution->extent;
   if (extent.y() < kThinnest * extent.x())
     throw WaveError("the LED was moved along a line only: wave it through the whole volume");
   if (extent.z() < kThinnest * extent.x())
     throw WaveError("the LED was moved in a plane only, " + format("%.0f mm", 1e3 * extent.z()) +
                     " deep: wave it through the whole volume, also to the cameras and away");
-  checkLenses(recording, options, solution->rig);
+  checkLenses(task, solution->rig);
   for (std::size_t i = 0; i < recording.cameras.size(); ++i)
-    checkGravityAndClock(recording, options, *solution, i);
+    checkGravityAndClock(task, *solution, i);
   if (recording.square) {
     if (!solution->z_up)
       solution->warnings.emplace_back(square::kZDown);
-    checkCorners(options.uncertainty, solution);
+    checkCorners(task.options.uncertainty, solution);
   }
   if (recording.square && recording.wand) {
     const double off = solution->wand_length - recording.wand->length;

@@ -21,7 +21,7 @@ void checkMatching(const Recording& recording, const Matching& matching);
 void checkNoise(const WaveOptions& options, double pixel_stddev);
 
 /// Adds warnings to the solution. @throws WaveError: why it must not be used.
-void checkSolution(const Recording& recording, const WaveOptions& options, WaveSolution* solution);
+void checkSolution(const Task& task, WaveSolution* solution);
 
 /// The result in words.
 std::string verdictOf(const Recording& recording, const WaveSolution& solution);

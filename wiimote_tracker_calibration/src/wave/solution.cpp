@@ -98,21 +98,19 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
 
 }  // namespace
 
-WaveSolution solutionOf(const Recording& recording,
-                        const WaveOptions& options,
-                        const State& state,
-                        const Matching& matching) {
+WaveSolution solutionOf(const Task& task, const State& state, const Matching& matching) {
+  const Recording& recording = task.recording;
   WaveSolution solution;
   solution.z_up = state.z_up;
   solution.wand_length = state.wand_length;
   describePath(state, matching, &solution);
 
-  solution.joint_covariance = covarianceOf(recording, options, matching.matches, state);
+  solution.joint_covariance = covarianceOf(task, matching.matches, state);
   const Eigen::Index cameras = geometry::firstParameter(state.cameras.size());
   geometry::Rig& rig = solution.rig;
   rig.method = recording.wand ? "wand" : "wave";
   rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
-  addWander(options, solution.seconds_seen, &rig.covariance);
+  addWander(task.options, solution.seconds_seen, &rig.covariance);
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
   if (state.floor) {
@@ -125,7 +123,7 @@ WaveSolution solutionOf(const Recording& recording,
     for (std::size_t c = 0; c < state.corner_offsets.size(); ++c)
       solution.corner_offsets[c].head<2>() = state.corner_offsets[c];
     solution.suspect = square::suspectCorner(solution.corner_offsets, solution.joint_covariance,
-                                             options.uncertainty.placement);
+                                             task.options.uncertainty.placement);
   }
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);
   solution.expected_error = square::expectedError(rig, points);

@@ -4,18 +4,12 @@
 #include "matching.h"
 #include "state.h"
 
-#include "wiimote_tracker_calibration/wave/recording.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
-
 namespace wiimote_tracker::wave {
 
 /// The solution of an adjusted state with its covariance; without noise, warnings and
 /// verdict. @param matching that the state was adjusted to.
 /// @throws WaveError: some parameter is not determined.
-WaveSolution solutionOf(const Recording& recording,
-                        const WaveOptions& options,
-                        const State& state,
-                        const Matching& matching);
+WaveSolution solutionOf(const Task& task, const State& state, const Matching& matching);
 
 }  // namespace wiimote_tracker::wave
 

@@ -111,8 +111,7 @@ bool contradicts(const Agreement& agreement) {
 }
 
 /// @throws WaveError: a clock jumped, and without the jump everything fits better.
-void checkClocks(const Recording& recording,
-                 const WaveOptions& options,
+void checkClocks(const Task& task,
                  const Gate& gate,
                  const std::function<bool()>& keep_going,
                  State state) {
@@ -126,7 +125,7 @@ void checkClocks(const Recording& recording,
     return std::accumulate(steps.begin(), steps.end(), 0.0,
                            [](double sum, const ClockStep& step) { return sum + step.squared; });
   };
-  std::vector<ClockStep> steps = stepsOf(recording);
+  std::vector<ClockStep> steps = stepsOf(task.recording);
   const double before = squared(steps);
   const auto worst = std::max_element(
       steps.begin(), steps.end(),
@@ -136,36 +135,34 @@ void checkClocks(const Recording& recording,
   if (worst->explained < kLeastExplained * before || apparent < kLeastJump)
     return;
   // The path follows a jump in part; without it, the path shows all of it.
-  Recording corrected;
+  Task corrected = task;
   Matching matching;
   for (int round = 0; round < kJumpRounds; ++round) {
-    corrected = recording;
-    for (Frame& frame : corrected.cameras[camera].frames)
+    corrected.recording = task.recording;
+    for (Frame& frame : corrected.recording.cameras[camera].frames)
       frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
-    matching = matchSpots(corrected, state, gate);
+    matching = matchSpots(corrected.recording, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
       return;  // not a step: the camera would fit nowhere
-    refine(corrected, options, matching.matches, kInfinity, keep_going, &state);
-    steps = stepsOf(recording);
+    refine(corrected, matching.matches, kInfinity, keep_going, &state);
+    steps = stepsOf(task.recording);
   }
   if (std::abs(steps[camera].size) < kLeastGrowth * apparent ||
-      squared(stepsOf(corrected)) > kMostLeft * before ||
-      contradicts(agreementOf(corrected, options, matching.matches, state)))
+      squared(stepsOf(corrected.recording)) > kMostLeft * before ||
+      contradicts(agreementOf(corrected, matching.matches, state)))
     return;
-  const bool two = recording.cameras.size() == 2;
-  throw WaveError("the clock of " + recording.cameras[two ? 0 : camera].sightings.name +
-                  (two ? " or " + recording.cameras[1].sightings.name : "") +
+  const std::vector<CameraRecording>& cameras = task.recording.cameras;
+  const bool two = cameras.size() == 2;
+  throw WaveError("the clock of " + cameras[two ? 0 : camera].sightings.name +
+                  (two ? " or " + cameras[1].sightings.name : "") +
                   format(" jumped by about %.0f ms during the wave: check the time of its computer "
                          "and its driver, and wave again",
                          1e3 * std::abs(steps[camera].size)));
 }
 
 /// Alternates matching and adjusting until neither changes.
-WaveSolution fit(const Recording& recording,
-                 const WaveOptions& options,
-                 const FloorSpots& floor,
-                 State state,
-                 Reporter* reporter) {
+WaveSolution fit(const Task& task, State state, Reporter* reporter) {
+  const WaveOptions& options = task.options;
   const char* const kStep = "adjusting cameras, clocks and path";
   reporter->report(kStep, kPathDone);
   double fraction = kPathDone;
@@ -177,9 +174,9 @@ WaveSolution fit(const Recording& recording,
   Refinement refinement{};
   // One round; returns the misfit.
   const auto turn = [&](const Gate& gate, double loss_scale) {
-    matching = matchSpots(recording, state, gate);
-    checkMatching(recording, matching);
-    refinement = refine(recording, options, matching.matches, loss_scale, keep_going, &state);
+    matching = matchSpots(task.recording, state, gate);
+    checkMatching(task.recording, matching);
+    refinement = refine(task, matching.matches, loss_scale, keep_going, &state);
     // Without redundancy it is no reason to expect less noise.
     return refinement.redundancy ? refinement.misfit : std::max(1.0, refinement.misfit);
   };
@@ -195,46 +192,43 @@ WaveSolution fit(const Recording& recording,
       break;
     pixel_stddev *= misfit;
   }
-  checkClocks(recording, options, {pixel_stddev, stamp, kGate}, keep_going, state);
+  checkClocks(task, {pixel_stddev, stamp, kGate}, keep_going, state);
   checkNoise(options, pixel_stddev);
-  if (!floor.empty()) {
-    standOnFloor(recording, options, floor, &state);
-    refinement = refine(recording, options, matching.matches, kInfinity, keep_going, &state);
+  if (!task.floor.empty()) {
+    standOnFloor(task, &state);
+    refinement = refine(task, matching.matches, kInfinity, keep_going, &state);
   }
-  WaveSolution solution = solutionOf(recording, options, state, matching);
+  WaveSolution solution = solutionOf(task, state, matching);
   solution.pixel_stddev = pixel_stddev;
   // What is fitted to noise lessens the residuals, which are to tell it.
   for (geometry::RigCamera& camera : solution.rig.cameras) {
     camera.residual_px /= std::sqrt(refinement.redundancy.value_or(1.0));
     camera.residual_m /= std::sqrt(refinement.redundancy.value_or(1.0));
   }
-  const Agreement agreement = agreementOf(recording, options, matching.matches, state);
+  const Agreement agreement = agreementOf(task, matching.matches, state);
   solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
   solution.contradicts = contradicts(agreement);
   return solution;
 }
 
 /// From a start to a solution that passed all checks.
-WaveSolution solveFrom(StartPoses poses,
-                       const Recording& recording,
-                       const WaveOptions& options,
-                       const FloorSpots& floor,
-                       Reporter* reporter) {
+WaveSolution solveFrom(StartPoses poses, const Task& task, Reporter* reporter) {
+  const Recording& recording = task.recording;
   reporter->report("following the LED", kStartDone);
   if (!recording.square)
     standInFirstCamera(recording, &poses.cameras);
   State state;
-  state.trajectory = startPath(recording, options, &poses);
+  state.trajectory = startPath(recording, task.options, &poses);
   state.cameras = poses.cameras;
   state.offsets.assign(recording.cameras.size(), 0.0);
   state.z_up = poses.z_up;
   state.corner_offsets.fill(Eigen::Vector2d::Zero());
   if (recording.wand)
     state.wand_length = recording.wand->length;
-  if (!floor.empty())
-    checkStart(recording, options, floor, state);
-  WaveSolution solution = fit(recording, options, floor, std::move(state), reporter);
-  checkSolution(recording, options, &solution);
+  if (!task.floor.empty())
+    checkStart(task, state);
+  WaveSolution solution = fit(task, std::move(state), reporter);
+  checkSolution(task, &solution);
   solution.rig.verdict = verdictOf(recording, solution);
   return solution;
 }
@@ -245,18 +239,18 @@ WaveSolution solveWave(const Recording& input,
                        const WaveOptions& options,
                        const ProgressCallback& progress) {
   Recording waved = input;
-  const FloorSpots floor = takeFloor(&waved);
+  FloorSpots floor = takeFloor(&waved);
   checkInput(waved, options);
   Reporter reporter(progress);
-  const Recording recording = prepared(std::move(waved));
+  const Task task = {prepared(std::move(waved)), options, std::move(floor)};
   std::exception_ptr refusal;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     reporter.report("finding where the cameras stand", 0.0);
     bool is_only_start = false;
     try {
-      StartPoses poses = startPoses(recording, options, attempt);
+      StartPoses poses = startPoses(task.recording, options, attempt);
       is_only_start = poses.from_square;
-      WaveSolution solution = solveFrom(std::move(poses), recording, options, floor, &reporter);
+      WaveSolution solution = solveFrom(std::move(poses), task, &reporter);
       reporter.report("done", 1.0);
       return solution;
     } catch (const Cancelled&) {

@@ -4,6 +4,9 @@
 #include "trajectory.h"
 #include "wand_rest.h"
 
+#include "wiimote_tracker_calibration/wave/recording.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
+
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <Eigen/Geometry>
@@ -18,6 +21,13 @@ namespace wiimote_tracker::wave {
 
 /// Where each camera saw the two LEDs of a wand at rest, distorted [px]; nothing: it did not.
 using FloorSpots = std::vector<std::optional<WandSpots>>;
+
+/// What is solved.
+struct Task {
+  Recording recording;  ///< Of the wave, without lamps; stamps from its first image on.
+  WaveOptions options;
+  FloorSpots floor;  ///< Empty: no wand lay on the floor.
+};
 
 /// A wand that lay on the floor.
 struct WandOnFloor {

@@ -145,15 +145,11 @@ struct Found {
   std::optional<std::string> mislaid;  // why it cannot be used
 };
 
-Found findWand(const Recording& recording,
-               const WaveOptions& options,
-               const FloorSpots& spots,
-               const State& state,
-               const Limits& limits) {
+Found findWand(const Task& task, const State& state, const Limits& limits) {
   const double length = state.wand_length;
   Found found;
   WandOnFloor& floor = found.floor;
-  floor.spots = inOneOrder(state.cameras, spots, length);
+  floor.spots = inOneOrder(state.cameras, task.floor, length);
   const geometry::Camera& first = state.cameras.front();
   const auto wand = measure(state.cameras, floor.spots, length);
   found.mislaid = whyNotTheWand(wand, first, length, limits);
@@ -167,11 +163,11 @@ Found findWand(const Recording& recording,
         std::swap((*pair)[0], (*pair)[1]);
     }
   }
-  const auto [up, accelerometers] = meanUp(recording, state);
+  const auto [up, accelerometers] = meanUp(task.recording, state);
   found.up = up;
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
   found.mislaid =
-      whyNotLevel(recording, options.uncertainty, along.dot(up), accelerometers, limits);
+      whyNotLevel(task.recording, task.options.uncertainty, along.dot(up), accelerometers, limits);
   return found;
 }
 
@@ -223,20 +219,14 @@ FloorSpots takeFloor(Recording* recording) {
   return spots;
 }
 
-void checkStart(const Recording& recording,
-                const WaveOptions& options,
-                const FloorSpots& spots,
-                const State& state) {
-  const Found found = findWand(recording, options, spots, state, kByStart);
+void checkStart(const Task& task, const State& state) {
+  const Found found = findWand(task, state, kByStart);
   if (found.mislaid)
     throw WaveError(*found.mislaid);  // another start may tell otherwise
 }
 
-void standOnFloor(const Recording& recording,
-                  const WaveOptions& options,
-                  const FloorSpots& spots,
-                  State* state) {
-  Found found = findWand(recording, options, spots, *state, kBySolution);
+void standOnFloor(const Task& task, State* state) {
+  Found found = findWand(task, *state, kBySolution);
   if (found.mislaid)
     throw WandMislaid(*found.mislaid);
   WandOnFloor& floor = found.floor;
@@ -245,7 +235,7 @@ void standOnFloor(const Recording& recording,
   const Eigen::Vector3d x = (along - along.dot(up) * up).normalized();
   Eigen::Isometry3d floor_from_state = Eigen::Isometry3d::Identity();
   floor_from_state.linear() << x.transpose(), up.cross(x).transpose(), up.transpose();
-  floor_from_state.translation() = Eigen::Vector3d(0.0, 0.0, *recording.wand->led_height) -
+  floor_from_state.translation() = Eigen::Vector3d(0.0, 0.0, *task.recording.wand->led_height) -
                                    floor_from_state.linear() * floor.leds[0];
   for (Eigen::Vector3d& led : floor.leds)
     led = floor_from_state * led;

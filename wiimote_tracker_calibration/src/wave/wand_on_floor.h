@@ -3,9 +3,6 @@
 
 #include "state.h"
 
-#include "wiimote_tracker_calibration/wave/recording.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
-
 namespace wiimote_tracker::wave {
 
 /// Where the cameras saw a wand that lay on the floor before it was waved. The images until it was
@@ -16,20 +13,14 @@ FloorSpots takeFloor(Recording* recording);
 
 /// Whether the wand is far from how it must lie, by rough cameras in metres, before the adjustment.
 /// @throws WaveError: see standOnFloor().
-void checkStart(const Recording& recording,
-                const WaveOptions& options,
-                const FloorSpots& spots,
-                const State& state);
+void checkStart(const Task& task, const State& state);
 
 /// Moves the state, known up to a rigid motion, into the world of the wand on the floor, which it
 /// adds: the LED nearer to the first camera lies at (0, 0, height), the other one on the x axis, z
 /// is the mean up of the accelerometers.
 /// @throws WandMislaid: the spots are not those of the wand, its ends are about as far from the
 /// first camera, or it was not level. WaveContradiction: the accelerometers contradict one another.
-void standOnFloor(const Recording& recording,
-                  const WaveOptions& options,
-                  const FloorSpots& spots,
-                  State* state);
+void standOnFloor(const Task& task, State* state);
 
 }  // namespace wiimote_tracker::wave
 

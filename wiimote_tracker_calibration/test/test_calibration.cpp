@@ -326,7 +326,7 @@ TEST_F(Workflow, SamplesThatAreRestoredAreTheSameSamples) {
   const capture::Masks masks = {{names_[1], {{{3.0, 4.0}, 5.0}}}};
   const session::Session session = calibration_.session(facts_, masks);
   CalibrationOptions other;
-  other.led_height = 0.5;  // what was captured has its own
+  other.layout.led_height = 0.5;  // what was captured has its own
   other.world_frame = "elsewhere";
   Calibration fresh{other};
   ASSERT_TRUE(fresh.restore(session).success);

@@ -38,7 +38,7 @@ std::optional<wave::Wand> wandOnFloor(
     return wand;
   if (!request.without_square)
     throw Refusal("a wand on the floor replaces the square: ask for without_square, too");
-  wand->led_height = parameters.calibration.led_height;
+  wand->led_height = parameters.calibration.layout.led_height;
   wand->check();
   return wand;
 }

@@ -53,10 +53,8 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
       sound_publisher_(nh_.advertise<std_msgs::String>("calibration/sound", 10)),
       inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {
   // Before a calibration, too, so that the world is a frame that others can show.
-  square::SquareLayout square;
-  square.origin = parameters.calibration.origin;
-  square.yaw = parameters.calibration.yaw;
-  transforms_.sendTransform(squareTransform(parameters.calibration.world_frame, square));
+  transforms_.sendTransform(
+      squareTransform(parameters.calibration.world_frame, parameters.calibration.layout));
   inputs_.subscribeImages([this](const capture::Image& image, const Lock&) {
     const CameraInput& camera = inputs_.cameras().at(image.camera);
     if (isWalked() && camera.width > 0 && camera.height > 0)

@@ -159,13 +159,13 @@ Parameters readParameters(ParameterReader* reader) {
   if (parameters.rig_file.empty())
     parameters.rig_file = rosHome() + "/wiimote_tracker/" + kRigFile;
   parameters.file_folder = reader->optional<std::string>("file_folder", "");
-  reader->read("led_height", &calibration.led_height, 0.0, 1000.0);
+  reader->read("led_height", &calibration.layout.led_height, 0.0, 1000.0);
   reader->read("world_frame", &calibration.world_frame);
   if (calibration.world_frame.empty())
     throw ParameterError(reader->nameOf("world_frame") + " is empty: give the frame a name");
-  reader->read("origin_x", &calibration.origin.x(), -1000.0, 1000.0);
-  reader->read("origin_y", &calibration.origin.y(), -1000.0, 1000.0);
-  reader->read("yaw", &calibration.yaw, -2.0 * M_PI, 2.0 * M_PI);
+  reader->read("origin_x", &calibration.layout.origin.x(), -1000.0, 1000.0);
+  reader->read("origin_y", &calibration.layout.origin.y(), -1000.0, 1000.0);
+  reader->read("yaw", &calibration.layout.yaw, -2.0 * M_PI, 2.0 * M_PI);
   readCapture(reader, &calibration.capture);
   reader->read("hands_free", &parameters.hands_free);
   reader->read("sounds", &parameters.sounds);

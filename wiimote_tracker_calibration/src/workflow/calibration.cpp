@@ -29,12 +29,9 @@ Captured newRun(const std::vector<std::string>& cameras,
 }  // namespace
 
 Reply Calibration::start(double side_x, double side_y, const std::vector<std::string>& cameras) {
-  square::SquareLayout layout;
+  square::SquareLayout layout = options_.layout;
   layout.side_x = side_x;
   layout.side_y = side_y;
-  layout.led_height = options_.led_height;
-  layout.origin = options_.origin;
-  layout.yaw = options_.yaw;
   try {
     layout.check();
   } catch (const square::SquareError& error) {

@@ -10,8 +10,6 @@
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -38,9 +36,7 @@ struct CalibrationOptions {
   capture::CornerCaptureOptions capture;
   capture::HandsFreeOptions hands_free;
   wave::CoverageOptions coverage;
-  double led_height = 0.0;                           ///< As in square::SquareLayout [m].
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  ///< As in square::SquareLayout [m].
-  double yaw = 0.0;                                  ///< As in square::SquareLayout [rad].
+  square::SquareLayout layout;  ///< Of every square, but for its sides, lengths and places.
   std::string world_frame = "world";
 };
 

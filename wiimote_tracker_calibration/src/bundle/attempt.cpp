@@ -28,17 +28,15 @@ Options roughly(const Options& options) {
 }
 
 /// Mean over the observations of points that two placed cameras saw.
-double costOf(const Reconstruction& reconstruction,
-              const std::vector<bool>& placed,
-              double maximum_error) {
+double costOf(const Reconstruction& reconstruction, double maximum_error) {
   std::vector<int> views(reconstruction.points.size(), 0);
   for (const Observation& observation : reconstruction.observations)
-    views[observation.point] += placed[observation.camera] ? 1 : 0;
+    views[observation.point] += reconstruction.placed[observation.camera] ? 1 : 0;
   const double worst = std::pow(2.0 * maximum_error, 2);
   double sum = 0.0;
   std::size_t count = 0;
   for (const Observation& observation : reconstruction.observations) {
-    if (!placed[observation.camera] || views[observation.point] < 2)
+    if (!reconstruction.placed[observation.camera] || views[observation.point] < 2)
       continue;
     const auto error = reprojectionError(reconstruction, observation);
     sum += error ? std::min(*error * *error, worst) : worst;
@@ -131,9 +129,9 @@ void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt
   now.maximum_error = maximum_error;
   Held held;
   held.intrinsics = false;
-  triangulatePoints(&attempt->reconstruction, maximum_error, attempt->placed);
+  triangulatePoints(&attempt->reconstruction, maximum_error, attempt->reconstruction.placed);
   adjust(&attempt->reconstruction, now, held);
-  attempt->cost = costOf(attempt->reconstruction, attempt->placed, options.maximum_error);
+  attempt->cost = costOf(attempt->reconstruction, options.maximum_error);
 }
 
 Attempt attemptPair(const Reconstruction& observed,
@@ -141,12 +139,12 @@ Attempt attemptPair(const Reconstruction& observed,
                     const Options& options) {
   Attempt attempt;
   attempt.reconstruction = observed;
-  attempt.placed.assign(observed.cameras.size(), false);
+  attempt.reconstruction.placed.assign(observed.cameras.size(), false);
   const NormalizedViews views = normalize(observed);
   const auto posed = solvePair(views, observed, options, pair.first, pair.second);
   if (!posed)
     return attempt;
-  startFrom(*posed, &attempt.reconstruction, &attempt.placed);
+  startFrom(*posed, &attempt.reconstruction);
   try {
     adjustPlaced(roughly(options), kRough * options.maximum_error, &attempt);
   } catch (const BundleError&) {
@@ -158,18 +156,17 @@ Attempt attemptPair(const Reconstruction& observed,
 void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attempt* attempt) {
   Reconstruction& reconstruction = attempt->reconstruction;
   const Options rough = roughly(options.bundle);
-  while (static_cast<std::size_t>(
-             std::count(attempt->placed.begin(), attempt->placed.end(), true)) < camera_count) {
-    const std::size_t next = nextToPlace(rough, reconstruction, attempt->placed);
+  std::vector<bool>& placed = reconstruction.placed;
+  while (static_cast<std::size_t>(std::count(placed.begin(), placed.end(), true)) < camera_count) {
+    const std::size_t next = nextToPlace(rough, reconstruction);
     geometry::Camera best;
     double least = std::numeric_limits<double>::infinity();
     std::string reason;
     for (const geometry::Intrinsics& lens :
          lensesToTry(options, reconstruction.cameras[next].intrinsics)) {
       reconstruction.cameras[next].intrinsics = lens;
-      std::vector<bool> placed = attempt->placed;
       try {
-        place(rough, next, &reconstruction, &placed);
+        place(rough, next, &reconstruction);
         const double cost = refineAlone(rough, next, &reconstruction);
         if (cost < least) {
           least = cost;
@@ -182,7 +179,6 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
     if (!(least < std::numeric_limits<double>::infinity()))
       throw BundleError(reason);
     reconstruction.cameras[next] = best;
-    attempt->placed[next] = true;
     adjustPlaced(rough, kRough * options.bundle.maximum_error, attempt);
   }
 }

@@ -13,7 +13,6 @@ namespace wiimote_tracker::bundle {
 /// A partial solution that started from one pair of cameras with one guess of their lenses.
 struct Attempt {
   Reconstruction reconstruction;
-  std::vector<bool> placed;  ///< Per camera.
   /// Mean squared error of the observations of the placed cameras, each limited for outliers.
   double cost = std::numeric_limits<double>::infinity();  ///< [px^2]
 };

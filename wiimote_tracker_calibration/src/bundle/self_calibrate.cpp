@@ -54,10 +54,11 @@ Reconstruction thinned(const Reconstruction& all, std::size_t per_camera) {
 
 /// Whether two attempts ended with the same lenses.
 bool agree(const Attempt& a, const Attempt& b, double tolerance) {
-  for (std::size_t i = 0; i < a.placed.size(); ++i) {
+  for (std::size_t i = 0; i < a.reconstruction.placed.size(); ++i) {
     const double first = a.reconstruction.cameras[i].intrinsics.fx;
     const double second = b.reconstruction.cameras[i].intrinsics.fx;
-    if (a.placed[i] && b.placed[i] && std::abs(std::log(first / second)) > tolerance)
+    if (a.reconstruction.placed[i] && b.reconstruction.placed[i] &&
+        std::abs(std::log(first / second)) > tolerance)
       return false;
   }
   return true;
@@ -186,9 +187,9 @@ class Search {
   static bool isPlausible(const Attempt& attempt) {
     const double kShortest = 0.25;  // image widths; a field of view of 127 degrees
     const double kLongest = 20.0;   // 3 degrees
-    for (std::size_t i = 0; i < attempt.placed.size(); ++i) {
+    for (std::size_t i = 0; i < attempt.reconstruction.placed.size(); ++i) {
       const geometry::Intrinsics& lens = attempt.reconstruction.cameras[i].intrinsics;
-      if (attempt.placed[i] &&
+      if (attempt.reconstruction.placed[i] &&
           !(lens.fx > kShortest * lens.width && lens.fx < kLongest * lens.width))
         return false;
     }
@@ -219,11 +220,11 @@ class Search {
     Attempt attempt;
     attempt.reconstruction = all_;
     attempt.reconstruction.cameras = solved.reconstruction.cameras;
-    attempt.placed.assign(all_.cameras.size(), true);
+    attempt.reconstruction.placed.assign(all_.cameras.size(), true);
     Options rough = options_.bundle;
     rough.rough = true;
     adjustPlaced(rough, maximumError(), &attempt);
-    triangulatePoints(&attempt.reconstruction, maximumError(), attempt.placed);
+    triangulatePoints(&attempt.reconstruction, maximumError());
     return attempt;
   }
 

@@ -25,9 +25,7 @@ std::string commonText(const NormalizedViews& views, const Reconstruction& recon
 }
 
 /// Starts from the pair of cameras with the most parallax.
-void startFromPair(const Options& options,
-                   Reconstruction* reconstruction,
-                   std::vector<bool>* placed) {
+void startFromPair(const Options& options, Reconstruction* reconstruction) {
   const NormalizedViews views = normalize(*reconstruction);
   Pair best;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -42,15 +40,16 @@ void startFromPair(const Options& options,
                       std::to_string(options.minimum_common_points) +
                       " or more points in common, spread over the room, and have: " +
                       commonText(views, *reconstruction));
-  startFrom(best, reconstruction, placed);
+  startFrom(best, reconstruction);
 }
 
 }  // namespace
 
 Reconstruction solve(Reconstruction reconstruction, const Options& options) {
   checkObservations(reconstruction, options);
-  std::vector<bool> placed(reconstruction.cameras.size(), false);
-  startFromPair(options, &reconstruction, &placed);
+  std::vector<bool>& placed = reconstruction.placed;
+  placed.assign(reconstruction.cameras.size(), false);
+  startFromPair(options, &reconstruction);
   while (true) {
     // A camera that was just placed is off by more than its noise.
     const double kTolerance = 4.0;
@@ -61,7 +60,7 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
     adjust(&reconstruction, now, Held());
     if (all_placed)
       break;
-    place(options, nextToPlace(options, reconstruction, placed), &reconstruction, &placed);
+    place(options, nextToPlace(options, reconstruction), &reconstruction);
   }
   refuseUnexplained(reconstruction, options);
   return reconstruction;

@@ -113,11 +113,11 @@ std::optional<Pair> solvePair(const NormalizedViews& views,
   return pair;
 }
 
-void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<bool>* placed) {
+void startFrom(const Pair& pair, Reconstruction* reconstruction) {
   reconstruction->cameras[pair.first].world_from_camera = Eigen::Isometry3d::Identity();
   reconstruction->cameras[pair.second].world_from_camera = pair.second_from_first.inverse();
-  (*placed)[pair.first] = true;
-  (*placed)[pair.second] = true;
+  reconstruction->placed[pair.first] = true;
+  reconstruction->placed[pair.second] = true;
 }
 
 namespace {
@@ -150,14 +150,12 @@ std::string adviceFor(const std::string& name) {
 
 }  // namespace
 
-std::size_t nextToPlace(const Options& options,
-                        const Reconstruction& reconstruction,
-                        const std::vector<bool>& placed) {
+std::size_t nextToPlace(const Options& options, const Reconstruction& reconstruction) {
   std::size_t next = 0;
   std::size_t most = 0;
   bool any = false;
-  for (std::size_t camera = 0; camera < placed.size(); ++camera) {
-    if (placed[camera])
+  for (std::size_t camera = 0; camera < reconstruction.placed.size(); ++camera) {
+    if (reconstruction.placed[camera])
       continue;
     const std::size_t count = knownViews(reconstruction, camera).points.size();
     if (!any || count > most) {
@@ -174,10 +172,7 @@ std::size_t nextToPlace(const Options& options,
   return next;
 }
 
-std::size_t place(const Options& options,
-                  std::size_t index,
-                  Reconstruction* reconstruction,
-                  std::vector<bool>* placed) {
+std::size_t place(const Options& options, std::size_t index, Reconstruction* reconstruction) {
   geometry::Camera& camera = reconstruction->cameras[index];
   const KnownViews known = knownViews(*reconstruction, index);
   if (!adjust::fillAnArea(known.views))
@@ -205,7 +200,7 @@ std::size_t place(const Options& options,
                       std::to_string(known.points.size()) +
                       " points: check its intrinsics and its frame numbers; or " +
                       adviceFor(camera.name));
-  (*placed)[index] = true;
+  reconstruction->placed[index] = true;
   return inliers.size();
 }
 

@@ -54,20 +54,15 @@ std::optional<Pair> solvePair(const NormalizedViews& views,
                               std::size_t second);
 
 /// Makes the first camera of the pair the world, and marks both as placed.
-void startFrom(const Pair& pair, Reconstruction* reconstruction, std::vector<bool>* placed);
+void startFrom(const Pair& pair, Reconstruction* reconstruction);
 
 /// The camera that sees most known points of those not placed.
 /// @throws BundleError when it sees too few of them.
-std::size_t nextToPlace(const Options& options,
-                        const Reconstruction& reconstruction,
-                        const std::vector<bool>& placed);
+std::size_t nextToPlace(const Options& options, const Reconstruction& reconstruction);
 
 /// Estimates the pose of one camera from known points (resection), and marks it as placed.
 /// @returns the number of inliers. @throws BundleError: points on a line, or too few inliers.
-std::size_t place(const Options& options,
-                  std::size_t camera,
-                  Reconstruction* reconstruction,
-                  std::vector<bool>* placed);
+std::size_t place(const Options& options, std::size_t camera, Reconstruction* reconstruction);
 
 }  // namespace wiimote_tracker::bundle
 

@@ -64,11 +64,11 @@ std::size_t searchPose(const SeenPath& path,
   bundle::Options options;
   options.maximum_error = kRoughError;
   options.rough = true;
-  std::vector<bool> placed(1, false);
+  seen.placed = {false};
   if (seen.points.size() < options.minimum_common_points)
     return 0;
   try {
-    const std::size_t support = bundle::place(options, 0, &seen, &placed);
+    const std::size_t support = bundle::place(options, 0, &seen);
     *camera = seen.cameras.front();
     return support;
   } catch (const bundle::BundleError&) {

@@ -187,13 +187,11 @@ void connectCameras(const Recording& recording,
 }
 
 /// Poses of the cameras that the square did not place, from the others.
-void placeRest(const bundle::Options& options,
-               bundle::Reconstruction* reconstruction,
-               std::vector<bool>* placed) {
-  while (std::find(placed->begin(), placed->end(), false) != placed->end()) {
-    bundle::triangulatePoints(reconstruction, options.maximum_error, *placed);
-    const std::size_t next = bundle::nextToPlace(options, *reconstruction, *placed);
-    bundle::place(options, next, reconstruction, placed);
+void placeRest(const bundle::Options& options, bundle::Reconstruction* reconstruction) {
+  const std::vector<bool>& placed = reconstruction->placed;
+  while (std::find(placed.begin(), placed.end(), false) != placed.end()) {
+    bundle::triangulatePoints(reconstruction, options.maximum_error, placed);
+    bundle::place(options, bundle::nextToPlace(options, *reconstruction), reconstruction);
   }
 }
 
@@ -260,19 +258,18 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
   StartPoses result;
   bundle::Reconstruction wave;
   std::vector<square::CameraSightings> sightings;
-  std::vector<bool> placed(recording.cameras.size(), false);
-  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const square::CameraSightings& camera = recording.cameras[i].sightings;
-    placed[i] = recording.square && camera.cornersSeen() == 4;
-    if (placed[i])
+  for (const CameraRecording& recorded : recording.cameras) {
+    const square::CameraSightings& camera = recorded.sightings;
+    wave.placed.push_back(recording.square && camera.cornersSeen() == 4);
+    if (wave.placed.back())
       sightings.push_back(camera);
     wave.cameras.push_back(camera.camera());
   }
   if (sightings.size() < 2)
-    placed.assign(recording.cameras.size(), false);
+    wave.placed.assign(recording.cameras.size(), false);
 
   wave.observations = commonViews(recording, attempt);
-  connectCameras(recording, attempt, placed, &wave.observations);
+  connectCameras(recording, attempt, wave.placed, &wave.observations);
   wave.points.resize(wave.observations.empty() ? 0 : wave.observations.back().point + 1);
   try {
     if (sightings.size() >= 2) {
@@ -287,7 +284,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
       result.metric = true;
       result.from_square = true;
       result.z_up = solution.z_up;
-      placeRest(tolerance, &wave, &placed);
+      placeRest(tolerance, &wave);
     } else {
       wave = bundle::solve(wave, tolerance);
       if (recording.square)

@@ -24,6 +24,7 @@ struct Reconstruction {
   std::vector<std::optional<Eigen::Vector3d>> points;  ///< World [m]; nothing: not determined.
   std::vector<Observation> observations;
   std::vector<bool> inliers;  ///< For each observation.
+  std::vector<bool> placed;   ///< For each camera, while they are placed one after the other.
 };
 
 /// Distance from the projected point to the observed pixel [px]. Nothing when the point is not

@@ -3,8 +3,8 @@
 #include "../recalibrate/seen_path.h"
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
-#include "adjust/interpolated_pixel.h"
 #include "adjust/joint_prior.h"
+#include "adjust/moving_pixel.h"
 #include "continuous/keyframes.h"
 #include "place/chi_squared.h"
 

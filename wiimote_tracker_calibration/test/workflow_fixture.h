@@ -11,7 +11,6 @@
 
 #include <gtest/gtest.h>
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -112,7 +111,7 @@ class Workflow : public ::testing::Test {
                                                  {0.0, 2.5, 0.0}};
   std::vector<geometry::Camera> cameras_;
   std::vector<std::string> names_;
-  std::map<std::string, CameraFacts> facts_;
+  CameraFacts facts_;
   Calibration calibration_{CalibrationOptions()};
   double now_ = 100.0;
 };

@@ -54,9 +54,6 @@ class DriftWatch {
   /// Judges the window now; add() does so twelve times in it.
   void judge();
 
-  /// Those of the window, in the order of their times.
-  const std::deque<DriftSample>& samples() const { return samples_; }
-
   /// Per camera of the rig, at the time of the latest judgement. Nothing for cameras that shared
   /// too little motion with others in the window.
   const std::vector<std::optional<Drift>>& drifts() const { return drifts_; }

@@ -24,16 +24,16 @@ constexpr std::chrono::seconds kPatience(10);
 
 /// The camera's identity, starting intrinsics and gravity.
 /// @throws Refusal: the intrinsics are for another size of image.
-workflow::CameraFacts factsOf(const std::string& name,
-                              const CameraInput& input,
-                              const Parameters& parameters) {
+square::CameraSightings factsOf(const std::string& name,
+                                const CameraInput& input,
+                                const Parameters& parameters) {
   const geometry::Intrinsics& lens = parameters.intrinsicsOf(name);
   if (input.width > 0 && (input.width != lens.width || input.height != lens.height))
     throw Refusal("the images of " + name + " are " + std::to_string(input.width) + " x " +
                   std::to_string(input.height) + ", but its starting intrinsics are for " +
                   std::to_string(lens.width) + " x " + std::to_string(lens.height) + ": set " +
                   ros::this_node::getName() + "/cameras_intrinsics/" + name + " for this camera");
-  return {input.identity, lens, input.gravity.mean()};
+  return {name, input.identity, lens, {}, {}, input.gravity.mean()};
 }
 
 }  // namespace
@@ -141,10 +141,9 @@ workflow::Reply NodeContext::show(const workflow::Reply& reply, const Lock& lock
   return reply;
 }
 
-std::map<std::string, workflow::CameraFacts> NodeContext::facts(
-    const std::vector<std::string>& cameras,
-    const Lock&) const {
-  std::map<std::string, workflow::CameraFacts> facts;
+workflow::CameraFacts NodeContext::facts(const std::vector<std::string>& cameras,
+                                         const Lock&) const {
+  workflow::CameraFacts facts;
   for (const std::string& name : cameras) {
     const auto input = inputs_.cameras().find(name);
     if (input != inputs_.cameras().end())

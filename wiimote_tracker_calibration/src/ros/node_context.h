@@ -117,8 +117,7 @@ class NodeContext {
 
   /// What is known of these cameras, for a calibration that is captured live.
   /// @throws Refusal: starting intrinsics do not fit the size of a camera's images.
-  std::map<std::string, workflow::CameraFacts> facts(const std::vector<std::string>& cameras,
-                                                     const Lock&) const;
+  workflow::CameraFacts facts(const std::vector<std::string>& cameras, const Lock&) const;
   /// All that was captured so far, to be solved or saved. @throws Refusal as facts().
   session::Session session(const Lock& lock) const;
   /// Continues from captured data, with its masks.

@@ -11,7 +11,6 @@
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <cstddef>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -131,8 +130,7 @@ class Calibration {
 
   /// All that was captured so far. @param facts, masks for every camera of the run that is known;
   /// after restore() the facts are those of the samples file.
-  session::Session session(const std::map<std::string, CameraFacts>& facts,
-                           const capture::Masks& masks) const {
+  session::Session session(const CameraFacts& facts, const capture::Masks& masks) const {
     return toSession(captured_, facts, masks);
   }
 

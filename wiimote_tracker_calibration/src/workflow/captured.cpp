@@ -9,15 +9,11 @@ namespace {
 
 wave::CameraRecording recordingOf(const Captured& captured,
                                   const std::string& name,
-                                  const std::map<std::string, CameraFacts>& facts) {
+                                  const CameraFacts& facts) {
   wave::CameraRecording camera;
+  if (const auto fact = facts.find(name); fact != facts.end())
+    camera.sightings = fact->second;
   camera.sightings.name = name;
-  const auto fact = facts.find(name);
-  if (fact != facts.end()) {
-    camera.sightings.identity = fact->second.identity;
-    camera.sightings.intrinsics = fact->second.intrinsics;
-    camera.sightings.gravity = fact->second.gravity;
-  }
   for (std::size_t c = 0; c < captured.square.corners().size(); ++c) {
     const auto view = captured.square.corners()[c].find(name);
     if (view != captured.square.corners()[c].end())
@@ -73,7 +69,7 @@ std::string Captured::whyNotSolvable() const {
 }
 
 session::Session toSession(const Captured& captured,
-                           const std::map<std::string, CameraFacts>& live,
+                           const CameraFacts& live,
                            const capture::Masks& masks) {
   const auto& facts = captured.restored_facts.empty() ? live : captured.restored_facts;
   session::Session session;
@@ -107,7 +103,8 @@ Captured fromSession(const session::Session& session,
   for (const wave::CameraRecording& camera : session.recording.cameras) {
     const square::CameraSightings& seen = camera.sightings;
     captured.cameras.push_back(seen.name);
-    captured.restored_facts[seen.name] = {seen.identity, seen.intrinsics, seen.gravity};
+    captured.restored_facts[seen.name] = {seen.name, seen.identity, seen.intrinsics, {},
+                                          {},        seen.gravity};
     for (std::size_t c = 0; c < seen.corners.size(); ++c) {
       if (!seen.corners[c])
         continue;

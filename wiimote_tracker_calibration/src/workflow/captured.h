@@ -8,10 +8,6 @@
 #include "workflow/square_run.h"
 #include "workflow/wave_recorder.h"
 
-#include <wiimote_tracker_triangulation/geometry/camera.h>
-
-#include <Eigen/Core>
-
 #include <cstddef>
 #include <map>
 #include <optional>
@@ -20,12 +16,8 @@
 
 namespace wiimote_tracker::workflow {
 
-/// Facts about a camera besides where it saw the LED.
-struct CameraFacts {
-  std::string identity;                    ///< Empty if unknown.
-  geometry::Intrinsics intrinsics;         ///< Starting values.
-  std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
-};
+/// Facts about cameras besides where they saw the LED, by name.
+using CameraFacts = std::map<std::string, square::CameraSightings>;
 
 /// What one run of the calibration has captured.
 struct Captured {
@@ -40,7 +32,7 @@ struct Captured {
   std::map<std::string, std::string> devices;
   std::map<std::string, std::string> other_devices;
   /// Facts from a samples file; empty: this run is captured live.
-  std::map<std::string, CameraFacts> restored_facts;
+  CameraFacts restored_facts;
 
   /// Whether it can be solved: four corners, or without a square a wand.
   bool isComplete() const { return layout ? square.isComplete() : wave && wave->wand(); }
@@ -55,7 +47,7 @@ struct Captured {
 
 /// @param live facts of the cameras now; not used for what comes from a samples file.
 session::Session toSession(const Captured& captured,
-                           const std::map<std::string, CameraFacts>& live,
+                           const CameraFacts& live,
                            const capture::Masks& masks);
 
 /// The inverse. @throws wave::WaveError: coverage options out of range.

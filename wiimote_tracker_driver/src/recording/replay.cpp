@@ -1,12 +1,7 @@
 #include "recording/replay.h"
 
-#include "recorded_remote.h"
-#include "recording/reader.h"
-
 #include <algorithm>
 #include <chrono>
-#include <deque>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -47,217 +42,164 @@ Pace realTime(double speed) {
   };
 }
 
-struct Replay::State {
-  State(const std::string& file_path, Pace replay_pace)
-      : path(file_path), pace(std::move(replay_pace)), file(openRecording(path)), reader(file) {
-    learn();
-    passUntil(now);
-  }
-
-  const std::string path;
-  const Pace pace;
-  std::ifstream file;
-  Reader reader;
-
-  double now = 0.0;
-  bool ended = false;
-  bool connected = false;
-  transport::Remote description;
-  RecordedRemote remote;
-  std::string damage;
-
-  struct Event {
-    Record record;
-    bool matched = false;  ///< A request that the present host has sent, too.
-  };
-  std::deque<Event> ahead;  ///< Read but not yet played.
-  std::deque<Report> answers;
-
-  void learn() {
-    std::ifstream all = openRecording(path);
-    Reader first_reader(all);
-    bool any = false;
-    for (Record record; first_reader.next(record);) {
-      remote.learn(record);
-      if (!any && record.kind == Record::Kind::kConnected) {
-        now = record.time;
-        any = true;
-      }
-    }
-    damage = first_reader.damage();
-    if (!any)
-      throw BadRecording("the recording has no connection to a Wii Remote" +
-                         (damage.empty() ? "" : " (" + damage + ")") + ": choose another one");
-  }
-
-  void passUntil(double time) {
-    if (pace)
-      pace(time);
-    now = std::max(now, time);
-  }
-
-  /// Reads all events up to `time` into `ahead`. @returns false if there is none left.
-  bool readAhead(double time) {
-    while (ahead.empty() || ahead.back().record.time <= time) {
-      Event event;
-      if (!reader.next(event.record))
-        break;
-      ahead.push_back(std::move(event));
-    }
-    return !ahead.empty();
-  }
-
-  Record take() {
-    Record record = std::move(ahead.front().record);
-    ahead.pop_front();
-    return record;
-  }
-
-  std::string end() {
-    ended = true;
-    return "the recording " + path + " has ended" + (damage.empty() ? "" : ": " + damage);
-  }
-
-  void connect() {
-    answers.clear();
-    // Reports that arrived while the host was not connected are lost.
-    while (readAhead(now) && (!connected || ahead.front().record.time < now)) {
-      const Record& next = ahead.front().record;
-      if (!connected && next.time > now + kConnectTimeout)
-        throw transport::NoSuchDevice("the Wii Remote was away at this time of the recording " +
-                                      path + ": wait");
-      const Record record = take();
-      if (record.kind == Record::Kind::kConnected) {
-        connected = true;
-        description = record.remote;
-        passUntil(record.time);
-      } else if (record.kind == Record::Kind::kDisconnected) {
-        connected = false;
-      } else if (record.kind == Record::Kind::kSent) {
-        remote.recordedHostSent(record.report);
-      }
-    }
-    if (ahead.empty())
-      throw transport::NoSuchDevice(end());
-  }
-
-  bool read(Report& report, double timeout) {
-    if (!answers.empty()) {
-      report = answers.front();
-      answers.pop_front();
-      return true;
-    }
-    const double until = now + timeout;
-    while (readAhead(until)) {
-      if (isAfter(ahead.front().record, until)) {
-        passUntil(until);
-        return false;
-      }
-      const Record record = take();
-      passUntil(record.time);
-      switch (record.kind) {
-        case Record::Kind::kReceived:
-          report = record.report;
-          remote.putOwnValuesInto(report);
-          return true;
-        case Record::Kind::kSent:
-          remote.recordedHostSent(record.report);
-          break;
-        case Record::Kind::kConnected:
-          description = record.remote;
-          break;
-        case Record::Kind::kDisconnected:
-          disconnect(record.reason);
-      }
-    }
-    connected = false;
-    throw transport::Disconnected(end());
-  }
-
-  [[noreturn]] void disconnect(const std::string& reason) {
-    connected = false;
-    if (!readAhead(now))
-      throw transport::Disconnected(end());
-    throw transport::Disconnected(
-        "in the recording " + path + ", " +
-        (reason.empty() ? "the driver released the Wii Remote at this time" : reason));
-  }
-
-  void write(const Report& report) {
-    remote.hostSends(report);
-    readAhead(now + kLookAhead);
-    for (Event& event : ahead) {
-      const Record& record = event.record;
-      if (record.time > now + kLookAhead || record.kind == Record::Kind::kDisconnected)
-        break;
-      if (record.kind == Record::Kind::kSent && !event.matched &&
-          sameRequest(record.report, report)) {
-        event.matched = true;
-        return;
-      }
-    }
-    remote.answer(report, answers);
-  }
-};
-
 class Replay::Transport : public transport::Transport {
  public:
-  explicit Transport(std::shared_ptr<State> state) : state_(std::move(state)) {}
+  explicit Transport(Replay* replay) : replay_(replay) {}
 
-  bool read(Report& report, double timeout) override { return state_->read(report, timeout); }
-  void write(const Report& report) override { state_->write(report); }
+  bool read(Report& report, double timeout) override { return replay_->read(report, timeout); }
+  void write(const Report& report) override { replay_->write(report); }
   transport::Remote remote() const override {
-    return {state_->description.identity, "replay:" + state_->path,
-            state_->description.kernel_driver};
+    return {replay_->description_.identity, "replay:" + replay_->path_,
+            replay_->description_.kernel_driver};
   }
 
  private:
-  std::shared_ptr<State> state_;
+  Replay* replay_;
 };
 
-Replay::Replay(const std::string& path, Pace pace) {
-  try {
-    state_ = std::make_shared<State>(path, std::move(pace));
-  } catch (const BadRecording& e) {
-    throw BadRecording(path + ": " + e.what());
-  }
+Replay::Replay(const std::string& path, Pace pace) try
+    : path_(path), pace_(std::move(pace)), file_(openRecording(path)), reader_(file_) {
+  learn();
+  passUntil(now_);
+} catch (const BadRecording& e) {
+  throw BadRecording(path + ": " + e.what());
 }
 
-Replay::~Replay() = default;
+void Replay::learn() {
+  std::ifstream all = openRecording(path_);
+  Reader first_reader(all);
+  bool any = false;
+  for (Record record; first_reader.next(record);) {
+    remote_.learn(record);
+    if (!any && record.kind == Record::Kind::kConnected) {
+      now_ = record.time;
+      any = true;
+    }
+  }
+  damage_ = first_reader.damage();
+  if (!any)
+    throw BadRecording("the recording has no connection to a Wii Remote" +
+                       (damage_.empty() ? "" : " (" + damage_ + ")") + ": choose another one");
+}
+
+void Replay::passUntil(double time) {
+  if (pace_)
+    pace_(time);
+  now_ = std::max(now_, time);
+}
+
+/// Reads all events up to `time` into `ahead_`. @returns false if there is none left.
+bool Replay::readAhead(double time) {
+  while (ahead_.empty() || ahead_.back().record.time <= time) {
+    Event event;
+    if (!reader_.next(event.record))
+      break;
+    ahead_.push_back(std::move(event));
+  }
+  return !ahead_.empty();
+}
+
+Record Replay::take() {
+  Record record = std::move(ahead_.front().record);
+  ahead_.pop_front();
+  return record;
+}
+
+std::string Replay::end() {
+  ended_ = true;
+  return "the recording " + path_ + " has ended" + (damage_.empty() ? "" : ": " + damage_);
+}
 
 std::unique_ptr<transport::Transport> Replay::open() {
-  state_->connect();
-  return std::make_unique<Transport>(state_);
+  answers_.clear();
+  // Reports that arrived while the host was not connected are lost.
+  while (readAhead(now_) && (!connected_ || ahead_.front().record.time < now_)) {
+    const Record& next = ahead_.front().record;
+    if (!connected_ && next.time > now_ + kConnectTimeout)
+      throw transport::NoSuchDevice("the Wii Remote was away at this time of the recording " +
+                                    path_ + ": wait");
+    const Record record = take();
+    if (record.kind == Record::Kind::kConnected) {
+      connected_ = true;
+      description_ = record.remote;
+      passUntil(record.time);
+    } else if (record.kind == Record::Kind::kDisconnected) {
+      connected_ = false;
+    } else if (record.kind == Record::Kind::kSent) {
+      remote_.recordedHostSent(record.report);
+    }
+  }
+  if (ahead_.empty())
+    throw transport::NoSuchDevice(end());
+  return std::make_unique<Transport>(this);
 }
 
-double Replay::now() const {
-  return state_->now;
+bool Replay::read(Report& report, double timeout) {
+  if (!answers_.empty()) {
+    report = answers_.front();
+    answers_.pop_front();
+    return true;
+  }
+  const double until = now_ + timeout;
+  while (readAhead(until)) {
+    if (isAfter(ahead_.front().record, until)) {
+      passUntil(until);
+      return false;
+    }
+    const Record record = take();
+    passUntil(record.time);
+    switch (record.kind) {
+      case Record::Kind::kReceived:
+        report = record.report;
+        remote_.putOwnValuesInto(report);
+        return true;
+      case Record::Kind::kSent:
+        remote_.recordedHostSent(record.report);
+        break;
+      case Record::Kind::kConnected:
+        description_ = record.remote;
+        break;
+      case Record::Kind::kDisconnected:
+        disconnect(record.reason);
+    }
+  }
+  connected_ = false;
+  throw transport::Disconnected(end());
 }
 
-double Replay::wallTime() const {
-  return state_->reader.header().wall_time + state_->now;
+void Replay::disconnect(const std::string& reason) {
+  connected_ = false;
+  if (!readAhead(now_))
+    throw transport::Disconnected(end());
+  throw transport::Disconnected(
+      "in the recording " + path_ + ", " +
+      (reason.empty() ? "the driver released the Wii Remote at this time" : reason));
 }
 
-void Replay::pass(double duration) {
-  state_->passUntil(state_->now + duration);
-}
-
-bool Replay::ended() const {
-  return state_->ended;
-}
-
-std::optional<protocol::IrFormat> Replay::irFormat() const {
-  return state_->remote.irFormat();
+void Replay::write(const Report& report) {
+  remote_.hostSends(report);
+  readAhead(now_ + kLookAhead);
+  for (Event& event : ahead_) {
+    const Record& record = event.record;
+    if (record.time > now_ + kLookAhead || record.kind == Record::Kind::kDisconnected)
+      break;
+    if (record.kind == Record::Kind::kSent && !event.matched &&
+        sameRequest(record.report, report)) {
+      event.matched = true;
+      return;
+    }
+  }
+  remote_.answer(report, answers_);
 }
 
 std::string Replay::notice() const {
-  std::string sentences = state_->damage;
+  std::string sentences = damage_;
   const auto add = [&sentences](const char* sentence) {
     sentences += (sentences.empty() ? "" : "; ") + std::string(sentence);
   };
-  if (state_->remote.sensitivityDiffers())
+  if (remote_.sensitivityDiffers())
     add("the recording was made with another sensitivity of the camera, which is kept");
-  if (state_->remote.formatDiffers())
+  if (remote_.formatDiffers())
     add("the recording was made with another infrared format, which is kept");
   return sentences;
 }

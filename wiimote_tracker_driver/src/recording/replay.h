@@ -1,10 +1,13 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_REPLAY_H
 #define WIIMOTE_TRACKER_DRIVER_RECORDING_REPLAY_H
 
-#include "recording/format.h"
+#include "recording/reader.h"
+#include "recording/recorded_remote.h"
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
+#include <deque>
+#include <fstream>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -28,27 +31,29 @@ class Replay {
   /// Reads the whole file. Without a `pace` it is played as fast as possible.
   /// @throws BadRecording if the file is not a usable recording.
   explicit Replay(const std::string& path, Pace pace = nullptr);
-  ~Replay();
 
-  /// Connects to the remote as it was at this time; waits up to a second for it.
-  /// @throws NoSuchDevice if it was not there, or the recording has ended.
+  Replay(const Replay&) = delete;
+  Replay& operator=(const Replay&) = delete;
+
+  /// Connects to the remote as it was at this time; waits up to a second for it. The transport must
+  /// not outlive this. @throws NoSuchDevice if it was not there, or the recording has ended.
   std::unique_ptr<transport::Transport> open();
 
   /// Time since the start of the recording [s]: exactly that of the last report until time passes.
   /// Starts with the first connection.
-  double now() const;
+  double now() const { return now_; }
 
   /// The wall clock of the recording at now() [s since 1970].
-  double wallTime() const;
+  double wallTime() const { return reader_.header().wall_time + now_; }
 
   /// Lets time [s, >= 0] pass while no transport is open.
-  void pass(double duration);
+  void pass(double duration) { passUntil(now_ + duration); }
 
   /// Whether the recording has been played to its end.
-  bool ended() const;
+  bool ended() const { return ended_; }
 
   /// The infrared format of the recorded images; nothing when there are none.
-  std::optional<protocol::IrFormat> irFormat() const;
+  std::optional<protocol::IrFormat> irFormat() const { return remote_.irFormat(); }
 
   /// Sentences for the user if the recording is cut off or was made with other settings; else
   /// empty.
@@ -56,8 +61,33 @@ class Replay {
 
  private:
   class Transport;
-  struct State;
-  std::shared_ptr<State> state_;
+
+  struct Event {
+    Record record;
+    bool matched = false;  ///< A request that the present host has sent, too.
+  };
+
+  void learn();
+  void passUntil(double time);
+  bool readAhead(double time);
+  Record take();
+  std::string end();
+  bool read(protocol::Report& report, double timeout);
+  [[noreturn]] void disconnect(const std::string& reason);
+  void write(const protocol::Report& report);
+
+  const std::string path_;
+  const Pace pace_;
+  std::ifstream file_;
+  Reader reader_;
+  double now_ = 0.0;
+  bool ended_ = false;
+  bool connected_ = false;
+  transport::Remote description_;
+  RecordedRemote remote_;
+  std::string damage_;
+  std::deque<Event> ahead_;  ///< Read but not yet played.
+  std::deque<protocol::Report> answers_;
 };
 
 }  // namespace wiimote_tracker::recording

@@ -94,14 +94,14 @@ std::thread threadWithoutSignals(F f) {
 Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
     : parameters_(readDriverParameters(ParameterReader(private_nh), nh.getNamespace())),
       optical_frame_(parameters_.camera_name + "_optical_frame"),
-      source_(makeSource(parameters_, private_nh.resolveName("device"))),
-      ir_format_(source_->irFormat().value_or(irFormat(parameters_.ir_mode))),
-      recorder_(makeRecorder(parameters_, *source_, private_nh.resolveName("record"))),
+      source_(parameters_, private_nh.resolveName("device")),
+      ir_format_(source_.irFormat().value_or(irFormat(parameters_.ir_mode))),
+      recorder_(makeRecorder(parameters_, source_, private_nh.resolveName("record"))),
       control_(leds(parameters_.leds, parameters_.camera_name), parameters_.rumble_max),
       wiimote_(
           wiimoteOptions(parameters_, ir_format_),
           [this] { return open(); },
-          [this] { return source_->now(); }),
+          [this] { return source_.now(); }),
       camera_info_(nh,
                    parameters_.camera_name,
                    optical_frame_,
@@ -114,7 +114,7 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
            parameters_.linear_acceleration_stddev),
       battery_(nh, parameters_.camera_name, parameters_.battery_low),
       joy_(nh, optical_frame_),
-      log_(parameters_.camera_name, !source_->recorded()),
+      log_(parameters_.camera_name, !source_.recorded()),
       stamper_(stamperOptions(parameters_, ir_format_)),
       statistics_(steadyNow()),
       reader_priority_("normal"),
@@ -152,7 +152,7 @@ Driver::~Driver() {
 void Driver::run() {
   logExceptions(parameters_.camera_name, [this] {
     raisePriority();
-    log_.notice(source_->notice());
+    log_.notice(source_.notice());
   });
   while (waitForTurn())
     logExceptions(parameters_.camera_name, [this] { readAndPublish(); });
@@ -160,7 +160,7 @@ void Driver::run() {
 }
 
 void Driver::readAndPublish() {
-  control_.apply(wiimote_, source_->now());
+  control_.apply(wiimote_, source_.now());
   const auto image = wiimote_.step(kReadWait);
   if (wiimote_.linkChanges() != seen_changes_) {
     seen_changes_ = wiimote_.linkChanges();
@@ -172,7 +172,7 @@ void Driver::readAndPublish() {
 
 // A recording cannot overflow, so it needs no priority.
 void Driver::raisePriority() {
-  if (parameters_.realtime_priority == 0 || source_->recorded())
+  if (parameters_.realtime_priority == 0 || source_.recorded())
     return;
   const std::string refused = takeRealtimePriority(parameters_.realtime_priority);
   if (!refused.empty())
@@ -185,7 +185,7 @@ void Driver::raisePriority() {
 // Waits until the remote may need attention. @returns false at shutdown.
 bool Driver::waitForTurn() {
   const double idle = wiimote_.idleTime();
-  if (idle > 0.0 && !source_->pass(std::min(idle, kReadWait))) {
+  if (idle > 0.0 && !source_.pass(std::min(idle, kReadWait))) {
     std::unique_lock<std::mutex> lock(mutex_);
     stopping_.wait_for(lock, std::chrono::duration<double>(idle), [this] { return stop_.load(); });
   }
@@ -193,17 +193,17 @@ bool Driver::waitForTurn() {
 }
 
 std::unique_ptr<transport::Transport> Driver::open() {
-  auto transport = source_->open();
+  auto transport = source_.open();
   if (!recorder_)
     return transport;
-  return recording::record(std::move(transport), recorder_, [this] { return source_->now(); });
+  return recording::record(std::move(transport), recorder_, [this] { return source_.now(); });
 }
 
 // Stamps that nobody needs are computed once a second, for the diagnostics, or when 200 wait:
 // together they take half the time, since the clock's code and state stay in the caches.
 void Driver::publishImage(const protocol::DataReport& image) {
   const wiimote::Link& link = wiimote_.link();
-  const Arrival arrival{source_->readClocks(), link.clock_epoch};
+  const Arrival arrival{source_.readClocks(), link.clock_epoch};
   const bool needed = blobs_.subscribed() || camera_info_.subscribed() || imu_.subscribed() ||
                       joy_.changed(image.buttons);
   ImageTime time;
@@ -242,8 +242,8 @@ void Driver::linkChanged() {
       statistics_.begin(steadyNow());
   }
   log_.report(now, steadyNow());
-  log_.notice(source_->notice());
-  const ros::Time stamp = source_->readClocks().ros;
+  log_.notice(source_.notice());
+  const ros::Time stamp = source_.readClocks().ros;
   if (now.status && !(now.status == before.status))
     battery_.publish(*now.status, now.identity, stamp);
   if (now.state == wiimote::Link::State::kStreaming && before.state != now.state)
@@ -255,7 +255,7 @@ void Driver::linkChanged() {
 void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   DriverState state;
   state.ir_sensitivity = settings_.sensitivity();
-  state.replayed = source_->recorded();
+  state.replayed = source_.recorded();
   if (recorder_) {
     state.recording = recorder_->path();
     state.recording_error = recorder_->error();

@@ -59,7 +59,7 @@ class Driver {
   const DriverParameters parameters_;
   const std::string optical_frame_;
 
-  const std::unique_ptr<RemoteSource> source_;
+  RemoteSource source_;
   const protocol::IrFormat ir_format_;
   const std::shared_ptr<recording::Recorder> recorder_;  // null: not recorded
   RemoteControl control_;

@@ -3,9 +3,11 @@
 
 #include "clock_reading.h"
 #include "driver_parameters.h"
-#include "wiimote/wiimote.h"
+#include "recording/replay.h"
+#include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,36 +15,39 @@
 namespace wiimote_tracker::driver {
 
 /// Source of reports and of time: a remote with the present time, or a recording with its own time.
-/// Not thread-safe.
+/// Then both clocks show that, so that stamps do not depend on replay and speed. Not thread-safe.
 class RemoteSource {
  public:
-  virtual ~RemoteSource() = default;
+  /// The one that the parameters name. @throws ParameterError, naming `device_parameter`, when the
+  /// recording cannot be played.
+  RemoteSource(const DriverParameters& parameters, const std::string& device_parameter);
 
   /// As wiimote::Wiimote::Open.
-  virtual std::unique_ptr<transport::Transport> open() = 0;
+  std::unique_ptr<transport::Transport> open() { return replay_ ? replay_->open() : open_(); }
 
   /// A clock that never goes back [s].
-  virtual double now() const = 0;
+  double now() const { return replay_ ? replay_->now() : steadyNow(); }
 
-  virtual ClockReading readClocks() const = 0;
+  ClockReading readClocks() const;
 
   /// Lets up to `duration` [s] of a recording pass. @returns false when the caller has to wait.
-  virtual bool pass(double duration) = 0;
+  bool pass(double duration);
 
   /// The format of recorded images; nothing when the format can be chosen.
-  virtual std::optional<protocol::IrFormat> irFormat() const { return std::nullopt; }
+  std::optional<protocol::IrFormat> irFormat() const {
+    return replay_ ? replay_->irFormat() : std::nullopt;
+  }
 
   /// Sentences for the user; empty when there are none.
-  virtual std::string notice() const { return ""; }
+  std::string notice() const { return replay_ ? replay_->notice() : ""; }
 
   /// Whether the source is a recording.
-  virtual bool recorded() const = 0;
-};
+  bool recorded() const { return replay_.has_value(); }
 
-/// The source that the parameters name. @throws ParameterError, naming `device_parameter`, when the
-/// recording cannot be played.
-std::unique_ptr<RemoteSource> makeSource(const DriverParameters& parameters,
-                                         const std::string& device_parameter);
+ private:
+  std::function<std::unique_ptr<transport::Transport>()> open_;  ///< Of a remote.
+  std::optional<recording::Replay> replay_;
+};
 
 }  // namespace wiimote_tracker::driver
 

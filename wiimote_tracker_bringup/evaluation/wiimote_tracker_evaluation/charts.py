@@ -42,6 +42,16 @@ def plain_numbers():
     return matplotlib.ticker.StrMethodFormatter('{x:g}')
 
 
+def log_axis(axes, which, ticks, minor=False):
+    """Makes an axis, 'x' or 'y', logarithmic, with these ticks. minor: with others between them."""
+    getattr(axes, f'set_{which}scale')('log')
+    axis = getattr(axes, which + 'axis')
+    axis.set_ticks(ticks)
+    if not minor:
+        axis.set_ticks([], minor=True)
+    axis.set_ticklabels([f'{tick:g}' for tick in ticks])
+
+
 def key(axes, loc='best', extra=()):
     """The legend; extra: (line style, text) common to several curves."""
     handles, labels = axes.get_legend_handles_labels()

@@ -65,11 +65,8 @@ def cumulative_errors(results, cameras, protocol):
     charts.key(axes[0], loc='center left')
     ours(axes[2], results, cameras)
     for axis in axes:
-        axis.set_xscale('log')
-        axis.set_xlim(*LIMITS)
-        axis.set_xticks([0.1, 1.0, 10.0, 100.0])
-        axis.set_xticklabels(['0.1', '1', '10', '100'])
-        axis.set_xlabel('error [cm]')
+        charts.log_axis(axis, 'x', [0.1, 1.0, 10.0, 100.0], minor=True)
+        axis.set(xlim=LIMITS, xlabel='error [cm]')
     axes[0].set_ylabel('share of the points')
     return figure
 
@@ -125,9 +122,7 @@ def cubes(results, session):
             for number, (a, b) in enumerate(EDGES):
                 axis.plot(corners[[a, b], across], corners[[a, b], up], style, color=color,
                           linewidth=1.2, label=words if number == 0 else None)
-        axis.set_aspect('equal')
-        axis.set_xlabel(f'{names[0]} [m]')
-        axis.set_ylabel(f'{names[1]} [m]')
+        axis.set(aspect='equal', xlabel=f'{names[0]} [m]', ylabel=f'{names[1]} [m]')
     axes[0].set_title('from above', fontsize=TITLE_SIZE)
     axes[1].set_title('from the side', fontsize=TITLE_SIZE)
     charts.key(axes[1], loc='center')
@@ -153,15 +148,11 @@ def correction(results, session):
         error.plot(cameras[0]['round'], 1e3 * cameras[0]['origin_error'], style + 'o',
                    color=charts.INK, markersize=3, label=words)
     way.plot([0.0], [0.0], '+', color=charts.INK, markersize=9)
-    way.set_xlabel('difference u [px]')
-    way.set_ylabel('difference v [px]')
+    way.set(xlabel='difference u [px]', ylabel='difference v [px]')
     way.set_title('ideal less measured origin, rays from the image centre', fontsize=TITLE_SIZE)
     charts.key(way)
-    error.set_yscale('log')
-    error.set_xlabel('round')
-    error.set_ylabel('error of the origin [mm]')
+    charts.log_axis(error, 'y', [1, 10, 100], minor=True)
+    error.set(xlabel='round', ylabel='error of the origin [mm]')
     error.set_title('measured origin from the ideal one', fontsize=TITLE_SIZE)
-    error.set_yticks([1, 10, 100])
-    error.set_yticklabels(['1', '10', '100'])
     charts.key(error)
     return figure

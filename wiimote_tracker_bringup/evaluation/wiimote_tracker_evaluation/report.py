@@ -131,12 +131,9 @@ def draw_tracks(path, recording, segments, score):
                           arrowprops=dict(arrowstyle='->', color='tab:red'))
         side = experiment.SIDE
         axes.plot([0, side, side, 0, 0], [0, 0, side, side, 0], ':', color='0.4', linewidth=1.0)
-        axes.set_aspect('equal')
-        axes.set_xlim(-0.45, side + 0.45)
-        axes.set_ylim(-0.45, side + 0.45)
-        axes.set_xlabel(f"{'xyz'[h]} [m]")
-        axes.set_ylabel(f"{'xyz'[v]} [m]")
-        axes.set_title(title)
+        limits = -0.45, side + 0.45
+        axes.set(aspect='equal', xlim=limits, ylim=limits, xlabel=f"{'xyz'[h]} [m]",
+                 ylabel=f"{'xyz'[v]} [m]", title=title)
     views[1].legend(loc='upper center', bbox_to_anchor=(0.5, 0.8))
     figure.suptitle('Simulated rig: ten points and three circles; RMS %.1f mm absolute, %.1f mm '
                     'similarity-aligned; arrows: error x 25' % (

@@ -71,9 +71,7 @@ def tell(run, radius, path):
     figure, axes = charts.figure()
     charts.cumulative(axes, 1e3 * np.abs(radial), charts.BLUE, 'radial')
     charts.cumulative(axes, 1e3 * np.abs(height), charts.ORANGE, 'height')
-    axes.set_xlim(0.0, None)
-    axes.set_xlabel('error [mm]')
-    axes.set_ylabel('share of the points')
+    axes.set(xlim=(0.0, None), xlabel='error [mm]', ylabel='share of the points')
     charts.key(axes, 'lower right')
     run.plot('circle', figure, 'Cumulative distributions of the errors on the circle.')
     run.summary('On a circle of %.2f m at %.2f m/s: RMS error %.1f mm radially, %.1f mm in height.'

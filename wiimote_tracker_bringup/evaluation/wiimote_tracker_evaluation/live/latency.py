@@ -102,9 +102,7 @@ def tell(run, counter, positions):
                 np.array([counter.answers[lap] - centre for lap in laps]),
                 np.array([counter.newest[lap] - centre for lap in laps]))
     charts.cumulative(axes, late, charts.BLUE)
-    axes.set_xlabel('latency [ms]')
-    axes.set_ylabel('share of the laps')
-    axes.set_xlim(0.0, None)
+    axes.set(xlabel='latency [ms]', ylabel='share of the laps', xlim=(0.0, None))
     run.plot('latency', figure, 'Left, as Fig. 6: all points (red), the newest ones at the '
              'triggers (blue crosses), and the axis of the laps counter, where the tracker later '
              'estimates the LED at the triggers. Right: cumulative distribution of the latency.')
@@ -124,9 +122,7 @@ def draw_circle(axes, points, turn, answers, newest):
     axes.plot(*(points @ plane).T, '.', color=charts.RED, markersize=1.5)
     axes.plot([0.0, 1.3 * radius], [0.0, 0.0], color=charts.INK, linewidth=0.8)
     axes.plot(*(newest @ plane).T, 'x', color=charts.BLUE, markersize=5)
-    axes.set_aspect('equal')
-    axes.set_xlabel('towards the laps counter [m]')
-    axes.set_ylabel('along the turn [m]')
+    axes.set(aspect='equal', xlabel='towards the laps counter [m]', ylabel='along the turn [m]')
 
 
 def behind(newest, answer, axis):

@@ -56,14 +56,10 @@ def tell(run, rows, of):
     charts.cumulative(axes, errors / 10.0, charts.BLUE)
     axes.axvline(PAPER_LIMIT, color=charts.SOFT, linestyle='--')
     axes.text(1.05 * PAPER_LIMIT, 0.5, f"the paper's\n{PAPER_LIMIT:g} cm")
-    axes.set_xscale('log')
     axes.set_xlim(min(0.1, 0.1 * errors.min()), max(10.0, 0.2 * errors.max()))
-    ticks = [tick for tick in (0.01, 0.1, 1.0, 10.0, 100.0)
-             if axes.get_xlim()[0] <= tick <= axes.get_xlim()[1]]
-    axes.set_xticks(ticks)
-    axes.set_xticklabels([f'{tick:g}' for tick in ticks])
-    axes.set_xlabel('error [cm]')
-    axes.set_ylabel('share of the points')
+    charts.log_axis(axes, 'x', [tick for tick in (0.01, 0.1, 1.0, 10.0, 100.0)
+                                if axes.get_xlim()[0] <= tick <= axes.get_xlim()[1]], minor=True)
+    axes.set(xlabel='error [cm]', ylabel='share of the points')
     run.plot('places', figure, 'Cumulative distribution of the errors.')
     run.summary('The ten points by hand: RMS error %.1f mm, largest %.1f mm (%d points).'
                 % (statistics.rms(errors), errors.max(), len(errors)))

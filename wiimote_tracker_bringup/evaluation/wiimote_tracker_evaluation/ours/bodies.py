@@ -38,9 +38,7 @@ def tell(run):
                 if label:
                     plot.fill_between(speeds, low, high, color=color, alpha=0.12, linewidth=0)
     for plot, name in zip(axes, ('position [mm]', 'rotation [°]')):
-        plot.set_xlabel('speed [m/s]')
-        plot.set_ylabel('RMS error of the ' + name)
-        plot.set_ylim(0.0, None)
+        plot.set(xlabel='speed [m/s]', ylabel='RMS error of the ' + name, ylim=(0.0, None))
     charts.key(axes[0], 'upper left', (('-', 'measured'), ('--', 'stated')))
     run.plot('bodies', figure, 'RMS error of a body\'s pose per session by speed, small spots: '
              'median and 5 to 95 % of the sessions.')

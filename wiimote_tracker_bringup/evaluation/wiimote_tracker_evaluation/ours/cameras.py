@@ -33,10 +33,7 @@ def tell(run):
         rms = [statistics.rms(np.concatenate(units_of(table, count, method))) for count in counts]
         axes.plot(counts, rms, 'o-', markersize=4, color=color, label=label)
     axes.plot(counts, bounds, '--', color=charts.SOFT, label='bound of single points')
-    axes.set_xlabel('cameras')
-    axes.set_ylabel('RMS error [mm]')
-    axes.set_ylim(0.0, None)
-    axes.set_xticks(counts)
+    axes.set(xlabel='cameras', ylabel='RMS error [mm]', ylim=(0.0, None), xticks=counts)
     charts.key(axes, 'upper right')
     run.plot('cameras', figure, 'RMS error by the number of exactly known cameras.')
     for count in (2, 4, 8):

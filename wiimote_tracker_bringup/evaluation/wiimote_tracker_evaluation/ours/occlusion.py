@@ -38,9 +38,8 @@ def tell(run):
                                                               hidden_share=share)])
                for share in shares]
         plot.plot(100.0 * np.array(shares), two, '--', color=charts.SOFT, label='two cameras see it')
-        plot.set_title('%d cameras' % count)
-        plot.set_xlabel('time that each camera does not see it [%]')
-        plot.set_ylim(0.0, 104.0)
+        plot.set(title='%d cameras' % count, ylim=(0.0, 104.0),
+                 xlabel='time that each camera does not see it [%]')
     axes[0].set_ylabel('covered time [%]')
     charts.key(axes[0], 'lower left')
     run.plot('occlusion', figure, 'Share of the time with a known position of the LED.')

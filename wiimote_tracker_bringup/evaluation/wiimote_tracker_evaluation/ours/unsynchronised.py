@@ -35,10 +35,8 @@ def tell(run):
                                    for value in unit]) for speed in speeds]
             axes.plot(speeds, rms, style, color=color, markersize=4,
                       label=label if clocks == 'own' else None)
-    axes.set_xlabel('speed of the LED [m/s]')
-    axes.set_ylabel('RMS error [mm]')
-    axes.set_xlim(0.0, None)
-    axes.set_ylim(0.0, None)
+    axes.set(xlabel='speed of the LED [m/s]', ylabel='RMS error [mm]', xlim=(0.0, None),
+             ylim=(0.0, None))
     charts.key(axes, 'upper left', (('-', 'cameras on their own clocks'),
                                     ('--', 'all expose at once')))
     run.plot('unsynchronised', figure, 'RMS error by the LED\'s speed.')

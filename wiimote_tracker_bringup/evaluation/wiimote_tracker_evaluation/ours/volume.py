@@ -37,8 +37,7 @@ def tell(run):
                 for (v, h), value in np.ndenumerate(grid):
                     plot.text(h, v, f'{value:.0f}', ha='center', va='center', fontsize=8,
                               color='white' if value > 0.6 * largest else charts.INK)
-                plot.set_xticks(range(len(places)))
-                plot.set_yticks(range(len(places)))
+                plot.set(xticks=range(len(places)), yticks=range(len(places)))
                 plot.set_xticklabels([f'{place:g}' for place in places], fontsize=7)
                 plot.set_yticklabels([f'{place:g}' for place in places], fontsize=7)
                 plot.grid(False)

@@ -107,12 +107,8 @@ def plot(run, speeds, estimates):
                 axis.errorbar(places + 0.06 * (number - 2.5), values,
                               np.maximum([values - low, high - values], 0.0), color=color,
                               marker='o', markersize=4, linewidth=1.0, capsize=2, label=explained)
-            axis.set_yscale('log')
-            axis.set_yticks([0.5, 1, 2, 5, 10, 20, 50, 100])
-            axis.set_yticklabels(['0.5', '1', '2', '5', '10', '20', '50', '100'])
-            axis.set_yticks([], minor=True)
-            axis.set_xticks(range(len(speeds)))
-            axis.set_xticklabels([f'{speed:g}' for speed in speeds])
+            charts.log_axis(axis, 'y', [0.5, 1, 2, 5, 10, 20, 50, 100])
+            axis.set(xticks=range(len(speeds)), xticklabels=[f'{speed:g}' for speed in speeds])
             if column == 0:
                 axis.set_ylabel(f'{which} error, RMS [mm]')
         axes[0, column].set_title(f'{words} Wiimotes', fontsize=9.5)

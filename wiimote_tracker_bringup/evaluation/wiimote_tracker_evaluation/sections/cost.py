@@ -194,8 +194,7 @@ def plot(run, measured):
                                   (lambda s: s.shares['/triangulation'], charts.BLUE, 'tracker')):
             axes.plot([n for n, _ in values], [100 * part(s).mean() for _, s in values], 'o-',
                       markersize=5, color=color, label=text)
-        axes.set_xlabel(word)
-        axes.set_xticks([n for n, _ in values])
+        axes.set(xlabel=word, xticks=[n for n, _ in values])
         axes.set_title(title, fontsize=9.5)
     by_cameras.set_ylabel('processor [% of one core]')
     top = 1.1 * max(100 * s.whole().mean() for s in idle)
@@ -208,8 +207,7 @@ def plot(run, measured):
         charts.cumulative(latency, 1e3 * setting.own, color, setting.words())
     latency.set_xscale('log')
     latency.xaxis.set_major_formatter(charts.plain_numbers())
-    latency.set_xlabel('own latency [ms]')
-    latency.set_ylabel('share of the points')
+    latency.set(xlabel='own latency [ms]', ylabel='share of the points')
     charts.key(latency, loc='lower right')
     run.plot('cost', figure, 'Processor time by the number of cameras and of LEDs; latency without '
              'Bluetooth, idle and beside busy processes.')

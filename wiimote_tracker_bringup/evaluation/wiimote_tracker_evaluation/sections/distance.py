@@ -131,22 +131,13 @@ def plot(run, led, carried, thresholds, constant):
     axes.annotate('paper: 560 mA, 10 m', (1e3 * PAPER_CURRENT, PAPER_DISTANCE), xytext=(62, -76),
                   textcoords='offset points', ha='center',
                   arrowprops={'arrowstyle': '-', 'color': charts.SOFT})
-    axes.set_xscale('log')
-    axes.set_yscale('log')
-    for which, ticks in ((axes.set_xticks, (50, 100, 200, 500, 1000, 2000)),
-                         (axes.set_yticks, (1, 2, 5, 10, 20, 50))):
-        which(ticks)
-        which([], minor=True)
-    axes.set_xticklabels(['50', '100', '200', '500', '1000', '2000'])
-    axes.set_yticklabels(['1', '2', '5', '10', '20', '50'])
-    axes.set_xlabel('current [mA]')
-    axes.set_ylabel('detection distance [m]')
+    charts.log_axis(axes, 'x', (50, 100, 200, 500, 1000, 2000))
+    charts.log_axis(axes, 'y', (1, 2, 5, 10, 20, 50))
+    axes.set(xlabel='current [mA]', ylabel='detection distance [m]')
     angles = np.linspace(-80.0, 80.0, 161)
     beam.plot(angles, PAPER_DISTANCE * np.sqrt(led.relative(np.radians(angles))), color=charts.BLUE)
-    beam.set_xlabel("angle off the cone's horizontal [°]")
-    beam.set_ylabel('detection distance, 560 mA [m]')
-    beam.set_ylim(0.0, None)
-    beam.set_xticks([-60, -30, 0, 30, 60])
+    beam.set(xlabel="angle off the cone's horizontal [°]", xticks=[-60, -30, 0, 30, 60],
+             ylabel='detection distance, 560 mA [m]', ylim=(0.0, None))
     run.plot('distance', figure, 'Distance from which the LED is seen (Fig. 5). Left: by its '
              'current, for the sensitivities of the remote: dots, where the remote stopped; lines, '
              'the inverse square law; diamond, the only point in the paper\'s text. '

@@ -208,22 +208,17 @@ def draw_fig6(axes, measured, title):
                   markersize=5)
     near.axhline(0.0, color=charts.INK, linewidth=0.8)
     middle, reach = measured.at_crossing[:, :2].mean(axis=0), 0.12 * RADIUS
-    near.set_xlim(middle[0] - 1.85 * reach, middle[0] + 1.85 * reach)
-    near.set_ylim(middle[1] - reach, middle[1] + reach)
-    near.set_xticks([])
-    near.set_yticks([])
+    near.set(xlim=middle[0] + 1.85 * reach * np.array([-1, 1]),
+             ylim=middle[1] + reach * np.array([-1, 1]), xticks=[], yticks=[])
     near.grid(False)
     axes.annotate('', xy=(1.4 * RADIUS, 0.0), xytext=(0.0, 0.0),
                   arrowprops=dict(arrowstyle='->', color=charts.INK, linewidth=0.8))
     axes.text(1.43 * RADIUS, 0.0, 'x', va='center')
     late = 1e3 * measured.by_counter()
-    axes.set_xlim(-1.2 * RADIUS, 1.55 * RADIUS)
-    axes.set_ylim(-1.2 * RADIUS, 1.2 * RADIUS)
     axes.text(-0.1 * RADIUS, 0.45 * RADIUS, f'{title}\n{late.min():.1f} to {late.max():.1f} ms',
               ha='center', va='center')
-    axes.set_aspect('equal')
-    axes.set_xlabel('x [m]')
-    axes.set_ylabel('y [m]')
+    axes.set(xlim=(-1.2 * RADIUS, 1.55 * RADIUS), ylim=(-1.2 * RADIUS, 1.2 * RADIUS),
+             aspect='equal', xlabel='x [m]', ylabel='y [m]')
 
 
 def direct(run, results):
@@ -291,9 +286,9 @@ def plot_distribution(run, results):
         parts = measured.parts()
         charts.cumulative(whole, parts['total'], color, title)
         charts.cumulative(whole, parts['own'], color, linestyle='--')
-    whole.set_xlim(0.0, 1.15 * max(np.quantile(m.parts()['total'], 0.995) for _, _, m in results))
-    whole.set_xlabel('exposure to published point [ms]')
-    whole.set_ylabel('share of the points')
+    longest = max(np.quantile(m.parts()['total'], 0.995) for _, _, m in results)
+    whole.set(xlim=(0.0, 1.15 * longest), xlabel='exposure to published point [ms]',
+              ylabel='share of the points')
     charts.key(whole, loc='lower right', extra=[('--', 'without Bluetooth')])
     for row, (_, title, measured) in enumerate(results):
         mean = {key: float(np.mean(values)) for key, values in measured.parts().items()}
@@ -304,11 +299,9 @@ def plot_distribution(run, results):
             begin += mean[key]
         split.text(begin, row, f"  {begin:.2f} ms, after {mean['bluetooth']:.1f} ms\n  of "
                                "Bluetooth", va='center', fontsize=8.5)
-    split.set_yticks(range(len(results)))
-    split.set_yticklabels([title for _, title, _ in results])
-    split.set_xlim(0.0, 1.5 * split.get_xlim()[1])
-    split.set_ylim(-0.5, len(results) + 0.6)
-    split.set_xlabel('mean time after Bluetooth [ms]')
+    split.set(yticks=range(len(results)), yticklabels=[title for _, title, _ in results],
+              xlim=(0.0, 1.5 * split.get_xlim()[1]), ylim=(-0.5, len(results) + 0.6),
+              xlabel='mean time after Bluetooth [ms]')
     charts.key(split, loc='upper left')
     run.plot('distribution', figure, 'Left: time from exposure to published point, dashed without '
              'the Bluetooth delay that the simulation is given. Right: what comes after that delay, its '

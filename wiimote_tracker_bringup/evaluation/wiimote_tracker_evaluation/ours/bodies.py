@@ -3,19 +3,16 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import per_session, where
 
 PROGRAM = 'evaluate_bodies'
+QUICK, FULL = 4, 60  # sessions
+CAPTION = 'A moving body with four LEDs.'
 SMALL, LARGE = 1.5, 3.0
 WRONG = 10.0  # greater rotation errors are wrong assignments [degrees]
 
 
-def commands(run):
-    return shared(run, PROGRAM, 4 if run.quick else 60)
-
-
-def tell(run):
-    table = read_shared(run, PROGRAM)
+def tell(run, table):
     counts = [int(count) for count in sorted(set(table['cameras']))]
     speeds = sorted(set(table['speed_m_per_s']))
     run.say(
@@ -55,7 +52,6 @@ def tell(run):
             chosen = where(table, cameras=count, led_size=size)
             run.share(f'body_wrong_{word}_spots_{count}_cameras', int((chosen & ~right).sum()),
                       int(chosen.sum()), f'Sessions with a wrong pose, {word} spots, {count} cameras')
-    keep(run, PROGRAM, table, 'A moving body with four LEDs.')
 
 
 def quantiles(units):

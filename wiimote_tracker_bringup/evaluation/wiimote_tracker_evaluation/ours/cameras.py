@@ -3,21 +3,18 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, scene, statistics
-from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import per_session, where
 
 PROGRAM = 'evaluate_cameras'
+QUICK, FULL = 6, 80  # sessions
+CAPTION = 'Errors with two to eight cameras.'
 METHODS = (('most_likely', 'single points, most likely', charts.BLUE),
            ('mean_closest', 'single points, mean of closest points (paper)', charts.RED),
            ('tracks_1_m_per_s', 'an LED at 1 m/s, followed', charts.GREEN))
 MIDDLE = np.array([1.25, 1.25, 1.0])  # target of the ring of evaluate_cameras [m]
 
 
-def commands(run):
-    return shared(run, PROGRAM, 6 if run.quick else 80)
-
-
-def tell(run):
-    table = read_shared(run, PROGRAM)
+def tell(run, table):
     counts = [int(count) for count in sorted(set(table['cameras']))]
     run.say(
         '### Two to eight cameras\n\n'
@@ -42,7 +39,6 @@ def tell(run):
                          'mm', f'RMS error with {count} cameras, {label}')
         run.figure('bound_%d_cameras' % count, bounds[counts.index(count)], 'mm', 1,
                    note='Cramér-Rao bound of single points with %d cameras' % count)
-    keep(run, PROGRAM, table, 'Errors with two to eight cameras.')
 
 
 def units_of(table, count, method):

@@ -3,21 +3,18 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import per_session, where
 
 PROGRAM = 'evaluate_occlusion'
+QUICK, FULL = 4, 60  # sessions
+CAPTION = 'An LED with random occlusions.'
 METHODS = (('tracks', 'tracks, predicted points too', charts.BLUE),
            ('tracked', 'tracks, tracked points only', charts.GREEN),
            ('instants', 'instant by instant', charts.ORANGE))
 HIDDEN = 0.3  # hidden share shown as figures
 
 
-def commands(run):
-    return shared(run, PROGRAM, 4 if run.quick else 60)
-
-
-def tell(run):
-    table = read_shared(run, PROGRAM)
+def tell(run, table):
     counts = [int(count) for count in sorted(set(table['cameras']))]
     shares = sorted(set(table['hidden_share']))
     run.say(
@@ -56,4 +53,3 @@ def tell(run):
                 run.estimate(f'occlusion_{name}_{method}_{count}_cameras', units, statistic, unit,
                              '%s, each of %d cameras blind %d %% of the time, %s' % (
                                  note, count, 100 * HIDDEN, label))
-    keep(run, PROGRAM, table, 'An LED with random occlusions.')

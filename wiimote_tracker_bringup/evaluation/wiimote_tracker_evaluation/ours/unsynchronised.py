@@ -1,9 +1,11 @@
 """Unsynchronised cameras, and the benefit of estimated exposure times."""
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import per_session, where
 
 PROGRAM = 'evaluate_unsynchronised'
+QUICK, FULL = 3, 40  # sessions
+CAPTION = 'Errors of an LED on a circle.'
 METHODS = (('exact', 'tracks', 'exact times (nobody has them)', charts.SOFT),
            ('estimated', 'tracks', 'estimated exposures (ours)', charts.BLUE),
            ('arrival', 'tracks', 'arrivals instead', charts.ORANGE),
@@ -11,12 +13,7 @@ METHODS = (('exact', 'tracks', 'exact times (nobody has them)', charts.SOFT),
 SPEED = 2.0  # of the figures [m/s]
 
 
-def commands(run):
-    return shared(run, PROGRAM, 3 if run.quick else 40)
-
-
-def tell(run):
-    table = read_shared(run, PROGRAM)
+def tell(run, table):
     run.say(
         '### Cameras that are not synchronised\n\n'
         'An LED moves on a circle of 75 cm. The cameras are exactly known and have their own '
@@ -50,7 +47,6 @@ def tell(run):
                 'spots are intersected.' % (
                     SPEED, values['estimated', 'tracks'], values['exact', 'tracks'],
                     values['arrival', 'tracks'], values['exact', 'latest']))
-    keep(run, PROGRAM, table, 'Errors of an LED on a circle.')
 
 
 def units_of(table, speed, clocks, stamps, method):

@@ -3,18 +3,15 @@
 import numpy as np
 
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.sessions import keep, per_session, read_shared, shared, where
+from wiimote_tracker_evaluation.sessions import per_session, where
 
 PROGRAM = 'evaluate_map'
+QUICK, FULL = 6, 60  # sessions
+CAPTION = 'Errors at 27 places after a calibration.'
 METHODS = (('square', 'the square alone'), ('wave', 'square and waved LED'))
 
 
-def commands(run):
-    return shared(run, PROGRAM, 6 if run.quick else 60)
-
-
-def tell(run):
-    table = read_shared(run, PROGRAM)
+def tell(run, table):
     run.say(
         '### Accuracy over the volume\n\n'
         'Each session has other lenses and other placement errors of the corners, is calibrated, '
@@ -55,7 +52,6 @@ def tell(run):
         run.estimate(f'volume_{method}_consistency',
                      per_session(table, 'normalised_squared_error', chosen), np.mean, '',
                      f'Normalised squared error (1: the prediction is true), {label}')
-    keep(run, PROGRAM, table, 'Errors at 27 places after a calibration.')
 
 
 def rms_grid(table, method, column, height, places):

@@ -104,7 +104,7 @@ class EndToEnd(unittest.TestCase):
                                        ALIGNMENT_POINTS, min(samples), DWELL * RATE, DWELL * RATE,
                                        deviation=deviation)
         for kind in alignment.KINDS:
-            measured, best = score.position_rms[kind], bounds[kind].best
+            measured, best = 1e-3 * score['position_rms_mm'][kind], bounds[kind].best
             print('%s: measured %.2f mm, best %.2f mm, bound %.2f mm, 95 %% in %.2f .. %.2f mm' % (
                 kind, 1e3 * measured, 1e3 * best, 1e3 * bounds[kind].rms, 1e3 * bounds[kind].low,
                 1e3 * bounds[kind].high))
@@ -120,10 +120,10 @@ class EndToEnd(unittest.TestCase):
             calibration = np.zeros((4 * bound.PER_CAMERA,) * 2)
             _, covariance = bound.point_sensitivity(self.scene, calibration, point, 1)
             variances.append(np.trace(covariance))
-        ratio = score.scatter / np.sqrt(np.mean(variances))
+        ratio = 1e-3 * score['point_scatter_mm'] / np.sqrt(np.mean(variances))
         least = least_scatter(len(TEST_POINTS))
         print('scatter: %.2f mm, %.2f of what one image of each camera can tell, at least %.3f' % (
-            1e3 * score.scatter, ratio, least))
+            score['point_scatter_mm'], ratio, least))
         self.assertGreater(ratio, least)
         self.assertLess(ratio, 1.0)
 

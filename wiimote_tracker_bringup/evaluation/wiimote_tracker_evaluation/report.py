@@ -7,15 +7,16 @@ import numpy as np
 
 from wiimote_tracker_evaluation import experiment
 from wiimote_tracker_evaluation.alignment import KINDS
+from wiimote_tracker_evaluation.scoring import milli
 
 
 def table(score, bounds):
     """The results as lines of text."""
     lines = [f"{'':<3}  {'true [m]':<22}  {'measured [m]':<22}  {'error [mm]'}"]
-    for place in score.places:
+    for place in score['points']:
         lines.append('%-3s  %s  %s  %10.1f' % (
-            place.name, '  '.join(f'{v:6.3f}' for v in place.true),
-            '  '.join(f'{v:6.3f}' for v in place.measured), 1e3 * place.error()))
+            place['name'], '  '.join(f'{v:6.3f}' for v in place['true_m']),
+            '  '.join(f'{v:6.3f}' for v in place['measured_m']), place['error_mm']))
     lines += ['', '%-24s  %8s  %13s  %9s  %s' % (
         'RMS over the points [mm]', 'measured', 'best here (1)', 'bound (2)', '95 % of rigs (2)')]
     for kind in KINDS:
@@ -23,18 +24,18 @@ def table(score, bounds):
         lines.append('%-24s  %8.1f  %13.1f  %9.1f  %.1f .. %.1f' % (
             '  ' + {'absolute': 'absolute', 'rigid': 'rigid-aligned (3)',
                     'similarity': 'similarity-aligned (3)'}[kind],
-            1e3 * score.position_rms[kind], 1e3 * bound.best, 1e3 * bound.rms, 1e3 * bound.low,
+            score['position_rms_mm'][kind], 1e3 * bound.best, 1e3 * bound.rms, 1e3 * bound.low,
             1e3 * bound.high))
     lines += ['', f"{'RMS on the circles [mm]':<30}  {'radial':>8}  {'height':>8}"]
-    for circle in score.circles:
-        lines.append(f'  {circle.name:<28}  {1e3 * circle.radial:8.1f}  {1e3 * circle.height:8.1f}')
+    for circle in score['circles']:
+        lines.append('  {name:<28}  {radial_rms_mm:8.1f}  {height_rms_mm:8.1f}'.format(**circle))
     lines += ['',
-              'scatter of a single point    %.2f mm' % (1e3 * score.scatter),
-              f'points published             {score.rate:.0f} Hz',
-              f'latency report -> point      {1e3 * score.latency_p50:.2f} ms median, '
-              f'{1e3 * score.latency_p99:.2f} ms p99',
+              'scatter of a single point    %.2f mm' % score['point_scatter_mm'],
+              'points published             %.0f Hz' % score['rate_hz'],
+              'latency report -> point      {p50:.2f} ms median, {p99:.2f} ms p99'.format(
+                  **score['latency_ms']),
               'age of a point               %.1f ms median, from exposure to publication' % (
-                  1e3 * score.age_p50),
+                  score['point_age_ms']['p50']),
               '',
               '(1) Error of the best estimate for this rig, from the square alone, to first order.',
               '(2) Cramer-Rao bound from the square alone, averaged over rigs with corners placed',
@@ -49,35 +50,22 @@ def sentence(mode, score):
     return ('Simulated rig, mode %s, %d points: RMS error %.1f mm absolute, %.1f mm rigid-aligned, '
             '%.1f mm similarity-aligned; %.0f points/s; latency from report to published point '
             '%.2f ms median, %.2f ms p99.' % (
-                (mode, len(score.places))
-                + tuple(1e3 * score.position_rms[kind] for kind in KINDS)
-                + (score.rate, 1e3 * score.latency_p50, 1e3 * score.latency_p99)))
+                (mode, len(score['points']))
+                + tuple(score['position_rms_mm'][kind] for kind in KINDS)
+                + (score['rate_hz'], score['latency_ms']['p50'], score['latency_ms']['p99'])))
 
 
 def summary(mode, score, bounds):
     """The results as a dictionary for summary.json."""
-    def milli(value):
-        return round(1e3 * value, 4)
     return {
         'simulated': True,
         'mode': mode,
-        'position_rms_mm': {kind: milli(score.position_rms[kind]) for kind in KINDS},
+        'position_rms_mm': score['position_rms_mm'],
         'best_for_this_rig_mm': {kind: milli(bounds[kind].best) for kind in KINDS},
         'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
         'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
                                 for kind in KINDS},
-        'rate_hz': round(score.rate, 2),
-        'latency_ms': {'p50': milli(score.latency_p50), 'p99': milli(score.latency_p99)},
-        'point_age_ms': {'p50': milli(score.age_p50)},
-        'point_scatter_mm': milli(score.scatter),
-        'points': [{'name': place.name, 'true_m': [round(v, 6) for v in place.true],
-                    'measured_m': [round(v, 6) for v in place.measured],
-                    'error_mm': milli(place.error()), 'frames': place.frames}
-                   for place in score.places],
-        'circles': [{'name': circle.name, 'radial_rms_mm': milli(circle.radial),
-                     'height_rms_mm': milli(circle.height), 'frames': circle.frames}
-                    for circle in score.circles],
-    }
+        **score}
 
 
 def write_summary(path, mode, score, bounds):
@@ -120,14 +108,13 @@ def draw_tracks(path, recording, segments, score):
                       label='true' if number == 0 else None)
             axes.plot(recording.position[inside][:, h], recording.position[inside][:, v],
                       color='tab:blue', linewidth=0.8, label='measured' if number == 0 else None)
-        for number, place in enumerate(score.places):
-            axes.plot(place.true[h], place.true[v], 'o', color='0.65', markersize=11)
-            axes.plot(place.measured[h], place.measured[v], '+', color='tab:red', markersize=10,
+        for number, place in enumerate(score['points']):
+            true, measured = (np.array(place[key])[[h, v]] for key in ('true_m', 'measured_m'))
+            axes.plot(*true, 'o', color='0.65', markersize=11)
+            axes.plot(*measured, '+', color='tab:red', markersize=10,
                       label='measured point' if number == 0 else None)
             # The error is magnified: a centimetre is not visible at this scale.
-            error = 25.0 * (place.measured - place.true)
-            axes.annotate('', xytext=(place.true[h], place.true[v]),
-                          xy=(place.true[h] + error[h], place.true[v] + error[v]),
+            axes.annotate('', xytext=true, xy=true + 25.0 * (measured - true),
                           arrowprops=dict(arrowstyle='->', color='tab:red'))
         side = experiment.SIDE
         axes.plot([0, side, side, 0, 0], [0, 0, side, side, 0], ':', color='0.4', linewidth=1.0)
@@ -137,7 +124,7 @@ def draw_tracks(path, recording, segments, score):
     views[1].legend(loc='upper center', bbox_to_anchor=(0.5, 0.8))
     figure.suptitle('Simulated rig: ten points and three circles; RMS %.1f mm absolute, %.1f mm '
                     'similarity-aligned; arrows: error x 25' % (
-                        1e3 * score.position_rms['absolute'],
-                        1e3 * score.position_rms['similarity']))
+                        score['position_rms_mm']['absolute'],
+                        score['position_rms_mm']['similarity']))
     figure.savefig(path, dpi=110)
     plt.close(figure)

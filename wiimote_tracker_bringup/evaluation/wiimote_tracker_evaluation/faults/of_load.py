@@ -4,7 +4,7 @@ import multiprocessing
 import os
 
 from wiimote_tracker_evaluation.faults.helper import Helper
-from wiimote_tracker_evaluation.faults.of_processes import IN_ONE
+from wiimote_tracker_evaluation.faults.of_processes import in_one_manager
 from wiimote_tracker_evaluation.faults.room import DARK
 from wiimote_tracker_evaluation.faults.row import fault
 
@@ -16,8 +16,9 @@ def loop_forever():
         pass
 
 
-def keep_busy():
-    """Two busy loops for each core, for a while."""
+@fault()
+def busy_loops(room):
+    """Two busy loops for each core, for 8 s."""
     fork = multiprocessing.get_context('fork')
     loops = [fork.Process(target=loop_forever, daemon=True)
              for _ in range(2 * len(os.sched_getaffinity(0)))]
@@ -28,16 +29,7 @@ def keep_busy():
         loop.kill()
 
 
-@fault()
-def busy_loops(room):
-    """Two busy loops for each core, for 8 s."""
-    yield from keep_busy()
-
-
-@fault(room=IN_ONE)
-def busy_loops_in_one_manager(room):
-    """The same, with drivers and tracker in one process."""
-    yield from keep_busy()
+busy_loops_in_one_manager = in_one_manager(busy_loops, 'busy_loops_in_one_manager')
 
 
 def answer_lights(pipe):

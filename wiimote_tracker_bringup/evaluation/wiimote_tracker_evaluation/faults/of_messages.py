@@ -6,7 +6,7 @@ import threading
 import time
 
 from wiimote_tracker_evaluation.faults.helper import Helper, wait_for_subscribers
-from wiimote_tracker_evaluation.faults.of_processes import IN_ONE
+from wiimote_tracker_evaluation.faults.of_processes import in_one_manager
 from wiimote_tracker_evaluation.faults.row import fault
 
 CAMERA = 'wiimote_4'
@@ -51,22 +51,16 @@ def publish_hostile_images(pipe):
     signal.pause()
 
 
-def hostile_images():
+@fault(quick=True, named=CAMERA)
+def hostile_images_of_a_camera(room):
+    """A second publisher of a camera: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
     with Helper(publish_hostile_images) as helper:
         helper.answer(60.0)
         yield 0.0
 
 
-@fault(quick=True, named=CAMERA)
-def hostile_images_of_a_camera(room):
-    """A second publisher of a camera: NaN, wrong sizes, 100,000 spots, years 1970 and 2106."""
-    yield from hostile_images()
-
-
-@fault(room=IN_ONE, named=CAMERA)
-def hostile_images_in_one_manager(room):
-    """The same, with drivers and tracker in one process."""
-    yield from hostile_images()
+hostile_images_in_one_manager = in_one_manager(hostile_images_of_a_camera,
+                                               'hostile_images_in_one_manager')
 
 
 def subscribe_slowly(pipe):
@@ -83,8 +77,10 @@ def subscribe_slowly(pipe):
     signal.pause()
 
 
-def do_not_read():
-    """Five subscribers that are slow and then do not read."""
+# The master keeps the killed subscribers in its list: the next fault would wait for them.
+@fault(spends_room=True)
+def slow_subscribers(room):
+    """Five subscribers that take 1 s a message, and then do not read at all for 5 s."""
     helpers = [Helper(subscribe_slowly) for _ in range(5)]
     try:
         for helper in helpers:
@@ -98,14 +94,5 @@ def do_not_read():
             helper.stop()
 
 
-# The master keeps the killed subscribers in its list: the next fault would wait for them.
-@fault(spends_room=True)
-def slow_subscribers(room):
-    """Five subscribers that take 1 s a message, and then do not read at all for 5 s."""
-    yield from do_not_read()
-
-
-@fault(room=IN_ONE, spends_room=True)
-def slow_subscribers_in_one_manager(room):
-    """The same, with drivers and tracker in one process."""
-    yield from do_not_read()
+slow_subscribers_in_one_manager = in_one_manager(slow_subscribers,
+                                                 'slow_subscribers_in_one_manager')

@@ -1,5 +1,7 @@
 """Processes are killed, or stopped for a while."""
 
+import dataclasses
+
 from wiimote_tracker_evaluation.faults.row import Fault
 
 DRIVER, TRACKER, MANAGER = '/wiimote_4/driver', '/triangulation', '/manager'
@@ -22,6 +24,12 @@ def halted(name, what, node, **how):
         with room.stopped(node):
             yield STOPPED
     return Fault('stop_' + name, f'SIGSTOP of {what} for {STOPPED:.0f} s', cause, **how)
+
+
+def in_one_manager(other, name):
+    """Another fault where drivers and tracker are in one process."""
+    return dataclasses.replace(other, name=name, room=IN_ONE, quick=False,
+                               what='The same, with drivers and tracker in one process')
 
 
 FAULTS = (

@@ -84,15 +84,17 @@ std::vector<Method> methodsOf(const simulation::Description& described,
 }
 
 /// Writes the rows of one lap.
-class LapWriter {
- public:
-  LapWriter(int session, std::size_t circle, double speed, double phase, Table* table)
-      : session_(session), circle_(circle), speed_(speed), phase_(phase), table_(table) {}
+struct LapWriter {
+  int session;
+  std::size_t circle;
+  double speed;  // [m/s]
+  double phase;  // [rad]
+  Table* table;
 
-  double duration() const { return 2.0 * M_PI * kCircleRadius / speed_; }
+  double duration() const { return 2.0 * M_PI * kCircleRadius / speed; }
 
   Eigen::Vector3d position(double time) const {
-    return onCircle(circle_, phase_ + speed_ / kCircleRadius * time);
+    return onCircle(circle, phase + speed / kCircleRadius * time);
   }
 
   void follow(const Method& method, const std::vector<RoomImage>& images) const {
@@ -106,7 +108,6 @@ class LapWriter {
                 });
   }
 
- private:
   void write(const Method& method, double time, const tracking::Snapshot& snapshot) const {
     const Eigen::Vector3d truth = position(time);
     Eigen::Vector3d measured = Eigen::Vector3d::Constant(std::nan(""));
@@ -118,17 +119,11 @@ class LapWriter {
         measured = led.position;
       }
     }
-    const Eigen::Vector3d center = circleCenters()[circle_];
-    *table_ << session_ << method.rig.cameras.size() << method.name << circle_ + 1 << speed_ << time
-            << truth.x() << truth.y() << truth.z() << measured.x() << measured.y() << measured.z()
-            << (measured - center).head<2>().norm() - kCircleRadius << measured.z() - center.z();
+    const Eigen::Vector3d center = circleCenters()[circle];
+    *table << session << method.rig.cameras.size() << method.name << circle + 1 << speed << time
+           << truth.x() << truth.y() << truth.z() << measured.x() << measured.y() << measured.z()
+           << (measured - center).head<2>().norm() - kCircleRadius << measured.z() - center.z();
   }
-
-  int session_;
-  std::size_t circle_;
-  double speed_;  // [m/s]
-  double phase_;  // [rad]
-  Table* table_;
 };
 
 void measureAll(const simulation::Description& description, const Session& session, Table* table) {
@@ -142,7 +137,7 @@ void measureAll(const simulation::Description& description, const Session& sessi
     const std::vector<Method> methods = methodsOf(described, drawn);
     for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
       for (const double speed : {0.5, 1.0, 2.0}) {
-        const LapWriter lap(session.number, circle, speed, 1e-3 * (session.seed % 6283), table);
+        const LapWriter lap{session.number, circle, speed, 1e-3 * (session.seed % 6283), table};
         Room room(described, {[&](double time) { return lap.position(time); }}, RoomOptions(),
                   session.seed + static_cast<std::uint32_t>(circle));
         const std::vector<RoomImage> images = record(&room, kSettling + lap.duration());

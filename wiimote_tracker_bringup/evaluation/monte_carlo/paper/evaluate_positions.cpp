@@ -52,20 +52,13 @@ const std::vector<CameraSet> kCameraSets = {{"1 2", {0, 1}, true},
                                             {"1 2 3 4", {0, 1, 2, 3}, true}};
 
 /// Writes the rows of one session with one set of cameras.
-class SessionWriter {
- public:
-  SessionWriter(int number,
-                const std::string& cameras,
-                const PaperSession& session,
-                double pixel,
-                Table* points,
-                Table* traces)
-      : number_(number),
-        cameras_(cameras),
-        session_(session),
-        pixel_(pixel),
-        points_(points),
-        traces_(traces) {}
+struct SessionWriter {
+  int number;
+  std::string cameras;
+  const PaperSession& session;
+  double pixel;  // standard deviation of a coordinate [px]
+  Table* points;
+  Table* traces;
 
   void writePaper() {
     for (const auto& [model, name] :
@@ -75,19 +68,18 @@ class SessionWriter {
   }
 
   void writeOurs() {
-    const geometry::Rig square = solve([&] { return solveJointSquare(session_); });
+    const geometry::Rig square = solve([&] { return solveJointSquare(session); });
     writeSolved("square", square);
     writeRemapped("square_remapped", "calibrated", square, ourOptions());
-    writeSolved("wave", solve([&] { return solveWaved(session_.wave); }));
-    writeSolved("wand", solve([&] { return solveWaved(session_.wand); }));
-    wave::SimulatedWave no_wave = session_.wave;
+    writeSolved("wave", solve([&] { return solveWaved(session.wave); }));
+    writeSolved("wand", solve([&] { return solveWaved(session.wand); }));
+    wave::SimulatedWave no_wave = session.wave;
     no_wave.views.clear();
-    writeBound("bound_square", session_.wave_scene, no_wave);
-    writeBound("bound_wave", session_.wave_scene, session_.wave);
-    writeBound("bound_wand", session_.wand_scene, session_.wand);
+    writeBound("bound_square", session.wave_scene, no_wave);
+    writeBound("bound_wave", session.wave_scene, session.wave);
+    writeBound("bound_wand", session.wand_scene, session.wand);
   }
 
- private:
   /// A rig without cameras if it cannot be solved.
   static geometry::Rig solve(const std::function<geometry::Rig()>& solver) {
     try {
@@ -99,7 +91,7 @@ class SessionWriter {
 
   geometry::TriangulationOptions ourOptions() const {
     geometry::TriangulationOptions options;
-    options.pixel_stddev = pixel_;
+    options.pixel_stddev = pixel;
     return options;
   }
 
@@ -116,18 +108,13 @@ class SessionWriter {
           std::make_pair(PaperCase::kC5, "C5")}) {
       geometry::Rig rig;
       try {
-        const principal_point::CorrectionResult result = solvePaperCase(session_, which, model);
+        const principal_point::CorrectionResult result = solvePaperCase(session, which, model);
         rig = result.rig;
         writeTrace(name, model_name, result.trace);
       } catch (const geometry::Error&) {
         // A rig without cameras measures nothing.
       }
-      write(name, model_name, [&](const StillLed& led) {
-        Measured measured;
-        if (const auto point = measure(session_, rig, led, paperOptions()))
-          measured.position = point->position;
-        return measured;
-      });
+      writeMeasured(name, model_name, rig, paperOptions());
       if (which == PaperCase::kC1)
         writeRemapped("C1_remapped", model_name, rig, paperOptions());
     }
@@ -137,7 +124,7 @@ class SessionWriter {
     const geometry::CalibrationUncertainty uncertainty(rig);
     write(method, "calibrated", [&](const StillLed& led) {
       Measured measured;
-      const auto point = measure(session_, rig, led, ourOptions());
+      const auto point = measure(session, rig, led, ourOptions());
       if (!point)
         return measured;
       measured.position = point->position;
@@ -162,18 +149,25 @@ class SessionWriter {
     std::optional<remap::Correction> correction;
     try {
       std::vector<remap::KnownPoint> known;
-      for (const StillLed& led : session_.known_places) {
-        if (const auto point = measure(session_, rig, led, options))
+      for (const StillLed& led : session.known_places) {
+        if (const auto point = measure(session, rig, led, options))
           known.push_back({point->position, led.nominal});
       }
       correction.emplace(remap::fitRemap(known, "simulated").remap, "simulated");
     } catch (const Error&) {
       // Without a valid correction the volume stays as it is.
     }
+    writeMeasured(method, model_name, rig, options, correction);
+  }
+
+  void writeMeasured(const std::string& method,
+                     const std::string& model_name,
+                     const geometry::Rig& rig,
+                     const geometry::TriangulationOptions& options,
+                     const std::optional<remap::Correction>& correction = {}) {
     write(method, model_name, [&](const StillLed& led) {
       Measured measured;
-      const auto point = measure(session_, rig, led, options);
-      if (point)
+      if (const auto point = measure(session, rig, led, options))
         measured.position = correction
                                 ? correction->apply(point->position, point->covariance)->position
                                 : point->position;
@@ -186,10 +180,10 @@ class SessionWriter {
                   const wave::SimulatedWave& wave) {
     const double image_pixel = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
     const Eigen::MatrixXd covariance =
-        wave::waveBound(scene, wave, image_pixel, {session_.points.front().truth}).covariance;
+        wave::waveBound(scene, wave, image_pixel, {session.points.front().truth}).covariance;
     write(method, "calibrated", [&](const StillLed& led) {
       Measured bound;
-      if (const auto least = wave::pointBound(wave.cameras, covariance, led.truth, pixel_))
+      if (const auto least = wave::pointBound(wave.cameras, covariance, led.truth, pixel))
         bound.covariance = *least;
       return bound;
     });
@@ -198,15 +192,15 @@ class SessionWriter {
   void write(const std::string& method,
              const std::string& model_name,
              const std::function<Measured(const StillLed&)>& measure_point) {
-    for (std::size_t p = 0; p < session_.points.size(); ++p) {
-      const StillLed& led = session_.points[p];
+    for (std::size_t p = 0; p < session.points.size(); ++p) {
+      const StillLed& led = session.points[p];
       const Measured measured = measure_point(led);
-      *points_ << number_ << cameras_ << method << model_name << p + 1;
+      *points << number << cameras << method << model_name << p + 1;
       for (const Eigen::Vector3d& place : {led.nominal, led.truth, measured.position})
-        *points_ << place.x() << place.y() << place.z();
+        *points << place.x() << place.y() << place.z();
       for (Eigen::Index i = 0; i < 3; ++i) {
         for (Eigen::Index j = i; j < 3; ++j)
-          *points_ << measured.covariance(i, j);
+          *points << measured.covariance(i, j);
       }
     }
   }
@@ -218,11 +212,11 @@ class SessionWriter {
       const principal_point::Round& values = trace.rounds[round];
       for (std::size_t i = 0; i < trace.cameras.size(); ++i) {
         const std::size_t camera = numberOf(trace.cameras[i]);
-        const geometry::Intrinsics& truth = session_.wave.cameras[camera].intrinsics;
-        *traces_ << number_ << cameras_ << name << model_name << round << camera + 1
-                 << values.principal_points[i].x() << values.principal_points[i].y() << truth.cx
-                 << truth.cy << values.differences[i].x() << values.differences[i].y()
-                 << values.origin_error;
+        const geometry::Intrinsics& truth = session.wave.cameras[camera].intrinsics;
+        *traces << number << cameras << name << model_name << round << camera + 1
+                << values.principal_points[i].x() << values.principal_points[i].y() << truth.cx
+                << truth.cy << values.differences[i].x() << values.differences[i].y()
+                << values.origin_error;
       }
     }
   }
@@ -230,17 +224,10 @@ class SessionWriter {
   /// Number of a camera among those of the session, from 0.
   std::size_t numberOf(const std::string& name) const {
     std::size_t i = 0;
-    while (session_.wave.cameras[i].name != name)
+    while (session.wave.cameras[i].name != name)
       ++i;
     return i;
   }
-
-  int number_;
-  std::string cameras_;
-  const PaperSession& session_;
-  double pixel_;
-  Table* points_;
-  Table* traces_;
 };
 
 void measureAll(const simulation::Description& description,
@@ -253,8 +240,8 @@ void measureAll(const simulation::Description& description,
       if (set.cameras.back() >= description.cameras.size())
         continue;
       const PaperSession session = drawPaperSession(description, set.cameras, one.seed);
-      SessionWriter writer(one.number, set.name, session, stillPixelStddev(description), &points,
-                           &traces);
+      SessionWriter writer{one.number, set.name, session, stillPixelStddev(description),
+                           &points,    &traces};
       writer.writePaper();
       if (set.ours)
         writer.writeOurs();

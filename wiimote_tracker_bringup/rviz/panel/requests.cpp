@@ -30,14 +30,6 @@ constexpr int kLooksForServer = 50;  // for the action's server, at most
 const std::string kNoAnswer =
     " does not answer: check that the calibration node runs, in the same version";
 
-wiimote_tracker_msgs::CheckPlace placeOf(const Request& request) {
-  wiimote_tracker_msgs::CheckPlace place;
-  place.request.known.x = request.known[0];
-  place.request.known.y = request.known[1];
-  place.request.known.z = request.known[2];
-  return place;
-}
-
 }  // namespace
 
 Requests::~Requests() {
@@ -91,7 +83,11 @@ bool Requests::mustEnd() {
 }
 
 template <class Service>
-std::string Requests::call(const std::string& name, Service service) {
+std::string Requests::call(const std::string& name,
+                           const std::function<void(typename Service::Request&)>& fill) {
+  Service service;
+  if (fill)
+    fill(service.request);
   const std::string full_name = "calibration/" + name;
   // A persistent client, since only such a one can be interrupted.
   ros::ServiceClient client = ros::NodeHandle().serviceClient<Service>(full_name, true);
@@ -111,59 +107,55 @@ std::string Requests::call(const std::string& name, Service service) {
 }
 
 std::string Requests::perform(const Request& request) {
+  namespace msgs = wiimote_tracker_msgs;
+  const auto fillPlace = [&](msgs::CheckPlace::Request& place) {
+    place.known.x = request.known[0];
+    place.known.y = request.known[1];
+    place.known.z = request.known[2];
+  };
+  const auto fillPath = [&](auto& file) { file.path = request.path; };
   switch (request.command) {
     case Command::kMasks:
-      return call("learn_masks", wiimote_tracker_msgs::LearnMasks());
+      return call<msgs::LearnMasks>("learn_masks");
     case Command::kConnection:
-      return call("check_connection", wiimote_tracker_msgs::CheckConnection());
-    case Command::kStart: {
-      wiimote_tracker_msgs::StartCalibration start;
-      start.request.side_x = request.side;
-      start.request.without_square = static_cast<std::uint8_t>(request.without_square);
-      start.request.wand_length = request.wand_length;
-      return call("start", start);
-    }
+      return call<msgs::CheckConnection>("check_connection");
+    case Command::kStart:
+      return call<msgs::StartCalibration>("start", [&](auto& start) {
+        start.side_x = request.side;
+        start.without_square = static_cast<std::uint8_t>(request.without_square);
+        start.wand_length = request.wand_length;
+      });
     case Command::kCapture:
       return captureCorner(request);
     case Command::kUndo:
-      return call("undo", std_srvs::Trigger());
-    case Command::kHandsFree: {
-      std_srvs::SetBool hands_free;
-      hands_free.request.data = static_cast<std::uint8_t>(request.on);
-      return call("hands_free", hands_free);
-    }
-    case Command::kStartWave: {
-      wiimote_tracker_msgs::StartWave wave;
-      wave.request.wand_length = request.wand_length;
-      return call("start_wave", wave);
-    }
+      return call<std_srvs::Trigger>("undo");
+    case Command::kHandsFree:
+      return call<std_srvs::SetBool>("hands_free", [&](auto& hands_free) {
+        hands_free.data = static_cast<std::uint8_t>(request.on);
+      });
+    case Command::kStartWave:
+      return call<msgs::StartWave>("start_wave",
+                                   [&](auto& wave) { wave.wand_length = request.wand_length; });
     case Command::kStopWave:
-      return call("stop_wave", std_srvs::Trigger());
+      return call<std_srvs::Trigger>("stop_wave");
     case Command::kSolve:
-      return call("solve", wiimote_tracker_msgs::SolveCalibration());
+      return call<msgs::SolveCalibration>("solve");
     case Command::kMeasurePlace:
-      return call("measure_place", placeOf(request));
-    case Command::kMeasureLength: {
-      wiimote_tracker_msgs::MeasureLength taped;
-      taped.request.from_corner = static_cast<std::uint32_t>(request.ends[0]);
-      taped.request.to_corner = static_cast<std::uint32_t>(request.ends[1]);
-      taped.request.length = request.length;
-      return call("measure_length", taped);
-    }
-    case Command::kSave: {
-      wiimote_tracker_msgs::SaveRig save;
-      save.request.path = request.path;
-      return call("save", save);
-    }
-    case Command::kLoad: {
-      wiimote_tracker_msgs::LoadRig load;
-      load.request.path = request.path;
-      return call("load", load);
-    }
+      return call<msgs::CheckPlace>("measure_place", fillPlace);
+    case Command::kMeasureLength:
+      return call<msgs::MeasureLength>("measure_length", [&](auto& taped) {
+        taped.from_corner = static_cast<std::uint32_t>(request.ends[0]);
+        taped.to_corner = static_cast<std::uint32_t>(request.ends[1]);
+        taped.length = request.length;
+      });
+    case Command::kSave:
+      return call<msgs::SaveRig>("save", fillPath);
+    case Command::kLoad:
+      return call<msgs::LoadRig>("load", fillPath);
     case Command::kCheck:
-      return call("check", placeOf(request));
+      return call<msgs::CheckPlace>("check", fillPlace);
     case Command::kCancel:
-      return call("cancel", std_srvs::Trigger());
+      return call<std_srvs::Trigger>("cancel");
     case Command::kNone:
       break;
   }

@@ -6,6 +6,7 @@
 #include <ros/service_client.h>
 
 #include <atomic>
+#include <functional>
 #include <future>
 #include <list>
 #include <mutex>
@@ -40,7 +41,8 @@ class Requests {
   /// What the node said, or why it said nothing.
   std::string perform(const Request& request);
   template <class Service>
-  std::string call(const std::string& name, Service service);
+  std::string call(const std::string& name,
+                   const std::function<void(typename Service::Request&)>& fill = {});
   std::string captureCorner(const Request& request);
   bool mustEnd();
 

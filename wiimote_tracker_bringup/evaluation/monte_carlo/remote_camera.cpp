@@ -3,24 +3,12 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 
-#include <algorithm>
 #include <stdexcept>
 
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
 constexpr std::uint8_t kExtendedReport = 0x33;
-
-virtual_wiimote::Bytes bytesOf(const protocol::Report& report) {
-  return {report.bytes.begin(), report.bytes.begin() + report.size};
-}
-
-protocol::Report reportOf(const virtual_wiimote::Bytes& bytes) {
-  protocol::Report report;
-  report.size = std::min(bytes.size(), report.bytes.size());
-  std::copy_n(bytes.begin(), report.size, report.bytes.begin());
-  return report;
-}
 
 template <typename Data>
 protocol::Report registers(std::uint32_t address, const Data& data) {
@@ -48,13 +36,15 @@ RemoteCamera::RemoteCamera(const std::string& sensitivity)
                      static_cast<std::uint8_t>(protocol::IrFormat::kExtended)),
         registerByte(protocol::kIrControlRegister, protocol::kIrControlRun),
         protocol::setReportMode(kExtendedReport, true)})
-    device_->handleOutput(bytesOf(report));
+    device_->handleOutput({report.begin(), report.end()});
 }
 
 const std::vector<tracking::Spot>& RemoteCamera::look(const virtual_wiimote::Senses& senses) {
   spots_.clear();
   const auto bytes = device_->sample(senses);
-  const auto report = bytes ? protocol::decodeDataReport(reportOf(*bytes)) : std::nullopt;
+  const auto report =
+      bytes ? protocol::decodeDataReport(protocol::Report(bytes->data(), bytes->size()))
+            : std::nullopt;
   if (!report)
     throw std::logic_error("the virtual Wii Remote sends no images");
   for (std::size_t slot = 0; slot < report->spots.size(); ++slot) {

@@ -3,21 +3,15 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 
+#include <array>
 #include <stdexcept>
 
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
+using protocol::writeRegisters;
+
 constexpr std::uint8_t kExtendedReport = 0x33;
-
-template <typename Data>
-protocol::Report registers(std::uint32_t address, const Data& data) {
-  return protocol::writeMemory(protocol::Space::kRegisters, address, data.data(), data.size());
-}
-
-protocol::Report registerByte(std::uint32_t address, std::uint8_t value) {
-  return protocol::writeMemory(protocol::Space::kRegisters, address, &value, 1);
-}
 
 }  // namespace
 
@@ -29,12 +23,12 @@ RemoteCamera::RemoteCamera(const std::string& sensitivity)
                                 "'; wii_1 to wii_5, marcan and max are known");
   for (const protocol::Report& report :
        {protocol::setIrClock(true), protocol::setIrLogic(true),
-        registerByte(protocol::kIrControlRegister, protocol::kIrControlSetup),
-        registers(protocol::kIrBlock1Register, setting->block1),
-        registers(protocol::kIrBlock2Register, setting->block2),
-        registerByte(protocol::kIrModeRegister,
-                     static_cast<std::uint8_t>(protocol::IrFormat::kExtended)),
-        registerByte(protocol::kIrControlRegister, protocol::kIrControlRun),
+        writeRegisters(protocol::kIrControlRegister, std::array{protocol::kIrControlSetup}),
+        writeRegisters(protocol::kIrBlock1Register, setting->block1),
+        writeRegisters(protocol::kIrBlock2Register, setting->block2),
+        writeRegisters(protocol::kIrModeRegister,
+                       std::array{static_cast<std::uint8_t>(protocol::IrFormat::kExtended)}),
+        writeRegisters(protocol::kIrControlRegister, std::array{protocol::kIrControlRun}),
         protocol::setReportMode(kExtendedReport, true)})
     device_->handleOutput({report.begin(), report.end()});
 }

@@ -10,6 +10,7 @@ namespace {
 
 using protocol::Report;
 using protocol::Space;
+using protocol::writeRegisters;
 
 struct Area {
   std::uint32_t address;
@@ -26,15 +27,6 @@ const Area& area(int index) {
 }
 
 template <std::size_t N>
-Report writeRegisters(std::uint32_t address, const std::array<std::uint8_t, N>& data) {
-  return protocol::writeMemory(Space::kRegisters, address, data.data(), data.size());
-}
-
-Report writeRegister(std::uint32_t address, std::uint8_t value) {
-  return protocol::writeMemory(Space::kRegisters, address, &value, 1);
-}
-
-template <std::size_t N>
 bool holds(const protocol::MemoryPacket& packet, const std::array<std::uint8_t, N>& block) {
   return std::equal(block.begin(), block.end(), packet.data.begin());
 }
@@ -44,15 +36,16 @@ bool holds(const protocol::MemoryPacket& packet, const std::array<std::uint8_t, 
 Report CameraConfiguration::write(int index) const {
   switch (index) {
     case 0:
-      return writeRegister(protocol::kIrControlRegister, protocol::kIrControlSetup);
+      return writeRegisters(protocol::kIrControlRegister, std::array{protocol::kIrControlSetup});
     case 1:
       return writeRegisters(protocol::kIrBlock1Register, sensitivity_.block1);
     case 2:
       return writeRegisters(protocol::kIrBlock2Register, sensitivity_.block2);
     case 3:
-      return writeRegister(protocol::kIrModeRegister, static_cast<std::uint8_t>(format_));
+      return writeRegisters(protocol::kIrModeRegister,
+                            std::array{static_cast<std::uint8_t>(format_)});
     default:
-      return writeRegister(protocol::kIrControlRegister, protocol::kIrControlRun);
+      return writeRegisters(protocol::kIrControlRegister, std::array{protocol::kIrControlRun});
   }
 }
 

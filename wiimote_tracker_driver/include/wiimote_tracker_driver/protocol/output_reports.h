@@ -3,6 +3,8 @@
 
 #include "wiimote_tracker_driver/protocol/report.h"
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 
 /// Reports of the host. Each asks for an acknowledgement (0x22) where the remote does not send one
@@ -43,6 +45,12 @@ Report readMemory(Space space, std::uint32_t address, std::uint16_t size);
 
 /// Answered by an Acknowledgement. `data`: 1..16 bytes. @throws std::invalid_argument otherwise.
 Report writeMemory(Space space, std::uint32_t address, const std::uint8_t* data, std::size_t size);
+
+/// The same, to registers.
+template <std::size_t N>
+Report writeRegisters(std::uint32_t address, const std::array<std::uint8_t, N>& data) {
+  return writeMemory(Space::kRegisters, address, data.data(), N);
+}
 
 }  // namespace wiimote_tracker::protocol
 

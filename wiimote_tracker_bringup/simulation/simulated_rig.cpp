@@ -5,6 +5,7 @@
 #include <geometry_msgs/PointStamped.h>
 #include <geometry_msgs/PoseStamped.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
+#include <wiimote_tracker_msgs/error.h>
 
 #include <cmath>
 #include <random>
@@ -13,6 +14,11 @@
 
 namespace wiimote_tracker::simulation {
 namespace {
+
+/// A request that cannot be met.
+struct Refusal : Error {
+  using Error::Error;
+};
 
 /// The factory points are centred near the optical axis: within 15 px here. The true spread is
 /// unknown.
@@ -79,51 +85,48 @@ void SimulatedRig::run() {
 }
 
 bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) {
-  response.message = refusal(request);
-  if (!response.message.empty())
-    return true;
+  try {
+    check(request);
+    const std::lock_guard<std::mutex> lock(mutex_);
+    double arrival = now();
+    rig_.runUntil(arrival);
+    response.message = set(request, &arrival);
+    response.arrival = stamp(arrival);
+    response.success = true;
+  } catch (const Refusal& refusal) {
+    response.message = refusal.what();
+  }
+  return true;
+}
 
-  const std::lock_guard<std::mutex> lock(mutex_);
-  const double time = now();
-  rig_.runUntil(time);
+/// Does what is requested. @param time now [s]; output: when the motion arrives.
+/// @returns a sentence. @throws Refusal.
+std::string SimulatedRig::set(const SetLed::Request& request, double* time) {
   if (request.led == "board" && rig_.board())
-    return setBoard(request, time, response);
+    return setBoard(request);
   if (ReflectionDescription* reflection = rig_.findReflection(request.led))
-    return setReflection(request, reflection, time, response);
+    return setReflection(request, reflection);
   LedDescription* led = rig_.findLed(request.led);
   PersonDescription* person = rig_.findPerson(request.led);
   RigidBodyDescription* body = rig_.findBody(request.led);
-  if (!led && !person && !body) {
-    response.message = "there is no LED, person, body or reflection '" + request.led +
-                       "' in the rig's description";
-    return true;
-  }
+  if (!led && !person && !body)
+    throw Refusal("there is no LED, person, body or reflection '" + request.led +
+                  "' in the rig's description");
   const std::string holder = led && led->turns ? led->turns->around
                              : led             ? led->carried_by
                                                : std::string();
-  if (!holder.empty() && request.motion != SetLed::Request::HOLD) {
-    response.message = "LED '" + request.led + "' goes where '" + holder + "' goes: move that one";
-    return true;
-  }
-  double arrival = time;
+  if (!holder.empty() && request.motion != SetLed::Request::HOLD)
+    throw Refusal("LED '" + request.led + "' goes where '" + holder + "' goes: move that one");
+  const double begin = *time;
   if (holder.empty())
-    arrival = move(request, time, led ? &led->motion : person ? &person->motion : &body->motion);
+    *time = move(request, begin, led ? &led->motion : person ? &person->motion : &body->motion);
   (led ? led->lit : person ? person->present : body->present) = request.on;
 
   std::ostringstream text;
   text << "'" << request.led << "' "
        << (led ? (request.on ? "shines" : "is dark") : (request.on ? "is there" : "is away"))
-       << ", arrives in " << arrival - time << " s";
-  return accept(arrival, text.str(), response);
-}
-
-bool SimulatedRig::accept(double arrival,
-                          const std::string& message,
-                          SetLed::Response& response) const {
-  response.success = true;
-  response.arrival = stamp(arrival);
-  response.message = message;
-  return true;
+       << ", arrives in " << *time - begin << " s";
+  return text.str();
 }
 
 /// @returns when the requested motion arrives [s].
@@ -146,58 +149,51 @@ double SimulatedRig::move(const SetLed::Request& request, double time, LedMotion
   }
 }
 
-bool SimulatedRig::setReflection(const SetLed::Request& request,
-                                 ReflectionDescription* reflection,
-                                 double time,
-                                 SetLed::Response& response) const {
-  if (request.motion != SetLed::Request::HOLD) {
-    response.message = "reflection '" + request.led + "' can only be switched (HOLD)";
-    return true;
-  }
+std::string SimulatedRig::setReflection(const SetLed::Request& request,
+                                        ReflectionDescription* reflection) const {
+  if (request.motion != SetLed::Request::HOLD)
+    throw Refusal("reflection '" + request.led + "' can only be switched (HOLD)");
   reflection->lit = request.on;
-  return accept(time, "reflection '" + request.led + (request.on ? "' shines" : "' is dark"),
-                response);
+  return "reflection '" + request.led + (request.on ? "' shines" : "' is dark");
 }
 
-bool SimulatedRig::setBoard(const SetLed::Request& request,
-                            double time,
-                            SetLed::Response& response) {
-  if (request.motion != SetLed::Request::HOLD && request.motion != SetLed::Request::SHOW) {
-    response.message = "the board can only HOLD or be shown (SHOW)";
-    return true;
-  }
+std::string SimulatedRig::setBoard(const SetLed::Request& request) {
+  if (request.motion != SetLed::Request::HOLD && request.motion != SetLed::Request::SHOW)
+    throw Refusal("the board can only HOLD or be shown (SHOW)");
   if (request.motion == SetLed::Request::SHOW)
     rig_.board()->show(request.path);
   rig_.board()->setLit(request.on);
-  return accept(time, std::string("the board ") + (request.on ? "shines" : "is dark"), response);
+  return std::string("the board ") + (request.on ? "shines" : "is dark");
 }
 
-/// Why a request is refused; empty if it is not.
-std::string SimulatedRig::refusal(const SetLed::Request& request) const {
+/// @throws Refusal: the request can never be met.
+void SimulatedRig::check(const SetLed::Request& request) const {
   const bool line = request.motion == SetLed::Request::LINE;
   const bool circle = request.motion == SetLed::Request::CIRCLE;
   const Eigen::Vector3d sides(request.box.x, request.box.y, request.box.z);
   const bool wave = request.motion == SetLed::Request::WAVE;
   const bool draw = request.motion == SetLed::Request::DRAW;
-  if (request.motion == SetLed::Request::SHOW)
-    return request.led == "board" ? "" : "only the board can be shown (SHOW)";
+  if (request.motion == SetLed::Request::SHOW) {
+    if (request.led != "board")
+      throw Refusal("only the board can be shown (SHOW)");
+    return;
+  }
   if (!line && !circle && !wave && !draw && request.motion != SetLed::Request::HOLD)
-    return "motion must be HOLD, LINE, CIRCLE, WAVE or DRAW";
+    throw Refusal("motion must be HOLD, LINE, CIRCLE, WAVE or DRAW");
   if ((line || circle || wave || draw) &&
       !(std::isfinite(request.target.x) && std::isfinite(request.target.y) &&
         std::isfinite(request.target.z)))
-    return "target must be finite";
+    throw Refusal("target must be finite");
   if ((line || draw) && !(request.speed >= 0.0 && std::isfinite(request.speed)))
-    return "speed must be 0 (at once) or more";
+    throw Refusal("speed must be 0 (at once) or more");
   if ((circle || wave) && !(request.speed > 0.0 && std::isfinite(request.speed)))
-    return "speed must be more than 0";
+    throw Refusal("speed must be more than 0");
   if (circle && !(request.radius > 0.0 && std::isfinite(request.radius)))
-    return "radius must be more than 0";
+    throw Refusal("radius must be more than 0");
   if (wave && !(sides.minCoeff() > 0.0 && sides.allFinite()))
-    return "the sides of the box must be more than 0";
+    throw Refusal("the sides of the box must be more than 0");
   if (draw && drawings_.count(request.drawing) == 0)
-    return "the rig's description has no drawing '" + request.drawing + "'";
-  return "";
+    throw Refusal("the rig's description has no drawing '" + request.drawing + "'");
 }
 
 double SimulatedRig::now() const {

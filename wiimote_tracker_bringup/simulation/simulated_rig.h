@@ -33,20 +33,14 @@ class SimulatedRig {
  private:
   bool setLed(wiimote_tracker_msgs::SetLed::Request& request,
               wiimote_tracker_msgs::SetLed::Response& response);
-  bool setBoard(const wiimote_tracker_msgs::SetLed::Request& request,
-                double time,
-                wiimote_tracker_msgs::SetLed::Response& response);
-  bool setReflection(const wiimote_tracker_msgs::SetLed::Request& request,
-                     ReflectionDescription* reflection,
-                     double time,
-                     wiimote_tracker_msgs::SetLed::Response& response) const;
-  bool accept(double arrival,
-              const std::string& message,
-              wiimote_tracker_msgs::SetLed::Response& response) const;
+  std::string set(const wiimote_tracker_msgs::SetLed::Request& request, double* time);
+  std::string setBoard(const wiimote_tracker_msgs::SetLed::Request& request);
+  std::string setReflection(const wiimote_tracker_msgs::SetLed::Request& request,
+                            ReflectionDescription* reflection) const;
   double move(const wiimote_tracker_msgs::SetLed::Request& request,
               double time,
               LedMotion* motion) const;
-  std::string refusal(const wiimote_tracker_msgs::SetLed::Request& request) const;
+  void check(const wiimote_tracker_msgs::SetLed::Request& request) const;
   double now() const;                  ///< [s since the start]
   ros::Time stamp(double time) const;  ///< Of a time since the start.
   void deliver(std::size_t camera, const Image& image);

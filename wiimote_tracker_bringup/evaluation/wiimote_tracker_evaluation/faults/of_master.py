@@ -1,10 +1,6 @@
 """The master or the launcher ends, and the same command is given again."""
 
-import os
-import signal
-
-from wiimote_tracker_evaluation.faults.of_processes import STOPPED, halted
-from wiimote_tracker_evaluation.faults.room import stopped
+from wiimote_tracker_evaluation.faults.of_processes import halted
 from wiimote_tracker_evaluation.faults.row import fault
 
 PATIENCE = 60.0  # for nodes to end [s]
@@ -14,7 +10,7 @@ GONE = 3.0       # without a master, or a launcher [s]
 @fault(ends=('*',), names_may_change=True, named='master', spends_room=True)
 def restart_roscore(room):
     """kill -9 of the master; it is started again, and so is roslaunch."""
-    os.kill(room.master.pid, signal.SIGKILL)
+    room.kill('roscore')
     yield GONE
     room.end(room.master)
     room.start_master()
@@ -25,7 +21,7 @@ def restart_roscore(room):
 @fault(ends=('*',), names_may_change=True, spends_room=True)
 def kill_roslaunch(room):
     """kill -9 of roslaunch; it is started again."""
-    os.kill(room.launch.pid, signal.SIGKILL)
+    room.kill('roslaunch')
     yield GONE
     room.start_nodes()
 
@@ -41,18 +37,6 @@ def kill_drivers(room):
     return [f"left behind: {', '.join(left)}"] if left else []
 
 
-@fault()
-def stop_roscore(room):
-    """SIGSTOP of the master for 5 s."""
-    with stopped(room.master.pid):
-        yield STOPPED
-
-
-@fault()
-def stop_roslaunch(room):
-    """SIGSTOP of roslaunch for 5 s."""
-    with stopped(room.launch.pid):
-        yield STOPPED
-
-
+stop_roscore = halted('roscore', 'the master', 'roscore')
+stop_roslaunch = halted('roslaunch', 'roslaunch', 'roslaunch')
 stop_drivers = halted('drivers', 'the node that starts the drivers', '/drivers')

@@ -33,16 +33,6 @@ DARK = {f'dark_{number}': {'position': [0.3 + 0.6 * (number % 4), 0.3 + 0.6 * (n
                            'size': 3.0, 'lit': False} for number in range(13)}
 
 
-@contextlib.contextmanager
-def stopped(process):
-    """Stops a process by SIGSTOP for a while. process: its id."""
-    os.kill(process, signal.SIGSTOP)
-    try:
-        yield
-    finally:
-        os.kill(process, signal.SIGCONT)
-
-
 class Room:
     """A master, virtual remotes with three waving LEDs, and the whole tracker with the true rig."""
 
@@ -149,18 +139,26 @@ class Room:
         return found
 
     def pid(self, node):
-        """@raise ExperimentError: the node does not run."""
+        """node: its name, or roscore, or roslaunch. @raise ExperimentError: it does not run."""
+        own = {'roscore': self.master, 'roslaunch': self.launch}
         try:
-            return self.nodes()[node]
+            return own[node].pid if node in own else self.nodes()[node]
         except KeyError:
             raise ExperimentError(f'the node {node} does not run; see {self.log}')
 
     def kill(self, node):
+        """node: as of pid()."""
         os.kill(self.pid(node), signal.SIGKILL)
 
+    @contextlib.contextmanager
     def stopped(self, node):
-        """Stops a node by SIGSTOP for a while."""
-        return stopped(self.pid(node))
+        """Stops a node, as of pid(), by SIGSTOP for a while."""
+        process = self.pid(node)
+        os.kill(process, signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            os.kill(process, signal.SIGCONT)
 
     def start(self, command, prefix=()):
         """Starts a program beside the nodes; it ends with the room. command: as find_program()

@@ -3,6 +3,8 @@
 
 #include <cstddef>
 #include <fstream>
+#include <iomanip>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -12,7 +14,14 @@ namespace wiimote_tracker::monte_carlo {
 class Table {
  public:
   /// @throws std::runtime_error: the file cannot be written.
-  Table(const std::string& path, const std::vector<std::string>& columns);
+  Table(const std::string& path, const std::vector<std::string>& columns)
+      : path_(path), file_(path), columns_(columns.size()) {
+    if (!file_)
+      throw std::runtime_error("cannot write to " + path + "; choose another --output");
+    file_ << std::setprecision(9);
+    for (const std::string& name : columns)
+      *this << name;
+  }
 
   /// Writes the next cell, a number or a text without commas and quotes; a row ends after its last
   /// one.
@@ -26,7 +35,13 @@ class Table {
   }
 
   /// Closes the file. @throws std::runtime_error: a row is incomplete, or the disk is full.
-  void close();
+  void close() {
+    if (column_ != 0)
+      throw std::runtime_error("a row of " + path_ + " is not complete");
+    file_.close();
+    if (!file_)
+      throw std::runtime_error("cannot write all of " + path_ + "; is the disk full?");
+  }
 
  private:
   std::string path_;

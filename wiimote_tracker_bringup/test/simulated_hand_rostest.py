@@ -7,11 +7,12 @@ import sys
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import PointStamped, PoseStamped
+from geometry_msgs.msg import Point, PointStamped, PoseStamped
 from live_rig import DEADLINE, NodeTest
 from std_srvs.srv import Trigger
 from wiimote_tracker_msgs.msg import CalibrationStatus, IrBlobArray
-from wiimote_tracker_msgs.srv import SolveCalibration, StartCalibration
+from wiimote_tracker_msgs.srv import (CheckPlace, RecalibrateCamera, SetLed, SetLedRequest,
+                                      SolveCalibration, StartCalibration)
 
 POINTS = 100  # a quarter of a second
 
@@ -75,6 +76,31 @@ class SimulatedHand(NodeTest):
         self.assertEqual(len(solved.rig.cameras), 4)
         for camera in solved.rig.cameras:
             self.assertAlmostEqual(camera.world_from_camera.position.z, 2.0, delta=0.15)
+
+    def test_the_hand_leaves_the_led_on_a_checked_place_and_waves_it_for_one_camera(self):
+        statuses = []
+        rospy.Subscriber('calibration/status', CalibrationStatus, statuses.append)
+        self.wait(lambda: statuses and statuses[-1].rig_id and statuses[-1].step in (
+            CalibrationStatus.IDLE, CalibrationStatus.SOLVED, CalibrationStatus.SAVED), 'a rig')
+        rospy.sleep(1.0)  # the hand walks about by then
+        place = Point(1.0, 1.0, 1.0)
+        put = rospy.ServiceProxy('simulation/set_led', SetLed)(
+            SetLedRequest(led='led', on=True, motion=SetLedRequest.LINE, target=place))
+        self.wait(lambda: rospy.get_rostime() > put.arrival, 'the LED to arrive')
+        truths = []
+        rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
+        check = rospy.ServiceProxy('calibration/check', CheckPlace)
+        check(known=place)
+        measured = rospy.get_rostime() + rospy.Duration(1.0)
+        self.wait(lambda: truths and truths[-1].header.stamp > measured, 'the truth')
+        self.assertTrue(np.allclose(position(truths[-1]), 1.0), 'the hand took the LED away')
+
+        heights = []
+        rospy.Subscriber('simulation/truth/led', PointStamped,
+                         lambda m: heights.append(m.point.z))
+        rospy.ServiceProxy('calibration/recalibrate_camera', RecalibrateCamera)(
+            camera='wiimote_1', duration=5.0)
+        self.assertGreater(max(heights) - min(heights), 0.2, 'the hand did not wave')
 
 
 if __name__ == '__main__':

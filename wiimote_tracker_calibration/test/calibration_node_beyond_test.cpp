@@ -11,6 +11,8 @@
 #include <wiimote_tracker_msgs/PrincipalPointTrace.h>
 #include <wiimote_tracker_msgs/StartWave.h>
 
+#include <thread>
+
 namespace wiimote_tracker {
 namespace {
 
@@ -152,14 +154,16 @@ TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
 TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
   const Eigen::Vector3d lamp(0.4, 1.9, 1.4);
   cameras_->setLamps({lamp});
-  cameras_->switchLed(false);
   wiimote_tracker_msgs::LearnMasks::Request request;
-  request.duration = 0.5;
+  request.duration = 1.0;
+  // The LED is switched off only when the status asks for it, as by the simulated hand.
+  std::thread person([] {
+    waitUntil([] { return status_->get()->step == CalibrationStatus::MASKING; });
+    cameras_->switchLed(false);
+  });
   auto learned = call<wiimote_tracker_msgs::LearnMasks>("calibration/learn_masks", request);
-  EXPECT_TRUE(waitUntil([&] {  // the LED's last images may still have been under way
-    learned = call<wiimote_tracker_msgs::LearnMasks>("calibration/learn_masks", request);
-    return learned.success && learned.masks == std::vector<std::uint32_t>({1, 1, 1, 1});
-  })) << learned.message;
+  person.join();
+  EXPECT_EQ(learned.masks, std::vector<std::uint32_t>({1, 1, 1, 1})) << learned.message;
   EXPECT_SAYS(learned.message, "exactly one light: if that is the LED");
   EXPECT_TRUE(waitUntil([] {
     const auto status = status_->get();

@@ -19,6 +19,10 @@ namespace {
 
 const char kToBeSaved[] = "; the rig in use has the masks now: save it to keep that";
 
+// Until the images of an LED that is switched off only at the request, as by the simulated hand,
+// have arrived [s].
+constexpr double kSettle = 0.3;
+
 class MaskServices {
  public:
   explicit MaskServices(NodeContext* context)
@@ -43,6 +47,9 @@ class MaskServices {
                      "the masks are as they were"};
     const workflow::Reply reply = context_.run(job, &lock, [&] {
       const AtEnd end{[&] { learner_.reset(); }};
+      const auto cancelled = [&] { return context_.isCancelled(Step::kMasking, lock); };
+      if (context_.waitUntil(&lock, NodeContext::now() + kSettle, cancelled))
+        return workflow::Reply{false, ""};
       learner_.emplace(context_.inputs().names(), context_.parameters(lock).masks);
       if (!context_.waitFor(duration, Step::kMasking, &lock))
         return workflow::Reply{false, ""};

@@ -182,7 +182,9 @@ TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
     EXPECT_LT((Eigen::Vector2d(mask.x, mask.y) - pixel).norm(), 1.0);
     EXPECT_LT(mask.radius, 12.0);
   }
-  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
+  const auto cleared = call<std_srvs::Trigger>("calibration/clear_masks");
+  EXPECT_TRUE(cleared.success);
+  EXPECT_SAYS(cleared.message, "the rig in use has no masks now: save it");
   EXPECT_TRUE(waitUntil([] {
     const auto status = status_->get();
     const auto& camera = status->cameras[3];

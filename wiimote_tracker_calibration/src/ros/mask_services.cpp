@@ -18,6 +18,7 @@ using workflow::Step;
 namespace {
 
 const char kToBeSaved[] = "; the rig in use has the masks now: save it to keep that";
+const char kNoneToBeSaved[] = "; the rig in use has no masks now: save it to keep that";
 
 // Until the images of an LED that is switched off only at the request, as by the simulated hand,
 // have arrived [s].
@@ -65,7 +66,7 @@ class MaskServices {
   workflow::Reply clear() {
     const Lock lock(context_.mutex());
     const std::string message = std::string("no light is masked any more") +
-                                (context_.setMasks({}, lock) ? kToBeSaved : "");
+                                (context_.setMasks({}, lock) ? kNoneToBeSaved : "");
     return context_.show({true, message}, lock);
   }
 

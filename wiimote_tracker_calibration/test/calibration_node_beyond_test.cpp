@@ -131,6 +131,10 @@ TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
   }));
   EXPECT_SAYS(lying->next_sentence, "end nearer to camera_1");
   EXPECT_SAYS(lying->missing.front(), "leave it on the floor");
+  EXPECT_TRUE(waitUntil([] {
+    const auto camera = status_->get()->cameras[0];
+    return camera.blobs == 2 && camera.problem.empty();
+  }));
   ASSERT_TRUE(waitUntil([] { return status_->get()->next_title == "Wave"; }))
       << status_->get()->missing.front();
   EXPECT_SAYS(status_->get()->message, "lift it, and wave it");

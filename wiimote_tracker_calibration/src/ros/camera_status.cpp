@@ -51,6 +51,13 @@ void addWave(const std::vector<wave::CameraCoverage>& waved, CalibrationCameraSt
     status->image_cells.push_back(found->filled[cell]);
 }
 
+/// Whether a camera may see so many spots: any while lamps are learned, both LEDs of a wand.
+bool isRight(std::size_t spots, const workflow::Calibration& calibration) {
+  const bool squareless = !calibration.cameras().empty() && calibration.sides().empty();
+  const bool has_wand = squareless || (calibration.wave() && calibration.wave()->wand());
+  return calibration.step() == workflow::Step::kMasking || (has_wand && (spots == 1 || spots == 2));
+}
+
 }  // namespace
 
 std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& calibration,
@@ -75,7 +82,8 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
     status.image_coverage = kNan;
     status.speed = kNan;
     status.wave_seconds = kNan;
-    status.problem = view.problem;
+    if (!view.connected || !isRight(view.blobs, calibration))
+      status.problem = view.problem;
     addContribution(calibration, &status);
     addWave(waved, &status);
     result.push_back(status);

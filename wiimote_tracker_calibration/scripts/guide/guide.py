@@ -98,7 +98,7 @@ class Guide:
             return 'Looking for the calibration node.'
         if self.status is None:
             return ('No calibration node answers at calibration/status: start it with  roslaunch '
-                    'wiimote_tracker_bringup tracker.launch cameras:=FILE')
+                    'wiimote_tracker_bringup tracker.launch cameras:=FILE, or set ROS_NAMESPACE')
         silence = now - self.status_at
         if silence > SILENT_AFTER:
             return (f'The calibration node has said nothing for {int(silence)} s: check that it '

@@ -43,6 +43,14 @@ def test_cameras_are_where_the_user_says(load, given, found):
     assert load('tracker.launch', 'cameras:=' + given)[1]['/drivers/file'] == found
 
 
+@pytest.mark.parametrize('given, found', [
+    ('rig.yaml', '/home/my lab/rig.yaml'), ('/etc/rig.yaml', '/etc/rig.yaml')])
+def test_a_description_is_where_the_user_says(load, given, found):
+    parameters = load('simulated_rig.launch', 'description:=' + given, 'hand:=true')[1]
+    assert {parameters[key] for key in (
+        '/simulated_rig/description', '/simulated_hand/description', '/drivers/file')} == {found}
+
+
 @pytest.mark.parametrize('name, given', [
     ('tracker.launch', []), ('simulated_rig.launch', []), ('replay.launch', ['bag:=x'])])
 def test_a_file_of_parameters_wins(load, tmp_path, name, given):

@@ -129,3 +129,12 @@ def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
     monkeypatch.setattr(drivers.rospy, 'logwarn_throttle', lambda period, text: said.append(text))
     drivers.try_to_start_more(NoMaster())
     assert len(said) == 1 and 'check that the ROS master runs' in said[0]
+
+
+@pytest.mark.parametrize('given, complaint', [
+    ({'file': 'f', 'drivr': {'ir_sensitivity': 'wii_3'}}, 'unknown parameter .*/drivr: remove it'),
+    ({'driver': 'wii_3'}, "driver is 'wii_3', but must be a map")])
+def test_parameters_without_effect_are_refused(given, complaint):
+    with pytest.raises(drivers.CamerasError, match=complaint):
+        drivers.check_parameters(given)
+    drivers.check_parameters({'file': 'f', 'driver': {'ir_sensitivity': 'wii_3'}})

@@ -148,7 +148,8 @@ class Guide:
     def took(self, now: float) -> str:
         """The last sentence: how long it took."""
         if self._started_at is None or self._saved_at is None:
-            kept = self.status.corners_captured if self.status is not None else 0
+            status = self.status
+            kept = status.corners_captured if status and status.step != status.SAVED else 0
             corners = 'one corner: calibrate goes on with it' if kept == 1 else \
                 f'{kept} corners: calibrate goes on with them'
             return f'Nothing was calibrated and saved; this took {spoken(now - self.began)}.' + (

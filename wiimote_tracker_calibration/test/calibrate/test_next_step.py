@@ -70,6 +70,8 @@ def test_it_says_how_long_it_took():
     assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
     guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 160.4)
     assert guide.took(160.4).endswith('The node keeps 3 corners: calibrate goes on with them.')
+    guide.on_status(status(CalibrationStatus.SAVED, corners_captured=4), 100.0)  # nothing is left
+    assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
     guide.on_answer('start', True, '', 110.0)
     guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 120.0)
     guide.on_status(status(CalibrationStatus.COMPLETE, corners_captured=4), 150.0)

@@ -126,8 +126,18 @@ def tell_progress(share):
         print(f'\r{share:4.0%}', end='\n' if share == 1.0 else '', file=sys.stderr)
 
 
+def check_folder(path):
+    """Before a search of minutes, whose result would be lost."""
+    folder = os.path.dirname(path) or '.'
+    if not os.access(folder, os.W_OK):
+        raise ExperimentError(f'{path} cannot be written: {folder} is no folder, or not writable; '
+                              'create it, or choose another one')
+
+
 def run(arguments):
     chosen = plan.read(arguments.plan)
+    for path in filter(None, (arguments.output, arguments.plot)):
+        check_folder(path)
     if arguments.score:
         rig = read_rig(arguments.score)
         print(arguments.score)

@@ -255,8 +255,8 @@ def trace_lines(trace) -> List[str]:
 
 
 def key_lines(command_list: Sequence, room: int) -> List[str]:
-    """Keys, the words that stand for them with --plain, and what they do, if there is room. What may
-    be typed after the word stands there for keys that ask for it; the others act at once."""
+    """Keys, the words that stand for them with --plain, and what they do, if there is room. What
+    may be typed after the word stands there for keys that ask for it; the others act at once."""
     lines = ['?   back       y   how the principal points were corrected', '']
     if room >= len(lines) + len(command_list):
         return lines + [f'{command.key:<3} {command.word:<13} {command.label}'

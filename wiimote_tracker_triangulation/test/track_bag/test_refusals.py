@@ -1,5 +1,6 @@
 """What track_bag refuses: in one sentence, with status 1, and without an output bag."""
 
+import os
 import resource
 import signal
 
@@ -98,6 +99,14 @@ def test_a_disk_that_is_full(bag, tmp_path):
 def test_a_folder_that_cannot_be_created(bag, tmp_path):
     (tmp_path / 'file').write_text('')
     assert 'choose another place' in refused(tmp_path, bag, tmp_path / 'file' / 'out.bag')
+
+
+def test_a_pipe_is_not_replaced(bag, tmp_path):
+    os.mkfifo(str(tmp_path / 'pipe'))
+    errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--csv', tmp_path / 'pipe')
+    assert 'it is a device or a pipe: name a file' in errors
+    assert 'name a file' in refused(tmp_path, bag, tmp_path / 'pipe')
+    assert (tmp_path / 'pipe').is_fifo()
 
 
 def test_usage():

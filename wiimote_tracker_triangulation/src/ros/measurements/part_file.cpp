@@ -41,6 +41,8 @@ void createPart(const std::string& path) {
     fs::create_directories(fs::absolute(path).parent_path());
     if (fs::is_directory(path))
       failToWrite(path, EISDIR);
+    if (fs::exists(path) && !fs::is_regular_file(path))  // finishPart() would rename over it
+      throw Error("cannot write " + path + ", it is a device or a pipe: name a file");
     keepPart(partOf(path));
   } catch (const fs::filesystem_error& e) {
     failToWrite(path, e.code().value());

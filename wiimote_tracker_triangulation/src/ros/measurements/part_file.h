@@ -11,7 +11,8 @@ namespace wiimote_tracker::measurements {
 std::string partOf(const std::string& path);
 
 /// Creates the file's folder and an empty part. A part that a program left when it crashed is kept,
-/// unless empty, as path + ".part.bak", or ".part.bak2" and so on where that exists. @throws Error.
+/// unless empty, as path + ".part.bak", or ".part.bak2" and so on where that exists. @throws Error,
+/// also where the path is a folder, a device or a pipe.
 void createPart(const std::string& path);
 
 /// Syncs the part to disk and renames it atomically; keeps an existing file as path + ".bak".

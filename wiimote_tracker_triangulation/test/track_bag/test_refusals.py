@@ -55,6 +55,17 @@ def test_the_same_file_twice(bag, tmp_path):
     assert bag.read_bytes() == before
 
 
+def test_a_table_over_another_file(bag, tmp_path):
+    before = bag.read_bytes()
+    (tmp_path / 'rig.yaml').write_text('rig')
+    out = tmp_path / 'out.bag'
+    for arguments in [('--csv', bag), ('--mat', out), ('--rig', tmp_path / 'rig.yaml', '--c3d',
+                                                       tmp_path / 'rig.yaml'),
+                      ('--csv', tmp_path / 'a', '--trc', str(tmp_path) + '/./a')]:
+        assert 'write to another one' in refused(tmp_path, bag, out, *arguments)
+    assert bag.read_bytes() == before and (tmp_path / 'rig.yaml').read_text() == 'rig'
+
+
 def test_rigs_of_two_trackers(tmp_path):
     write(tmp_path / 'in.bag', [('/%s%s' % (room, t), m, s) for room in ('a', 'b')
                                 for t, m, s in recorded()])

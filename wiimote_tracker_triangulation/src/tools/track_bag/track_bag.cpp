@@ -17,6 +17,8 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -109,6 +111,28 @@ class Player {
   std::string refusal_;  // of the last rig that was refused
 };
 
+bool isSameFile(const std::string& a, const std::string& b) {
+  namespace fs = std::filesystem;
+  std::error_code ignored;
+  return fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal() ||
+         fs::equivalent(a, b, ignored);
+}
+
+/// @throws BagError: a file to write is also to be read, or to be written as something else.
+void checkFiles(const Arguments& arguments) {
+  const measurements::TableFiles& tables = arguments.output.tables;
+  std::vector<std::string> others{arguments.input, arguments.parameters, arguments.rig,
+                                  arguments.bodies};
+  for (const std::string& file :
+       {arguments.output.bag, tables.csv, tables.matlab, tables.c3d, tables.trc}) {
+    for (const std::string& other : others) {
+      if (!file.empty() && !other.empty() && isSameFile(file, other))
+        throw BagError("two arguments are " + file + ": write to another one");
+    }
+    others.push_back(file);
+  }
+}
+
 TrackingParameters parametersOf(const Arguments& arguments) {
   ParameterTree tree = readParameterTree(arguments.parameters);
   if (!arguments.mode.empty())
@@ -186,10 +210,7 @@ void printSummary(const Recording& recording,
 
 void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  std::error_code ignored;
-  if (arguments.input == arguments.output.bag ||
-      std::filesystem::equivalent(arguments.input, arguments.output.bag, ignored))
-    throw BagError("both bags are " + arguments.input + ": write to another one");
+  checkFiles(arguments);
   const TrackingParameters parameters = parametersOf(arguments);
   if (arguments.smooth)
     checkForSmoothing(parameters);

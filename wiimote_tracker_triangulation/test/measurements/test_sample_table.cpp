@@ -2,6 +2,8 @@
 #include "ros/measurements/sample_table.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
 #include <gtest/gtest.h>
 
 #include <string>
@@ -57,6 +59,14 @@ TEST(SampleTable, LongGapsAndTheEndsStayOpen) {
     EXPECT_EQ(samples.positions[0][i].allFinite(), is_known) << i;
     EXPECT_EQ(samples.positions[1][i].allFinite(), i == 20) << i;
   }
+}
+
+TEST(SampleTable, RefusesTimesAYearApart) {
+  SampleTable table;
+  table.add(at(0.0, "led", 1.0));
+  table.add(at(365.0 * 86400.0, "led", 1.0));
+  EXPECT_THROW(table.resample(kRate), Error);
+  EXPECT_EQ(table.resample(0.1).frames, 3153601u);
 }
 
 TEST(SampleTable, BridgesOneAndAHalfFramesOfALowRate) {

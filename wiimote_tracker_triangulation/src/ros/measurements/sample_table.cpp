@@ -2,6 +2,10 @@
 
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,6 +15,7 @@ namespace {
 
 constexpr double kLongestGap = 0.05;      // [s]
 constexpr double kLongestInFrames = 1.5;  // at low rates
+constexpr double kMostFrames = 1e8;       // 28 h at the highest rate; 2.4 GB per LED
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double seconds(std::int64_t nanoseconds) {
@@ -40,7 +45,13 @@ Samples SampleTable::resample(double rate) const {
   if (samples_.empty())
     return result;
   result.start = first;
-  result.frames = static_cast<std::size_t>(std::floor(seconds(last - first) * rate + 1e-6)) + 1;
+  const double frames = std::floor(seconds(last - first) * rate + 1e-6) + 1.0;
+  if (frames > kMostFrames)
+    throw Error(
+        format("the recording spans %.1f days, %.0f frames of C3D or TRC, but %.0f are the "
+               "most: cut it where its clock was set, or lower the rate",
+               seconds(last - first) / 86400.0, frames, kMostFrames));
+  result.frames = static_cast<std::size_t>(frames);
   for (const auto& [label, recorded] : samples_) {
     std::vector<Sample> samples = recorded;
     std::stable_sort(samples.begin(), samples.end(), isEarlier);

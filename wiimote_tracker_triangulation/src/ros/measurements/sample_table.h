@@ -31,7 +31,8 @@ class SampleTable {
   void add(const Measurement& measurement);
 
   /// Linear interpolation between neighbours in time. Those further apart than 0.05 s, and more
-  /// than 1.5 frames, have a gap between them.
+  /// than 1.5 frames, have a gap between them. @throws Error: more than 1e8 frames, as where a
+  /// clock was set meanwhile.
   Samples resample(double rate) const;
 
  private:

@@ -152,6 +152,16 @@ def test_a_stereo_calibration_without_a_pose_is_refused(tmp_path):
     assert not (tmp_path / 'converted').exists()
 
 
+def test_a_source_without_files_and_a_folder_that_exists(tmp_path):
+    done = convert('boofcv', tmp_path, tmp_path / 'converted')
+    assert done.returncode == 1
+    assert 'stereo.xml' in done.stderr and '--help names the files' in done.stderr
+    assert 'FileNotFoundError' not in done.stderr
+    write_stereo(tmp_path)
+    done = convert('boofcv', tmp_path, tmp_path)
+    assert done.returncode == 1 and 'exists: name a new folder' in done.stderr
+
+
 def test_only_boofcv_has_a_file_of_corners(tmp_path):
     done = convert('dinosaur', tmp_path, tmp_path / 'converted', '--points', 'corners.txt')
     assert done.returncode == 2

@@ -210,6 +210,14 @@ class ImportEndToEnd(unittest.TestCase):
         status, _, errors = run('replay_report', out)
         self.assertEqual(status, 1)
         self.assertIn('make it with import_multicamselfcal', errors)
+        status, _, errors = run('replay_report', out, '--inlier-px', '0')
+        self.assertEqual(status, 2)
+        self.assertIn('must be above 0', errors)
+        with open(out, 'w') as file:
+            file.write('no bag')
+        status, _, errors = run('replay_report', out)
+        self.assertEqual(status, 1)
+        self.assertIn(out + ' cannot be read', errors)
 
 
 class Room:

@@ -138,3 +138,12 @@ def test_an_empty_recording_gives_empty_files(tmp_path):
     assert c3d.read(tmp_path / 'out.c3d').labels == []
     assert '\t0\t0\tm\t' in (tmp_path / 'out.trc').read_text()
     assert not (tmp_path / 'poses').exists()
+
+
+def test_tum_without_bodies_says_that_it_writes_nothing(files, tmp_path):
+    done = subprocess.run([PROGRAM, str(files / 'in.bag'), 'out.bag', '--tum', 'tum'],
+                          cwd=str(tmp_path), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                          universal_newlines=True)
+    assert done.returncode == 0
+    assert '--tum writes nothing without bodies: name their file with --bodies' in done.stderr
+    assert not (tmp_path / 'tum').exists()

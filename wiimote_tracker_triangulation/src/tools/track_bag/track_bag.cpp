@@ -219,6 +219,8 @@ void run(const Arguments& arguments) {
   const std::string missing_bodies = describeMissingFile(parameters.bodies.file);
   if (!missing_bodies.empty())
     std::fprintf(stderr, "%s.\n", missing_bodies.c_str());
+  if (!arguments.output.trajectories.empty() && parameters.bodies.known.empty())
+    std::fprintf(stderr, "--tum writes nothing without bodies: name their file with --bodies.\n");
   const Recording recording(arguments.input);
   if (recording.images() == 0)
     throw BagError(arguments.input + " holds no images: record the cameras' ir_blobs");

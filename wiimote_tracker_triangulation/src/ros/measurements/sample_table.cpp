@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kLongestGap = 0.05;      // [s]
 constexpr double kLongestInFrames = 1.5;  // at low rates
-constexpr double kMostFrames = 1e8;       // 28 h at the highest rate; 2.4 GB per LED
+constexpr double kMostSamples = 1e8;      // 28 h at the highest rate; 2.4 GB per LED
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double seconds(std::int64_t nanoseconds) {
@@ -46,11 +46,11 @@ Samples SampleTable::resample(double rate) const {
     return result;
   result.start = first;
   const double frames = std::floor(seconds(last - first) * rate + 1e-6) + 1.0;
-  if (frames > kMostFrames)
+  if (frames > kMostSamples)
     throw Error(
         format("the recording spans %.1f days, %.0f frames of C3D or TRC, but %.0f are the "
                "most: cut it where its clock was set, or lower the rate",
-               seconds(last - first) / 86400.0, frames, kMostFrames));
+               seconds(last - first) / 86400.0, frames, kMostSamples));
   result.frames = static_cast<std::size_t>(frames);
   for (const auto& [label, recorded] : samples_) {
     std::vector<Sample> samples = recorded;

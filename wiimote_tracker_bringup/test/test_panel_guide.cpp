@@ -34,6 +34,7 @@ class NextStep : public testing::Test {
 
 TEST_F(NextStep, WithoutANodeItSaysHowToStartIt) {
   EXPECT_EQ(guide_.advice(now_).title, "No node");
+  EXPECT_NE(guide_.advice(now_).sentence.find("ROS_NAMESPACE"), std::string::npos);
   at(CalibrationStatus::IDLE);
   now_ += 4.0;
   EXPECT_EQ(guide_.advice(now_).title, "No node");

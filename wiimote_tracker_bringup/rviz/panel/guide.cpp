@@ -101,7 +101,7 @@ Advice Guide::advice(double now) const {
   if (isSilent(now))
     return {"No node",
             "No calibration node answers: start it with  roslaunch wiimote_tracker_bringup "
-            "tracker.launch cameras:=FILE",
+            "tracker.launch cameras:=FILE, or start rviz with its ROS_NAMESPACE",
             "",
             {}};
   Advice advice = {status_->next_title, status_->next_sentence, "", {}};

@@ -1,4 +1,6 @@
 #include "../src/ros/parameters.h"
+#include "../src/ros/file_paths.h"
+#include "../src/ros/requests.h"
 #include "../src/ros/square_frame.h"
 
 #include "expect_says.h"
@@ -62,6 +64,23 @@ TEST(Parameters, SingleCamerasCanHaveTheirOwnIntrinsics) {
   EXPECT_EQ(fisheye.distortion_model, geometry::DistortionModel::kEquidistant);
   EXPECT_EQ(fisheye.distortion[3], 0.4);
   EXPECT_EQ(fisheye.distortion[4], 0.0);
+}
+
+TEST(Parameters, RelativeFilesLieBesideTheRigFileOrWhereTheyArePermitted) {
+  Parameters parameters;
+  parameters.rig_file = "/tmp/rigs/rig.yaml";
+  EXPECT_EQ(rigPath("", parameters), "/tmp/rigs/rig.yaml");
+  EXPECT_EQ(rigPath("old.yaml", parameters), "/tmp/rigs/old.yaml");
+  EXPECT_EQ(rigPath("/tmp/rigs/old.yaml", parameters), "/tmp/rigs/old.yaml");
+  EXPECT_EQ(samplesPath("old/samples.yaml", parameters), "/tmp/rigs/old/samples.yaml");
+  for (const char* outside : {"../old.yaml", "/tmp/old.yaml", "~/rig.yaml"})
+    EXPECT_THROW(rigPath(outside, parameters), Refusal) << outside;
+  parameters.file_folder = "/";
+  EXPECT_EQ(rigPath("old.yaml", parameters), "/tmp/rigs/old.yaml");
+  EXPECT_EQ(rigPath("/home/rig.yaml", parameters), "/home/rig.yaml");
+  parameters.file_folder = "/tmp/others/";
+  EXPECT_EQ(rigPath("old.yaml", parameters), "/tmp/others/old.yaml");
+  EXPECT_THROW(rigPath("/tmp/rigs/old.yaml", parameters), Refusal);
 }
 
 TEST(Parameters, WhatThePaperDoesCanBeChosen) {

@@ -23,19 +23,29 @@ fs::path withoutLinks(const fs::path& path) {
   return whole.has_filename() ? whole : whole.parent_path();  // "folder/" is "folder"
 }
 
+bool isBelow(const fs::path& folder, const fs::path& path) {
+  return std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first ==
+         folder.end();
+}
+
 std::string permittedPath(const std::string& requested, const Parameters& parameters) {
   // Answers repeat the path; those that are not UTF-8 cannot be read in Python.
   if (validUtf8(requested) != requested)
     throw Refusal("the path is not UTF-8: choose another name for the file");
-  const std::string& limit = parameters.file_folder;
-  const fs::path folder = withoutLinks(
-      limit.empty() ? fs::absolute(parameters.rig_file).parent_path() : fs::path(limit));
-  const fs::path path = withoutLinks(requested);
-  if (std::mismatch(folder.begin(), folder.end(), path.begin(), path.end()).first != folder.end())
+  if (requested.rfind("~/", 0) == 0)  // would be a folder of this name
+    throw Refusal(requested + " begins with ~, which only a shell replaces: give the whole path");
+  const fs::path rig_folder = fs::absolute(parameters.rig_file).parent_path();
+  const fs::path limit =
+      parameters.file_folder.empty() ? rig_folder : fs::absolute(parameters.file_folder);
+  const fs::path folder = withoutLinks(limit);
+  const bool whole = fs::path(requested).is_absolute();
+  const fs::path path =
+      (whole || isBelow(folder, withoutLinks(rig_folder)) ? rig_folder : limit) / requested;
+  if (!isBelow(folder, withoutLinks(path)))
     throw Refusal(
         requested + " is not below " + folder.string() +
         ": choose a file there, or start the node with the parameter file_folder, such as /");
-  return requested;
+  return path.string();
 }
 
 }  // namespace

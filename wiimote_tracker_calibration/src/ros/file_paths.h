@@ -9,8 +9,9 @@ namespace wiimote_tracker {
 
 /// The rig file of a request. Whoever reaches the master can send one: it must lie below
 /// Parameters::file_folder. Links are followed.
-/// @param requested absolute, or relative to the node's working folder; empty: that of the
-/// parameter rig_file. @throws Refusal: it lies elsewhere, or is not UTF-8.
+/// @param requested absolute, or relative to the folder of the parameter rig_file (where that does
+/// not lie below file_folder: to file_folder); empty: rig_file.
+/// @throws Refusal: it lies elsewhere, begins with "~/", or is not UTF-8.
 std::string rigPath(const std::string& requested, const Parameters& parameters);
 
 /// Name of the rig's file where the parameter rig_file names none.

@@ -9,7 +9,7 @@ namespace wiimote_tracker::health {
 
 namespace {
 
-const char kAdvice[] = "put it back, or recalibrate this camera";
+const char kAdvice[] = "; put it back, or recalibrate this camera";
 
 std::string degrees(double radians) {
   return format("%.1f degrees", radians * 180.0 / M_PI);
@@ -17,16 +17,18 @@ std::string degrees(double radians) {
 
 std::string tiltText(const Tilt& tilt) {
   return "was moved: it is tilted by " + degrees(tilt.angle) + " (+- " + degrees(tilt.stddev) +
-         ") against where it was calibrated; " + kAdvice;
+         ") against where it was calibrated";
 }
 
-std::string driftText(const Drift& drift) {
+/// @param advise whether to say what to do
+std::string driftText(const Drift& drift, bool advise) {
   const std::string size = format("%.1f px (+- %.1f px)", drift.bias.norm(), drift.stddev);
   if (!drift.together.empty())
     return "drifted, or " + drift.together + " did: their rays miss each other by " + size +
-           " on average; see which of both was moved, put it back or recalibrate it";
-  return "drifted: its images are " + size + " on average off what the other cameras see; " +
-         kAdvice;
+           " on average" +
+           (advise ? "; see which of both was moved, put it back or recalibrate it" : "");
+  return "drifted: its images are " + size + " on average off what the other cameras see" +
+         (advise ? kAdvice : "");
 }
 
 }  // namespace
@@ -99,9 +101,9 @@ void HealthWatch::describe(const std::string& name) {
     findings.push_back("is another device (" + camera.other_device + ") than was calibrated (" +
                        camera.calibrated_identity + "): recalibrate this camera");
   if (camera.tilt_alarm.on())
-    findings.push_back(tiltText(*health.tilt));
-  if (camera.drift_alarm.on())
-    findings.push_back(driftText(*health.drift));
+    findings.push_back(tiltText(*health.tilt) + (findings.empty() ? kAdvice : ""));
+  if (camera.drift_alarm.on())  // of several findings the first one says what to do
+    findings.push_back(driftText(*health.drift, findings.empty()));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
     news_.push_back(name + " " + health.text);

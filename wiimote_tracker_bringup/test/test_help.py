@@ -2,6 +2,7 @@
 master."""
 
 import os
+import signal
 import subprocess
 import sys
 
@@ -43,6 +44,21 @@ def test_without_a_master_it_ends_with_what_to_do(program, address, advice):
                           env=dict(os.environ, ROS_MASTER_URI=address))
     assert done.returncode == 1
     assert done.stderr == f'{os.path.basename(program)}: {advice}\n'
+
+
+@pytest.mark.parametrize('program', [
+    'launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
+    'evaluation/place_cameras'])
+def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
+    """As by roslaunch, when another node ends that is required."""
+    (tmp_path / 'rospy.py').write_text('import os, signal, time\n'
+                                       'os.kill(os.getpid(), signal.SIGINT)\n'
+                                       'time.sleep(60.0)\n')
+    path = os.pathsep.join([str(tmp_path), os.environ.get('PYTHONPATH', '')])
+    done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          env=dict(os.environ, PYTHONPATH=path))
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, '', '')
 
 
 @pytest.mark.parametrize('program', [

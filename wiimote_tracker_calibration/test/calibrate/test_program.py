@@ -2,6 +2,7 @@
 
 import os
 import pty
+import signal
 import subprocess
 import sys
 
@@ -36,3 +37,39 @@ def test_an_unknown_terminal_is_named(name):
     assert done.returncode == 1
     assert f'"{name}"' in done.stderr and 'use --plain' in done.stderr
     assert done.stderr.count('\n') == 1
+
+
+def test_ctrl_c_at_the_start_prints_nothing(tmp_path):
+    (tmp_path / 'rosgraph.py').write_text('import os, signal, time\n'
+                                          'os.kill(os.getpid(), signal.SIGINT)\n'
+                                          'time.sleep(60.0)\n')
+    path = os.pathsep.join([str(tmp_path), os.environ.get('PYTHONPATH', '')])
+    done = subprocess.run([sys.executable, PROGRAM], timeout=60, stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, env=dict(os.environ, PYTHONPATH=path))
+    assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, b'', b'')
+
+
+# The program with a node that is silent, interrupted while it runs and again while Python ends.
+INTERRUPTED = """
+import atexit, os, queue, signal, sys, threading, types
+from importlib import machinery, util
+interrupt = lambda: os.kill(os.getpid(), signal.SIGINT)
+loader = machinery.SourceFileLoader('calibrate', sys.argv.pop(1))
+program = util.module_from_spec(util.spec_from_loader(loader.name, loader))
+loader.exec_module(program)
+program.master_problem = lambda: ''
+program.rospy.init_node = lambda *arguments, **options: None
+program.Node = lambda: types.SimpleNamespace(events=queue.Queue())
+atexit.register(interrupt)
+threading.Timer(1.0, interrupt).start()
+sys.exit(program.main())
+"""
+
+
+def test_ctrl_c_twice_prints_no_traceback():
+    with subprocess.Popen([sys.executable, '-c', INTERRUPTED, PROGRAM, '--plain'],
+                          stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True) as program:
+        said = program.stdout.read(), program.stderr.read()
+        assert program.wait(60) == -signal.SIGINT
+    assert said[1] == '' and said[0].endswith('this took 1 s.\n')

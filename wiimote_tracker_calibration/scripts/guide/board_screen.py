@@ -12,17 +12,17 @@ KEYS = ['SPACE next  n start again  u undo  s solve  v save  x cancel  q quit',
 
 def advice(guide: Guide, camera: str) -> Advice:
     """What to do next."""
-    board = guide.board
+    board, following = guide.board, guide.asking['next']
     if board is None or board.camera != camera:
-        return Advice(f'Hold the 16-LED board in front of {camera}. SPACE starts.', 'start')
+        return Advice(f'Hold the 16-LED board in front of {camera}. {following} starts.', 'start')
     if guide.has_done('commit', 'undo'):
-        return Advice('The lens is in use. Calibrate the rig now. q ends.')
+        return Advice(f'The lens is in use. Calibrate the rig now. {guide.asking["quit"]} ends.')
     if guide.has_done('solve', 'undo'):
-        return Advice('SPACE saves the lens and gives it to the driver.', 'commit')
+        return Advice(f'{following} saves the lens and gives it to the driver.', 'commit')
     if board.missing:
         return Advice('Hold the board still for two seconds, then elsewhere: to all sides of the '
                       'image, near and far, tilted by 30 to 45 degrees to all sides.')
-    return Advice('Enough. SPACE solves the lens; more views make it better.', 'solve')
+    return Advice(f'Enough. {following} solves the lens; more views make it better.', 'solve')
 
 
 def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int = COLUMNS,

@@ -4,7 +4,7 @@ Takes messages, answers and the time; uses neither ROS nor a terminal.
 """
 
 from dataclasses import dataclass, field
-from typing import List, Optional, Sequence
+from typing import Dict, List, Optional, Sequence
 
 SILENT_AFTER = 3.0  # [s] The node publishes its status twice a second.
 FOUND_WITHIN = 3.0  # [s] Longest search for a node that runs.
@@ -12,11 +12,18 @@ FOUND_WITHIN = 3.0  # [s] Longest search for a node that runs.
 WORDS = {'learn_masks': 'masks', 'check_connection': 'connection', 'start': 'start',
          'capture_corner': 'capture', 'start_wave': 'wave', 'stop_wave': 'wave', 'solve': 'solve',
          'save': 'save'}
+# What a person uses to ask for something: keys on the screen, words line by line.
+KEYS = {'next': 'SPACE', 'connection': 'k', 'solve': 's', 'save': 'v', 'check': 'c', 'quit': 'q',
+        'side': 'n asks for the side', 'length': 'w asks for the length'}
+PLAIN_WORDS = {'next': 'The word next', 'connection': 'The word connection',
+               'solve': 'The word solve', 'save': 'The word save', 'check': 'check X Y Z',
+               'quit': 'The word quit', 'side': 'start METRES gives the side',
+               'length': 'wave METRES begins'}
 
 
 @dataclass
 class Advice:
-    """What to do next, and the command that SPACE stands for (None: no command)."""
+    """What to do next, and the command that SPACE or `next` stands for (None: no command)."""
     sentence: str
     word: Optional[str] = None
     arguments: List[str] = field(default_factory=list)
@@ -25,9 +32,10 @@ class Advice:
 class Guide:
     """All that the screen is drawn from. Times [s] are of one steady clock."""
 
-    def __init__(self, now: float, start: Sequence[str] = ()):
-        """start: arguments of `start` that SPACE uses."""
+    def __init__(self, now: float, start: Sequence[str] = (), asking: Dict[str, str] = KEYS):
+        """start: arguments of `start` that SPACE uses. asking: KEYS or PLAIN_WORDS."""
         self._start = list(start)
+        self.asking = asking
         self.began = now
         self.status = None
         self.status_at = None
@@ -112,20 +120,22 @@ class Guide:
             return Advice('Waiting for the calibration node.')
         word = WORDS.get(status.next_request)
         if word is None:
-            return Advice(status.next_sentence + other_key(status))
+            return Advice(status.next_sentence + self._other_way(status))
         if word == 'wave' and status.corners_needed == 0 and not self.is_waving():
-            return Advice(f'{status.next_sentence} w asks for the length.')
+            return Advice(f'{status.next_sentence} {self.asking["length"]}.')
         arguments = [str(status.next_corner + 1)] if status.next_corner >= 0 else []
         label = status.next_label
         wand = self._start[:1] == ['wand']
         if word == 'connection' and wand:  # two LEDs: the wand on the floor shows who sees them
-            return Advice('Switch the wand on and lay it on the floor. SPACE: start with it.',
-                          'start', self._start)
+            return Advice('Switch the wand on and lay it on the floor. '
+                          f'{self.asking["next"]}: start with it.', 'start', self._start)
         if word == 'start':
             arguments = self._start
             label += (f' with the {" of ".join(arguments)} m' if wand else
-                      f' with {" x ".join(arguments)} m' if arguments else '; n asks for the side')
-        return Advice(f'{status.next_sentence} SPACE: {label}.{other_key(status)}', word, arguments)
+                      f' with {" x ".join(arguments)} m' if arguments else
+                      f'; {self.asking["side"]}')
+        return Advice(f'{status.next_sentence} {self.asking["next"]}: {label}.'
+                      f'{self._other_way(status)}', word, arguments)
 
     def is_waving(self) -> bool:
         return self.status is not None and self.status.step == self.status.WAVING
@@ -159,6 +169,17 @@ class Guide:
             text += f', {spoken(self._square_at - self._started_at)} of it for the square'
         return text + '.'
 
+    def _other_way(self, status) -> str:
+        """What asks for another way on, of which the sentence speaks too."""
+        request = status.next_request
+        if request == 'learn_masks':
+            return f' {self.asking["connection"]} goes on without.'
+        if status.step == status.COMPLETE and request == 'start_wave':
+            return f' {self.asking["solve"]} solves.'
+        if status.step == status.SOLVED and request != 'save':
+            return f' {self.asking["save"]} saves.'
+        return f' {self.asking["check"]} checks it.' if status.step == status.SAVED else ''
+
     def _keep_time(self, before, status, now: float) -> None:
         if before is None and self._started_at is None and status.step not in (
                 status.IDLE, status.SAVED):
@@ -166,18 +187,6 @@ class Guide:
         complete = status.corners_needed and status.corners_captured >= status.corners_needed
         if complete and self._square_at is None and self._started_at is not None:
             self._square_at = now
-
-
-def other_key(status) -> str:
-    """The key of another way on, of which the sentence speaks too."""
-    request = status.next_request
-    if request == 'learn_masks':
-        return ' k goes on without.'
-    if status.step == status.COMPLETE and request == 'start_wave':
-        return ' s solves.'
-    if status.step == status.SOLVED and request != 'save':
-        return ' v saves.'
-    return ' c checks it.' if status.step == status.SAVED else ''
 
 
 def spoken(seconds: float) -> str:

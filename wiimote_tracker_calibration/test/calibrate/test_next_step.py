@@ -5,7 +5,8 @@ from wiimote_tracker_msgs.msg import CalibrationStatus
 
 from fakes import guide_at, status
 from guide import commands
-from guide.guide import Guide
+from guide.board_screen import advice as board_advice
+from guide.guide import PLAIN_WORDS, Guide
 
 
 @pytest.mark.parametrize('wanted, word', [
@@ -63,6 +64,19 @@ def test_the_key_of_another_way_on_is_named(step, request_, key):
     sentence = guide_at(status(getattr(CalibrationStatus, step), request_, 'do it')).advice().sentence
     assert f' {key} ' in sentence
     assert commands.find(commands.RIG, key) is not None
+
+
+@pytest.mark.parametrize('step, request_, corners, sentence', [
+    ('IDLE', 'learn_masks', 4, 'The word next: do it. The word connection goes on without.'),
+    ('IDLE', 'start', 4, 'The word next: do it; start METRES gives the side.'),
+    ('READY', 'start_wave', 0, 'wave METRES begins.'),
+    ('COMPLETE', 'start_wave', 4, 'The word next: do it. The word solve solves.'),
+    ('SOLVED', '', 4, 'The word save saves.'), ('SAVED', '', 4, 'check X Y Z checks it.')])
+def test_line_by_line_words_are_named_in_place_of_keys(step, request_, corners, sentence):
+    guide = guide_at(status(getattr(CalibrationStatus, step), request_, 'do it',
+                            corners_needed=corners), asking=PLAIN_WORDS)
+    assert guide.advice().sentence == 'Do this. ' + sentence
+    assert board_advice(guide, 'wiimote_1').sentence.endswith('. The word next starts.')
 
 
 def test_it_says_how_long_it_took():

@@ -14,10 +14,11 @@ WORDS = {'learn_masks': 'masks', 'check_connection': 'connection', 'start': 'sta
          'save': 'save'}
 # What a person uses to ask for something: keys on the screen, words line by line.
 KEYS = {'next': 'SPACE', 'connection': 'k', 'solve': 's', 'save': 'v', 'check': 'c', 'quit': 'q',
-        'side': 'n asks for the side', 'length': 'w asks for the length'}
+        'cancel': 'x', 'side': 'n asks for the side', 'length': 'w asks for the length'}
 PLAIN_WORDS = {'next': 'The word next', 'connection': 'The word connection',
                'solve': 'The word solve', 'save': 'The word save', 'check': 'check X Y Z',
-               'quit': 'The word quit', 'side': 'start METRES gives the side',
+               'quit': 'The word quit', 'cancel': 'the word cancel',
+               'side': 'start METRES gives the side',
                'length': 'wave METRES begins'}
 
 
@@ -156,7 +157,13 @@ class Guide:
         return (now if self._saved_at is None else self._saved_at) - begin
 
     def took(self, now: float) -> str:
-        """The last sentence: how long it took."""
+        """The last sentences: how long it took, and what goes on without us."""
+        return self._took(now) + (
+            f' The node goes on with {self.running[-1]}: calibrate shows it, and '
+            f'{self.asking["cancel"]} stops it there.'
+            if self.running and 'cancel' not in self.running else '')
+
+    def _took(self, now: float) -> str:
         if self._started_at is None or self._saved_at is None:
             status = self.status
             kept = status.corners_captured if status and status.step != status.SAVED else 0

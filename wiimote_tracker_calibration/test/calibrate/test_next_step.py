@@ -95,3 +95,15 @@ def test_it_says_how_long_it_took():
     guide.on_answer('check', True, '', 200.0)
     assert guide.elapsed(999.0) == 70.0
     assert guide.took(999.0) == 'Calibrated and saved in 1 min 10 s, 40 s of it for the square.'
+
+
+def test_at_the_end_it_says_what_the_node_goes_on_with():
+    guide = guide_at(status(CalibrationStatus.MEASURING))
+    guide.on_request('recalibrate')
+    assert guide.took(9.0).endswith(' The node goes on with recalibrate: calibrate shows it, and x '
+                                    'stops it there.')
+    guide.on_request('cancel')
+    assert 'goes on' not in guide.took(9.0)
+    guide.on_answer('cancel', True, '', 9.0)
+    guide.on_answer('recalibrate', False, '', 9.0)
+    assert 'goes on' not in guide.took(9.0)

@@ -42,7 +42,9 @@ class SecondStart(unittest.TestCase):
         first = self.start()
         second = self.start()
         first.wait(10.0)
-        self.assertIn(f'/coverage runs already (process {first.pid} on ', self.said(second))
+        said = self.said(second)
+        self.assertIn(f'/coverage runs already (process {first.pid} on ', said)
+        self.assertIn('end one of the launches, or start the second in a namespace', said)
         self.assertNotIn('runs already', first.stderr.read())
 
     def test_one_that_was_killed_is_not_there(self):

@@ -120,8 +120,11 @@ int runWithMaster(const Node& node) {
   }
   const std::string other = runningProcess(ros::this_node::getName());
   if (!other.empty())
-    ROS_WARN("%s runs already (%s): it ends, and this one takes its place.",
-             ros::this_node::getName().c_str(), other.c_str());
+    ROS_WARN(
+        "%s runs already (%s): it ends, and this one takes its place. If another launch file "
+        "starts it again, both replace each other for ever: end one of the launches, or start the "
+        "second in a namespace (ROS_NAMESPACE).",
+        ros::this_node::getName().c_str(), other.c_str());
   // Lives longer than the catch block: with the last handle ROS shuts down and prints no more.
   const ros::NodeHandle nh;
   try {

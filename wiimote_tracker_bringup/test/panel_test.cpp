@@ -227,7 +227,7 @@ TEST_F(Panel, SaysWhatUndoDrops) {
   const auto* undo = find<QPushButton>("Undo");
   ASSERT_NE(undo, nullptr);
   for (const char* dropped : {"place", "wave", "corner"})
-    EXPECT_TRUE(undo->toolTip().contains(dropped)) << dropped;
+    EXPECT_GE(undo->toolTip().indexOf(dropped), 0) << dropped;
 }
 
 TEST_F(Panel, EndsWhileARequestRuns) {

@@ -18,6 +18,7 @@
 #include <random>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::measurements {
@@ -248,6 +249,24 @@ TEST_F(WriterTest, KeepsWhatCrashedProgramsLeft) {
   EXPECT_EQ("first", contentOf(path + ".part.bak"));
   EXPECT_EQ("second", contentOf(path + ".part.bak2"));
   EXPECT_FALSE(fs::exists(path + ".part.bak3")) << "nothing is lost with an empty one";
+}
+
+TEST_F(WriterTest, TwoTablesAreNotTheSameFile) {
+  std::ofstream(folder_ / "old.csv") << "old";
+  fs::create_symlink(folder_ / "old.csv", folder_ / "link");
+  for (const auto& [csv, trc] : {std::pair("out", "out"), {"out", "./out"}, {"old.csv", "link"}}) {
+    TableFiles files;
+    files.csv = (folder_ / csv).string();
+    files.trc = (folder_ / trc).string();
+    try {
+      makeWriters(files);
+      ADD_FAILURE() << csv << " " << trc;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string::npos, std::string(e.what()).find("write to another one")) << e.what();
+    }
+  }
+  EXPECT_EQ("old", contentOf(folder_ / "old.csv"));
+  EXPECT_EQ(2, std::distance(fs::directory_iterator(folder_), fs::directory_iterator()));
 }
 
 TEST_F(WriterTest, AdvisesWhenItCannotWrite) {

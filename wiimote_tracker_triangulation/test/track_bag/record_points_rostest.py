@@ -113,7 +113,8 @@ class RecordPoints(unittest.TestCase):
 
     def test_says_what_is_missing_or_wrong(self):
         for arguments, words in [((), 'csv or'), (('_csv:=' + self.path, '_cvs:=x'), 'unknown'),
-                                 (('_csv:=' + self.folder,), 'cannot write')]:
+                                 (('_csv:=' + self.folder,), 'cannot write'),
+                                 (('_csv:=' + self.path, '_trc:=' + self.path), 'another one')]:
             name = '__name:=recorder_%d' % len(words)
             process = self.start(name, *arguments)
             output = process.communicate(timeout=60)[0]

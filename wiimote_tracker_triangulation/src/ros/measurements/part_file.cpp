@@ -25,10 +25,28 @@ void keepPart(const std::string& part) {
   fs::rename(part, kept);
 }
 
+bool isSameFile(const std::string& a, const std::string& b) {
+  std::error_code ignored;
+  return fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal() ||
+         fs::equivalent(a, b, ignored);
+}
+
 }  // namespace
 
 std::string partOf(const std::string& path) {
   return path + ".part";
+}
+
+void checkDistinct(const std::vector<std::string>& to_write,
+                   const std::vector<std::string>& to_read) {
+  std::vector<std::string> others = to_read;
+  for (const std::string& file : to_write) {
+    for (const std::string& other : others) {
+      if (!file.empty() && !other.empty() && isSameFile(file, other))
+        throw Error("two arguments are " + file + ": write to another one");
+    }
+    others.push_back(file);
+  }
 }
 
 void failToWrite(const std::string& path, int error) {

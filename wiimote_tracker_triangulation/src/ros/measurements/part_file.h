@@ -4,11 +4,17 @@
 #include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::measurements {
 
 /// Name of a file while it is being written.
 std::string partOf(const std::string& path);
+
+/// Empty names are no files. @throws Error: a file to write is also to be read, or to be written as
+/// something else.
+void checkDistinct(const std::vector<std::string>& to_write,
+                   const std::vector<std::string>& to_read = {});
 
 /// Creates the file's folder and an empty part. A part that a program left when it crashed is kept,
 /// unless empty, as path + ".part.bak", or ".part.bak2" and so on where that exists. @throws Error,

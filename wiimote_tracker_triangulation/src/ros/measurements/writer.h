@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
 
+#include "ros/measurements/part_file.h"
+
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/text.h>
 
@@ -90,10 +92,13 @@ struct TableFiles {
   std::string c3d;
   std::string trc;
   double rate = 100.0;  ///< Of C3D and TRC [Hz, > 0].
+
+  std::vector<std::string> names() const { return {csv, matlab, c3d, trc}; }
 };
 
-/// One for each file. @throws Error: one cannot be created.
+/// One for each file. @throws Error: one cannot be created, or two are the same.
 inline std::vector<std::unique_ptr<Writer>> makeWriters(const TableFiles& files) {
+  checkDistinct(files.names());
   std::vector<std::unique_ptr<Writer>> writers;
   if (!files.csv.empty())
     writers.push_back(makeCsvWriter(files.csv));

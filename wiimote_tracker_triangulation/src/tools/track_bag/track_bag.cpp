@@ -2,6 +2,7 @@
 
 #include "output.h"
 #include "recording.h"
+#include "ros/measurements/part_file.h"
 #include "ros/message_tracker.h"
 #include "smoothed_tracks.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
@@ -111,26 +112,12 @@ class Player {
   std::string refusal_;  // of the last rig that was refused
 };
 
-bool isSameFile(const std::string& a, const std::string& b) {
-  namespace fs = std::filesystem;
-  std::error_code ignored;
-  return fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal() ||
-         fs::equivalent(a, b, ignored);
-}
-
-/// @throws BagError: a file to write is also to be read, or to be written as something else.
+/// @throws Error: a file to write is also to be read, or to be written as something else.
 void checkFiles(const Arguments& arguments) {
-  const measurements::TableFiles& tables = arguments.output.tables;
-  std::vector<std::string> others{arguments.input, arguments.parameters, arguments.rig,
-                                  arguments.bodies};
-  for (const std::string& file :
-       {arguments.output.bag, tables.csv, tables.matlab, tables.c3d, tables.trc}) {
-    for (const std::string& other : others) {
-      if (!file.empty() && !other.empty() && isSameFile(file, other))
-        throw BagError("two arguments are " + file + ": write to another one");
-    }
-    others.push_back(file);
-  }
+  std::vector<std::string> to_write = arguments.output.tables.names();
+  to_write.push_back(arguments.output.bag);
+  measurements::checkDistinct(
+      to_write, {arguments.input, arguments.parameters, arguments.rig, arguments.bodies});
 }
 
 TrackingParameters parametersOf(const Arguments& arguments) {

@@ -77,7 +77,8 @@ MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink
       sightings_({parameters.identity.exposure, parameters.estimator.tracks.merging_distance}),
       labels_(parameters.labels),
       zones_(parameters.zones),
-      trigger_(parameters.trigger) {
+      trigger_(parameters.trigger),
+      refusals_(parameters.trigger) {
   newest_.time = kNever;
   bodies_.setBodies(parameters.bodies.known);
   if (parameters.identity.codes)
@@ -306,6 +307,7 @@ void MessageTracker::takeTrigger(const std_msgs::Header& trigger) {
 void MessageTracker::finish() {
   trigger_.finish();
   answerTriggers();
+  reportRefusals(std::numeric_limits<double>::infinity());
 }
 
 void MessageTracker::answerTriggers() {
@@ -318,13 +320,18 @@ void MessageTracker::answerTriggers() {
       message.header.stamp = request->second.stamp;  // to the nanosecond
       sink_->onTriggeredPoints(message);
     } else {
-      std::ostringstream sentence;
-      sentence << "there are no points for the trigger at " << request->second.stamp
-               << " s: " << events::describe(answer->result, parameters_.trigger);
-      sink_->onProblem(sentence.str());
+      std::ostringstream stamp;
+      stamp << request->second.stamp;
+      refusals_.add(answer->result, stamp.str());
     }
     triggers_.erase(request);
   }
+  reportRefusals(newest_arrival_);
+}
+
+void MessageTracker::reportRefusals(double now) {
+  while (const auto sentence = refusals_.next(now))
+    sink_->onProblem(*sentence);
 }
 
 /// Whether an image may clock outputs. One with a wrong clock, which the estimator will drop, must

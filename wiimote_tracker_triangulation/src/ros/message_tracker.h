@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MESSAGE_TRACKER_H
 
 #include "body/body_follower.h"
+#include "events/refusals.h"
 #include "events/trigger.h"
 #include "events/zone_watch.h"
 #include "image_message.h"
@@ -127,6 +128,7 @@ class MessageTracker {
   void reportDoubtfulLabels();
   void publishZoneEvents(const tracking::Snapshot& snapshot);
   void answerTriggers();
+  void reportRefusals(double now);
   bool clocksOutputs(std::size_t camera, double arrival) const;
   void publishTicksUntil(double now);
   void publishAt(double time);
@@ -151,6 +153,7 @@ class MessageTracker {
   LedLabels labels_;
   events::ZoneWatch zones_;
   events::Trigger trigger_;
+  events::Refusals refusals_;
   std::map<std::uint64_t, std_msgs::Header> triggers_;  // waiting, by number
   std::uint64_t next_trigger_ = 0;
   Statistics statistics_;

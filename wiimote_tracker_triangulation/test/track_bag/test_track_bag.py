@@ -165,6 +165,15 @@ def test_an_impossible_trigger_is_named(tmp_path):
     assert 'older than the stored snapshots' in errors
 
 
+def test_a_trigger_with_a_fixed_stamp_is_named_twice(tmp_path):
+    write(tmp_path / 'in.bag', recorded() +
+          [('/trigger', trigger(-50), 0.5 + 0.005 * i) for i in range(200)])
+    _, _, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag')
+    first, second = [line for line in errors.splitlines() if 'no points for' in line]
+    assert 'no points for the trigger at 1599999950' in first
+    assert 'no points for 199 triggers' in second and 'all had one stamp' in second
+
+
 def test_zones_are_entered_and_left(tmp_path):
     # The LED begins at x = 0.5 and crosses x = 0 upwards along y after pi / 2 s.
     write(tmp_path / 'in.bag', recorded(zones=[('right', (0, -1, 0), (1, 1, 2)),

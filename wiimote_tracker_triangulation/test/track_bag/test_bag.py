@@ -136,6 +136,20 @@ def test_the_same_bag_gives_the_same_bytes(tmp_path):
     assert len(contents) == 1
 
 
+def test_images_before_the_first_rig_are_counted(bag, tmp_path):
+    """The rig was calibrated while the bag was recorded. An image of a stranger does not count."""
+    entries = recorded()
+    entries[0] = entries[0][:2] + (0.805,)
+    stranger = entries[1]
+    entries.append(('/stranger/ir_blobs',) + stranger[1:])
+    write(tmp_path / 'in.bag', sorted(entries, key=lambda e: e[2]))
+    early = sum(t.endswith('ir_blobs') and s < 0.805 for t, _, s in recorded())
+    assert '%d images came before the first rig and gave no points: name a rig with --rig' % early \
+        in track(tmp_path / 'in.bag', tmp_path / 'out.bag')
+    assert 'before the first rig' not in track(bag, tmp_path / 'whole.bag')
+    assert len(arrays(tmp_path / 'out.bag')) < len(arrays(tmp_path / 'whole.bag'))
+
+
 def test_only_arrivals_decide_the_order(bag, tmp_path):
     """Neither the order of recording nor the recorder's clock."""
     track(bag, tmp_path / 'out.bag')

@@ -63,6 +63,9 @@ class Player {
     cameras_.clear();
     for (const geometry::RigCamera& camera : tracker_.rig().cameras)
       cameras_[topics_(camera.camera.name + "/ir_blobs")] = camera.camera.name;
+    for (const auto& [topic, images] : early_images_)
+      before_rig_ += cameras_.count(topic) > 0 ? images : 0;
+    early_images_.clear();
   }
 
   void play(const rosbag::MessageInstance& message) {
@@ -83,6 +86,8 @@ class Player {
         for (auto body = bodies.first; body != bodies.second; ++body)
           tracker_.takeInertial(body->second, *imu);
       }
+    } else if (!tracker_.hasRig() && read<IrBlobArray>(message)) {
+      ++early_images_[topic];
     }
   }
 
@@ -102,6 +107,9 @@ class Player {
 
   const tracking::Counters& counters() const { return tracker_.counters(); }
 
+  /// Images of the first rig's cameras that came before it: they give no points.
+  std::size_t imagesBeforeRig() const { return before_rig_; }
+
  private:
   MessageTracker tracker_;
   Topics topics_;
@@ -109,6 +117,8 @@ class Player {
   std::map<std::string, std::string> cameras_;    // by image topic
   std::multimap<std::string, std::string> imus_;  // bodies by their IMU's topic
   std::size_t images_used_ = 0;
+  std::map<std::string, std::size_t> early_images_;  // before the first rig, by topic
+  std::size_t before_rig_ = 0;
   std::string refusal_;  // of the last rig that was refused
 };
 
@@ -151,13 +161,18 @@ void leaveOutEarlierResults(const Recording& recording,
   output->leaveOut(labels, bodies);
 }
 
+struct Played {
+  tracking::Counters counters;
+  std::size_t images_before_rig;
+};
+
 /// The tracker, where a rig is given with that one instead of the recorded ones.
-tracking::Counters play(const Recording& recording,
-                        const Topics& topics,
-                        const TrackingParameters& parameters,
-                        const std::optional<RigCalibration>& own_rig,
-                        const std::function<void(const rosbag::MessageInstance&)>& before,
-                        MessageSink* sink) {
+Played play(const Recording& recording,
+            const Topics& topics,
+            const TrackingParameters& parameters,
+            const std::optional<RigCalibration>& own_rig,
+            const std::function<void(const rosbag::MessageInstance&)>& before,
+            MessageSink* sink) {
   Player player(parameters, topics, sink);
   if (own_rig)
     player.play(*own_rig);
@@ -169,7 +184,7 @@ tracking::Counters play(const Recording& recording,
     player.play(message);
   }
   player.finish();
-  return player.counters();
+  return {player.counters(), player.imagesBeforeRig()};
 }
 
 /// @throws BagError: the outputs are not of the images' times.
@@ -182,7 +197,7 @@ void checkForSmoothing(const TrackingParameters& parameters) {
 
 void printSummary(const Recording& recording,
                   const Output& output,
-                  const tracking::Counters& counters,
+                  const Played& played,
                   double seconds) {
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   const auto images = static_cast<double>(recording.images());
@@ -192,7 +207,11 @@ void printSummary(const Recording& recording,
       recording.images(), images / seconds, count(output.points()), count(output.leds()),
       count(output.triggersAnswered()), count(output.zoneEvents()));
   std::printf("Images that were late: %llu, too late to be used: %llu, repeated: %llu.\n",
-              count(counters.late), count(counters.dropped), count(counters.repeated));
+              count(played.counters.late), count(played.counters.dropped),
+              count(played.counters.repeated));
+  if (played.images_before_rig > 0)
+    std::printf("%zu images came before the first rig and gave no points: name a rig with --rig.\n",
+                played.images_before_rig);
 }
 
 void run(const Arguments& arguments) {
@@ -241,10 +260,10 @@ void run(const Arguments& arguments) {
       output.copy(message);
     output.setTime(message.getTime());
   };
-  const tracking::Counters counters = play(recording, topics, parameters, own_rig, copy, &output);
+  const Played played = play(recording, topics, parameters, own_rig, copy, &output);
   output.finish();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-  printSummary(recording, output, counters, duration.count());
+  printSummary(recording, output, played, duration.count());
 }
 
 }  // namespace

@@ -184,14 +184,19 @@ class LabelledBody {
   std::optional<body::PoseFilter> filter_;  // at the last image within the gate
 };
 
-/// The lights of a line: x, y, z of each [m].
-std::vector<Eigen::Vector3d> readLights(std::istream* input) {
-  std::vector<Eigen::Vector3d> lights;
+/// The lights of the first line: x, y, z of each [m]. @throws Error.
+std::vector<Eigen::Vector3d> readLights(const std::string& file, std::istream* input) {
   std::string line;
   std::getline(*input, line);
   std::istringstream numbers(line);
-  for (Eigen::Vector3d light; numbers >> light.x() >> light.y() >> light.z();)
-    lights.push_back(light);
+  std::vector<double> values;
+  for (double value; numbers >> value;)
+    values.push_back(value);
+  if (!numbers.eof() || values.empty() || values.size() % 3 != 0)
+    throw Error(file + " does not begin with a line of x, y and z [m] of each light on the body");
+  std::vector<Eigen::Vector3d> lights;
+  for (std::size_t i = 0; i < values.size(); i += 3)
+    lights.emplace_back(values[i], values[i + 1], values[i + 2]);
   return lights;
 }
 
@@ -201,11 +206,17 @@ int run(const std::string& rig_file,
         double pixel_stddev) {
   const geometry::Rig rig = geometry::readRigFile(rig_file);
   std::ifstream input(images_file);
-  const std::vector<Eigen::Vector3d> lights = readLights(&input);
+  if (!input)
+    throw Error(images_file + " cannot be read: name a file of images");
+  const std::vector<Eigen::Vector3d> lights = readLights(images_file, &input);
+  if (input.peek() == std::ifstream::traits_type::eof())
+    throw Error(images_file +
+                " has no image after the lights: add lines of camera, time, and x "
+                "and y of each LED");
   LabelledBody body(rig, lights, pixel_stddev);
   std::ofstream output(table);
-  if (!input || !output)
-    throw Error(images_file + " cannot be read, or " + table + " not written");
+  if (!output)
+    throw Error(table + " cannot be written: choose another place");
   output << "time [s],state,x [m],y [m],z [m],qx,qy,qz,qw";
   for (int i = 0; i < 36; ++i)
     output << ",cov_" << i;  // position [m], then rotation about the world axes [rad]

@@ -183,6 +183,15 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
     with pytest.raises(ExperimentError, match='has a line that is not camera, time'):
         ordinary.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)), images,
                      tmp_path / 'body.csv')
+    lights = images.read_text().splitlines()[0]
+    for text, words in [('word\n', 'does not begin with a line of x, y and z'),
+                        (lights + ' 1.0\n', 'does not begin with'),
+                        (lights + '\n', 'has no image after the lights')]:
+        images.write_text(text)
+        with pytest.raises(ExperimentError, match=words):
+            ordinary.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)),
+                         images, tmp_path / 'none.csv')
+    assert not (tmp_path / 'none.csv').exists()
 
 
 def test_the_images_are_of_the_sweeps_own_times(flight):

@@ -212,7 +212,7 @@ class ImportEndToEnd(unittest.TestCase):
         self.assertIn('make it with import_multicamselfcal', errors)
         status, _, errors = run('replay_report', out, '--inlier-px', '0')
         self.assertEqual(status, 2)
-        self.assertIn('must be above 0', errors)
+        self.assertIn('argument --inlier-px: 0 is not within', errors)
         with open(out, 'w') as file:
             file.write('no bag')
         status, _, errors = run('replay_report', out)

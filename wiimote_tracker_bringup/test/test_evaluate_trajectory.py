@@ -130,6 +130,12 @@ def test_a_body_that_rests_does_not_tell_the_alignment():
             comparison.compare(estimate, truth, kind)
 
 
+def test_an_interval_that_no_two_poses_have():
+    for interval, word in ((100.0, 'smaller'), (0.001, 'larger')):
+        with pytest.raises(ExperimentError, match=f'use a {word} --interval'):
+            comparison.compare(around(), around(), interval=interval)
+
+
 def write(bag, topic, poses):
     for time, position, turn in zip(poses.times, poses.positions, poses.rotations.as_quat()):
         message = Odometry()

@@ -8,7 +8,7 @@ import time
 import traceback
 from typing import List, Optional
 
-from wiimote_tracker_evaluation import rigs, sections, stack
+from wiimote_tracker_evaluation import ranges, rigs, sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.page import write_report
@@ -49,7 +49,8 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                         help='measure a running tracker, with prompts for a person')
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_evaluation',
                         help='folder for the results (default: ./wiimote_tracker_evaluation)')
-    parser.add_argument('--seed', type=int, default=1, help='of all random numbers (default: 1)')
+    parser.add_argument('--seed', type=ranges.within(0, 2 ** 31 - 1, int), default=1,
+                        help='of all random numbers (default: 1)')
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
     chosen = options.sections.split(',') if options.sections else [
@@ -66,8 +67,6 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
             parser.error('%s cannot be measured live; choose from %s'
                          % (', '.join(chosen), ', '.join(measured)))
     check_files(parser, options)
-    if not 0 <= options.seed < 2 ** 31:
-        parser.error('--seed must be between 0 and 2^31 - 1')
     return options
 
 

@@ -5,6 +5,7 @@ import sys
 
 import numpy as np
 
+from wiimote_tracker_evaluation import ranges
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import hand_eye, inertial, mount, poses
 
@@ -35,8 +36,8 @@ def main(argv=None):
     base = parser.add_mutually_exclusive_group(required=True)
     base.add_argument('--odom', metavar='TOPIC', help='poses of the base')
     base.add_argument('--imu', metavar='TOPIC', help='sensor_msgs/Imu; z of the world points up')
-    parser.add_argument('--largest-offset', type=float, default=2.0, metavar='S',
-                        help='of the clocks [s] (default: 2)')
+    parser.add_argument('--largest-offset', type=ranges.within(0.01, 1e10), default=2.0,
+                        metavar='S', help='of the clocks [s] (default: 2)')
     parser.add_argument('--output', metavar='FILE', default='mount.yaml',
                         help='default: mount.yaml')
     arguments = parser.parse_args(argv)

@@ -86,7 +86,8 @@ def intervals(times, interval, tolerance):
     first = np.flatnonzero((np.abs(times[last] - ends) <= min(tolerance, interval / 2.0))
                            & (ends <= times[-1] + 1e-6))
     if not len(first):
-        raise ExperimentError(f'no two poses are {interval:g} s apart; use a smaller --interval')
+        other = 'smaller' if times[0] + interval > times[-1] else 'larger'
+        raise ExperimentError(f'no two poses are {interval:g} s apart; use a {other} --interval')
     return first, last[first]
 
 

@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment
+from wiimote_tracker_evaluation import alignment, ranges
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import comparison, mount, poses
 
@@ -73,12 +73,12 @@ def main(argv=None):
                         'similarity: with scale (default: rigid)')
     parser.add_argument('--mount', metavar='FILE', help='result of body_to_base: where the '
                         'estimated frame is on the body, and its clock offset')
-    parser.add_argument('--offset', type=float, metavar='S',
+    parser.add_argument('--offset', type=ranges.within(-1e10, 1e10), metavar='S',
                         help='added to the times of the estimate [s] (default: of the mount, or 0)')
-    parser.add_argument('--interval', type=float, default=1.0, metavar='S',
-                        help='of the relative error [s] (default: 1)')
-    parser.add_argument('--gap', type=float, default=0.05, metavar='S',
-                        help='longest time between two true poses to interpolate [s] '
+    parser.add_argument('--interval', type=ranges.within(0.001, 1e6), default=1.0,
+                        metavar='S', help='of the relative error [s] (default: 1)')
+    parser.add_argument('--gap', type=ranges.within(0.001, 1e6), default=0.05,
+                        metavar='S', help='longest time between two true poses to interpolate [s] '
                         '(default: 0.05)')
     parser.add_argument('--json', metavar='FILE', help='write the figures')
     parser.add_argument('--plot', metavar='FILE', help='write a picture (.png, .svg, .pdf)')

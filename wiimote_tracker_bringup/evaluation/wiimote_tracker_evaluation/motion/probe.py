@@ -32,6 +32,7 @@ from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 from std_srvs.srv import Trigger, TriggerResponse
 
+from wiimote_tracker_evaluation import ranges
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import pivot
 from wiimote_tracker_evaluation.ros_master import require_master
@@ -178,7 +179,9 @@ class Node:
 
     def __init__(self):
         body = read_body()
-        self.probe = Probe(read_tip(), rospy.get_param('~duration', 10.0),
+        duration = ranges.check(rospy.resolve_name('~duration'), rospy.get_param('~duration', 10.0),
+                                0.1, 3600.0)
+        self.probe = Probe(read_tip(), duration,
                            rospy.get_param('~file', '~/probe_points.csv'), rospy.get_time)
         self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)
         self.pose = rospy.Publisher(f'{body}/tip_pose', PoseWithCovarianceStamped, queue_size=10)

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import yaml
 
-from wiimote_tracker_evaluation import bound, rigs, scene
+from wiimote_tracker_evaluation import bound, ranges, rigs, scene
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
 from wiimote_tracker_evaluation.planning import picture, plan, prediction, search
@@ -164,10 +164,10 @@ def main(argv=None):
     parser.add_argument('--output', metavar='RIG', help='write a rig description for '
                         'simulated_rig.launch')
     parser.add_argument('--plot', metavar='FILE', help='write a map (.png, .svg, .pdf)')
-    parser.add_argument('--generations', type=int, default=500, metavar='N',
-                        help='of the search; more take longer (default: 500)')
-    parser.add_argument('--seed', type=int, default=1, metavar='N',
-                        help='the same gives the same result (default: 1)')
+    parser.add_argument('--generations', type=ranges.within(1, 10 ** 6, int), default=500,
+                        metavar='N', help='of the search; more take longer (default: 500)')
+    parser.add_argument('--seed', type=ranges.within(0, 2 ** 32 - 1, int), default=1,
+                        metavar='N', help='the same gives the same result (default: 1)')
     try:
         run(parser.parse_args(argv))
     except ImportError as error:

@@ -1,0 +1,50 @@
+"""Numbers out of range are refused with the name of the option or parameter."""
+
+import pytest
+import rospy
+
+import program_module
+from wiimote_tracker_evaluation import evaluation, ranges
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.motion import body_to_base, evaluate_trajectory, probe
+from wiimote_tracker_evaluation.planning import plan_rig
+
+TRAJECTORY = evaluate_trajectory.main, ['run.bag', '--estimate', '/odom', '--truth', '/body/odometry']
+BASE = body_to_base.main, ['run.bag', '--body', '/body/odometry', '--odom', '/odom']
+
+
+@pytest.mark.parametrize('program, option, values', [
+    (TRAJECTORY, '--interval', ['-1', '0', 'nan', 'inf', '1e30', 'long']),
+    (TRAJECTORY, '--gap', ['-1', '0', 'nan', 'inf']),
+    (TRAJECTORY, '--offset', ['nan', 'inf', '1e300']),
+    (BASE, '--largest-offset', ['-1', '0', 'nan', 'inf']),
+    ((plan_rig.main, ['plan.yaml']), '--generations', ['-1', '0', '1.5', 'nan', str(10 ** 30)]),
+    ((plan_rig.main, ['plan.yaml']), '--seed', ['-1', '1.5', str(2 ** 32)]),
+    ((evaluation.parse, []), '--seed', ['-1', '1.5', str(2 ** 31)])])
+def test_options(program, option, values, capsys):
+    main, arguments = program
+    for value in values:
+        with pytest.raises(SystemExit) as raised:
+            main(arguments + [option, value])
+        assert raised.value.code == 2
+        assert f'argument {option}: ' in capsys.readouterr().err
+
+
+def test_numbers_of_the_range_are_taken():
+    read = ranges.within(-1.0, 2.0)
+    assert [read(text) for text in ('-1', '0', '2', '1e-3')] == [-1.0, 0.0, 2.0, 1e-3]
+    assert ranges.within(0, 5, int)('5') == 5
+    assert ranges.check('~side', 2, 0.1, 20.0) == 2
+
+
+@pytest.mark.parametrize('value', [-1.0, 0.0, float('nan'), float('inf'), '5', None, True, [1.0]])
+def test_parameters(value, monkeypatch):
+    monkeypatch.setattr(rospy, 'get_param', lambda name, default=None: value
+                        if name in ('~duration', '~side') else default)
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: name)
+    monkeypatch.setattr(probe, 'read_body', lambda: 'wand')
+    with pytest.raises(ExperimentError, match='duration is .*, but must be within 0.1 and 3600'):
+        probe.Node()
+    hand = program_module.load('simulation/simulated_hand')
+    with pytest.raises(ExperimentError, match='side is .*, but must be within 0.1 and 20'):
+        hand.Hand()

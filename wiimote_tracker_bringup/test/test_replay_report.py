@@ -1,0 +1,22 @@
+"""replay_report says why it can say little of a bag that import_multicamselfcal did not make."""
+
+import pytest
+
+import program_module
+from wiimote_tracker_evaluation import reprojection
+
+replay_report = program_module.load('import/replay_report')
+
+
+@pytest.mark.parametrize('points, by_two, observed, words', [
+    (50, 50, [1.0], ''), (50, 0, [1.0], 'not synchronised'), (50, 0, [], 'exactly one spot'),
+    (0, 50, [], 'check that the rig')])
+def test_what_a_bag_of_others_lacks(points, by_two, observed, words, capsys):
+    report = {'instants': 100, 'instants_seen_by_two': by_two, 'points': points, 'method': 'mean',
+              'inlier_px': 5.0, 'points_in_tracks': 0, 'tracks_confirmed': 0,
+              'tracked_instants_with_an_outlier': 0}
+    report['published'] = report['tracks'] = {'all': reprojection.figures(observed)}
+    replay_report.print_report(report)
+    second = capsys.readouterr().out.splitlines()[1]
+    assert words in second
+    assert words or second.startswith('Reprojection errors')

@@ -28,7 +28,8 @@ def load(monkeypatch):
 
 @pytest.mark.parametrize('path', sorted(
     path for folder in ('launch', 'benchmark', 'evaluation')
-    for path in glob.glob(os.path.join(LAUNCH, '../../wiimote_tracker_*', folder, '*.launch'))), ids=os.path.basename)
+    for path in glob.glob(os.path.join(LAUNCH, '../../wiimote_tracker_*', folder, '*.launch'))),
+    ids=os.path.basename)
 def test_roslaunch_lists_the_arguments(path):
     listed = roslaunch.arg_dump.get_args([path])
     given = {each.get('name') for each in ElementTree.parse(path).getroot()

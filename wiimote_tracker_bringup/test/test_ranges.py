@@ -9,8 +9,8 @@ from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import body_to_base, evaluate_trajectory, probe
 from wiimote_tracker_evaluation.planning import plan_rig
 
-TRAJECTORY = evaluate_trajectory.main, ['run.bag', '--estimate', '/odom', '--truth', '/body/odometry']
-BASE = body_to_base.main, ['run.bag', '--body', '/body/odometry', '--odom', '/odom']
+TRAJECTORY = evaluate_trajectory.main, ['run.bag', '--estimate', '/odom', '--truth', '/body/pose']
+BASE = body_to_base.main, ['run.bag', '--body', '/body/pose', '--odom', '/odom']
 
 
 @pytest.mark.parametrize('program, option, values', [

@@ -62,7 +62,9 @@ struct SyntheticRig {
 
   /// What a solver may know: the cameras' poses are nonsense.
   Reconstruction observed() const {
-    Reconstruction result{cameras, {}, observations, {}};
+    Reconstruction result;
+    result.cameras = cameras;
+    result.observations = observations;
     result.points.resize(points.size());
     for (geometry::Camera& camera : result.cameras)
       camera.world_from_camera = Eigen::Isometry3d::Identity();

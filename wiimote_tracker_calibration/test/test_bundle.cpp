@@ -164,7 +164,9 @@ TEST(Bundle, HeldPositionsStayAndOrientationsAreFound) {
 
 TEST(Bundle, HeldCamerasStayAndPointsAreFound) {
   const SyntheticRig rig(3, 50, 18);
-  Reconstruction start{rig.cameras, {}, rig.observations, {}};
+  Reconstruction start;
+  start.cameras = rig.cameras;
+  start.observations = rig.observations;
   start.inliers.assign(rig.observations.size(), true);
   for (const Eigen::Vector3d& point : rig.points)
     start.points.emplace_back(point + Eigen::Vector3d(0.02, -0.01, 0.03));
@@ -185,7 +187,9 @@ TEST(Bundle, HeldCamerasStayAndPointsAreFound) {
 
 TEST(Bundle, RefusesWhatCannotBeSolved) {
   const SyntheticRig rig(3, 60, 10);
-  EXPECT_SAYS(refusal({{rig.cameras[0]}, {}, {}, {}}), "two cameras or more");
+  Reconstruction alone;
+  alone.cameras = {rig.cameras[0]};
+  EXPECT_SAYS(refusal(alone), "two cameras or more");
 
   Reconstruction bad = rig.observed();
   bad.observations[4].pixel.x() = std::numeric_limits<double>::quiet_NaN();
@@ -264,7 +268,9 @@ TEST(BundleSimilarity, RecoversAKnownOne) {
 TEST(BundleSimilarity, LeavesReprojectionsAlone) {
   SyntheticRig rig(3, 50, 17);
   rig.addNoise(1.0);
-  Reconstruction reconstruction{rig.cameras, {}, rig.observations, {}};
+  Reconstruction reconstruction;
+  reconstruction.cameras = rig.cameras;
+  reconstruction.observations = rig.observations;
   for (const Eigen::Vector3d& point : rig.points)
     reconstruction.points.emplace_back(point);
   Similarity similarity;

@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <random>
 #include <sstream>
@@ -236,6 +237,19 @@ TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
     ADD_FAILURE() << "not refused";
   } catch (const BadRecording& e) {
     EXPECT_TRUE(contains(e.what(), path)) << e.what();
+  }
+}
+
+TEST_F(Recording, RefusesTheNameOfAFolder) {
+  const std::string path = folder_ / "recordings";
+  std::filesystem::create_directory(path);
+  for (const std::string& name : {path, path + "/"}) {
+    try {
+      const Recorder recorder(name, 0.0, 0.0);
+      ADD_FAILURE() << "not refused: " << name << " became " << recorder.path();
+    } catch (const BadRecording& e) {
+      EXPECT_TRUE(contains(e.what(), "it is a folder")) << e.what();
+    }
   }
 }
 

@@ -8,6 +8,8 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace wiimote_tracker::recording {
 namespace {
@@ -30,6 +32,11 @@ std::string numbered(const std::string& path, int n) {
 /// Creates a file with the first free name. @returns its descriptor; sets `path` to its name.
 int create(std::string& path) {
   const std::string wanted = path;
+  // Otherwise the file would get a number and lie beside the folder.
+  std::error_code ignored;
+  if (std::filesystem::is_directory(wanted, ignored))
+    throw BadRecording("cannot create the recording " + wanted +
+                       " (it is a folder): name a file in it");
   for (int n = 1; n < kMaxNames; ++n) {
     path = numbered(wanted, n);
     const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -17,6 +17,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <system_error>
 #include <thread>
@@ -191,6 +192,15 @@ TEST_F(Sockets, RefusesASocketWithoutAServer) {
   EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { connect(); }), path_));
   std::ofstream(path_) << "not a socket";
   EXPECT_TRUE(contains(sentenceOf<NoSuchDevice>([&] { connect(); }), path_));
+}
+
+TEST_F(Sockets, SaysWhereARelativePathBegins) {
+  const std::string folder = std::filesystem::current_path().string();
+  const auto sentence = [](const std::string& path) {
+    return sentenceOf<NoSuchDevice>([&] { open(parseDeviceName("virtual:" + path)); });
+  };
+  EXPECT_TRUE(contains(sentence("nowhere.sock"), "at nowhere.sock in " + folder + ": "));
+  EXPECT_TRUE(contains(sentence("/nowhere.sock"), "at /nowhere.sock: "));
 }
 
 TEST_F(Sockets, TooLongPath) {

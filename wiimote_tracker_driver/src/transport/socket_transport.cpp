@@ -11,7 +11,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 #include <utility>
 
 namespace wiimote_tracker::transport {
@@ -97,7 +99,12 @@ std::unique_ptr<Transport> openSocket(const std::string& path) {
     if (errno == EACCES)
       throw PermissionDenied("permission denied on " + path +
                              ": run as the user who started the virtual Wii Remote");
-    throw NoSuchDevice("no virtual Wii Remote listens at " + path +
+    // Under roslaunch a relative path does not begin where the user started it.
+    std::error_code ignored;
+    const std::string where = std::filesystem::path(path).is_absolute()
+                                  ? ""
+                                  : " in " + std::filesystem::current_path(ignored).string();
+    throw NoSuchDevice("no virtual Wii Remote listens at " + path + where +
                        ": start it (virtual_wiimote --socket) or correct the path");
   }
   auto transport = std::make_unique<SocketTransport>(std::move(fd), path);

@@ -42,6 +42,11 @@ class DriverConfiguration(unittest.TestCase):
         self.assert_refused("/driver_e/camera_info_url is 'nowhere'", "__name:=driver_e",
                             "_camera_info_url:=nowhere")
 
+    def test_a_folder_as_calibration(self):
+        with tempfile.TemporaryDirectory() as folder:
+            self.assert_refused(f"/driver_r/camera_info_url: the calibration file://{folder} cannot",
+                                "__name:=driver_r", f"_camera_info_url:=file://{folder}")
+
     def test_invalid_sensitivity_blocks(self):
         self.assert_refused("/driver_i/ir_sensitivity_block1 and _block2: ", "__name:=driver_i",
                             "_ir_sensitivity:=custom", "_ir_sensitivity_block1:=07 00")

@@ -4,6 +4,7 @@
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
+#include <exception>
 #include <filesystem>
 
 namespace wiimote_tracker::driver {
@@ -32,10 +33,16 @@ CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
                          "', but must be empty or a URL such as file:///path/to/camera.yaml or "
                          "package://name/camera.yaml");
   // Reports errors of the file now rather than at the first image, but not that there is none yet.
-  if (isToBeWritten(manager_.resolveURL(url.empty() ? kDefaultUrl : url, camera)))
-    manager_.setCameraInfo(sensor_msgs::CameraInfo());
-  else
-    manager_.getCameraInfo();
+  const std::string file = manager_.resolveURL(url.empty() ? kDefaultUrl : url, camera);
+  try {
+    if (isToBeWritten(file))
+      manager_.setCameraInfo(sensor_msgs::CameraInfo());
+    else
+      manager_.getCameraInfo();
+  } catch (const std::exception& e) {  // such as of a folder
+    throw ParameterError(url_parameter + ": the calibration " + file + " cannot be read (" +
+                         e.what() + "): move it away or name another file");
+  }
   factory_ = nh_.advertise<sensor_msgs::CameraInfo>("factory/camera_info", 1, true);
 }
 

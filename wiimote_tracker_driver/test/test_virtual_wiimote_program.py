@@ -104,6 +104,10 @@ def test_prints_visible_changes_and_cleans_up(start):
     assert not os.path.exists(remote.path)
 
 
+def test_address_is_in_lower_case(start):
+    assert start("--address", "00:1F:32:12:34:AB").identity == "00:1f:32:12:34:ab"
+
+
 def test_faults(start):
     remote = start("--fault", "duplicated=1")
     remote.say("15 00")
@@ -120,6 +124,7 @@ def test_plus_has_a_motion_plus(start):
     ([], "--socket"),
     (["--socket", "a.sock", "--uhid"], "--uhid"),
     (["--socket", "a.sock", "--battery", "256"], "--battery"),
+    (["--socket", "a.sock", "--address", "00-1f-32-00-00-01"], "'00-1f-32-00-00-01' is not a"),
     (["--socket", "a.sock", "--fault", "lost_answers=2"], "lost_answers"),
     (["--socket", "a.sock", "more"], "more"),
 ])

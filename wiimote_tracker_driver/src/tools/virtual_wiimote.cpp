@@ -3,7 +3,9 @@
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/text.h>
 
+#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -32,6 +34,18 @@ struct Arguments {
   int lights = 1;
   std::vector<std::string> faults;  ///< NAME=VALUE.
 };
+
+/// In lower case, as Linux has it and as messages promise. @throws BadArguments.
+std::string addressOf(const std::string& text) {
+  bool good = text.size() == 17;
+  for (std::size_t i = 0; good && i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    good = i % 3 == 2 ? c == ':' : std::isxdigit(c) != 0;
+  }
+  if (!good)
+    throw BadArguments("'" + text + "' is not a Bluetooth address such as 00:1f:32:12:34:56");
+  return lowerCase(text);
+}
 
 /// @throws BadArguments.
 Faults faultsOf(const Arguments& arguments) {
@@ -151,6 +165,7 @@ int main(int argc, char** argv) {
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
     std::signal(SIGINT, handleSignal);
     std::signal(SIGTERM, handleSignal);
+    arguments.address = addressOf(arguments.address);
     runFor(arguments);
     return 0;
   });

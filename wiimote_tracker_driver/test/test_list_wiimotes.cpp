@@ -176,6 +176,13 @@ TEST(CameraList, ANewOneCanBeReadBack) {
   EXPECT_EQ("wiimote_1", CameraList(list.text()).nameOf("00:1F:32:00:00:01"));
 }
 
+TEST(CameraList, AddsNothingBehindItsEnd) {
+  for (const char* end : {"...\n", "---\ncameras:\n  window: \"00:1f:32:00:00:02\"\n"}) {
+    CameraList list(std::string("cameras:\n  door: \"00:1f:32:00:00:01\"\n") + end);
+    EXPECT_TRUE(contains(errorOf([&] { list.add("00:1f:32:00:00:03"); }), "remove it")) << end;
+  }
+}
+
 // The list of four cameras that wiimote_tracker_bringup ships.
 TEST(CameraList, TheExampleCanBeRead) {
   const CameraList list(

@@ -138,6 +138,8 @@ std::string CameraList::add(const std::string& device) {
   const auto last = std::find_if_not(lines_.rbegin(), lines_.rend(), isBlankOrComment);
   lines_.insert(last.base(), indent_ + name + ": \"" + device + '"');
   *this = CameraList(text());
+  if (find(name) == nullptr)  // it stands behind the end of the first YAML document
+    throw CameraListError("a line \"...\" or a second \"---\" ends the list of cameras: remove it");
   return name;
 }
 

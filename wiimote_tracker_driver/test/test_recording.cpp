@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -240,15 +241,17 @@ TEST_F(Recording, RefusesAFolderThatCannotBeWritten) {
   }
 }
 
-TEST_F(Recording, RefusesTheNameOfAFolder) {
+TEST_F(Recording, RefusesAFolderADeviceAndAPipe) {
   const std::string path = folder_ / "recordings";
   std::filesystem::create_directory(path);
-  for (const std::string& name : {path, path + "/"}) {
+  const std::string pipe = folder_ / "pipe";
+  ASSERT_EQ(0, ::mkfifo(pipe.c_str(), 0600));
+  for (const std::string& name : {path, path + "/", std::string("/dev/null"), pipe}) {
     try {
       const Recorder recorder(name, 0.0, 0.0);
       ADD_FAILURE() << "not refused: " << name << " became " << recorder.path();
     } catch (const BadRecording& e) {
-      EXPECT_TRUE(contains(e.what(), "it is a folder")) << e.what();
+      EXPECT_TRUE(contains(e.what(), "(it is a ")) << e.what();
     }
   }
 }

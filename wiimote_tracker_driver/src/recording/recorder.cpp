@@ -32,11 +32,15 @@ std::string numbered(const std::string& path, int n) {
 /// Creates a file with the first free name. @returns its descriptor; sets `path` to its name.
 int create(std::string& path) {
   const std::string wanted = path;
-  // Otherwise the file would get a number and lie beside the folder.
+  // Otherwise the file would get a number and lie beside the folder or device.
   std::error_code ignored;
-  if (std::filesystem::is_directory(wanted, ignored))
+  const auto status = std::filesystem::status(wanted, ignored);
+  if (std::filesystem::is_directory(status))
     throw BadRecording("cannot create the recording " + wanted +
                        " (it is a folder): name a file in it");
+  if (std::filesystem::is_other(status))
+    throw BadRecording("cannot create the recording " + wanted +
+                       " (it is a device or a pipe): name a file");
   for (int n = 1; n < kMaxNames; ++n) {
     path = numbered(wanted, n);
     const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);

@@ -83,6 +83,7 @@ TEST_F(Info, TwoConnections) {
   EXPECT_EQ(1u, found.intervals.gaps());
   EXPECT_NEAR(0.01, found.intervals.quantile(0.5), 1.1e-4);
   EXPECT_NEAR(0.02, found.intervals.quantile(0.99), 1.1e-4);
+  EXPECT_GE(found.intervals.longest(), found.intervals.quantile(1.0));
 
   const std::string text = describe(found);
   for (const char* part : {"test 1", "2023-11-14 22:13:20 UTC", "duration       11.000 s",

@@ -115,7 +115,7 @@ double Intervals::quantile(double share) const {
   for (std::size_t bin = 0; bin < histogram_.size(); ++bin) {
     below += histogram_[bin];
     if (below > 0 && static_cast<double>(below) >= share * static_cast<double>(count_))
-      return kStep * (static_cast<double>(bin) + 0.5);
+      return std::min(kStep * (static_cast<double>(bin) + 0.5), longest_);
   }
   return 0.0;
 }

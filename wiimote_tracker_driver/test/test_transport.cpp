@@ -301,6 +301,17 @@ TEST_F(Sockets, StaleFileIsReplacedALiveOneIsNot) {
   EXPECT_THROW(serve(), std::system_error);
 }
 
+TEST_F(Sockets, OneThatHangsIsNotCalledTaken) {
+  const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, path_.c_str());
+  ASSERT_EQ(0, ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
+  ASSERT_EQ(0, ::listen(fd, 1));
+  EXPECT_TRUE(contains(sentenceOf<TransportError>([&] { connect(); }), "does not answer"));
+  ::close(fd);
+}
+
 TEST_F(Sockets, DirectoryThatIsNotThere) {
   EXPECT_THROW(Server(folder_ / "none/remote.sock", "a", virtual_wiimote::Device::Options()),
                std::system_error);

@@ -29,12 +29,14 @@ class SocketTransport : public Transport {
   SocketTransport(FileDescriptor fd, const std::string& path)
       : fd_(std::move(fd)), remote_{"", "virtual:" + path} {}
 
-  /// The first packet says who the remote is, or who has it. @throws DeviceTaken.
+  /// The first packet says who the remote is, or who has it. @throws DeviceTaken,
+  /// TransportError.
   void receiveIdentity() {
-    char text[64];
-    const ssize_t size =
-        waitReadable(kGreetingTimeout) ? ::recv(fd_.get(), text, sizeof(text), 0) : 0;
     const std::string name = "the virtual Wii Remote at " + remote_.description;
+    if (!waitReadable(kGreetingTimeout))
+      throw TransportError(name + " does not answer: start it again");
+    char text[64];
+    const ssize_t size = ::recv(fd_.get(), text, sizeof(text), 0);
     if (size <= 0)
       throwTaken(name, std::nullopt);
     remote_.identity.assign(text, static_cast<std::size_t>(size));

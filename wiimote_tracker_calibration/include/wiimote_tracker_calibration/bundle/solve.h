@@ -13,10 +13,10 @@ namespace wiimote_tracker::bundle {
 struct LensPrior {
   double focal_length = std::numeric_limits<double>::infinity();  ///< Of log(f).
   double focal_about = 0.0;       ///< Its mean [image widths]; 0: the start value.
-  double aspect = 0.01;           ///< Of log(fx / fy), mean 0.
+  double aspect = 0.002;          ///< Of log(fx / fy), mean 0.
   double principal_point = 0.05;  ///< Mean: the image's centre [image widths].
   /// Of k1, k2, p1, p2, k3, mean 0 [1]. k3 is practically fixed.
-  std::array<double, 5> distortion = {0.5, 0.5, 0.005, 0.005, 1e-6};
+  std::array<double, 5> distortion = {0.5, 0.5, 0.002, 0.002, 1e-6};
 };
 
 struct Options {

@@ -228,6 +228,7 @@ TEST(Recalibrate, RefusesWithTheReason) {
   WavedLed brief(rig.cameras, 31);
   const Request short_wave = record(&brief, "camera_2", 1.2);
   EXPECT_SAYS(refusal(rig, short_wave), "wave longer");
+  EXPECT_SAYS(refusal(rig, short_wave), "camera_2 sent ");
 
   WavedLed flat(rig.cameras, 32);
   flat.path.reach.z() = 0.0;
@@ -240,6 +241,16 @@ TEST(Recalibrate, RefusesWithTheReason) {
   const Request rest = record(&moved, "camera_2", 15.0);
   request.images.insert(request.images.end(), rest.images.begin(), rest.images.end());
   EXPECT_SAYS(refusal(rig, request), "fit to what the others saw");
+
+  // As after a calibration by the square alone: no wave makes the others' clocks known.
+  geometry::Rig unclocked = rig;
+  for (geometry::RigCamera& camera : unclocked.cameras) {
+    camera.time_offset = 0.0;
+    camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
+  }
+  WavedLed in_step(unclocked.cameras, 34);
+  EXPECT_SAYS(refusal(unclocked, record(&in_step, "camera_2")),
+              "those of camera_1, camera_3, camera_4 are not known");
 
   Options options;
   options.maximum_offset_stddev = 1e-6;

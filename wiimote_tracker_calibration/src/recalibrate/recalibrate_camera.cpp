@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker::recalibrate {
 
@@ -245,15 +247,24 @@ double imageError(const Fit& fit, const ParameterMatrix& covariance) {
 }
 
 void checkCertainty(const Fit& fit,
+                    const SeenPath& path,
                     const ParameterMatrix& covariance,
                     const Recalibration& result,
                     const Options& options) {
   const std::string& name = fit.camera.name;
+  std::vector<std::string> unclocked;  // a longer wave does not help against their offsets
+  for (const std::size_t i : path.cameras()) {
+    if (!path.clockKnown(i))
+      unclocked.push_back(result.rig.cameras[i].camera.name);
+  }
   if (result.offset_stddev > options.maximum_offset_stddev)
-    throw Error(
-        "the time offset of " + name +
-        format(" would be known to %.2f ms only, but %.2f ms are needed: wave longer and faster",
-               1000.0 * result.offset_stddev, 1000.0 * options.maximum_offset_stddev));
+    throw Error("the time offset of " + name +
+                format(" would be known to %.2f ms only, but %.2f ms are needed: ",
+                       1000.0 * result.offset_stddev, 1000.0 * options.maximum_offset_stddev) +
+                (unclocked.empty()
+                     ? "wave longer and faster"
+                     : "those of " + joined(unclocked) +
+                           " are not known; calibrate all cameras again, with a waved LED"));
   const double error = imageError(fit, covariance);
   if (error > kLargestImageError)
     throw Error("where " + name + " sees a point would be known to " + format("%.1f px", error) +
@@ -310,7 +321,7 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   result.rotation_stddev = std::sqrt(covariance.diagonal().segment<3>(kRotation).sum());
   result.position_stddev = std::sqrt(covariance.diagonal().segment<3>(kPosition).sum());
   result.offset_stddev = std::sqrt(covariance(kTimeOffset, kTimeOffset));
-  checkCertainty(fit, exact_others, result, options);
+  checkCertainty(fit, path, exact_others, result, options);
   result.rig.cameras[index] =
       rigCamera(rig.cameras[index], request, images.back().clock_epoch, fit);
   const Eigen::Isometry3d& before = rig.cameras[index].camera.world_from_camera;

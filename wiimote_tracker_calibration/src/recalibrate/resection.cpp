@@ -8,6 +8,7 @@
 #include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
@@ -163,11 +164,17 @@ void matchSpots(const SeenPath& path,
     if (const auto match = matchOf(image, point, gate_px, stamp_stddev, *fit))
       fit->matches.push_back(*match);
   }
-  if (fit->matches.size() < kMinimumMatches)
+  if (fit->expected < kMinimumMatches)
     throw Error(fit->camera.name + " and two other cameras saw the LED together in " +
-                std::to_string(fit->matches.size()) + " images only, but " +
+                std::to_string(fit->expected) + " images only, but " +
                 std::to_string(kMinimumMatches) +
                 " are needed: wave longer, where all of them see it");
+  if (fit->matches.size() < kMinimumMatches)
+    throw Error(
+        format("only %zu of %zu images of %s fit to what the others saw: it moved while the LED "
+               "was waved, sees another light, or the others are known too badly; wave again, or "
+               "calibrate all of them again",
+               fit->matches.size(), fit->expected, fit->camera.name.c_str()));
 }
 
 /// The matches of a fit and the prior as a problem of Ceres.
@@ -246,6 +253,9 @@ Fit resect(const SeenPath& path,
            const geometry::Camera& start,
            const Prior& prior,
            const Options& options) {
+  if (images.size() < kMinimumMatches)
+    throw Error(start.name + " sent " + std::to_string(images.size()) + " images only, but " +
+                std::to_string(kMinimumMatches) + " are needed: wave longer");
   Fit fit = firstPose(path, images, start, prior.time_offset);
   fit.pixel_stddev = options.pixel;
   for (const double gate : kWideGates) {

@@ -169,7 +169,7 @@ TEST(Board, RequestsBeforeStartAreRefusedWithAdvice) {
     EXPECT_SAYS(response.message, "start with a camera first");
   }
   EXPECT_FALSE(g_bench->solve(SolveBoard::Request::AUTOMATIC).success);
-  EXPECT_SAYS(g_bench->start("wiimote_9").message, "no image of wiimote_9 has come");
+  EXPECT_SAYS(g_bench->start("wiimote_9").message, "no image of a camera 'wiimote_9' has come");
 }
 
 TEST(Board, ViewsAreCapturedAutomatically) {

@@ -89,7 +89,7 @@ TEST_F(Node, SidesMustBeLengths) {
   request.side_x = 1.0;
   request.cameras = {"camera_1", "camera_9"};
   EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
-              "there is no camera camera_9");
+              "there is no camera 'camera_9'");
 }
 
 TEST_F(Node, BadInputBetweenStepsLosesNothing) {

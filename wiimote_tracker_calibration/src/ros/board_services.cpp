@@ -78,8 +78,8 @@ class BoardServices {
     const Lock lock(context_.mutex());
     const auto input = context_.inputs().cameras().find(request.camera);
     if (input == context_.inputs().cameras().end() || input->second.width == 0)
-      throw Refusal("no image of " + request.camera +
-                    " has come: check its name, or start its driver");
+      throw Refusal("no image of a camera '" + request.camera +
+                    "' has come: check its name, or start its driver");
     const Parameters& parameters = context_.parameters(lock);
     intrinsics::Board board = parameters.board;
     if (request.column_spacing != 0.0)

@@ -225,13 +225,13 @@ class CaptureServices {
   std::vector<std::string> chooseCameras(std::vector<std::string> names, const Lock& lock) {
     const std::vector<std::string> known = context_.inputs().names();
     for (const std::string& name : names) {
-      if (name == context_.parameters(lock).button_remote)
+      if (!name.empty() && name == context_.parameters(lock).button_remote)
         throw Refusal(
             name +
             " is the button_remote, which moves when its button is pressed: calibrate the "
             "others, or set button_remote to another remote");
       if (context_.inputs().cameras().count(name) == 0)
-        throw Refusal("there is no camera " + name + ": " +
+        throw Refusal("there is no camera '" + name + "': " +
                       (known.empty() ? "start the drivers" : "name some of " + joined(known)));
     }
     return names.empty() ? known : names;

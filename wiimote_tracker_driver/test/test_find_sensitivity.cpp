@@ -88,7 +88,8 @@ class FindSensitivity : public testing::Test {
     ASSERT_TRUE(program.says("Switch the LED on")) << program.said;
     show({kLamp, kLed});
     program.pressEnter();
-    EXPECT_TRUE(program.says("Wii_4 sees the LED in 100 % of the images and no foreign light"))
+    EXPECT_TRUE(
+        program.says("Sensitivity wii_4 sees the LED in 100 % of the images and no foreign light"))
         << program.said;
     EXPECT_TRUE(program.says("ir_sensitivity: wii_4")) << program.said;
     EXPECT_EQ(0, program.end());

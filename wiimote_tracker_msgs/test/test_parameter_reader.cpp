@@ -110,8 +110,9 @@ TEST(ParameterReader, AFractionIsNoWholeNumber) {
   ros::NodeHandle nh("~fraction");
   nh.setParam("count", 2.5);
   ParameterReader reader(nh);
-  EXPECT_TRUE(contains(errorOf([&] { reader.bounded("count", 1, 0, 5); }),
-                       nh.resolveName("count") + " has the wrong type: expected a whole number"));
+  EXPECT_TRUE(contains(
+      errorOf([&] { reader.bounded("count", 1, 0, 5); }),
+      nh.resolveName("count") + " has the wrong type: expected a whole number, but it is 2.5"));
   nh.setParam("count", 2);
   EXPECT_EQ(2, ParameterReader(nh).bounded("count", 1, 0, 5));
 }
@@ -123,9 +124,20 @@ TEST(ParameterReaderOfAFile, ErrorsNameFileAndKey) {
   EXPECT_TRUE(contains(errorOf([&] { reader.optional("list", std::vector<double>{}); }),
                        "file.yaml/list has the wrong type"));
   EXPECT_TRUE(contains(errorOf([&] { reader.optional<double>("group", 1.0); }),
-                       "file.yaml/group has the wrong type"));
+                       "file.yaml/group has the wrong type: expected a number, but it is a group"));
   EXPECT_TRUE(contains(errorOf([&] { reader.required<double>("absent", "the side [m]"); }),
                        "set file.yaml/absent: the side [m]"));
+}
+
+TEST(ParameterReaderOfAFile, ErrorsShowAText) {
+  ParameterTree changed = tree();
+  changed.set("latency", "1e-2");  // which PyYAML takes for a text
+  changed.set("long", std::string(1000, 'x'));
+  ParameterReader reader(changed);
+  EXPECT_TRUE(contains(errorOf([&] { reader.optional<double>("latency", 1.0); }),
+                       "file.yaml/latency has the wrong type: expected a number, but it is the "
+                       "text '1e-2'"));
+  EXPECT_GT(200u, errorOf([&] { reader.optional<double>("long", 1.0); }).size());
 }
 
 }  // namespace

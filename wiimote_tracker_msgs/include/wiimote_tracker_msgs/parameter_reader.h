@@ -131,7 +131,8 @@ class ParameterReader {
   T get(const std::string& key) const {
     T value;
     if (!tree_.read(key, &value))
-      throw ParameterError(nameOf(key) + " has the wrong type: expected " + typeName(T()));
+      throw ParameterError(nameOf(key) + " has the wrong type: expected " + typeName(T()) +
+                           ", but it is " + tree_.describe(key));
     return value;
   }
 

@@ -36,6 +36,27 @@ class ParameterTree {
     return find(key, &found) && convert(found, value);
   }
 
+  /// What the key holds, for people: "the text '1e-2'", "2.5", "a group". Long values are cut off.
+  std::string describe(const std::string& key) const {
+    Value value;
+    if (!find(key, &value))
+      return "nothing";
+    if (value.getType() == Value::TypeStruct)
+      return "a group";
+    std::ostringstream text;
+    if (bool flag = false; convert(value, &flag))
+      text << std::boolalpha << flag;
+    else if (double number = 0.0; convert(value, &number))
+      text << number;
+    else
+      text << value;
+    constexpr std::size_t kLongest = 60;  // characters
+    std::string shown = text.str();
+    if (shown.size() > kLongest)
+      shown = shown.substr(0, kLongest) + "...";
+    return value.getType() == Value::TypeString ? "the text '" + shown + "'" : shown;
+  }
+
   /// @throws Error: what ought to be a group of the key is a value.
   void set(const std::string& key, const std::string& value) {
     Value* place = &values_;

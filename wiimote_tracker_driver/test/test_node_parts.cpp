@@ -4,6 +4,7 @@
 #include "ros/driver_parameters.h"
 #include "ros/joy_publisher.h"
 #include "ros/link_diagnostics.h"
+#include "ros/link_log.h"
 
 #include <documented_parameters.h>
 #include <gtest/gtest.h>
@@ -141,6 +142,67 @@ TEST(Parameters, TheLiveSettingsOfferEverySensitivity) {
 TEST(LogExceptions, NoExceptionLeaves) {
   EXPECT_NO_THROW(logExceptions("wiimote_1", [] { throw std::runtime_error("reason"); }));
   EXPECT_NO_THROW(logExceptions("wiimote_1", [] { throw 1; }));
+}
+
+/// Everything that the action prints, also as a log.
+template <typename Action>
+std::string printed(Action action) {
+  testing::internal::CaptureStdout();
+  testing::internal::CaptureStderr();
+  action();
+  const std::string out = testing::internal::GetCapturedStdout();
+  return out + testing::internal::GetCapturedStderr();
+}
+
+int count(const std::string& text, const std::string& part) {
+  int found = 0;
+  for (auto at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++found;
+  return found;
+}
+
+// As with another program that changes the remote every 3 s.
+TEST(Log, WhatIsPutRightAgainAndAgainIsNamedNowAndThen) {
+  LinkLog log("wiimote_1", true);
+  wiimote::Link link;
+  link.accelerometer_calibrated = true;
+  const std::string text = printed([&] {
+    for (double now = 0.0; now < 700.0; now += 3.0) {
+      link.state = wiimote::Link::State::kStarting;
+      log.report(link, now);
+      if (now > 0.0) {
+        ++link.restorations;
+        link.last_restoration = "the report mode was changed";
+      }
+      link.state = wiimote::Link::State::kStreaming;
+      log.report(link, now + 0.1);
+    }
+  });
+  EXPECT_EQ(1, count(text, "images come from")) << text;
+  EXPECT_EQ(2, count(text, "put right: the report mode was changed")) << text;
+  EXPECT_EQ(2, count(text, "another program")) << text;
+}
+
+TEST(Log, EachNewStreamIsAnnounced) {
+  LinkLog log("wiimote_1", true);
+  wiimote::Link link;
+  const std::string text = printed([&] {
+    link.state = wiimote::Link::State::kStreaming;
+    log.report(link, 0.0);
+    link.state = wiimote::Link::State::kSearching;
+    link.error = "it was switched off";
+    log.report(link, 1.0);
+    link.state = wiimote::Link::State::kStarting;
+    log.report(link, 2.0);
+    link.state = wiimote::Link::State::kStreaming;
+    link.error.clear();
+    log.report(link, 3.0);
+    ++link.clock_epoch;  // a power cycle behind an open connection
+    log.report(link, 4.0);
+  });
+  EXPECT_EQ(3, count(text, "images come from")) << text;
+  EXPECT_EQ(1, count(text, "it was switched off (trying again)")) << text;
+  EXPECT_EQ(0, count(text, "put right")) << text;
 }
 
 class DiagnosticsTest : public testing::Test {

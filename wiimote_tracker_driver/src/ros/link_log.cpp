@@ -5,21 +5,24 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-constexpr double kRepeatErrorAfter = 30.0;  // [s]
+constexpr double kRepeatErrorAfter = 30.0;         // [s]
+constexpr double kRepeatRestorationAfter = 600.0;  // [s]
 
 }  // namespace
 
 void LinkLog::report(const wiimote::Link& link, double now) {
-  const bool streams =
-      link.state == wiimote::Link::State::kStreaming && state_ != wiimote::Link::State::kStreaming;
-  state_ = link.state;
   if (!link.error.empty()) {
+    announced_epoch_.reset();
     reportError(link.error, now);
     return;
   }
   error_.clear();
-  if (streams)
+  reportRestoration(link, now);
+  // The same stream goes on after something was put right.
+  if (link.state == wiimote::Link::State::kStreaming && announced_epoch_ != link.clock_epoch) {
+    announced_epoch_ = link.clock_epoch;
     reportStream(link);
+  }
 }
 
 void LinkLog::notice(const std::string& text) {
@@ -34,6 +37,19 @@ void LinkLog::reportError(const std::string& error, double now) {
   error_ = error;
   error_logged_at_ = now;
   ROS_WARN("%s: %s%s", camera_.c_str(), error.c_str(), retries_ ? " (trying again)" : "");
+}
+
+void LinkLog::reportRestoration(const wiimote::Link& link, double now) {
+  if (link.restorations == restorations_ ||
+      (restorations_ > 0 && now - restoration_logged_at_ <= kRepeatRestorationAfter))
+    return;
+  ROS_WARN(
+      "%s: put right: %s (%llu in all); if this repeats, another program uses the remote: "
+      "stop it, or see doc/session.md of wiimote_tracker_driver",
+      camera_.c_str(), link.last_restoration.c_str(),
+      static_cast<unsigned long long>(link.restorations));
+  restorations_ = link.restorations;
+  restoration_logged_at_ = now;
 }
 
 void LinkLog::reportStream(const wiimote::Link& link) const {

@@ -3,6 +3,8 @@
 
 #include "wiimote/wiimote.h"
 
+#include <cstdint>
+#include <optional>
 #include <string>
 
 namespace wiimote_tracker::driver {
@@ -15,7 +17,8 @@ inline constexpr char kKernelDriverShares[] =
     "the kernel's driver hid-wiimote uses the same remote and sometimes interrupts its images: see "
     "\"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver";
 
-/// Logs changes of the link once, and repeats errors that last.
+/// Logs changes of the link once, and repeats errors that last. Of what is put right again and
+/// again, a sentence now and then.
 class LinkLog {
  public:
   /// `retries`: whether a source that has failed is tried again.
@@ -29,13 +32,16 @@ class LinkLog {
 
  private:
   void reportError(const std::string& error, double now);
+  void reportRestoration(const wiimote::Link& link, double now);
   void reportStream(const wiimote::Link& link) const;
 
   const std::string camera_;
   const bool retries_;
-  wiimote::Link::State state_ = wiimote::Link::State::kSearching;
+  std::optional<std::uint32_t> announced_epoch_;  ///< Of the stream that was logged; nothing: none.
   std::string error_;
   double error_logged_at_ = 0.0;
+  std::uint64_t restorations_ = 0;  ///< Logged already.
+  double restoration_logged_at_ = 0.0;
   std::string notice_;
 };
 

@@ -271,6 +271,8 @@ TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   EXPECT_TRUE(says("hid-wiimote"));
   state_.link.accelerometer_calibrated = false;
   EXPECT_TRUE(says("accelerometer calibration of the remote is damaged"));
+  state_.link.accelerometer_unknown = true;
+  EXPECT_TRUE(says("accelerometer calibration of the remote is unknown"));
   state_.shared_with = "somebody else reads along";
   EXPECT_TRUE(says("somebody else"));
   state_.recording_error = "the disk is full";

@@ -30,6 +30,8 @@ TEST_F(Replays, SameImagesAtTheSameTimes) {
   EXPECT_EQ("wiimote", link.kernel_driver);
   EXPECT_EQ("replay:" + path_, link.description);
   EXPECT_TRUE(link.accelerometer_calibrated);
+  EXPECT_FALSE(link.accelerometer_unknown);
+  EXPECT_TRUE(replay.statusKnown());
   EXPECT_TRUE(contains(link.error, "has ended")) << link.error;
 }
 
@@ -219,6 +221,25 @@ TEST_F(Replays, FilesThatCannotBePlayedAreRefusedByName) {
   EXPECT_TRUE(contains(refusal(write("#ROSBAG V2.0")), "not a recording"));
   { const Recorder recorder(path_, 0.0, 0.0); }
   EXPECT_TRUE(contains(refusal(path_), "no connection"));
+}
+
+// As of a recorder that came late: neither status nor EEPROM are known, which is no fault of them.
+TEST_F(Replays, WhatWasNotRecordedIsUnknown) {
+  {
+    Recorder recorder(path_, 0.0, 1.7e9);
+    recorder.connected({"00:1f:32:00:00:07", "simulated"}, 0.0);
+    for (int i = 1; i < 200; ++i) {
+      Report image{0x33, 0, 0, 0x80, 0x80, static_cast<std::uint8_t>(i)};
+      image.size = 18;
+      recorder.received(image, 0.01 * i);
+    }
+  }
+  wiimote::Link link;
+  Replay replay(path_);
+  EXPECT_LT(100u, play(replay, Options(), &link).size());
+  EXPECT_FALSE(replay.statusKnown());
+  EXPECT_FALSE(link.accelerometer_calibrated);
+  EXPECT_TRUE(link.accelerometer_unknown);
 }
 
 TEST_F(Replays, PaceGetsTheRecordedTimes) {

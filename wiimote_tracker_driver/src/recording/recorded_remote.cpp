@@ -82,8 +82,10 @@ void RecordedRemote::learn(const Record& record) {
       store(report, settings_);
   } else if (record.kind == Record::Kind::kReceived) {
     ++received_[report.id()];
-    if (protocol::decodeStatus(report))
+    if (protocol::decodeStatus(report)) {
       status_ = report;
+      status_known_ = true;
+    }
     learnMemory(report);
   }
 }

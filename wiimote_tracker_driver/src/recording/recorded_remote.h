@@ -35,6 +35,9 @@ class RecordedRemote {
   /// lost them.
   void putOwnValuesInto(protocol::Report& report) const;
 
+  /// Whether a status was recorded; else answer() invents one.
+  bool statusKnown() const { return status_known_; }
+
   /// Format of the recorded images; nothing when there are none.
   std::optional<protocol::IrFormat> irFormat() const;
 
@@ -51,6 +54,7 @@ class RecordedRemote {
   bool differs(std::uint32_t first, std::uint32_t last) const;
 
   protocol::Report status_{0x20, 0, 0, 0, 0, 0, 0};
+  bool status_known_ = false;
   Memory memory_;                              ///< All memory read by the recorded host.
   Memory settings_;                            ///< Last values written by the recorded host.
   std::array<std::uint64_t, 256> received_{};  ///< Per report id.

@@ -52,6 +52,9 @@ class Replay {
   /// Whether the recording has been played to its end.
   bool ended() const { return ended_; }
 
+  /// Whether the recording has a status; else the one that the remote answers means nothing.
+  bool statusKnown() const { return remote_.statusKnown(); }
+
   /// The infrared format of the recorded images; nothing when there are none.
   std::optional<protocol::IrFormat> irFormat() const { return remote_.irFormat(); }
 

@@ -233,7 +233,9 @@ void Driver::stampWaiting() {
 }
 
 void Driver::linkChanged() {
-  const wiimote::Link& now = wiimote_.link();
+  wiimote::Link now = wiimote_.link();
+  if (!source_.statusKnown())
+    now.status.reset();
   wiimote::Link before;
   {
     const std::lock_guard<std::mutex> lock(mutex_);

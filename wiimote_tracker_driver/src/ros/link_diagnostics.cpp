@@ -127,8 +127,8 @@ void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatus
   if (link.restorations != restorations_)
     status.mergeSummary(DiagnosticStatus::WARN, "put right: " + link.last_restoration);
   restorations_ = link.restorations;
-  if (!link.accelerometer_calibrated)
-    status.mergeSummary(DiagnosticStatus::WARN, kDamagedAccelerometer);
+  if (const char* problem = accelerometerProblem(link))
+    status.mergeSummary(DiagnosticStatus::WARN, problem);
   if (link.status && batteryLow(*link.status, battery_low_))
     status.mergeSummary(DiagnosticStatus::WARN, "the batteries are nearly empty: change them soon");
 }

@@ -10,6 +10,16 @@ constexpr double kRepeatRestorationAfter = 600.0;  // [s]
 
 }  // namespace
 
+const char* accelerometerProblem(const wiimote::Link& link) {
+  if (link.accelerometer_calibrated)
+    return nullptr;
+  return link.accelerometer_unknown
+             ? "the accelerometer calibration of the remote is unknown, a typical one is used: "
+               "expect errors of about 0.5 m/s^2"
+             : "the accelerometer calibration of the remote is damaged, a typical one is used: "
+               "expect errors of about 0.5 m/s^2";
+}
+
 void LinkLog::report(const wiimote::Link& link, double now) {
   if (!link.error.empty()) {
     announced_epoch_.reset();
@@ -55,8 +65,8 @@ void LinkLog::reportRestoration(const wiimote::Link& link, double now) {
 void LinkLog::reportStream(const wiimote::Link& link) const {
   const char* camera = camera_.c_str();
   ROS_INFO("%s: images come from %s (%s)", camera, link.description.c_str(), link.identity.c_str());
-  if (!link.accelerometer_calibrated)
-    ROS_WARN("%s: %s", camera, kDamagedAccelerometer);
+  if (const char* problem = accelerometerProblem(link))
+    ROS_WARN("%s: %s", camera, problem);
   if (link.kernel_driver == "wiimote")
     ROS_WARN("%s: %s", camera, kKernelDriverShares);
 }

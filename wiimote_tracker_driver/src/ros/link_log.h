@@ -10,12 +10,12 @@
 namespace wiimote_tracker::driver {
 
 // Sentences of both the log and the diagnostics.
-inline constexpr char kDamagedAccelerometer[] =
-    "the accelerometer calibration of the remote is damaged, a typical one is used: expect errors "
-    "of about 0.5 m/s^2";
 inline constexpr char kKernelDriverShares[] =
     "the kernel's driver hid-wiimote uses the same remote and sometimes interrupts its images: see "
     "\"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver";
+
+/// What is wrong with the accelerometer's calibration; null when nothing is. Of a streaming remote.
+const char* accelerometerProblem(const wiimote::Link& link);
 
 /// Logs changes of the link once, and repeats errors that last. Of what is put right again and
 /// again, a sentence now and then.

@@ -38,6 +38,9 @@ class RemoteSource {
     return replay_ ? replay_->irFormat() : std::nullopt;
   }
 
+  /// Whether the statuses are the remote's own.
+  bool statusKnown() const { return !replay_ || replay_->statusKnown(); }
+
   /// Sentences for the user; empty when there are none.
   std::string notice() const { return replay_ ? replay_->notice() : ""; }
 

@@ -52,6 +52,7 @@ bool FactoryCalibration::decode(const protocol::MemoryPacket& packet) {
     ir_ = protocol::decodeIrCalibrationBlock(firstBytes<protocol::kIrCalibrationBlockSize>(packet));
     return ir_.has_value();
   }
+  accelerometer_was_read_ = true;
   accelerometer_ =
       protocol::decodeAccelerometerBlock(firstBytes<protocol::kAccelerometerBlockSize>(packet));
   return accelerometer_.has_value();

@@ -30,6 +30,8 @@ class FactoryCalibration {
   const std::optional<protocol::AccelerometerCalibration>& accelerometer() const {
     return accelerometer_;
   }
+  /// Whether the accelerometer's block or its copy has been read, damaged or not.
+  bool accelerometerWasRead() const { return accelerometer_was_read_; }
 
  private:
   enum class Block { kIr, kIrCopy, kAccelerometer, kAccelerometerCopy, kNone };
@@ -39,6 +41,7 @@ class FactoryCalibration {
   Block block_ = Block::kIr;
   std::optional<protocol::IrCalibration> ir_;
   std::optional<protocol::AccelerometerCalibration> accelerometer_;
+  bool accelerometer_was_read_ = false;
 };
 
 }  // namespace wiimote_tracker::wiimote

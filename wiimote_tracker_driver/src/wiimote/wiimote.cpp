@@ -112,6 +112,7 @@ void Wiimote::updateLink(bool image) {
     accelerometer_ =
         session_->factory().accelerometer().value_or(protocol::AccelerometerCalibration());
     link_.accelerometer_calibrated = session_->factory().accelerometer().has_value();
+    link_.accelerometer_unknown = !session_->factory().accelerometerWasRead();
     link_.ir_calibration = session_->factory().ir();
   }
   link_.state = state;

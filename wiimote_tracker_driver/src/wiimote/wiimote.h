@@ -24,6 +24,7 @@ struct Link : transport::Remote {
   std::uint32_t clock_epoch = 0;  ///< Counts from 0, one more at each reconnect or power cycle.
   std::optional<protocol::Status> status;
   bool accelerometer_calibrated = false;  ///< By the remote's own EEPROM.
+  bool accelerometer_unknown = false;     ///< That could not be read, so it may be undamaged.
   /// From the remote's EEPROM; nothing when it is damaged.
   std::optional<protocol::IrCalibration> ir_calibration;
   /// How often the remote's configuration was found changed and was restored, since the beginning.

@@ -159,3 +159,15 @@ def test_invalid_arguments_are_refused(arguments):
     status, text = list_wiimotes(*arguments)
     assert status == 2
     assert text.startswith('list_wiimotes: ')
+
+
+@pytest.mark.parametrize('arguments, option', [
+    ('--cameras a.yaml --write b.yaml', '--cameras'),
+    ('--camera-info a', '--camera-info'),
+    ('--device 00:1f:32:00:00:01 --virtual a.sock', '--device'),
+    ('--replace a 00:1f:32:00:00:01 --cameras a.yaml --identify', '--replace'),
+    ('--replace a 00:1f:32:00:00:01 --cameras a.yaml --write b.yaml', '--replace')])
+def test_an_option_without_effect_is_refused(arguments, option):
+    status, text = list_wiimotes(*arguments.split())
+    assert status == 2
+    assert text.startswith('list_wiimotes: ' + option)

@@ -333,7 +333,8 @@ def test_a_list_that_cannot_be_read_is_refused_at_once(computer, monkeypatch):
 
 
 @pytest.mark.parametrize('arguments', [
-    ['--replace', 'wiimote_2'], ['--cameras', 'x'], ['--address', 'hidraw0'], ['--timeout', '0'],
+    ['--replace', 'wiimote_2'], ['--cameras', 'x'], ['--camera-info', 'x'], ['--timeout', '0'],
+    ['--address', 'hidraw0'],
     ['--replace', 'a', '--cameras', '/nowhere/cameras.yaml'], ['--timeout', 'nan']])
 def test_invalid_arguments_are_refused_before_anything_is_done(computer, arguments):
     with pytest.raises(SystemExit) as stop:

@@ -39,6 +39,16 @@ void check(Arguments* arguments) {
   const bool replaces = !arguments->replace.empty();
   if (replaces && (arguments->replace.size() != 2 || arguments->cameras.empty()))
     throw BadArguments("--replace needs CAMERA ADDRESS, and --cameras FILE");
+  if (replaces && (arguments->identify || !arguments->write.empty() || !arguments->device.empty() ||
+                   !arguments->sockets.empty()))
+    throw BadArguments("--replace lists no remotes: use only --cameras and --camera-info with it");
+  if (!replaces && !arguments->camera_info.empty())
+    throw BadArguments("--camera-info has an effect only with --replace: leave it out");
+  if (!arguments->write.empty() && !arguments->cameras.empty())
+    throw BadArguments(
+        "--cameras has no effect with --write FILE, which shows the names of FILE: leave it out");
+  if (!arguments->device.empty() && !arguments->sockets.empty())
+    throw BadArguments("--device has no effect on --virtual remotes: leave one of them out");
   try {
     if (!arguments->device.empty())
       arguments->device = transport::parseDeviceName(arguments->device).value;

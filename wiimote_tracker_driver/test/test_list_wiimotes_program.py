@@ -171,3 +171,11 @@ def test_an_option_without_effect_is_refused(arguments, option):
     status, text = list_wiimotes(*arguments.split())
     assert status == 2
     assert text.startswith('list_wiimotes: ' + option)
+
+
+@pytest.mark.parametrize('device', ['foo', 'virtual:a.sock', 'replay:a.wiirec'])
+def test_a_device_is_an_address_or_a_path(device):
+    status, text = list_wiimotes('--device', device)
+    assert status == 2
+    assert "--device is '%s', but must be a Bluetooth address" % device in text
+    assert 'must be empty' not in text

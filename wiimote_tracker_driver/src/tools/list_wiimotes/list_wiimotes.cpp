@@ -34,6 +34,20 @@ struct Arguments {
   std::string camera_info;           ///< A folder; empty: the default of camera_info_manager.
 };
 
+/// As the driver calls it. @throws BadArguments.
+std::string addressOrPath(const std::string& text) {
+  using Kind = transport::DeviceName::Kind;
+  try {
+    const transport::DeviceName name = transport::parseDeviceName(text);
+    if (name.kind == Kind::kAddress || name.kind == Kind::kPath)
+      return name.value;
+  } catch (const transport::BadDeviceName&) {
+  }
+  throw BadArguments("--device is '" + text +
+                     "', but must be a Bluetooth address such as 00:1f:32:12:34:56, or a path such "
+                     "as /dev/hidraw0");
+}
+
 /// What the parser cannot know; `device` becomes what the driver calls it. @throws BadArguments.
 void check(Arguments* arguments) {
   const bool replaces = !arguments->replace.empty();
@@ -49,12 +63,8 @@ void check(Arguments* arguments) {
         "--cameras has no effect with --write FILE, which shows the names of FILE: leave it out");
   if (!arguments->device.empty() && !arguments->sockets.empty())
     throw BadArguments("--device has no effect on --virtual remotes: leave one of them out");
-  try {
-    if (!arguments->device.empty())
-      arguments->device = transport::parseDeviceName(arguments->device).value;
-  } catch (const transport::BadDeviceName& e) {
-    throw BadArguments(e.what());
-  }
+  if (!arguments->device.empty())
+    arguments->device = addressOrPath(arguments->device);
 }
 
 /// A remote in the list.

@@ -231,6 +231,17 @@ TEST(CameraList, RefusesTextsThatItCannotPreserve) {
                        "line 2 is '  - a'"));
 }
 
+TEST(CameraList, ProblemsOfDevices) {
+  EXPECT_TRUE(problems(CameraList(std::string(kList))).empty());
+  const auto found = problems(
+      CameraList(std::string("cameras:\n  a: \"00:1f:32:00:00:0a\"\n  b: \"00:1F:32:00:00:0A\"\n"
+                             "  c: \"00-1f-32-00-00-01\"\n  d: \"/dev/hidraw1\"\n"
+                             "  e: \"replay:e.wiirec\"\n")));
+  EXPECT_EQ(2u, found.size());
+  EXPECT_EQ(1, count(found, "camera b has the device 00:1F:32:00:00:0A, and so has camera a"));
+  EXPECT_EQ(1, count(found, "camera c has the device 00-1f-32-00-00-01: give a Bluetooth address"));
+}
+
 TEST(CameraList, AZeroByteIsNotTheEndOfTheFile) {
   const TemporaryFolder folder;
   folder.write("cameras.yaml", std::string("cameras:\n# ") + '\0' + "\n  door: \"x\"\n");

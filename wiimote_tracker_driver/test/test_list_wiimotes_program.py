@@ -123,6 +123,18 @@ def test_write_adds_new_remotes_and_keeps_old_names(remotes, tmp_path):
     assert 'camera door is not connected' in text
 
 
+def test_cameras_that_no_driver_would_take_are_complained_of(remotes, tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    device = 'virtual:' + remotes[0].path
+    path.write_text('cameras:\n  door: "%s"\n  window: "%s"\n  wall: "00-1f-32-00-00-01"\n'
+                    % (device, device))
+    status, text = list_wiimotes('--cameras', str(path), '--virtual', remotes[0].path)
+    assert status == 0
+    assert '! camera window has the device %s, and so has camera door' % device in text
+    assert '! camera wall has the device 00-1f-32-00-00-01: give a Bluetooth address' in text
+    assert 'camera window is not connected' not in text
+
+
 def test_write_begins_a_new_list(remotes, tmp_path):
     path = tmp_path / 'cameras.yaml'
     list_wiimotes('--write', str(path), '--virtual', remotes[0].path)

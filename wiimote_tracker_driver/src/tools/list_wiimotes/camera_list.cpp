@@ -1,5 +1,7 @@
 #include "camera_list.h"
 
+#include "transport/transport.h"
+
 #include <wiimote_tracker_msgs/text.h>
 #include <yaml-cpp/yaml.h>
 
@@ -43,6 +45,15 @@ YAML::Node load(const std::string& text, const std::vector<std::string>& lines) 
     return YAML::Load(text);
   } catch (const YAML::Exception& e) {
     refuse(e.mark, lines, "this is not YAML (" + e.msg + "); correct it");
+  }
+}
+
+bool isDevice(const std::string& text) {
+  try {
+    transport::parseDeviceName(text);
+    return true;
+  } catch (const transport::BadDeviceName&) {
+    return false;
   }
 }
 
@@ -148,6 +159,21 @@ std::string CameraList::text() const {
   for (const std::string& line : lines_)
     text += line + '\n';
   return text;
+}
+
+std::vector<std::string> problems(const CameraList& list) {
+  std::vector<std::string> sentences;
+  for (const CameraList::Entry& entry : list.entries()) {
+    const std::string start = "camera " + entry.name + " has the device " + entry.device;
+    const std::string owner = list.nameOf(entry.device);
+    if (!isDevice(entry.device))
+      sentences.push_back(start +
+                          ": give a Bluetooth address such as \"00:1f:32:12:34:56\", or a "
+                          "path");
+    else if (owner != entry.name)
+      sentences.push_back(start + ", and so has camera " + owner + ": remove one of them");
+  }
+  return sentences;
 }
 
 CameraList readCameraList(const std::string& path) {

@@ -58,6 +58,10 @@ class CameraList {
   std::string indent_ = "  ";  ///< Before the names.
 };
 
+/// What keeps drivers from using the list, one sentence each that says what to do: devices that are
+/// none, or that two cameras have.
+std::vector<std::string> problems(const CameraList& list);
+
 /// @throws CameraListError when the file cannot be read or used.
 CameraList readCameraList(const std::string& path);
 

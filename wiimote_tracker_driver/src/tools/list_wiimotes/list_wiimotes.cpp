@@ -9,10 +9,12 @@
 
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/ros_home.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -206,6 +208,17 @@ void write(const std::string& path, CameraList list, const std::vector<Row>& row
   std::printf(changed ? "Written to %s.\n" : "%s needed no change.\n", path.c_str());
 }
 
+/// The cameras whose remotes are not connected.
+void printAbsent(const CameraList& cameras, const std::vector<Row>& rows) {
+  for (const CameraList::Entry& entry : cameras.entries()) {
+    const bool connected = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
+      return lowerCase(row.text) == lowerCase(entry.device);
+    });
+    if (!connected)
+      std::printf("-  %s  camera %s is not connected\n", entry.device.c_str(), entry.name.c_str());
+  }
+}
+
 CameraList listOf(const Arguments& arguments) {
   if (!arguments.write.empty() && !std::filesystem::exists(arguments.write))
     return CameraList();
@@ -229,13 +242,10 @@ int list(const Arguments& arguments) {
                   ? "No Wii Remote is connected: press a button of a paired one, or pair one with  "
                     "rosrun wiimote_tracker_driver pair"
                   : "This Wii Remote is not connected: press one of its buttons.");
-  for (const CameraList::Entry& entry : cameras.entries()) {
-    bool connected = false;
-    for (const Row& row : rows)
-      connected = connected || row.camera == entry.name;
-    if (!connected && arguments.device.empty())
-      std::printf("-  %s  camera %s is not connected\n", entry.device.c_str(), entry.name.c_str());
-  }
+  if (arguments.device.empty())
+    printAbsent(cameras, rows);
+  for (const std::string& sentence : problems(cameras))
+    std::printf("! %s\n", sentence.c_str());
   if (!is_virtual && arguments.device.empty()) {
     for (const std::string& sentence : problems(host))
       std::printf("! %s\n", sentence.c_str());

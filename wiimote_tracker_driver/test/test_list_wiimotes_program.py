@@ -141,6 +141,24 @@ def test_write_begins_a_new_list(remotes, tmp_path):
     assert 'cameras:\n  wiimote_1: "virtual:%s"\n' % remotes[0].path in path.read_text()
 
 
+def test_nothing_is_said_to_be_written_that_is_not(remotes, tmp_path):
+    path = tmp_path / 'nowhere' / 'cameras.yaml'
+    status, text = list_wiimotes('--write', str(path), '--virtual', remotes[0].path)
+    assert status == 1
+    assert 'cannot be written' in text
+    assert 'is camera wiimote_1' not in text
+
+
+def test_a_pipe_is_no_list(remotes, tmp_path):
+    path = str(tmp_path / 'pipe')
+    os.mkfifo(path)
+    for arguments in (['--write', path, '--virtual', remotes[0].path],
+                      ['--replace', 'door', '00:1f:32:00:00:01', '--cameras', path]):
+        status, text = list_wiimotes(*arguments)
+        assert status == 1
+        assert path + ' is a pipe, device or socket' in text
+
+
 def test_a_remote_that_is_not_there_is_not_written(tmp_path):
     path = tmp_path / 'cameras.yaml'
     _, text = list_wiimotes('--write', str(path), '--virtual', str(tmp_path / 'nowhere.sock'))

@@ -190,6 +190,14 @@ CameraList readCameraList(const std::string& path) {
   }
 }
 
+void requireFile(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (fs::is_other(status))
+    throw CameraListError(path + " is a pipe, device or socket: give the path of a file");
+}
+
 void writeCameraList(const CameraList& list, const std::string& path) {
   namespace fs = std::filesystem;
   // A symbolic link is kept; its target is replaced.

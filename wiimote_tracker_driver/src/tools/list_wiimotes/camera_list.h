@@ -65,6 +65,10 @@ std::vector<std::string> problems(const CameraList& list);
 /// @throws CameraListError when the file cannot be read or used.
 CameraList readCameraList(const std::string& path);
 
+/// Refuses the name of a pipe, device or socket: reading a pipe may never end, and the file would
+/// take its place. @throws CameraListError.
+void requireFile(const std::string& path);
+
 /// Replaces the file atomically, and keeps the old one as <path>.bak.
 /// @throws CameraListError if that is not possible.
 void writeCameraList(const CameraList& list, const std::string& path);

@@ -191,20 +191,21 @@ void identify(const std::vector<Row>& rows) {
 }
 
 void write(const std::string& path, CameraList list, const std::vector<Row>& rows) {
-  std::puts("");
   bool changed = false;
+  std::string done;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
+    const std::string remote = "Remote " + std::to_string(i + 1);
     if (row.text.empty() || row.address.empty()) {
-      std::printf("Remote %zu is not written because its address is unknown.\n", i + 1);
+      done += remote + " is not written because its address is unknown.\n";
     } else if (row.camera.empty()) {
-      std::printf("Remote %zu (%s) is camera %s.\n", i + 1, row.address.c_str(),
-                  list.add(row.text).c_str());
+      done += remote + " (" + row.address + ") is camera " + list.add(row.text) + ".\n";
       changed = true;
     }
   }
   if (changed)
     writeCameraList(list, path);
+  std::printf("\n%s", done.c_str());
   std::printf(changed ? "Written to %s.\n" : "%s needed no change.\n", path.c_str());
 }
 
@@ -220,8 +221,11 @@ void printAbsent(const CameraList& cameras, const std::vector<Row>& rows) {
 }
 
 CameraList listOf(const Arguments& arguments) {
-  if (!arguments.write.empty() && !std::filesystem::exists(arguments.write))
-    return CameraList();
+  if (!arguments.write.empty()) {
+    requireFile(arguments.write);
+    if (!std::filesystem::exists(arguments.write))
+      return CameraList();
+  }
   const std::string& path = arguments.write.empty() ? arguments.cameras : arguments.write;
   return path.empty() ? CameraList() : readCameraList(path);
 }

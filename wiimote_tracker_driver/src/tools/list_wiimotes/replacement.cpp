@@ -35,6 +35,7 @@ fs::path freeName(const fs::path& wanted) {
 std::string replaceRemote(const Replacement& replacement) {
   const std::string& camera = replacement.camera;
   const std::string address = normalAddress(replacement.address);
+  requireFile(replacement.cameras_file);
   CameraList list = readCameraList(replacement.cameras_file);
   const std::string owner = list.nameOf(address);
   if (!owner.empty())

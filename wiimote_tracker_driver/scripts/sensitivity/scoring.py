@@ -59,8 +59,8 @@ def recommend(levels: List[Level]) -> Tuple[Optional[Level], str]:
     chosen = max(reversed(good), key=lambda level: 0.0 if math.isnan(level.size) else level.size)
     lights = (f'{chosen.foreign:.2f} foreign lights per image' if chosen.foreign
               else 'no foreign light')
-    sentence = (f'sensitivity {chosen.name} sees the LED in {100.0 * chosen.seen:.0f} % of the images '
-                f'and {lights}')
+    sentence = (f'sensitivity {chosen.name} sees the LED in {100.0 * chosen.seen:.0f} % of the '
+                f'images and {lights}')
     if chosen.foreign >= EQUALLY_FEW:
         sentence += ': cover these lamps and reflections, or turn the camera away from them'
     return chosen, sentence

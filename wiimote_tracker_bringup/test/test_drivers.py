@@ -142,7 +142,8 @@ def test_parameters_without_effect_are_refused(given, complaint):
 
 @pytest.mark.parametrize('text, warned', [
     ('calibration: {}\ncoverage: {}\ndrivers: {}\ntriangulation/mode: instant\n', []),
-    ('simulated_hand: {calibrate: false}\n/calibraton: {}\n', []),
+    ('simulated_hand: {calibrate: false}\n/calibraton: {}\nmanager: {}\n', []),
+    ('calibration: {yaw: !degrees 90}\n', []), ('coverage: {}\n---\ncalibration: {}\n', []),
     ('calibraton: {yaw: 1.0}\ndrivrs/driver: {}\n', ['"calibraton" is no node', '"drivrs" is no']),
     ('', ['has no parameters']), ('# none\n', ['has no parameters'])])
 def test_parameters_that_no_node_reads_are_warned_of(tmp_path, text, warned):

@@ -131,8 +131,11 @@ def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(tmp_path, capsys):
 @pytest.mark.parametrize('option', ['--output', '--plot'])
 def test_a_missing_folder_is_told_before_the_search(option, tmp_path, monkeypatch):
     monkeypatch.setattr(plan_rig.search, 'search', lambda *_: pytest.fail('it searched'))
-    with pytest.raises(SystemExit, match='missing/x.png cannot be written'):
-        plan_rig.main([EXAMPLE, option, str(tmp_path / 'missing' / 'x.png')])
+    (tmp_path / 'file').write_text('')
+    for folder in ('missing', 'file'):
+        with pytest.raises(SystemExit, match=f'{folder}/x.png cannot be written'):
+            plan_rig.main([EXAMPLE, option, str(tmp_path / folder / 'x.png')])
+    plan_rig.check_folder('/dev/stdout')
 
 
 def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):

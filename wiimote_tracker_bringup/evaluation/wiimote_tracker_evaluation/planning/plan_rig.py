@@ -127,9 +127,10 @@ def tell_progress(share):
 
 
 def check_folder(path):
-    """Before a search of minutes, whose result would be lost."""
+    """Before a search of minutes, whose result would be lost. The folder of a file that exists, such
+    as /dev/stdout, need not be writable."""
     folder = os.path.dirname(path) or '.'
-    if not os.access(folder, os.W_OK):
+    if not (os.path.exists(path) or os.path.isdir(folder) and os.access(folder, os.W_OK)):
         raise ExperimentError(f'{path} cannot be written: {folder} is no folder, or not writable; '
                               'create it, or choose another one')
 

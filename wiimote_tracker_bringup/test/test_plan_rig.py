@@ -135,7 +135,7 @@ def test_a_missing_folder_is_told_before_the_search(option, tmp_path, monkeypatc
     for folder in ('missing', 'file'):
         with pytest.raises(SystemExit, match=f'{folder}/x.png cannot be written'):
             plan_rig.main([EXAMPLE, option, str(tmp_path / folder / 'x.png')])
-    plan_rig.check_folder('/dev/stdout')
+    plan_rig.check_folder('/dev/null')
 
 
 def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):

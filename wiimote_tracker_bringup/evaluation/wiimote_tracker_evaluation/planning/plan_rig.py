@@ -127,8 +127,8 @@ def tell_progress(share):
 
 
 def check_folder(path):
-    """Before a search of minutes, whose result would be lost. The folder of a file that exists, such
-    as /dev/stdout, need not be writable."""
+    """Before a search of minutes, whose result would be lost. The folder of a file that exists,
+    such as /dev/stdout, need not be writable."""
     folder = os.path.dirname(path) or '.'
     if not (os.path.exists(path) or os.path.isdir(folder) and os.access(folder, os.W_OK)):
         raise ExperimentError(f'{path} cannot be written: {folder} is no folder, or not writable; '

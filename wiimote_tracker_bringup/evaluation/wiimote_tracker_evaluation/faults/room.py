@@ -140,9 +140,10 @@ class Room:
 
     def pid(self, node):
         """node: its name, or roscore, or roslaunch. @raise ExperimentError: it does not run."""
-        own = {'roscore': self.master, 'roslaunch': self.launch}
+        if node in ('roscore', 'roslaunch'):
+            return (self.master if node == 'roscore' else self.launch).pid
         try:
-            return own[node].pid if node in own else self.nodes()[node]
+            return self.nodes()[node]
         except KeyError:
             raise ExperimentError(f'the node {node} does not run; see {self.log}')
 

@@ -82,17 +82,23 @@ class SimulatedHand(NodeTest):
         rospy.Subscriber('calibration/status', CalibrationStatus, statuses.append)
         self.wait(lambda: statuses and statuses[-1].rig_id and statuses[-1].step in (
             CalibrationStatus.IDLE, CalibrationStatus.SOLVED, CalibrationStatus.SAVED), 'a rig')
-        rospy.sleep(1.0)  # the hand walks about by then
+        truths = []
+        rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
+
+        def walks_about():  # on a level circle, to which the hand moves the LED only once
+            if len(truths) < POINTS:
+                return False
+            way = np.ptp([position(truth) for truth in truths[-POINTS:]], axis=0)
+            return way[0] > 0.01 and way[2] < 1e-6
+        self.wait(walks_about, 'the hand to walk about')
         place = Point(1.0, 1.0, 1.0)
         put = rospy.ServiceProxy('simulation/set_led', SetLed)(
             SetLedRequest(led='led', on=True, motion=SetLedRequest.LINE, target=place))
         self.wait(lambda: rospy.get_rostime() > put.arrival, 'the LED to arrive')
-        truths = []
-        rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
         check = rospy.ServiceProxy('calibration/check', CheckPlace)
         check(known=place)
         measured = rospy.get_rostime() + rospy.Duration(1.0)
-        self.wait(lambda: truths and truths[-1].header.stamp > measured, 'the truth')
+        self.wait(lambda: truths[-1].header.stamp > measured, 'the truth')
         self.assertTrue(np.allclose(position(truths[-1]), 1.0), 'the hand took the LED away')
 
         heights = []

@@ -3,12 +3,11 @@
 import os
 import sys
 
-import rosgraph
-
 
 def master_problem(advice: str) -> str:
     """Why no ROS master can be used, and what to do; empty if one answers. advice: what to do when
     there is none."""
+    import rosgraph  # evaluate --help must do without
     address = rosgraph.get_master_uri()
     try:
         is_online = rosgraph.is_master_online()

@@ -98,7 +98,7 @@ class Node:
         while not done.wait(CHECK_PERIOD):
             # A server that has ended says nothing; one that was started again disowns the goal.
             if rospy.is_shutdown() or not self._capture.wait_for_server(
-                    rospy.Duration(ACTION_TIMEOUT)):
+                    rospy.Duration(ACTION_TIMEOUT)) and not done.is_set():
                 raise rospy.ROSException()
         result = self._capture.get_result()
         if result is None:  # the server does not know the goal

@@ -1,8 +1,7 @@
 // Positions at irregular times become positions at one rate.
 #include "ros/measurements/sample_table.h"
-#include "wiimote_tracker_triangulation/ros/message_fields.h"
-
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
 
@@ -63,8 +62,8 @@ TEST(SampleTable, LongGapsAndTheEndsStayOpen) {
 
 TEST(SampleTable, RefusesTimesAYearApart) {
   SampleTable table;
-  table.add(at(0.0, "led", 1.0));
-  table.add(at(365.0 * 86400.0, "led", 1.0));
+  add(at(0.0, "led", 1.0), &table);
+  add(at(365.0 * 86400.0, "led", 1.0), &table);
   EXPECT_THROW(table.resample(kRate), Error);
   EXPECT_EQ(table.resample(0.1).frames, 3153601u);
 }

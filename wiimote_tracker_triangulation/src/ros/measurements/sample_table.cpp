@@ -1,8 +1,7 @@
 #include "ros/measurements/sample_table.h"
 
-#include "wiimote_tracker_triangulation/ros/message_fields.h"
-
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <wiimote_tracker_msgs/text.h>
 

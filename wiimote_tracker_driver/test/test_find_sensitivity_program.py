@@ -44,7 +44,10 @@ def run(monkeypatch):
         monkeypatch.setattr(sys, 'argv', ['find_sensitivity', 'room'])
         monkeypatch.setattr(sys, 'stdin', io.StringIO(answers))
         return program.main()
-    before = {number: signal.getsignal(number) for number in (signal.SIGHUP, signal.SIGTERM)}
+    before = {number: signal.getsignal(number)
+              for number in (signal.SIGHUP, signal.SIGINT, signal.SIGTERM)}
+    # Where the tests run in the background, a shell has Ctrl-C ignored.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     yield run
     for number, handler in before.items():
         signal.signal(number, handler)
@@ -64,6 +67,26 @@ def test_a_signal_leaves_the_driver_as_it_was(run, number):
         os.kill(os.getpid(), number)
         time.sleep(10.0)
     camera = FakeCamera(watched)
+    assert run(camera, '\n') == 130
+    assert camera.sensitivity == 'wii_2'
+
+
+@pytest.mark.parametrize('number', [signal.SIGHUP, signal.SIGTERM])
+def test_further_signals_do_not_keep_the_driver_from_being_restored(run, number):
+    class Camera(FakeCamera):
+        is_interrupted = False
+
+        def watch(self, settle, seconds):
+            self.is_interrupted = True
+            os.kill(os.getpid(), number)
+            time.sleep(10.0)
+
+        def set_sensitivity(self, name):
+            if self.is_interrupted:
+                os.kill(os.getpid(), number)
+            super().set_sensitivity(name)
+
+    camera = Camera()
     assert run(camera, '\n') == 130
     assert camera.sensitivity == 'wii_2'
 

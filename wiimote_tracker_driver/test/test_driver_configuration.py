@@ -44,8 +44,9 @@ class DriverConfiguration(unittest.TestCase):
 
     def test_a_folder_as_calibration(self):
         with tempfile.TemporaryDirectory() as folder:
-            self.assert_refused(f"/driver_r/camera_info_url: the calibration file://{folder} cannot",
-                                "__name:=driver_r", f"_camera_info_url:=file://{folder}")
+            url = f"file://{folder}"
+            self.assert_refused(f"/driver_r/camera_info_url: the calibration {url} cannot",
+                                "__name:=driver_r", f"_camera_info_url:={url}")
 
     def test_invalid_sensitivity_blocks(self):
         self.assert_refused("/driver_i/ir_sensitivity_block1 and _block2: ", "__name:=driver_i",

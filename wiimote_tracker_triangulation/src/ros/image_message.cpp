@@ -14,7 +14,6 @@ using wiimote_tracker_msgs::IrBlobArray;
 // Longest possible time from exposure to arrival, and error of a stamp [s].
 constexpr double kLongestDelay = 10.0;
 constexpr double kStampError = 0.02;
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 std::string sizeOf(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
@@ -60,7 +59,8 @@ ImageFault readImage(const IrBlobArray& message,
   image->stamp = message.header.stamp.toSec();
   image->arrival = (message.arrival.isZero() ? message.header.stamp : message.arrival).toSec();
   const bool has_stddev = std::isfinite(message.stamp_stddev) && message.stamp_stddev >= 0.0;
-  image->stamp_stddev = has_stddev ? message.stamp_stddev : kNaN;
+  image->stamp_stddev =
+      has_stddev ? message.stamp_stddev : std::numeric_limits<double>::quiet_NaN();
   image->clock_epoch = message.clock_epoch;
   image->maximum_spots =
       message.max_blobs > 0 ? message.max_blobs : std::numeric_limits<std::size_t>::max();

@@ -19,19 +19,48 @@ namespace {
 // Longest distance of two LEDs of a body [m]: a larger one was not given in metres.
 constexpr double kLargest = 3.0;
 
-/// Whether a permutation changes the distance of two LEDs by more than a limit [m].
+/// Whether a permutation of other LEDs changes the distance of two LEDs by more than a limit [m].
 bool changesADistance(const std::vector<Eigen::Vector3d>& leds,
+                      const std::vector<Eigen::Vector3d>& others,
                       const std::vector<std::size_t>& permutation,
                       double limit) {
   for (std::size_t i = 0; i < leds.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       const double change =
-          (leds[i] - leds[k]).norm() - (leds[permutation[i]] - leds[permutation[k]]).norm();
+          (leds[i] - leds[k]).norm() - (others[permutation[i]] - others[permutation[k]]).norm();
       if (std::abs(change) > limit)
         return true;
     }
   }
   return false;
+}
+
+std::vector<std::size_t> identityOf(std::size_t size) {
+  std::vector<std::size_t> permutation(size);
+  std::iota(permutation.begin(), permutation.end(), std::size_t{0});
+  return permutation;
+}
+
+/// The rotation that maps LEDs best onto as many others, permuted.
+/// @param permutation the first to try, in lexicographic order
+/// @param best is returned if no match has a smaller residual
+Symmetry bestMatch(const std::vector<Eigen::Vector3d>& leds,
+                   const std::vector<Eigen::Vector3d>& others,
+                   std::vector<std::size_t> permutation,
+                   Symmetry best) {
+  const auto count = static_cast<double>(leds.size());
+  do {
+    // An RMS residual r of n points changes no distance by more than r sqrt(2 n).
+    if (changesADistance(leds, others, permutation, best.residual * std::sqrt(2.0 * count)))
+      continue;
+    std::vector<PointPair> pairs;
+    for (std::size_t i = 0; i < leds.size(); ++i)
+      pairs.push_back({leds[i], others[permutation[i]], 1.0});
+    const double residual = std::sqrt(align(pairs.data(), pairs.size()).cost / count);
+    if (residual < best.residual)
+      best = {permutation, residual};
+  } while (std::next_permutation(permutation.begin(), permutation.end()));
+  return best;
 }
 
 void checkLabels(const Constellation& body) {
@@ -91,22 +120,10 @@ std::string Constellation::labelOf(std::size_t led) const {
 
 Symmetry nearestSymmetry(const Constellation& constellation) {
   const std::vector<Eigen::Vector3d>& leds = constellation.leds;
-  const auto count = static_cast<double>(leds.size());
-  Symmetry best;
-  std::vector<std::size_t> permutation(leds.size());
-  std::iota(permutation.begin(), permutation.end(), std::size_t{0});
-  while (std::next_permutation(permutation.begin(), permutation.end())) {
-    // An RMS residual r of n points changes no distance by more than r sqrt(2 n).
-    if (changesADistance(leds, permutation, best.residual * std::sqrt(2.0 * count)))
-      continue;
-    std::vector<PointPair> pairs;
-    for (std::size_t i = 0; i < leds.size(); ++i)
-      pairs.push_back({leds[i], leds[permutation[i]], 1.0});
-    const double residual = std::sqrt(align(pairs.data(), pairs.size()).cost / count);
-    if (residual < best.residual)
-      best = {permutation, residual};
-  }
-  return best;
+  std::vector<std::size_t> permutation = identityOf(leds.size());
+  if (!std::next_permutation(permutation.begin(), permutation.end()))
+    return {};
+  return bestMatch(leds, leds, permutation, Symmetry());
 }
 
 std::string describe(const Constellation& constellation, const Symmetry& symmetry) {
@@ -151,6 +168,23 @@ std::optional<std::string> describeMergingLeds(const Constellation& constellatio
     }
   }
   return sentence;
+}
+
+std::optional<std::string> describeTwins(const Constellation& a, const Constellation& b) {
+  if (a.leds.size() != b.leds.size())
+    return std::nullopt;
+  const Symmetry match =
+      bestMatch(a.leds, b.leds, identityOf(a.leds.size()), {{}, kNearlySymmetric});
+  if (match.permutation.empty())
+    return std::nullopt;
+  // A symmetric body is never found by its shape.
+  const bool have_clear_shape =
+      nearestSymmetry(a).residual >= kSymmetric || nearestSymmetry(b).residual >= kSymmetric;
+  if (!have_clear_shape && a.labels != b.labels)
+    return std::nullopt;
+  return "bodies '" + a.name + "' and '" + b.name + "' have the same shape within " +
+         format("%.1f mm", 1e3 * match.residual) +
+         ": they may be taken for each other; move an LED of one of them by some centimetres";
 }
 
 }  // namespace wiimote_tracker::body

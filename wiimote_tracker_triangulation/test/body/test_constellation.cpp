@@ -107,6 +107,35 @@ TEST(Constellation, NamesTheNearestLedsWhoseSpotsMerge) {
   EXPECT_NE(describeMergingLeds(body)->find("LEDs a and c only 15.0 mm"), std::string::npos);
 }
 
+TEST(Constellation, TwinsAreNamed) {
+  const Constellation a = fourLeds();
+  Constellation b = a;
+  b.name = "twin";
+  std::reverse(b.leds.begin(), b.leds.end());
+  for (Vector3d& led : b.leds)
+    led = Eigen::AngleAxisd(0.7, Vector3d(1, 2, 3).normalized()) * led + Vector3d(1, 0, 2);
+  ASSERT_TRUE(describeTwins(a, b));
+  EXPECT_EQ(describeTwins(a, b)->find("bodies 'four_leds' and 'twin' have the same shape"), 0u);
+  b.leds[1] += Vector3d(0.0, 0.1, 0.0);
+  EXPECT_FALSE(describeTwins(a, b)) << "a place differs by centimetres";
+  b.leds.pop_back();
+  EXPECT_FALSE(describeTwins(a, b)) << "three LEDs";
+
+  Constellation corner{"corner", {{0, 0, 0}, {0.1, 0, 0}, {0, 0.2, 0}, {0, 0, 0.15}}};
+  Constellation mirrored = corner;
+  for (Vector3d& led : mirrored.leds)
+    led.x() = -led.x();
+  EXPECT_TRUE(describeTwins(corner, corner));
+  EXPECT_FALSE(describeTwins(corner, mirrored));
+
+  Constellation square{"square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}};
+  square.labels = {"a", "b", "c", "d"};
+  Constellation other = square;
+  EXPECT_TRUE(describeTwins(square, other));
+  other.labels = {"e", "f", "g", "h"};
+  EXPECT_FALSE(describeTwins(square, other)) << "found by their labels alone";
+}
+
 TEST(Constellation, SymmetricOnesNeedLabels) {
   Constellation square{"square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}};
   EXPECT_NE(messageOf(square).find("looks the same within 0.0 mm"), std::string::npos);

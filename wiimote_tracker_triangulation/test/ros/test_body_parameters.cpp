@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -23,6 +24,18 @@ TEST(BodyParameters, SayThatTheFileOfBodiesDoesNotExist) {
   std::ofstream(file.string()) << "format: wiimote_tracker_bodies\n";
   EXPECT_EQ("", describeMissingFile(file.string()));
   fs::remove(file);
+}
+
+TEST(BodyParameters, WarnOnceOfTwoBodiesOfOneShape) {
+  const body::Constellation wand{
+      "wand",
+      {{0.05, 0.09, 0.07}, {-0.02, 0.02, -0.05}, {-0.07, -0.07, 0.03}, {0.06, -0.05, -0.05}}};
+  EXPECT_TRUE(shapeWarnings({wand}).empty());
+  body::Constellation twin = wand;
+  twin.name = "twin";
+  const std::vector<std::string> warnings = shapeWarnings({wand, twin});
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_EQ(0u, warnings[0].find("bodies 'wand' and 'twin' have the same shape")) << warnings[0];
 }
 
 }  // namespace

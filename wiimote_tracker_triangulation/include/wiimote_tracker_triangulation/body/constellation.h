@@ -64,6 +64,11 @@ constexpr double kNearlySymmetric = 0.015;
 /// A sentence for the user: which LEDs would be confused, and what to do.
 std::string describe(const Constellation& constellation, const Symmetry& symmetry);
 
+/// A sentence for the user about two bodies whose shapes are equal within kNearlySymmetric, or
+/// nothing. A mirrored shape is a different one. Labels tell only symmetric bodies apart, since all
+/// others are found by shape.
+std::optional<std::string> describeTwins(const Constellation& a, const Constellation& b);
+
 /// Distance of two LEDs [m] below which their spots often merge, some metres from the camera.
 constexpr double kMerging = 0.03;
 

@@ -201,6 +201,11 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
     return body.name == request.name && body.imu;
   });
   std::vector<Constellation> bodies = without(request.name, bodies_);
+  std::vector<std::string> warnings = shapeWarnings({learned.constellation});
+  for (const Constellation& other : bodies) {
+    if (const auto twins = body::describeTwins(other, learned.constellation))
+      warnings.push_back(*twins);
+  }
   bodies.push_back(learned.constellation);
   body::writeBodies(file_, bodies);
   bodies_ = bodies;
@@ -210,7 +215,7 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
                       " and tracked from now on";
   if (had_imu)
     response->message += "; find its IMU again by body_to_base --imu, since its axes have changed";
-  for (const std::string& warning : shapeWarnings({learned.constellation}))
+  for (const std::string& warning : warnings)
     response->message += "; but " + warning;
 }
 

@@ -4,6 +4,7 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
 
 namespace wiimote_tracker {
@@ -80,6 +81,12 @@ std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& b
       sentences.push_back(body::describe(body, symmetry));
     if (const auto merging = body::describeMergingLeds(body))
       sentences.push_back(*merging);
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (const auto twins = body::describeTwins(bodies[k], bodies[i]))
+        sentences.push_back(*twins);
+    }
   }
   return sentences;
 }

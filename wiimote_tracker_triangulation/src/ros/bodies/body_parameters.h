@@ -30,7 +30,8 @@ struct BodyParameters {
 /// named. That is no error: the service learn_body creates it.
 std::string describeMissingFile(const std::string& file);
 
-/// What is wrong with bodies that are nearly symmetric, or have LEDs close together.
+/// What is wrong with bodies that are nearly symmetric, have LEDs close together, or the shape of
+/// another one.
 std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& bodies);
 
 }  // namespace wiimote_tracker

@@ -134,7 +134,10 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   subscribeToImus(bodies);
   bodies_.setBodies(bodies);
   body_diagnostics_.setBodies(bodies);
-  for (const std::string& sentence : shapeWarnings(bodies)) {
+  std::vector<std::string> warnings = shapeWarnings(bodies);
+  for (std::string& warning : labelWarnings(bodies, parameters_.blinkingLabels()))
+    warnings.push_back(std::move(warning));
+  for (const std::string& sentence : warnings) {
     // Learning a body sets all others again.
     if (warned_of_.insert(sentence).second)
       ROS_WARN("%s.", sentence.c_str());

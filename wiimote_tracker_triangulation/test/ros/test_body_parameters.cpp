@@ -38,5 +38,16 @@ TEST(BodyParameters, WarnOnceOfTwoBodiesOfOneShape) {
   EXPECT_EQ(0u, warnings[0].find("bodies 'wand' and 'twin' have the same shape")) << warnings[0];
 }
 
+TEST(BodyParameters, WarnOfLabelsThatNoBlinkCodeHas) {
+  body::Constellation wand{"wand", {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}};
+  EXPECT_TRUE(labelWarnings({wand}, {}).empty()) << "it has no labels";
+  wand.labels = {"a", "x", "y"};
+  EXPECT_TRUE(labelWarnings({wand}, {"x", "y", "z", "a"}).empty());
+  const std::vector<std::string> warnings = labelWarnings({wand}, {"a", "b", "c"});
+  ASSERT_EQ(1u, warnings.size());
+  EXPECT_EQ(0u, warnings[0].find("body 'wand' has labels without a blink code (x, y), so that "))
+      << warnings[0];
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

@@ -3,6 +3,8 @@
 #include "body/bodies_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -87,6 +89,24 @@ std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& b
       if (const auto twins = body::describeTwins(bodies[k], bodies[i]))
         sentences.push_back(*twins);
     }
+  }
+  return sentences;
+}
+
+std::vector<std::string> labelWarnings(const std::vector<body::Constellation>& bodies,
+                                       const std::vector<std::string>& codes) {
+  std::vector<std::string> sentences;
+  for (const body::Constellation& body : bodies) {
+    std::vector<std::string> unknown;
+    for (const std::string& label : body.labels) {
+      if (std::find(codes.begin(), codes.end(), label) == codes.end())
+        unknown.push_back(label);
+    }
+    if (!unknown.empty())
+      sentences.push_back("body '" + body.name + "' has labels without a blink code (" +
+                          joined(unknown) +
+                          "), so that these LEDs are never identified: correct its labels, or "
+                          "name the file of their codes in identity/codes");
   }
   return sentences;
 }

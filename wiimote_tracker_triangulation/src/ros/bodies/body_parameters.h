@@ -34,6 +34,11 @@ std::string describeMissingFile(const std::string& file);
 /// another one.
 std::vector<std::string> shapeWarnings(const std::vector<body::Constellation>& bodies);
 
+/// Which labels of bodies no LED can have, since only LEDs that blink are identified for a body.
+/// @param codes labels of the blink codes.
+std::vector<std::string> labelWarnings(const std::vector<body::Constellation>& bodies,
+                                       const std::vector<std::string>& codes);
+
 }  // namespace wiimote_tracker
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H

@@ -1,4 +1,4 @@
-// What learn_body answers where a bag is played in a loop.
+// What learn_body answers where a bag is played in a loop, and where labels are wrong.
 #include "ros/bodies/body_learning.h"
 
 #include <gtest/gtest.h>
@@ -30,6 +30,7 @@ TrackedPointArray pointsAt(double time) {
   for (std::size_t i = 0; i < leds.size(); ++i) {
     TrackedPoint point;
     point.id = static_cast<std::uint32_t>(i);
+    point.label = "led_" + std::to_string(i);
     point.state = TrackedPoint::TRACKED;
     point.position.x = leds[i].x();
     point.position.y = leds[i].y();
@@ -41,13 +42,14 @@ TrackedPointArray pointsAt(double time) {
 }
 
 /// Learns 0.5 s of a bag that starts over after so many images.
-LearnBody::Response learnInLoopsOf(int images) {
+LearnBody::Response learnInLoopsOf(int images, const std::vector<std::string>& labels = {}) {
   const std::string file = testing::TempDir() + "learned_" + std::to_string(::getpid()) + ".yaml";
   BodyLearning learning(ros::NodeHandle(), file, {}, {}, {});
-  auto answer = std::async(std::launch::async, [] {
+  auto answer = std::async(std::launch::async, [&labels] {
     LearnBody call;
     call.request.name = "wand";
     call.request.duration = 0.5;
+    call.request.labels = labels;
     EXPECT_TRUE(ros::service::call("learn_body", call));
     return call.response;
   });
@@ -70,6 +72,26 @@ TEST(BodyLearning, GoesOnAfterABagHasStartedOver) {
   const LearnBody::Response response = learnInLoopsOf(80);
   EXPECT_TRUE(response.success) << response.message;
   EXPECT_EQ(3u, response.leds.size());
+}
+
+TEST(BodyLearning, NamesLabelsThatNoLedHas) {
+  const std::string none = learnInLoopsOf(80, {"x", "y", "z"}).message;
+  EXPECT_EQ(0u, none.find("no LED with the label x, y, z was seen, but led_0, led_1, led_2: "))
+      << none;
+  const std::string two = learnInLoopsOf(80, {"led_0", "x", "led_2"}).message;
+  EXPECT_NE(std::string::npos, two.find("2 LEDs were seen at once")) << two;
+  EXPECT_NE(std::string::npos, two.find("no LED with the label x was seen")) << two;
+  const LearnBody::Response one_too_many = learnInLoopsOf(80, {"led_0", "led_1", "led_2", "x"});
+  EXPECT_TRUE(one_too_many.success) << one_too_many.message;
+  EXPECT_NE(std::string::npos, one_too_many.message.find("but no LED with the label x was seen"))
+      << one_too_many.message;
+}
+
+TEST(BodyLearning, RefusesALabelGivenTwice) {
+  const LearnBody::Response response = learnInLoopsOf(80, {"led_0", "led_1", "led_0"});
+  EXPECT_FALSE(response.success);
+  EXPECT_NE(std::string::npos, response.message.find("labels has 'led_0' twice"))
+      << response.message;
 }
 
 }  // namespace

@@ -4,9 +4,12 @@
 #include "body_parameters.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <exception>
 
 namespace wiimote_tracker {
@@ -22,6 +25,7 @@ constexpr double kLongest = 60.0;         // [s]
 constexpr double kUntilFree = 0.5;
 // After this time without points the service gives up [s].
 constexpr int kSilence = 5;
+constexpr std::size_t kMostNamed = 10;  // labels that were seen, in an answer
 
 double stddevOf(const TrackedPoint& point) {
   const auto& c = point.position_covariance;
@@ -46,6 +50,41 @@ std::vector<std::string> labelsOf(const std::vector<std::uint32_t>& ids,
     labels.push_back(label->second);
   }
   return labels;
+}
+
+/// Which labels of a request no LED had; empty if none, or if no LED was seen at all.
+std::string describeUnseen(const std::vector<std::string>& labels,
+                           const std::set<std::string>& seen) {
+  std::vector<std::string> unseen;
+  for (const std::string& label : labels) {
+    if (seen.count(label) == 0)
+      unseen.push_back(label);
+  }
+  if (unseen.empty() || seen.empty())
+    return "";
+  std::vector<std::string> others(seen.begin(), seen.end());
+  if (others.size() > kMostNamed) {
+    others.resize(kMostNamed);
+    others.push_back("others");
+  }
+  return "no LED with the label " + joined(unseen) + " was seen, but " + joined(others) +
+         ": correct labels, or bring all of its LEDs in view";
+}
+
+/// @param unseen sentence about labels that no LED had, or empty.
+/// @throws Error, with that sentence.
+body::LearnedConstellation learnFrom(const std::string& name,
+                                     const std::vector<body::LedsInstant>& instants,
+                                     const std::string& unseen) {
+  try {
+    return body::learnConstellation(name, instants);
+  } catch (const Error& e) {
+    if (unseen.empty())
+      throw;
+    const bool has_leds = std::any_of(instants.begin(), instants.end(),
+                                      [](const auto& instant) { return !instant.leds.empty(); });
+    throw Error(has_leds ? std::string(e.what()) + "; " + unseen : unseen);
+  }
 }
 
 }  // namespace
@@ -91,8 +130,10 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
     ++jumps_;
   }
   for (const TrackedPoint& point : points.points) {
-    if (point.state != TrackedPoint::TRACKED ||
-        (!labels_.empty() && labels_.count(point.label) == 0))
+    if (point.state != TrackedPoint::TRACKED)
+      continue;
+    seen_labels_.insert(point.label);
+    if (!labels_.empty() && labels_.count(point.label) == 0)
       continue;
     instant.leds.push_back({point.id, vectorOf(point.position), stddevOf(point)});
     if (codes_.count(point.label) > 0)
@@ -134,6 +175,11 @@ std::string BodyLearning::refusal(const LearnBody::Request& request) {
     return "duration must be 0, or from 0.5 to 60 s";
   if (std::find(names_.begin(), names_.end(), request.name) != names_.end())
     return "'" + request.name + "' is the name of an LED; choose another one";
+  std::set<std::string> labels;
+  for (const std::string& label : request.labels) {
+    if (!labels.insert(label).second)
+      return "labels has '" + label + "' twice; name each LED once";
+  }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (std::find(frames_.begin(), frames_.end(), request.name) != frames_.end())
@@ -157,6 +203,7 @@ void BodyLearning::collect(const LearnBody::Request& request) {
   duration_ += until_free;
   instants_.clear();
   blinks_.clear();
+  seen_labels_.clear();
   jumps_ = 0;
   is_collecting_ = true;
   while (is_collecting_ && !is_over_) {
@@ -184,12 +231,15 @@ void BodyLearning::collect(const LearnBody::Request& request) {
 void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response* response) {
   std::vector<body::LedsInstant> instants;
   std::map<std::uint32_t, std::string> blinks;
+  std::set<std::string> seen_labels;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     instants.swap(instants_);
     blinks.swap(blinks_);
+    seen_labels.swap(seen_labels_);
   }
-  body::LearnedConstellation learned = body::learnConstellation(request.name, instants);
+  const std::string unseen = describeUnseen(request.labels, seen_labels);
+  body::LearnedConstellation learned = learnFrom(request.name, instants, unseen);
   learned.constellation.labels = labelsOf(learned.ids, blinks);
   learned.constellation.check();
   const body::Symmetry symmetry = body::nearestSymmetry(learned.constellation);
@@ -206,6 +256,8 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
     if (const auto twins = body::describeTwins(other, learned.constellation))
       warnings.push_back(*twins);
   }
+  if (!unseen.empty())
+    warnings.push_back(unseen);
   bodies.push_back(learned.constellation);
   body::writeBodies(file_, bodies);
   bodies_ = bodies;

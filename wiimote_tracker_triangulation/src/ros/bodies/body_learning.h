@@ -69,6 +69,7 @@ class BodyLearning {
   double duration_ = 0.0;                        // [s]
   int jumps_ = 0;                                // how often time jumped back meanwhile
   std::set<std::string> labels_;                 // empty: all
+  std::set<std::string> seen_labels_;            // of all tracked LEDs meanwhile
   std::vector<body::LedsInstant> instants_;      // collected
   std::map<std::uint32_t, std::string> blinks_;  // labels of LEDs that blink, by id
   std::vector<body::Constellation> tracked_;

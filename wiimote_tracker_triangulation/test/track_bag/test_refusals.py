@@ -89,6 +89,13 @@ def test_a_rig_of_other_cameras(tmp_path):
                                                            tmp_path / 'out.bag')
 
 
+def test_a_rig_after_all_images(tmp_path):
+    entries = recorded()
+    write(tmp_path / 'in.bag', entries[1:] + [entries[0][:2] + (9.0,)])
+    assert 'the rig comes after all images of its cameras: name a rig with --rig' in refused(
+        tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+
 def test_parameters_that_the_node_would_refuse(bag, tmp_path):
     for text, words in [('lables: [led]\n', 'unknown parameter'), ('mode: guess\n', 'one of'),
                         ('zones: {hysteresis: -1}\n', 'zones/hysteresis is -1'),

@@ -98,6 +98,8 @@ class Player {
                          ? "no rig is on " + topics_("calibration/rig") +
                                ": say where with --namespace"
                          : "no rig can be used, name another one with --rig: " + refusal_);
+    if (images_used_ == 0 && before_rig_ > 0)
+      throw BagError("the rig comes after all images of its cameras: name a rig with --rig");
     if (images_used_ == 0)
       throw BagError("no image is of a camera of the rig, such as on " +
                      topics_("CAMERA/ir_blobs") +

@@ -66,6 +66,21 @@ def test_a_table_over_another_file(bag, tmp_path):
     assert bag.read_bytes() == before and (tmp_path / 'rig.yaml').read_text() == 'rig'
 
 
+def test_a_table_over_a_file_of_bodies(bag, tmp_path):
+    """Also over one that the parameters name, and over a body's trajectory."""
+    bodies = tmp_path / 'bodies.yaml'
+    bodies.write_text('format: wiimote_tracker_bodies\nversion: 1\nbodies: [{name: wand, leds: '
+                      '[[0, 0, 0], [0.1, 0, 0], [0, 0.2, 0], [0, 0, 0.15]]}]\n')
+    before = bodies.read_text()
+    (tmp_path / 'p.yaml').write_text('bodies: {file: "%s"}\n' % bodies)
+    for arguments in [('--bodies', bodies, '--csv', bodies),
+                      ('--params', tmp_path / 'p.yaml', '--csv', bodies),
+                      ('--params', tmp_path / 'p.yaml', '--tum', tmp_path / 'poses', '--trc',
+                       tmp_path / 'poses' / 'wand.tum')]:
+        assert 'write to another one' in refused(tmp_path, bag, tmp_path / 'out.bag', *arguments)
+    assert bodies.read_text() == before
+
+
 def test_rigs_of_two_trackers(tmp_path):
     write(tmp_path / 'in.bag', [('/%s%s' % (room, t), m, s) for room in ('a', 'b')
                                 for t, m, s in recorded()])

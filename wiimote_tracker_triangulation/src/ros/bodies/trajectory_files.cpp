@@ -9,6 +9,10 @@ namespace wiimote_tracker {
 
 using wiimote_tracker_msgs::TrackedBody;
 
+std::string TrajectoryFiles::pathOf(const std::string& folder, const std::string& body) {
+  return folder + "/" + body + ".tum";
+}
+
 void TrajectoryFiles::add(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
   if (folder_.empty())
     return;
@@ -24,8 +28,7 @@ void TrajectoryFiles::add(const wiimote_tracker_msgs::TrackedBodyArray& bodies) 
     for (const double value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})
       line << ' ' << value;
     line << '\n';
-    files_.try_emplace(body.name, folder_ + "/" + body.name + ".tum")
-        .first->second.write(line.str());
+    files_.try_emplace(body.name, pathOf(folder_, body.name)).first->second.write(line.str());
   }
 }
 

@@ -18,6 +18,8 @@ class TrajectoryFiles {
   /// @param folder empty: nothing is written.
   explicit TrajectoryFiles(const std::string& folder) : folder_(folder) {}
 
+  static std::string pathOf(const std::string& folder, const std::string& body);
+
   void add(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
   void flush();
   void finish();

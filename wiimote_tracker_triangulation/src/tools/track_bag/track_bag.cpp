@@ -125,11 +125,16 @@ class Player {
 };
 
 /// @throws Error: a file to write is also to be read, or to be written as something else.
-void checkFiles(const Arguments& arguments) {
+void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
   std::vector<std::string> to_write = arguments.output.tables.names();
   to_write.push_back(arguments.output.bag);
-  measurements::checkDistinct(
-      to_write, {arguments.input, arguments.parameters, arguments.rig, arguments.bodies});
+  const std::string& folder = arguments.output.trajectories;
+  for (const body::Constellation& body : bodies.known) {
+    if (!folder.empty())
+      to_write.push_back(TrajectoryFiles::pathOf(folder, body.name));
+  }
+  measurements::checkDistinct(to_write,
+                              {arguments.input, arguments.parameters, arguments.rig, bodies.file});
 }
 
 TrackingParameters parametersOf(const Arguments& arguments) {
@@ -218,8 +223,8 @@ void printSummary(const Recording& recording,
 
 void run(const Arguments& arguments) {
   const auto start = std::chrono::steady_clock::now();
-  checkFiles(arguments);
   const TrackingParameters parameters = parametersOf(arguments);
+  checkFiles(arguments, parameters.bodies);
   if (arguments.smooth)
     checkForSmoothing(parameters);
   if (parameters.identity.codes)

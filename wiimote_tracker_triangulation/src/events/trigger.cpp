@@ -42,8 +42,10 @@ std::string describe(TriggerResult result, const TriggerOptions& options) {
           "to the same clock",
           options.history);
     case TriggerResult::kTooEarly:
-      return format("it is more than %g s ahead of the images: set all computers to the same clock",
-                    options.history);
+      return format(
+          "it is more than %g s ahead of the images: check that the cameras' drivers run, and set "
+          "all computers to the same clock",
+          options.history);
     case TriggerResult::kTooMany:
       return "too many others wait for images: check that the cameras' drivers run";
   }

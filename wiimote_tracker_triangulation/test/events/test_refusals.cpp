@@ -44,6 +44,14 @@ TEST(Refusals, EachReasonIsSaid) {
   EXPECT_FALSE(refusals.next(100.0));
 }
 
+TEST(Refusals, ATriggerAheadOfTheImagesMayMeanThatNoCameraSendsAny) {
+  Refusals refusals{TriggerOptions()};
+  refusals.add(TriggerResult::kTooEarly, "5000");
+  const std::string sentence = *refusals.next(100.0);
+  EXPECT_TRUE(holds(sentence, "ahead of the images: check that the cameras' drivers run"))
+      << sentence;
+}
+
 TEST(Refusals, ARepeatedStampIsNamedAsTheCause) {
   Refusals refusals{TriggerOptions()};
   refusals.add(TriggerResult::kTooOld, "5");

@@ -117,11 +117,14 @@ TEST_F(CalibratedNode, RefusesAMeasurementWithTheReason) {
   EXPECT_SAYS(response.message, "sees no spot");
   EXPECT_TRUE(std::isnan(response.error));
   EXPECT_TRUE(std::isnan(response.measured.x));
-  cameras_->blind({});
-
+  // Refused before anything is measured.
+  EXPECT_SAYS(check({std::nan(""), 0.8, 0.3}).message, "not finite");
   CheckPlace::Request request;
   request.duration = -1.0;
   EXPECT_SAYS(call<CheckPlace>("calibration/check", request).message, "0 and 3600 s");
+  request.known_stddev = -1.0;
+  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", request).message, "known_stddev");
+  cameras_->blind({});
 
   // Cancelled while it waits, longer than anything here takes.
   cameras_->switchLed(false);

@@ -39,13 +39,17 @@ std::string advice(const MeasuredPlace& measured, bool consistent) {
 
 }  // namespace
 
-PlaceCheck checkPlace(const MeasuredPlace& measured,
-                      const Eigen::Vector3d& known,
-                      double known_stddev) {
+void requirePlace(const Eigen::Vector3d& known, double known_stddev) {
   if (!known.allFinite())
     throw Error("the known place is not finite: give x, y and z in metres");
   if (!(known_stddev >= 0.0) || !std::isfinite(known_stddev))
     throw Error("known_stddev must be 0 or above: give it in metres");
+}
+
+PlaceCheck checkPlace(const MeasuredPlace& measured,
+                      const Eigen::Vector3d& known,
+                      double known_stddev) {
+  requirePlace(known, known_stddev);
   const Eigen::Vector3d difference = measured.position - known;
   const Eigen::Matrix3d covariance =
       measured.covariance + known_stddev * known_stddev * Eigen::Matrix3d::Identity();

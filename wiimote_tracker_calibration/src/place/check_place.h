@@ -19,6 +19,9 @@ struct PlaceCheck {
 
 /// @param known where the LED is, world [m]. @param known_stddev of that, per axis [m, >= 0].
 /// @throws Error: values out of range or not finite.
+void requirePlace(const Eigen::Vector3d& known, double known_stddev);
+
+/// @throws Error as requirePlace().
 PlaceCheck checkPlace(const MeasuredPlace& measured,
                       const Eigen::Vector3d& known,
                       double known_stddev);

@@ -59,6 +59,11 @@ void setUnknown(CheckPlace::Response* response) {
   response->expected_stddev = kUnknown;
 }
 
+square::KnownPlace knownPlace(const CheckPlace::Request& request, double usual_stddev) {
+  return {vectorOf(request.known),
+          request.known_stddev != 0.0 ? request.known_stddev : usual_stddev};
+}
+
 remap::FitOptions fitOptions(const std::vector<std::string>& models) {
   remap::FitOptions options;
   if (models.empty())
@@ -91,18 +96,15 @@ class PlaceServices {
     setUnknown(response);
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {
-      const double known_stddev =
-          request.known_stddev != 0.0
-              ? request.known_stddev
-              : context_.parameters(lock).solve.square.uncertainty.placement;
-      return measure(request.duration, &lock,
-                     [&](const auto& measured, const auto& rig, const auto&) {
-                       const place::MeasuredPlace place = place::corrected(rig, measured);
-                       const place::PlaceCheck check =
-                           place::checkPlace(place, vectorOf(request.known), known_stddev);
-                       fill(place, check, response);
-                       return Reply{true, check.message};
-                     });
+      const square::KnownPlace known =
+          knownPlace(request, context_.parameters(lock).solve.square.uncertainty.placement);
+      return measure(
+          known, request.duration, &lock, [&](const auto& measured, const auto& rig, const auto&) {
+            const place::MeasuredPlace place = place::corrected(rig, measured);
+            const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
+            fill(place, check, response);
+            return Reply{true, check.message};
+          });
     });
   }
 
@@ -110,12 +112,9 @@ class PlaceServices {
     setUnknown(response);
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {
-      square::KnownPlace known;
-      known.position = vectorOf(request.known);
-      if (request.known_stddev != 0.0)
-        known.stddev = request.known_stddev;
+      const square::KnownPlace known = knownPlace(request, square::KnownPlace().stddev);
       return measure(
-          request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
+          known, request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
             const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
             fill(place, check, response);
             if (!place.rays_agree || check.error > kMostError * check.expected_stddev)
@@ -131,19 +130,19 @@ class PlaceServices {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     place::KnownPlaces& places = context_.knownPlaces(lock);
     Reply reply = context_.answer(&lock, [&] {
-      const Eigen::Vector3d known = vectorOf(request.known);
-      if (!known.allFinite())
-        throw Refusal("the known place is not finite: give x, y and z in metres");
-      return measure(request.duration, &lock, [&](const auto& place, const auto& rig, const auto&) {
-        if (!place.rays_agree)
-          throw Refusal(place::checkPlace(place, known, 0.0).message);
-        context_.requireSameRig(rig.id(), lock);
-        // Without the present correction: the one that is fitted will replace it.
-        places.add({place.position, known});
-        response->measured = pointOf(place.position);
-        return Reply{true, "place " + std::to_string(places.places().size()) + " measured at " +
-                               metres(place.position)};
-      });
+      square::KnownPlace known;
+      known.position = vectorOf(request.known);
+      return measure(known, request.duration, &lock,
+                     [&](const auto& place, const auto& rig, const auto&) {
+                       if (!place.rays_agree)
+                         throw Refusal(place::checkPlace(place, known.position, 0.0).message);
+                       context_.requireSameRig(rig.id(), lock);
+                       // Without the present correction: the one that is fitted will replace it.
+                       places.add({place.position, known.position});
+                       response->measured = pointOf(place.position);
+                       return Reply{true, "place " + std::to_string(places.places().size()) +
+                                              " measured at " + metres(place.position)};
+                     });
     });
     response->places = static_cast<std::uint32_t>(places.places().size());
     reply.message += dropped;
@@ -203,8 +202,10 @@ class PlaceServices {
                                             const geometry::Rig&,
                                             const capture::CapturedCorner&)>;
   /// Waits until the LED has lain still, measures where it is, and passes that on.
+  /// @param known refused before anything is measured if it cannot be a place.
   /// @param duration longest wait [s]; 0: the parameter.
-  Reply measure(double duration, Lock* lock, const Use& use) {
+  Reply measure(const square::KnownPlace& known, double duration, Lock* lock, const Use& use) {
+    place::requirePlace(known.position, known.stddev);
     capture::CornerCaptureOptions options = context_.parameters(*lock).calibration.capture;
     if (duration != 0.0)
       options.timeout = duration;

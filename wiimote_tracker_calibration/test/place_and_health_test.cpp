@@ -161,12 +161,13 @@ TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
         ASSERT_TRUE(response.success) << response.message;
         EXPECT_EQ(response.places, ++places);
         EXPECT_NEAR(response.measured.x, x, 0.005);
+        EXPECT_SAYS(response.message, " m from the known place");
       }
     }
   }
   AddKnownPlace::Request request;
-  request.known = pointOf({0.0, 0.0, 0.0});
-  EXPECT_TRUE(call<AddKnownPlace>("calibration/known_places/add", request).success);
+  request.known = pointOf({2100.0, 2100.0, 1600.0});
+  EXPECT_SAYS(call<AddKnownPlace>("calibration/known_places/add", request).message, "millimetres");
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/known_places/undo").success);
 
   FitRemap::Request fit;

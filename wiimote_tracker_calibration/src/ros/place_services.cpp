@@ -33,9 +33,20 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongest = 3600.0;  // [s]
 // A known place that is measured farther off is a mistake [expected standard deviations].
 constexpr double kMostError = 5.0;
+// No correction moves a place farther, and rooms that are joined are nearer [m].
+constexpr double kLargestRoom = 50.0;
 
 std::string metres(const Eigen::Vector3d& point) {
   return format("(%.3f, %.3f, %.3f) m", point.x(), point.y(), point.z());
+}
+
+/// How far the measured place is from the one that was typed.
+std::string distanceText(const Eigen::Vector3d& measured, const Eigen::Vector3d& known) {
+  const double distance = (measured - known).norm();
+  return format(", %.3f m from the known place", distance) +
+         (distance > kLargestRoom
+              ? ": was that typed in millimetres? Then drop it, and give it in metres"
+              : "");
 }
 
 void fill(const place::MeasuredPlace& place,
@@ -141,7 +152,8 @@ class PlaceServices {
                        places.add({place.position, known.position});
                        response->measured = pointOf(place.position);
                        return Reply{true, "place " + std::to_string(places.places().size()) +
-                                              " measured at " + metres(place.position)};
+                                              " measured at " + metres(place.position) +
+                                              distanceText(place.position, known.position)};
                      });
     });
     response->places = static_cast<std::uint32_t>(places.places().size());

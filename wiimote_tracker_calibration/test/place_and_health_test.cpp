@@ -120,8 +120,8 @@ TEST_F(CalibratedNode, RefusesAMeasurementWithTheReason) {
   // Refused before anything is measured.
   EXPECT_SAYS(check({std::nan(""), 0.8, 0.3}).message, "not finite");
   CheckPlace::Request request;
-  request.duration = -1.0;
-  EXPECT_SAYS(call<CheckPlace>("calibration/check", request).message, "0 and 3600 s");
+  request.duration = 0.001;  // shorter than one image takes
+  EXPECT_SAYS(call<CheckPlace>("calibration/check", request).message, "0.05 and 3600 s");
   request.known_stddev = -1.0;
   EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", request).message, "known_stddev");
   cameras_->blind({});

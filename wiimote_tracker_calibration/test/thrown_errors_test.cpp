@@ -164,6 +164,12 @@ TEST_F(ThrownErrors, BecomeRefusalsAndTheNextRequestWorks) {
   }
 }
 
+TEST_F(ThrownErrors, ATimeThatIsTooShortForAnImageIsNotTheCamerasFault) {
+  LearnMasks::Request masks;
+  masks.duration = 0.001;
+  EXPECT_SAYS(replyTo<LearnMasks>("calibration/learn_masks", masks).message, "0.05 and 60 s");
+}
+
 TEST_F(ThrownErrors, ARefusalIsHeardOnce) {
   const auto refusals = [] {
     const Lock lock(node->context().mutex());

@@ -78,8 +78,8 @@ class CaptureServices {
                         wiimote_tracker_msgs::CheckConnection::Response* response) {
     constexpr double kLongest = capture::CameraMonitor::kMemory;
     const double duration = request.duration == 0.0 ? 1.0 : request.duration;
-    if (!(duration > 0.0 && duration <= kLongest))
-      throw Refusal("the duration must be within 0 and 10 s");
+    if (!(duration >= NodeContext::kShortestLook && duration <= kLongest))
+      throw Refusal("the duration must be within 0.05 and 10 s");
     context_.inputs().discover();
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {

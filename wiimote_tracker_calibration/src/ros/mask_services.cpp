@@ -40,8 +40,8 @@ class MaskServices {
  private:
   workflow::Reply learn(const LearnMasks::Request& request, LearnMasks::Response* response) {
     const double duration = request.duration == 0.0 ? 2.0 : request.duration;
-    if (!(duration > 0.0 && duration <= 60.0))
-      throw Refusal("the duration must be within 0 and 60 s");
+    if (!(duration >= NodeContext::kShortestLook && duration <= 60.0))
+      throw Refusal("the duration must be within 0.05 and 60 s");
     context_.inputs().discover();
     Lock lock(context_.mutex());
     const Job job = {Step::kMasking, "looking for other lights: keep the LED off",

@@ -54,6 +54,10 @@ class NodeContext {
   /// An image may arrive this long after its stamp [s]. A decision by stamps waits for so long.
   static constexpr double kUnderWay = 1.0;
 
+  /// A request that watches the cameras for a shorter time may find no image of one that sends
+  /// twenty in a second [s].
+  static constexpr double kShortestLook = 0.05;
+
   CameraInputs& inputs() { return inputs_; }
 
   // --- All of the following with the mutex locked.

@@ -221,8 +221,8 @@ class PlaceServices {
     capture::CornerCaptureOptions options = context_.parameters(*lock).calibration.capture;
     if (duration != 0.0)
       options.timeout = duration;
-    if (!(options.timeout > 0.0 && options.timeout <= kLongest))
-      throw Refusal("the duration must be within 0 and 3600 s: correct it");
+    if (!(options.timeout >= NodeContext::kShortestLook && options.timeout <= kLongest))
+      throw Refusal("the duration must be within 0.05 and 3600 s: correct it");
     const geometry::Rig rig = context_.existingRig("to measure with", *lock);
     const Job job = {Step::kMeasuring, "keep the LED still on the place", "nothing was measured"};
     return context_.run(job, lock, [&] {

@@ -3,15 +3,41 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
+#include <cstddef>
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker::import {
 
 namespace {
 
+// A larger share of outliers comes from more than false detections.
+constexpr double kMostOutliers = 0.1;
+
 void printErrors(const std::string& name, const bundle::Statistics& errors, std::FILE* file) {
   std::fprintf(file, "%-20s %6zu of %-6zu %9.3f %9.3f %9.3f\n", name.c_str(), errors.inliers,
                errors.observations, errors.median, errors.mean, errors.p95);
+}
+
+/// Asks for a better recording if too many observations that another camera shares are outliers.
+void printOutliers(const bundle::Reconstruction& reconstruction, std::FILE* file) {
+  std::vector<std::size_t> views(reconstruction.points.size(), 0);
+  for (const bundle::Observation& observation : reconstruction.observations)
+    ++views[observation.point];
+  std::size_t shared = 0;
+  std::size_t outliers = 0;
+  for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
+    if (views[reconstruction.observations[i].point] < 2)
+      continue;
+    ++shared;
+    outliers += reconstruction.inliers[i] ? 0 : 1;
+  }
+  if (static_cast<double>(outliers) > kMostOutliers * static_cast<double>(shared))
+    std::fprintf(file,
+                 "\nOBSERVATIONS FIT NO POINT: %zu of the %zu that two cameras or more share.\n"
+                 "The cameras may be wrong: record one light only, moved through all of the room, "
+                 "with synchronised cameras, and give no intrinsics but the right ones.\n",
+                 outliers, shared);
 }
 
 void printLenses(const Report& report, std::FILE* file) {
@@ -146,6 +172,7 @@ void print(const Report& report, bool points, std::FILE* file) {
   const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
   for (std::size_t i = 0; i < errors.size(); ++i)
     printErrors(reconstruction.cameras[i].name, errors[i], file);
+  printOutliers(reconstruction, file);
   printLenses(report, file);
   printPoses(reconstruction, file);
   if (report.comparison)

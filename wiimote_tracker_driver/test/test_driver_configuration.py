@@ -43,7 +43,7 @@ class DriverConfiguration(unittest.TestCase):
                             "_camera_info_url:=nowhere")
 
     def test_a_folder_as_calibration(self):
-        with tempfile.TemporaryDirectory() as folder:
+        with tempfile.TemporaryDirectory(suffix=".yaml") as folder:
             url = f"file://{folder}"
             self.assert_refused(f"/driver_r/camera_info_url: the calibration {url} cannot",
                                 "__name:=driver_r", f"_camera_info_url:={url}")

@@ -150,6 +150,16 @@ class Sockets : public testing::Test {
   }
   std::unique_ptr<Transport> connect() const { return open(parseDeviceName("virtual:" + path_)); }
 
+  /// A socket at the path, to which nobody listens yet.
+  int boundSocket() const {
+    const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, path_.c_str());
+    EXPECT_EQ(0, ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
+    return fd;
+  }
+
   /// The next report, which must come.
   static Report next(Transport& transport) {
     Report report;
@@ -288,25 +298,14 @@ TEST_F(Sockets, LastWritesOfAHostThatLeavesReportsUnreadArrive) {
 }
 
 TEST_F(Sockets, StaleFileIsReplacedALiveOneIsNot) {
-  {
-    const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
-    sockaddr_un address{};
-    address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, path_.c_str());
-    ASSERT_EQ(0, ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
-    ::close(fd);
-  }
+  ::close(boundSocket());
   const auto server = serve();
   EXPECT_EQ("00:1f:32:00:00:01", connect()->remote().identity);
   EXPECT_THROW(serve(), std::system_error);
 }
 
 TEST_F(Sockets, OneThatHangsIsNotCalledTaken) {
-  const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
-  sockaddr_un address{};
-  address.sun_family = AF_UNIX;
-  std::strcpy(address.sun_path, path_.c_str());
-  ASSERT_EQ(0, ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
+  const int fd = boundSocket();
   ASSERT_EQ(0, ::listen(fd, 1));
   EXPECT_TRUE(contains(sentenceOf<TransportError>([&] { connect(); }), "does not answer"));
   ::close(fd);

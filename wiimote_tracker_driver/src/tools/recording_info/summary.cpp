@@ -7,6 +7,9 @@
 #include <time.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numeric>
 #include <optional>
 
 namespace wiimote_tracker::recording_info {
@@ -14,7 +17,7 @@ namespace {
 
 using recording::Record;
 
-constexpr double kStep = 1e-4;  // of the histogram [s]
+constexpr double kGap = 0.05;  // [s] About five lost reports.
 
 const char* nameOf(std::uint8_t id) {
   switch (id) {
@@ -87,38 +90,22 @@ std::string describeReports(const char* title, const std::array<std::uint64_t, 2
   return lines;
 }
 
-std::string describeIntervals(const Intervals& intervals) {
-  if (intervals.count() == 0)
+std::string describeIntervals(const std::vector<double>& intervals) {
+  if (intervals.empty())
     return "";
-  return format("data           %.1f reports a second\n", 1.0 / intervals.mean()) +
-         format("interval       p50 %.1f, p99 %.1f, longest %.1f ms\n",
-                1e3 * intervals.quantile(0.5), 1e3 * intervals.quantile(0.99),
-                1e3 * intervals.longest()) +
-         format("gaps           %llu over %.0f ms\n",
-                static_cast<unsigned long long>(intervals.gaps()), 1e3 * Intervals::kGap);
+  const auto count = static_cast<double>(intervals.size());
+  const double sum = std::accumulate(intervals.begin(), intervals.end(), 0.0);
+  const auto quantile = [&](double share) {
+    return intervals[static_cast<std::size_t>(std::ceil(share * count)) - 1];
+  };
+  const auto gaps = intervals.end() - std::upper_bound(intervals.begin(), intervals.end(), kGap);
+  return format("data           %.1f reports a second\n", count / sum) +
+         format("interval       p50 %.1f, p99 %.1f, longest %.1f ms\n", 1e3 * quantile(0.5),
+                1e3 * quantile(0.99), 1e3 * intervals.back()) +
+         format("gaps           %td over %.0f ms\n", gaps, 1e3 * kGap);
 }
 
 }  // namespace
-
-void Intervals::add(double interval) {
-  const auto bin = static_cast<std::size_t>(std::min(interval, 1.0) / kStep);
-  ++histogram_[std::min(bin, histogram_.size() - 1)];
-  ++count_;
-  sum_ += interval;
-  longest_ = std::max(longest_, interval);
-  if (interval > kGap)
-    ++gaps_;
-}
-
-double Intervals::quantile(double share) const {
-  std::uint64_t below = 0;
-  for (std::size_t bin = 0; bin < histogram_.size(); ++bin) {
-    below += histogram_[bin];
-    if (below > 0 && static_cast<double>(below) >= share * static_cast<double>(count_))
-      return std::min(kStep * (static_cast<double>(bin) + 0.5), longest_);
-  }
-  return 0.0;
-}
 
 Summary summarize(recording::Reader& reader) {
   Summary summary;
@@ -135,7 +122,7 @@ Summary summarize(recording::Reader& reader) {
         ++summary.received[record.report.id()];
         if (protocol::isDataReport(record.report.id())) {
           if (last_data)
-            summary.intervals.add(record.time - *last_data);
+            summary.intervals.push_back(record.time - *last_data);
           last_data = record.time;
         }
         break;
@@ -153,6 +140,7 @@ Summary summarize(recording::Reader& reader) {
     if (connection.ended)
       connection.end_reason = record.reason;
   }
+  std::sort(summary.intervals.begin(), summary.intervals.end());
   summary.damage = reader.damage();
   return summary;
 }

@@ -1,11 +1,10 @@
 // A virtual Wii Remote that sees LEDs move in a circle, for trying a driver without hardware.
+#include "transport/transport.h"
 #include "virtual_wiimote/uhid.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
-#include <wiimote_tracker_msgs/text.h>
 
-#include <cctype>
 #include <chrono>
 #include <cmath>
 #include <csignal>
@@ -37,14 +36,9 @@ struct Arguments {
 
 /// In lower case, as Linux has it and as messages promise. @throws BadArguments.
 std::string addressOf(const std::string& text) {
-  bool good = text.size() == 17;
-  for (std::size_t i = 0; good && i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    good = i % 3 == 2 ? c == ':' : std::isxdigit(c) != 0;
-  }
-  if (!good)
-    throw BadArguments("'" + text + "' is not a Bluetooth address such as 00:1f:32:12:34:56");
-  return lowerCase(text);
+  if (const auto address = transport::bluetoothAddress(text))
+    return *address;
+  throw BadArguments("'" + text + "' is not a Bluetooth address such as 00:1f:32:12:34:56");
 }
 
 /// @throws BadArguments.

@@ -18,17 +18,6 @@ std::string after(const std::string& prefix, const std::string& text) {
   return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : "";
 }
 
-bool isAddress(const std::string& text) {
-  if (text.size() != 17)
-    return false;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (i % 3 == 2 ? c != ':' : std::isxdigit(c) == 0)
-      return false;
-  }
-  return true;
-}
-
 bool isHidrawPath(const std::string& text) {
   const std::string number = after("/dev/hidraw", text);
   return !number.empty() && std::all_of(number.begin(), number.end(),
@@ -37,11 +26,22 @@ bool isHidrawPath(const std::string& text) {
 
 }  // namespace
 
+std::optional<std::string> bluetoothAddress(const std::string& text) {
+  if (text.size() != 17)
+    return std::nullopt;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const auto c = static_cast<unsigned char>(text[i]);
+    if (i % 3 == 2 ? c != ':' : std::isxdigit(c) == 0)
+      return std::nullopt;
+  }
+  return lowerCase(text);
+}
+
 DeviceName parseDeviceName(const std::string& text) {
   if (text.empty())
     return {DeviceName::Kind::kAny, ""};
-  if (isAddress(text))
-    return {DeviceName::Kind::kAddress, lowerCase(text)};
+  if (const auto address = bluetoothAddress(text))
+    return {DeviceName::Kind::kAddress, *address};
   if (isHidrawPath(text))
     return {DeviceName::Kind::kPath, text};
   if (const std::string path = after("virtual:", text); !path.empty()) {

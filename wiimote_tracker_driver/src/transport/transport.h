@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace wiimote_tracker::transport {
@@ -55,6 +56,9 @@ class Transport {
 
   virtual Remote remote() const = 0;
 };
+
+/// A Bluetooth address such as 00:1F:32:12:34:56, in lower case; nothing when the text is none.
+std::optional<std::string> bluetoothAddress(const std::string& text);
 
 /// How a device is named: "" (the first free remote), a Bluetooth address, /dev/hidrawN,
 /// virtual:SOCKET_PATH, or replay:FILE.

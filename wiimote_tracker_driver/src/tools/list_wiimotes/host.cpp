@@ -1,5 +1,7 @@
 #include "host.h"
 
+#include "transport/transport.h"
+
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -54,10 +56,6 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-bool isBluetoothAddress(const std::string& text) {
-  return text.size() == 17 && std::count(text.begin(), text.end(), ':') == 5;
-}
-
 std::vector<KernelRemote> readRemotes(const fs::path& root) {
   std::vector<KernelRemote> remotes;
   for (const fs::path& device : entriesOf(root / "sys/bus/hid/devices")) {
@@ -73,8 +71,7 @@ std::vector<KernelRemote> readRemotes(const fs::path& root) {
       continue;
     remote.address = lowerCase(values["HID_UNIQ"]);
     // For a Bluetooth device this is its adapter, for others a location.
-    if (isBluetoothAddress(values["HID_PHYS"]))
-      remote.adapter = lowerCase(values["HID_PHYS"]);
+    remote.adapter = transport::bluetoothAddress(values["HID_PHYS"]).value_or("");
     remote.kernel_driver = values["DRIVER"];
     const std::vector<fs::path> nodes = entriesOf(device / "hidraw");
     if (!nodes.empty())

@@ -10,19 +10,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string normalAddress(const std::string& text) {
-  using transport::DeviceName;
-  try {
-    const DeviceName name = transport::parseDeviceName(text);
-    if (name.kind == DeviceName::Kind::kAddress)
-      return name.value;
-  } catch (const transport::BadDeviceName&) {
-  }
-  throw CameraListError("'" + text +
-                        "' is not a Bluetooth address: give that of the new remote, such as "
-                        "00:1f:32:12:34:56, as list_wiimotes shows it");
-}
-
 fs::path freeName(const fs::path& wanted) {
   fs::path name = wanted;
   for (int i = 2; fs::exists(name); ++i)
@@ -34,14 +21,18 @@ fs::path freeName(const fs::path& wanted) {
 
 std::string replaceRemote(const Replacement& replacement) {
   const std::string& camera = replacement.camera;
-  const std::string address = normalAddress(replacement.address);
+  const auto address = transport::bluetoothAddress(replacement.address);
+  if (!address)
+    throw CameraListError("'" + replacement.address +
+                          "' is not a Bluetooth address: give that of the new remote, such as "
+                          "00:1f:32:12:34:56, as list_wiimotes shows it");
   requireFile(replacement.cameras_file);
   CameraList list = readCameraList(replacement.cameras_file);
-  const std::string owner = list.nameOf(address);
+  const std::string owner = list.nameOf(*address);
   if (!owner.empty())
-    throw CameraListError(address + " is already camera " + owner +
+    throw CameraListError(*address + " is already camera " + owner +
                           ": give the address of the new remote");
-  list.replace(camera, address);
+  list.replace(camera, *address);
 
   const fs::path calibration = fs::path(replacement.camera_info_folder) / (camera + ".yaml");
   std::string done;
@@ -62,7 +53,7 @@ std::string replaceRemote(const Replacement& replacement) {
   } else {
     writeCameraList(list, replacement.cameras_file);
   }
-  return "Camera " + camera + " is now " + address + " in " + replacement.cameras_file +
+  return "Camera " + camera + " is now " + *address + " in " + replacement.cameras_file +
          " (previous list: " + replacement.cameras_file + ".bak).\n" + done +
          "Restart the drivers and calibrate the rig again: until then its rig.yaml names the old "
          "remote, and the triangulation ignores this camera.\n";

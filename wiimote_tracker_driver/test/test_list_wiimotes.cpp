@@ -153,9 +153,9 @@ constexpr char kList[] =
 TEST(CameraList, KeepsNamesCommentsAndOrder) {
   CameraList list(kList);
   EXPECT_EQ(kList, list.text());
-  ASSERT_EQ(2u, list.entries().size());
-  EXPECT_EQ("door", list.entries()[0].name);
-  EXPECT_EQ("/dev/hidraw3", list.entries()[1].device);
+  ASSERT_EQ(2u, list.cameras().size());
+  EXPECT_EQ("door", list.cameras()[0].name);
+  EXPECT_EQ("/dev/hidraw3", list.cameras()[1].device);
   EXPECT_EQ("door", list.nameOf("00:1f:32:00:00:01"));
   EXPECT_EQ("", list.nameOf("00:1f:32:00:00:09"));
   EXPECT_EQ("wiimote_1", list.add("00:1f:32:00:00:05"));
@@ -201,7 +201,7 @@ TEST(CameraList, ACameraMayHaveDriverParameters) {
   EXPECT_EQ(text, list.text());
   EXPECT_EQ("door", list.nameOf("00:1f:32:00:00:01"));
   EXPECT_EQ("window", list.nameOf("00:1f:32:00:00:03"));
-  EXPECT_EQ(3u, list.entries().size());
+  EXPECT_EQ(3u, list.cameras().size());
   list.replace("door", "00:1f:32:00:00:07");
   EXPECT_EQ("wiimote_2", list.add("00:1f:32:00:00:08"));
   EXPECT_EQ(

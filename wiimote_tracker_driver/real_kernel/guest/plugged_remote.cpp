@@ -8,10 +8,7 @@
 namespace wiimote_tracker::real_kernel {
 
 PluggedRemote::PluggedRemote(const std::string& address, Scene& scene, Model model)
-    : address_(address),
-      scene_(scene),
-      device_(address, options(model)),
-      thread_([this] { run(); }) {}
+    : scene_(scene), device_(address, options(model)), thread_([this] { run(); }) {}
 
 virtual_wiimote::UhidDevice::Options PluggedRemote::options(Model model) {
   virtual_wiimote::UhidDevice::Options options;

@@ -35,7 +35,6 @@ class PluggedRemote {
   void mute();
   void setNunchuk(bool plugged) { device_.setNunchuk(plugged); }
 
-  const std::string& address() const { return address_; }
   std::uint8_t leds() const { return device_.leds(); }
   bool rumble() const { return device_.rumble(); }
 
@@ -49,7 +48,6 @@ class PluggedRemote {
   virtual_wiimote::UhidDevice::Options options(Model model);
   void run();
 
-  const std::string address_;
   Scene& scene_;
 
   mutable std::mutex mutex_;  // guards the next

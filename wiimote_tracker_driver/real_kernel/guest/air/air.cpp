@@ -60,11 +60,6 @@ void Air::cutPower(const std::string& address) {
   remote(address).lose(kConnectionTimeout);
 }
 
-bool Air::connected(const std::string& address) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  return remote(address).connected();
-}
-
 Remote& Air::remote(const std::string& address) {
   const auto found = std::find_if(remotes_.begin(), remotes_.end(), [&](const Remote& remote) {
     return remote.address() == addressFrom(address);

@@ -26,8 +26,6 @@ class Air {
   /// Its batteries are taken out: the link is lost.
   void cutPower(const std::string& address);
 
-  bool connected(const std::string& address);
-
  private:
   Remote& remote(const std::string& address);
   void call(Remote& remote, double end);

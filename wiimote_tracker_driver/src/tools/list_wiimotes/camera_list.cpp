@@ -83,48 +83,39 @@ CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
   for (const auto& pair : cameras) {
     const YAML::Mark mark = pair.first.Mark();
     Camera camera;
-    camera.entry.name = pair.first.as<std::string>("");
-    if (!isWord(camera.entry.name))
+    camera.name = pair.first.as<std::string>("");
+    if (!isWord(camera.name))
       refuse(mark, lines_, "a camera's name must be letters, digits and _, a letter first");
-    if (find(camera.entry.name) != nullptr)
-      refuse(mark, lines_, "camera " + camera.entry.name + " is there already; remove one of them");
+    if (find(camera.name) != nullptr)
+      refuse(mark, lines_, "camera " + camera.name + " is there already; remove one of them");
     const YAML::Node device = pair.second.IsMap() ? pair.second["identity"] : pair.second;
     if (!device || !device.IsScalar() || device.Scalar().empty())
-      refuse(
-          mark, lines_,
-          "camera " + camera.entry.name + " has no device: write  identity: \"address\"  below it");
-    camera.entry.device = device.Scalar();
+      refuse(mark, lines_,
+             "camera " + camera.name + " has no device: write  identity: \"address\"  below it");
+    camera.device = device.Scalar();
     camera.line = static_cast<std::size_t>(device.Mark().line);
     camera.begin = static_cast<std::size_t>(device.Mark().column);
     const std::string& line = lines_[camera.line];
     const bool quoted = line[camera.begin] == '"' || line[camera.begin] == '\'';
-    camera.size = camera.entry.device.size() + (quoted ? 2 : 0);
-    if (line.compare(camera.begin + (quoted ? 1 : 0), camera.entry.device.size(),
-                     camera.entry.device) != 0)
+    camera.size = camera.device.size() + (quoted ? 2 : 0);
+    if (line.compare(camera.begin + (quoted ? 1 : 0), camera.device.size(), camera.device) != 0)
       refuse(device.Mark(), lines_, "write the address in quotes on one line");
     indent_.assign(static_cast<std::size_t>(mark.column), ' ');
     cameras_.push_back(camera);
   }
 }
 
-std::vector<CameraList::Entry> CameraList::entries() const {
-  std::vector<Entry> entries;
-  for (const Camera& camera : cameras_)
-    entries.push_back(camera.entry);
-  return entries;
-}
-
 std::string CameraList::nameOf(const std::string& device) const {
   for (const Camera& camera : cameras_) {
-    if (lowerCase(camera.entry.device) == lowerCase(device))
-      return camera.entry.name;
+    if (lowerCase(camera.device) == lowerCase(device))
+      return camera.name;
   }
   return "";
 }
 
 const CameraList::Camera* CameraList::find(const std::string& name) const {
   const auto camera = std::find_if(cameras_.begin(), cameras_.end(),
-                                   [&](const Camera& c) { return c.entry.name == name; });
+                                   [&](const Camera& c) { return c.name == name; });
   return camera == cameras_.end() ? nullptr : &*camera;
 }
 
@@ -133,7 +124,7 @@ void CameraList::replace(const std::string& name, const std::string& device) {
   if (camera == nullptr) {
     std::string names;
     for (const Camera& other : cameras_)
-      names += (names.empty() ? "" : ", ") + other.entry.name;
+      names += (names.empty() ? "" : ", ") + other.name;
     throw CameraListError("there is no camera '" + name + "': choose one of: " + names);
   }
   lines_[camera->line].replace(camera->begin, camera->size, '"' + device + '"');
@@ -163,14 +154,14 @@ std::string CameraList::text() const {
 
 std::vector<std::string> problems(const CameraList& list) {
   std::vector<std::string> sentences;
-  for (const CameraList::Entry& entry : list.entries()) {
-    const std::string start = "camera " + entry.name + " has the device " + entry.device;
-    const std::string owner = list.nameOf(entry.device);
-    if (!isDevice(entry.device))
+  for (const CameraList::Camera& camera : list.cameras()) {
+    const std::string start = "camera " + camera.name + " has the device " + camera.device;
+    const std::string owner = list.nameOf(camera.device);
+    if (!isDevice(camera.device))
       sentences.push_back(start +
                           ": give a Bluetooth address such as \"00:1f:32:12:34:56\", or a "
                           "path");
-    else if (owner != entry.name)
+    else if (owner != camera.name)
       sentences.push_back(start + ", and so has camera " + owner + ": remove one of them");
   }
   return sentences;

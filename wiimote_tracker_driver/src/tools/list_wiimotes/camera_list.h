@@ -19,9 +19,11 @@ struct CameraListError : Error {
 /// true" may stand above. Changes keep the order, the comments and all other lines.
 class CameraList {
  public:
-  struct Entry {
+  struct Camera {
     std::string name;
     std::string device;
+    std::size_t line = 0;             ///< Of the device, from 0.
+    std::size_t begin = 0, size = 0;  ///< Of the device in its line, with its quotes.
   };
 
   /// An empty list with a comment that explains the file.
@@ -31,7 +33,7 @@ class CameraList {
   explicit CameraList(const std::string& text);
 
   /// In the order of the file.
-  std::vector<Entry> entries() const;
+  const std::vector<Camera>& cameras() const { return cameras_; }
 
   /// The camera with this device (addresses in any case); empty when there is none.
   std::string nameOf(const std::string& device) const;
@@ -45,12 +47,6 @@ class CameraList {
   std::string text() const;
 
  private:
-  struct Camera {
-    Entry entry;
-    std::size_t line = 0;             ///< Of the device, index into lines_.
-    std::size_t begin = 0, size = 0;  ///< Of the device in its line, with its quotes.
-  };
-
   const Camera* find(const std::string& name) const;
 
   std::vector<std::string> lines_;

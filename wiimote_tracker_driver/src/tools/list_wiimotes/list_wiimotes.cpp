@@ -210,13 +210,14 @@ void write(const std::string& path, CameraList list, const std::vector<Row>& row
 }
 
 /// The cameras whose remotes are not connected.
-void printAbsent(const CameraList& cameras, const std::vector<Row>& rows) {
-  for (const CameraList::Entry& entry : cameras.entries()) {
+void printAbsent(const CameraList& list, const std::vector<Row>& rows) {
+  for (const CameraList::Camera& camera : list.cameras()) {
     const bool connected = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
-      return lowerCase(row.text) == lowerCase(entry.device);
+      return lowerCase(row.text) == lowerCase(camera.device);
     });
     if (!connected)
-      std::printf("-  %s  camera %s is not connected\n", entry.device.c_str(), entry.name.c_str());
+      std::printf("-  %s  camera %s is not connected\n", camera.device.c_str(),
+                  camera.name.c_str());
   }
 }
 

@@ -1,6 +1,7 @@
 #include "kernel.h"
 
-#include <algorithm>
+#include <glob.h>
+
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -13,14 +14,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Entries of a folder, in order; none when there is no such folder.
-std::vector<fs::path> entries(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> found;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
-    found.push_back(i->path());
-  std::sort(found.begin(), found.end());
-  return found;
+/// The existing paths that match the pattern, in order.
+std::vector<std::string> matches(const std::string& pattern) {
+  glob_t found{};
+  ::glob(pattern.c_str(), 0, nullptr, &found);
+  const std::vector<std::string> paths(found.gl_pathv, found.gl_pathv + found.gl_pathc);
+  ::globfree(&found);
+  return paths;
+}
+
+/// The first of them; empty when there is none.
+std::string firstMatch(const std::string& pattern) {
+  const std::vector<std::string> paths = matches(pattern);
+  return paths.empty() ? "" : paths.front();
 }
 
 std::string withoutError(const fs::path& path) {
@@ -32,25 +38,12 @@ std::string withoutError(const fs::path& path) {
 
 /// The remote's folder on the HID bus; empty when it is not there.
 fs::path hidFolderOf(const std::string& address) {
-  for (const fs::path& folder : entries("/sys/bus/hid/devices")) {
-    std::ifstream properties(folder / "uevent");
+  for (const fs::path path : matches("/sys/bus/hid/devices/*/uevent")) {
+    std::ifstream properties(path);
     for (std::string line; std::getline(properties, line);) {
       if (line == "HID_UNIQ=" + address)
-        return folder;
+        return path.parent_path();
     }
-  }
-  return {};
-}
-
-/// The first file of this class of the remote's for which `fits(name)` holds.
-template <typename Fits>
-fs::path classEntry(const std::string& address, const std::string& name, Fits fits) {
-  const fs::path folder = hidFolderOf(address);
-  if (folder.empty())
-    return {};
-  for (const fs::path& entry : entries(folder / name)) {
-    if (fits(entry))
-      return entry;
   }
   return {};
 }
@@ -58,7 +51,7 @@ fs::path classEntry(const std::string& address, const std::string& name, Fits fi
 }  // namespace
 
 std::string hidrawOf(const std::string& address) {
-  const fs::path entry = classEntry(address, "hidraw", [](const fs::path&) { return true; });
+  const fs::path entry = firstMatch(hidFolderOf(address) / "hidraw/*");
   return entry.empty() ? "" : "/dev/" + entry.filename().string();
 }
 
@@ -88,40 +81,25 @@ std::string adapterOf(const std::string& address) {
 }
 
 std::string batteryFileOf(const std::string& address) {
-  const fs::path entry = classEntry(address, "power_supply", [](const fs::path&) { return true; });
-  return entry.empty() ? "" : (entry / "capacity").string();
+  return firstMatch(hidFolderOf(address) / "power_supply/*/capacity");
 }
 
 std::string ledFileOf(const std::string& address, int led) {
-  const std::string ending = ":p" + std::to_string(led - 1);
-  const fs::path entry = classEntry(address, "leds", [&](const fs::path& path) {
-    const std::string name = path.filename();
-    return name.size() > ending.size() &&
-           name.compare(name.size() - ending.size(), ending.size(), ending) == 0;
-  });
-  return entry.empty() ? "" : (entry / "brightness").string();
+  return firstMatch(hidFolderOf(address) / ("leds/*:p" + std::to_string(led - 1) + "/brightness"));
 }
 
 std::string inputNodeOf(const std::string& address, const std::string& name) {
-  const fs::path input = classEntry(
-      address, "input", [&](const fs::path& path) { return withoutError(path / "name") == name; });
-  if (input.empty())
-    return "";
-  for (const fs::path& entry : entries(input)) {
-    const std::string node = entry.filename();
-    if (node.compare(0, 5, "event") == 0)
-      return "/dev/input/" + node;
+  for (const fs::path path : matches(hidFolderOf(address) / "input/*/name")) {
+    if (withoutError(path) == name) {
+      const fs::path node = firstMatch(path.parent_path() / "event*");
+      return node.empty() ? "" : "/dev/input/" + node.filename().string();
+    }
   }
   return "";
 }
 
 std::vector<std::string> inputNodes() {
-  std::vector<std::string> nodes;
-  for (const fs::path& entry : entries("/dev/input")) {
-    if (entry.filename().string().compare(0, 5, "event") == 0)
-      nodes.push_back(entry);
-  }
-  return nodes;
+  return matches("/dev/input/event*");
 }
 
 std::string readLine(const std::string& path) {

@@ -13,6 +13,7 @@
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::virtual_wiimote {
@@ -83,27 +84,8 @@ Senses sense(int lights, double time) {
   return senses;
 }
 
-/// Prints changes of the LEDs and the motor.
-class Display {
- public:
-  void show(const HostedDevice& remote) {
-    const int leds = remote.leds();
-    const bool rumble = remote.rumble();
-    if (leds != leds_)
-      std::printf("LEDs: %c %c %c %c\n", leds & 1 ? '1' : '-', leds & 2 ? '2' : '-',
-                  leds & 4 ? '3' : '-', leds & 8 ? '4' : '-');
-    if (rumble != rumble_)
-      std::printf("motor: %s\n", rumble ? "on" : "off");
-    leds_ = leds;
-    rumble_ = rumble;
-  }
-
- private:
-  int leds_ = 0;
-  bool rumble_ = false;
-};
-
-/// @param name under which drivers open it; printed once the remote behaves as asked.
+/// Prints changes of LEDs and motor. @param name under which drivers open it; printed once the
+/// remote behaves as asked.
 void run(HostedDevice& remote,
          const std::string& name,
          const Arguments& arguments,
@@ -111,12 +93,19 @@ void run(HostedDevice& remote,
   using Clock = std::chrono::steady_clock;
   remote.setFaults(faults);
   std::printf("a virtual Wii Remote, device %s\n", name.c_str());
-  Display display;
+  int leds_before = 0;
+  bool rumble_before = false;
   const Clock::time_point start = Clock::now();
   for (int i = 0; !stop; ++i) {
     std::this_thread::sleep_until(start + i * std::chrono::milliseconds(10));
     remote.sample(sense(arguments.lights, 0.01 * i));
-    display.show(remote);
+    const int leds = remote.leds();
+    if (leds != std::exchange(leds_before, leds))
+      std::printf("LEDs: %c %c %c %c\n", leds & 1 ? '1' : '-', leds & 2 ? '2' : '-',
+                  leds & 4 ? '3' : '-', leds & 8 ? '4' : '-');
+    const bool rumble = remote.rumble();
+    if (rumble != std::exchange(rumble_before, rumble))
+      std::printf("motor: %s\n", rumble ? "on" : "off");
   }
 }
 

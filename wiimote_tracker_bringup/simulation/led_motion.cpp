@@ -1,5 +1,7 @@
 #include "led_motion.h"
 
+#include "wave_path.h"
+
 #include <cmath>
 
 namespace wiimote_tracker::simulation {
@@ -18,12 +20,7 @@ Eigen::Vector3d LedMotion::position(double time) const {
     return from_;
   if (time < arrival_)
     return from_ + wayOfHand((time - begin_) / (arrival_ - begin_)) * (to_ - from_);
-  if (wave_)
-    return wave_->position(time - arrival_);
-  if (drawing_)
-    return middle_ + drawing_->position(time - arrival_ - drawing_->rest());
-  const double angle = angular_speed_ * (time - arrival_);
-  return to_ + radius_ * Eigen::Vector3d(std::cos(angle) - 1.0, std::sin(angle), 0.0);
+  return then_ ? then_(time - arrival_) : to_;
 }
 
 void LedMotion::hold(double time) {
@@ -35,17 +32,17 @@ double LedMotion::line(double time, const Eigen::Vector3d& target, double speed)
   to_ = target;
   begin_ = time;
   arrival_ = speed > 0.0 ? time + (to_ - from_).norm() / speed : time;
-  radius_ = 0.0;
-  angular_speed_ = 0.0;
-  wave_.reset();
-  drawing_.reset();
+  then_ = nullptr;
+  drawing_end_ = -1.0;
   return arrival_;
 }
 
 double LedMotion::circle(double time, const Eigen::Vector3d& center, double radius, double speed) {
   line(time, center + radius * Eigen::Vector3d::UnitX(), speed);
-  radius_ = radius;
-  angular_speed_ = speed / radius;
+  then_ = [=](double since) -> Eigen::Vector3d {
+    const double angle = speed / radius * since;
+    return center + radius * Eigen::Vector3d(std::cos(angle), std::sin(angle), 0.0);
+  };
   return arrival_;
 }
 
@@ -56,7 +53,7 @@ double LedMotion::wave(double time,
                        std::uint32_t seed) {
   const WavePath path(middle, sides, speed, seed);
   line(time, path.position(0.0), speed);
-  wave_ = path;
+  then_ = [path](double since) { return path.position(since); };
   return arrival_;
 }
 
@@ -65,16 +62,16 @@ double LedMotion::draw(double time,
                        const Eigen::Vector3d& middle,
                        double speed) {
   line(time, middle + drawing.position(0.0), speed);
-  drawing_ = drawing;
-  middle_ = middle;
-  return arrival_ + drawing.rest();
+  then_ = [=](double since) -> Eigen::Vector3d {
+    return middle + drawing.position(since - drawing.rest());
+  };
+  drawing_begin_ = arrival_ + drawing.rest();
+  drawing_end_ = drawing_begin_ + drawing.duration();
+  return drawing_begin_;
 }
 
 bool LedMotion::isDrawing(double time) const {
-  if (!drawing_)
-    return false;
-  const double since = time - arrival_ - drawing_->rest();
-  return 0.0 <= since && since <= drawing_->duration();
+  return drawing_begin_ <= time && time <= drawing_end_;
 }
 
 }  // namespace wiimote_tracker::simulation

@@ -2,12 +2,11 @@
 #define WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
 
 #include "drawing.h"
-#include "wave_path.h"
 
 #include <Eigen/Core>
 
 #include <cstdint>
-#include <optional>
+#include <functional>
 
 namespace wiimote_tracker::simulation {
 
@@ -54,11 +53,10 @@ class LedMotion {
   double arrival_ = 0.0;  ///< End of the straight part [s].
   Eigen::Vector3d from_;
   Eigen::Vector3d to_;
-  double radius_ = 0.0;             ///< Of the following circle; 0: none.
-  double angular_speed_ = 0.0;      ///< [rad/s]
-  std::optional<WavePath> wave_;    ///< Follows the line.
-  std::optional<Drawing> drawing_;  ///< Follows the line, centred at middle_.
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
+  /// Position by the time since the arrival [s]; empty: it stays.
+  std::function<Eigen::Vector3d(double)> then_;
+  double drawing_begin_ = 0.0;  ///< Without the rests [s].
+  double drawing_end_ = -1.0;   ///< Before the beginning: it does not draw.
 };
 
 }  // namespace wiimote_tracker::simulation

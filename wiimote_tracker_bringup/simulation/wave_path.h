@@ -11,8 +11,6 @@ namespace wiimote_tracker::simulation {
 /// periods per axis, so that laps do not repeat.
 class WavePath {
  public:
-  WavePath() = default;
-
   /// @param sides of the box [m, > 0], which contains the path. @param speed long-term RMS [m/s, >
   /// 0].
   /// @param seed selects the path.
@@ -28,11 +26,9 @@ class WavePath {
   static constexpr int kParts = 2;
   static constexpr double kShare[kParts] = {0.7, 0.3};  ///< Of half a side; their sum is 1.
 
-  Eigen::Vector3d middle_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d half_sides_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix<double, 3, kParts> frequency_ =
-      Eigen::Matrix<double, 3, kParts>::Zero();                                        ///< [rad/s]
-  Eigen::Matrix<double, 3, kParts> phase_ = Eigen::Matrix<double, 3, kParts>::Zero();  ///< [rad]
+  Eigen::Vector3d middle_, half_sides_;
+  Eigen::Matrix<double, 3, kParts> frequency_;  ///< [rad/s]
+  Eigen::Matrix<double, 3, kParts> phase_;      ///< [rad]
 };
 
 }  // namespace wiimote_tracker::simulation

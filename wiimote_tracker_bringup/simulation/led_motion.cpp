@@ -1,8 +1,9 @@
 #include "led_motion.h"
 
-#include "wave_path.h"
-
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <random>
 
 namespace wiimote_tracker::simulation {
 namespace {
@@ -11,6 +12,37 @@ namespace {
 /// and stops with the least jerk (Flash and Hogan 1985).
 double wayOfHand(double time) {
   return time * time * time * (10.0 + time * (6.0 * time - 15.0));
+}
+
+/// See LedMotion::wave(): two oscillations of incommensurable periods per axis.
+LedMotion::Path wavePath(const Eigen::Vector3d& middle,
+                         const Eigen::Vector3d& sides,
+                         double speed,
+                         std::uint32_t seed) {
+  constexpr int kParts = 2;
+  constexpr std::array<double, kParts> kShares{0.7, 0.3};  // of half a side; their sum is 1
+  std::mt19937 random(seed);
+  // Not std::uniform_real_distribution, whose numbers depend on the library.
+  const auto between = [&random](double low, double high) {
+    return low + (high - low) * (static_cast<double>(random()) / 4294967296.0);
+  };
+  Eigen::Matrix<double, 3, kParts> amplitude;  // [m]
+  Eigen::Matrix<double, 3, kParts> frequency;  // [rad/s]
+  Eigen::Matrix<double, 3, kParts> phase;      // [rad]
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int part = 0; part < kParts; ++part) {
+      amplitude(axis, part) = 0.5 * sides(axis) * kShares[static_cast<std::size_t>(part)];
+      frequency(axis, part) = part == 0 ? between(0.7, 1.3) : between(1.7, 2.7);
+      phase(axis, part) = between(0.0, 2.0 * M_PI);
+    }
+  }
+  // The mean square of a cosine is 1/2.
+  frequency *= speed / std::sqrt(0.5 * amplitude.cwiseProduct(frequency).squaredNorm());
+  return [=](double time) -> Eigen::Vector3d {
+    return middle + amplitude.cwiseProduct((frequency * time + phase).array().sin().matrix())
+                        .rowwise()
+                        .sum();
+  };
 }
 
 }  // namespace
@@ -51,9 +83,9 @@ double LedMotion::wave(double time,
                        const Eigen::Vector3d& sides,
                        double speed,
                        std::uint32_t seed) {
-  const WavePath path(middle, sides, speed, seed);
-  line(time, path.position(0.0), speed);
-  then_ = [path](double since) { return path.position(since); };
+  const Path path = wavePath(middle, sides, speed, seed);
+  line(time, path(0.0), speed);
+  then_ = path;
   return arrival_;
 }
 

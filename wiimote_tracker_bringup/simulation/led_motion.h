@@ -14,6 +14,9 @@ namespace wiimote_tracker::simulation {
 /// drawing. A new motion starts at the present position. Positions [m], times [s], speeds [m/s].
 class LedMotion {
  public:
+  /// Position by the time since its start.
+  using Path = std::function<Eigen::Vector3d(double)>;
+
   explicit LedMotion(const Eigen::Vector3d& position) : from_(position), to_(position) {}
 
   /// Position at `time`; before the present motion, its starting point.
@@ -32,8 +35,9 @@ class LedMotion {
   /// @returns the start of the first lap.
   double circle(double time, const Eigen::Vector3d& center, double radius, double speed);
 
-  /// From `time` on moves straight to the start of a WavePath, then follows it.
-  /// @returns the start of the wave.
+  /// From `time` on moves straight to the start of a wave, then follows it: a smooth path of a hand
+  /// that waves through a box with these `sides` [m, > 0], selected by `seed`, whose laps do not
+  /// repeat. `speed`: RMS over a long time [m/s, > 0]. @returns the start of the wave.
   double wave(double time,
               const Eigen::Vector3d& middle,
               const Eigen::Vector3d& sides,
@@ -53,8 +57,7 @@ class LedMotion {
   double arrival_ = 0.0;  ///< End of the straight part [s].
   Eigen::Vector3d from_;
   Eigen::Vector3d to_;
-  /// Position by the time since the arrival [s]; empty: it stays.
-  std::function<Eigen::Vector3d(double)> then_;
+  Path then_;                   ///< From the arrival on; empty: it stays.
   double drawing_begin_ = 0.0;  ///< Without the rests [s].
   double drawing_end_ = -1.0;   ///< Before the beginning: it does not draw.
 };

@@ -106,10 +106,12 @@ void RecordedRemote::recordedHostSent(const Report& report) {
 }
 
 void RecordedRemote::hostSends(const Report& report) {
-  if (report.id() == protocol::kReadMemoryId)
+  if (report.id() == protocol::kReadMemoryId) {
     own_read_ = report;
-  else if (report.id() == protocol::kWriteMemoryId)
+  } else if (report.id() == protocol::kWriteMemoryId) {
     store(report, own_values_);
+    store(report, memory_);
+  }
 }
 
 void RecordedRemote::answer(const Report& request, std::deque<Report>& answers) const {
@@ -146,15 +148,12 @@ void RecordedRemote::answerRead(const Report& request, std::deque<Report>& answe
     packet.size = Report::kCapacity;
     for (std::size_t i = 0; i < packet_size; ++i) {
       const std::uint32_t key = place + static_cast<std::uint32_t>(i);
-      auto value = own_values_.find(key);
-      if (value == own_values_.end()) {
-        value = memory_.find(key);
-        if (value == memory_.end()) {
-          packet.bytes[3] = 0xf0 | kNoSuchMemory;
-          std::fill(packet.bytes.begin() + 6, packet.bytes.end(), std::uint8_t{0});
-          answers.push_back(packet);
-          return;
-        }
+      const auto value = memory_.find(key);
+      if (value == memory_.end()) {
+        packet.bytes[3] = 0xf0 | kNoSuchMemory;
+        std::fill(packet.bytes.begin() + 6, packet.bytes.end(), std::uint8_t{0});
+        answers.push_back(packet);
+        return;
       }
       packet.bytes[6 + i] = value->second;
     }

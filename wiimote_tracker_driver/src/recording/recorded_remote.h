@@ -55,8 +55,8 @@ class RecordedRemote {
 
   protocol::Report status_{0x20, 0, 0, 0, 0, 0, 0};
   bool status_known_ = false;
-  Memory memory_;                              ///< All memory read by the recorded host.
-  Memory settings_;                            ///< Last values written by the recorded host.
+  Memory memory_;    ///< As the recorded host read it, and the present one wrote it.
+  Memory settings_;  ///< Last values written by the recorded host.
   std::array<std::uint64_t, 256> received_{};  ///< Per report id.
 
   protocol::Report recorded_read_;  ///< Last memory request of the recorded host.

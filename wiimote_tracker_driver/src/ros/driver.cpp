@@ -23,22 +23,13 @@ namespace {
 constexpr double kReadWait = 0.1;
 constexpr double kUsersCheck = 10.0;  // [s]; takes milliseconds
 
-wiimote::Options wiimoteOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
-  wiimote::Options options;
-  options.leds = leds(p.leds, p.camera_name);
-  options.ir_format = ir_format;
-  options.sensitivity =
-      sensitivity(p.ir_sensitivity, p.ir_sensitivity_block1, p.ir_sensitivity_block2);
-  options.reply_timeout = p.reply_timeout;
-  options.silence_timeout = p.silence_timeout;
-  options.status_interval = p.status_interval;
+wiimote::Options remoteOptions(const DriverParameters& p, const RemoteSource& source) {
+  wiimote::Options options = p.remote;
+  options.ir_format = source.irFormat().value_or(options.ir_format);
   return options;
 }
 
-ImageStamper::Options stamperOptions(const DriverParameters& p, protocol::IrFormat ir_format) {
-  ImageStamper::Options options;
-  options.latency = p.latency;
-  options.estimate = p.estimate_exposure;
+ImageStamper::Options stamperOptions(ImageStamper::Options options, protocol::IrFormat ir_format) {
   if (ir_format == protocol::IrFormat::kFull)  // two reports make an image
     options.period *= 2.0;
   return options;
@@ -95,11 +86,11 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
     : parameters_(readDriverParameters(ParameterReader(private_nh), nh.getNamespace())),
       optical_frame_(parameters_.camera_name + "_optical_frame"),
       source_(parameters_, private_nh.resolveName("device")),
-      ir_format_(source_.irFormat().value_or(irFormat(parameters_.ir_mode))),
+      options_(remoteOptions(parameters_, source_)),
       recorder_(makeRecorder(parameters_, source_, private_nh.resolveName("record"))),
-      control_(leds(parameters_.leds, parameters_.camera_name), parameters_.rumble_max),
+      control_(options_.leds, parameters_.rumble_max),
       wiimote_(
-          wiimoteOptions(parameters_, ir_format_),
+          options_,
           [this] { return open(); },
           [this] { return source_.now(); }),
       camera_info_(nh,
@@ -115,13 +106,13 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
       battery_(nh, parameters_.camera_name, parameters_.battery_low),
       joy_(nh, optical_frame_),
       log_(parameters_.camera_name, !source_.recorded()),
-      stamper_(stamperOptions(parameters_, ir_format_)),
+      stamper_(stamperOptions(parameters_.stamper, options_.ir_format)),
       statistics_(steadyNow()),
       reader_priority_("normal"),
       settings_(private_nh, parameters_, control_),
       feedback_(nh, parameters_.camera_name, control_),
-      diagnostics_(ir_format_,
-                   1.0 / stamperOptions(parameters_, ir_format_).period,
+      diagnostics_(options_.ir_format,
+                   1.0 / stamperOptions(parameters_.stamper, options_.ir_format).period,
                    parameters_.battery_low),
       updater_(nh, private_nh, private_nh.getNamespace()),
       users_due_(steadyNow()) {

@@ -60,7 +60,7 @@ class Driver {
   const std::string optical_frame_;
 
   RemoteSource source_;
-  const protocol::IrFormat ir_format_;
+  const wiimote::Options options_;                       // a replay has its own image format
   const std::shared_ptr<recording::Recorder> recorder_;  // null: not recorded
   RemoteControl control_;
 

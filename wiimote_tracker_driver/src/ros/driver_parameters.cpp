@@ -1,7 +1,5 @@
 #include "driver_parameters.h"
 
-#include "transport/transport.h"
-
 #include <array>
 #include <cctype>
 #include <cstddef>
@@ -27,15 +25,20 @@ std::string lastPart(const std::string& name_space) {
   return name.empty() ? "wiimote" : name;
 }
 
-// Checks what a range cannot express.
-void check(const DriverParameters& p, const ParameterReader& reader) {
-  transport::DeviceName device;
+protocol::IrFormat irFormat(const std::string& ir_mode) {
+  if (ir_mode == "basic")
+    return protocol::IrFormat::kBasic;
+  return ir_mode == "full" ? protocol::IrFormat::kFull : protocol::IrFormat::kExtended;
+}
+
+// Reads what is named, and checks what a range cannot express.
+void interpret(const std::string& device, const ParameterReader& reader, DriverParameters& p) {
   try {
-    device = transport::parseDeviceName(p.device);
+    p.device = transport::parseDeviceName(device);
   } catch (const transport::BadDeviceName& e) {
     throw ParameterError(reader.nameOf("device") + ": " + e.what());
   }
-  if (device.kind == transport::DeviceName::Kind::kReplay && !p.record.empty())
+  if (p.device.kind == transport::DeviceName::Kind::kReplay && !p.record.empty())
     throw ParameterError(reader.nameOf("record") +
                          " is set, but a replay is not recorded again: leave it empty, or name a "
                          "remote as the device");
@@ -46,22 +49,25 @@ void check(const DriverParameters& p, const ParameterReader& reader) {
     throw ParameterError(reader.nameOf("camera_name") + " is '" + p.camera_name +
                          "', but must consist of letters, digits and underscores");
   try {
-    sensitivity(p.ir_sensitivity, p.ir_sensitivity_block1, p.ir_sensitivity_block2);
+    p.remote.sensitivity =
+        sensitivity(p.ir_sensitivity, p.ir_sensitivity_block1, p.ir_sensitivity_block2);
   } catch (const std::invalid_argument& e) {
     throw ParameterError(reader.nameOf("ir_sensitivity_block1") + " and _block2: " + e.what());
   }
+  p.remote.leds = leds(p.leds, p.camera_name);
 }
 
 }  // namespace
 
 DriverParameters readDriverParameters(ParameterReader* reader, const std::string& name_space) {
   DriverParameters p;
-  reader->read("device", &p.device);
+  const auto device = reader->optional<std::string>("device", "");
   reader->read("camera_name", &p.camera_name);
   reader->read("camera_info_url", &p.camera_info_url);
-  reader->read("latency", &p.latency, 0.0, 1.0);
-  reader->read("estimate_exposure", &p.estimate_exposure);
-  p.ir_mode = reader->choice("ir_mode", p.ir_mode, {"basic", "extended", "full"});
+  reader->read("latency", &p.stamper.latency, 0.0, 1.0);
+  reader->read("estimate_exposure", &p.stamper.estimate);
+  p.remote.ir_format =
+      irFormat(reader->choice("ir_mode", "extended", {"basic", "extended", "full"}));
   p.ir_sensitivity = reader->choice("ir_sensitivity", p.ir_sensitivity, sensitivityNames());
   reader->read("ir_sensitivity_block1", &p.ir_sensitivity_block1);
   reader->read("ir_sensitivity_block2", &p.ir_sensitivity_block2);
@@ -72,21 +78,15 @@ DriverParameters readDriverParameters(ParameterReader* reader, const std::string
   reader->read("record", &p.record);
   reader->read("replay_rate", &p.replay_rate, 0.0, 1000.0);
   reader->read("realtime_priority", &p.realtime_priority, 0, 99);
-  reader->read("reply_timeout", &p.reply_timeout, 0.05, 10.0);
-  reader->read("silence_timeout", &p.silence_timeout, 0.1, 60.0);
-  reader->read("status_interval", &p.status_interval, 1.0, 86400.0);
+  reader->read("reply_timeout", &p.remote.reply_timeout, 0.05, 10.0);
+  reader->read("silence_timeout", &p.remote.silence_timeout, 0.1, 60.0);
+  reader->read("status_interval", &p.remote.status_interval, 1.0, 86400.0);
   reader->bounded("diagnostic_period", 1.0, 0.1, 3600.0);  // used by diagnostic_updater
   reader->refuseUnknown();
   if (p.camera_name.empty())
     p.camera_name = lastPart(name_space);
-  check(p, *reader);
+  interpret(device, *reader, p);
   return p;
-}
-
-protocol::IrFormat irFormat(const std::string& ir_mode) {
-  if (ir_mode == "basic")
-    return protocol::IrFormat::kBasic;
-  return ir_mode == "full" ? protocol::IrFormat::kFull : protocol::IrFormat::kExtended;
 }
 
 std::vector<std::string> sensitivityNames() {

@@ -1,7 +1,9 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_PARAMETERS_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_PARAMETERS_H
 
-#include "wiimote_tracker_driver/protocol/input_reports.h"
+#include "image_stamper.h"
+#include "transport/transport.h"
+#include "wiimote/options.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
@@ -14,12 +16,10 @@ namespace wiimote_tracker::driver {
 
 /// The parameters with their defaults; config/driver.yaml describes them.
 struct DriverParameters {
-  std::string device;
+  transport::DeviceName device;
   std::string camera_name;  ///< Empty: the last part of the node's namespace.
   std::string camera_info_url;
-  double latency = 0.0;  ///< [s]
-  bool estimate_exposure = true;
-  std::string ir_mode = "extended";
+  ImageStamper::Options stamper;
   std::string ir_sensitivity = "wii_5";
   std::string ir_sensitivity_block1;        ///< Of "custom" only, hexadecimal.
   std::string ir_sensitivity_block2;        ///< Of "custom" only, hexadecimal.
@@ -30,9 +30,7 @@ struct DriverParameters {
   std::string record;
   double replay_rate = 1.0;
   int realtime_priority = 20;
-  double reply_timeout = 0.5;     ///< [s]
-  double silence_timeout = 0.5;   ///< [s]
-  double status_interval = 60.0;  ///< [s]
+  wiimote::Options remote;  ///< Its LEDs and sensitivity are those above.
 };
 
 /// Allowed values of ir_sensitivity: the named settings, and custom.
@@ -45,9 +43,6 @@ inline DriverParameters readDriverParameters(ParameterReader reader,
                                              const std::string& name_space) {
   return readDriverParameters(&reader, name_space);
 }
-
-/// `ir_mode`: basic, extended or full.
-protocol::IrFormat irFormat(const std::string& ir_mode);
 
 /// The setting of that name, or of the blocks when it is custom.
 /// @throws std::invalid_argument with one sentence when there is no such setting.

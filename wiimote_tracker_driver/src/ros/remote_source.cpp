@@ -6,7 +6,7 @@ namespace wiimote_tracker::driver {
 
 RemoteSource::RemoteSource(const DriverParameters& parameters,
                            const std::string& device_parameter) {
-  const transport::DeviceName name = transport::parseDeviceName(parameters.device);
+  const transport::DeviceName& name = parameters.device;
   if (name.kind != transport::DeviceName::Kind::kReplay) {
     open_ = transport::opener(name);
     return;

@@ -1,18 +1,26 @@
 #include "scenarios.h"
 
 #include "air/air.h"
-#include "blocking_read.h"
 #include "bluez.h"
 #include "clock.h"
+#include "file_descriptor.h"
 #include "kernel.h"
 #include "plugged_remote.h"
 #include "process.h"
 #include "streaming.h"
 
+#include <sys/socket.h>
+#include <sys/time.h>
+
+#include <cerrno>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
+#include <cstring>
 #include <sstream>
+#include <stdexcept>
 #include <string>
+#include <thread>
 
 namespace wiimote_tracker::real_kernel {
 namespace {
@@ -56,6 +64,46 @@ void checkImages(Checks& checks, const Process& client, const Scene& scene, int 
                std::to_string(images) + " images" + (images == 0 ? ": " + client.output() : ""));
   checks.check("each shows the lights of a frame", images > 0 && wrong == 0,
                std::to_string(wrong) + " wrong" + (wrong > 0 ? ": " + first_wrong : ""));
+}
+
+/// struct sockaddr_l2 of BlueZ's headers, which are not needed otherwise.
+struct L2capAddress {
+  sa_family_t family;
+  std::uint16_t psm;
+  std::uint8_t address[6];
+  std::uint16_t channel;
+  std::uint8_t address_type;
+};
+
+/// Whether a program that waits in a read of a Bluetooth socket keeps that socket locked. Then the
+/// kernel can deliver nothing more, to any socket: so in Linux 5.10.223 (Debian 11), which has
+/// "Bluetooth: af_bluetooth: Fix Use-After-Free in bt_sock_recvmsg" without the later "Fix
+/// deadlock". @param address of a remote that can be connected to
+/// @throws std::runtime_error if it cannot.
+bool readsLockTheSocket(const std::string& address) {
+  constexpr int kL2capProtocol = 0;
+  constexpr long kReadTime = 1;        // [s]
+  constexpr double kReadBegins = 0.3;  // [s] By the guest's clock, until the reader waits.
+  const FileDescriptor socket(::socket(AF_BLUETOOTH, SOCK_SEQPACKET, kL2capProtocol));
+  L2capAddress remote{};
+  remote.family = AF_BLUETOOTH;
+  remote.psm = kSdpPsm;
+  const Address bytes = addressFrom(address);
+  std::memcpy(remote.address, bytes.data(), bytes.size());
+  if (::connect(socket.get(), reinterpret_cast<const sockaddr*>(&remote), sizeof(remote)) != 0)
+    throw std::runtime_error("cannot connect to " + address + ": " + std::strerror(errno));
+  const timeval timeout{kReadTime, 0};
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
+  std::thread reader([&socket] {
+    char byte;
+    static_cast<void>(::recv(socket.get(), &byte, 1, 0));
+  });
+  sleepFor(kReadBegins);
+  const double begin = now();
+  ::listen(socket.get(), 1);  // is refused, but needs the lock
+  const bool waited = now() - begin > 0.5 * (static_cast<double>(kReadTime) - kReadBegins);
+  reader.join();
+  return waited;
 }
 
 }  // namespace

@@ -12,9 +12,5 @@ constexpr char kPurpose[] =
 }  // namespace
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::runNode(argc, argv, "driver", kPurpose,
-                                  [](const auto& nh, const auto& private_nh) {
-                                    const wiimote_tracker::driver::Driver driver(nh, private_nh);
-                                    wiimote_tracker::spin();
-                                  });
+  return wiimote_tracker::runNode<wiimote_tracker::driver::Driver>(argc, argv, "driver", kPurpose);
 }

@@ -19,8 +19,9 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Longest wait for a report [s], which bounds the delay of callbacks' requests and of shutdown.
-constexpr double kReadWait = 0.1;
+// Longest wait for a report or a remote [s], which bounds the delay of callbacks' requests and of
+// shutdown.
+constexpr double kLongestWait = 0.1;
 constexpr double kUsersCheck = 10.0;  // [s]; takes milliseconds
 
 wiimote::Options remoteOptions(const DriverParameters& p, const RemoteSource& source) {
@@ -132,11 +133,7 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
 
 Driver::~Driver() {
   diagnostics_timer_.stop();
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stop_ = true;
-  }
-  stopping_.notify_all();
+  stop_ = true;
   reader_.join();
 }
 
@@ -152,7 +149,7 @@ void Driver::run() {
 
 void Driver::readAndPublish() {
   control_.apply(wiimote_, source_.now());
-  const auto image = wiimote_.step(kReadWait);
+  const auto image = wiimote_.step(kLongestWait);
   if (wiimote_.linkChanges() != seen_changes_) {
     seen_changes_ = wiimote_.linkChanges();
     linkChanged();
@@ -175,11 +172,9 @@ void Driver::raisePriority() {
 
 // Waits until the remote may need attention. @returns false at shutdown.
 bool Driver::waitForTurn() {
-  const double idle = wiimote_.idleTime();
-  if (idle > 0.0 && !source_.pass(std::min(idle, kReadWait))) {
-    std::unique_lock<std::mutex> lock(mutex_);
-    stopping_.wait_for(lock, std::chrono::duration<double>(idle), [this] { return stop_.load(); });
-  }
+  const double idle = std::min(wiimote_.idleTime(), kLongestWait);
+  if (idle > 0.0 && !source_.pass(idle))
+    std::this_thread::sleep_for(std::chrono::duration<double>(idle));
   return !stop_;
 }
 

@@ -23,7 +23,6 @@
 #include <boost/circular_buffer.hpp>
 
 #include <atomic>
-#include <condition_variable>
 #include <cstdint>
 #include <memory>
 #include <mutex>
@@ -85,7 +84,6 @@ class Driver {
   ImageTime time_;  // of the last image that was stamped
   wiimote::StreamStatistics statistics_;
   std::string reader_priority_;
-  std::atomic<bool> stop_{false};  // set under mutex_
 
   // For callbacks.
   LiveSettings settings_;
@@ -97,7 +95,7 @@ class Driver {
   std::string recording_error_;  // logged already
   double users_due_;             // [s]
 
-  std::condition_variable stopping_;
+  std::atomic<bool> stop_{false};
   std::thread reader_;
 };
 

@@ -2,7 +2,8 @@
 
 #include "byte.h"
 
-#include <optional>
+#include <cstddef>
+#include <map>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
@@ -13,35 +14,16 @@ constexpr std::uint8_t kButtonMaskLow = 0x9f;
 
 /// Contents of a data report after the buttons, in this order, each from its first byte.
 struct Layout {
-  bool acceleration = false;
-  std::ptrdiff_t infrared = 0;
-  std::ptrdiff_t extension = 0;
+  bool acceleration;
+  std::ptrdiff_t infrared;
+  std::ptrdiff_t extension;
 };
 
-std::optional<Layout> layoutOf(std::uint8_t id) {
-  switch (id) {
-    case 0x30:
-      return Layout{};
-    case 0x31:
-      return Layout{true, 0, 0};
-    case 0x32:
-      return Layout{false, 0, 8};
-    case 0x33:
-      return Layout{true, 12, 0};
-    case 0x34:
-      return Layout{false, 0, 19};
-    case 0x35:
-      return Layout{true, 0, 16};
-    case 0x36:
-      return Layout{false, 10, 9};
-    case 0x37:
-      return Layout{true, 10, 6};
-    case kExtensionOnly:
-      return Layout{false, 0, 21};
-    default:
-      return std::nullopt;
-  }
-}
+const std::map<std::uint8_t, Layout> kLayouts{
+    {0x30, {false, 0, 0}},  {0x31, {true, 0, 0}},   {0x32, {false, 0, 8}},
+    {0x33, {true, 12, 0}},  {0x34, {false, 0, 19}}, {0x35, {true, 0, 16}},
+    {0x36, {false, 10, 9}}, {0x37, {true, 10, 6}},  {kExtensionOnly, {false, 0, 21}},
+};
 
 /// Sets bits 5 and 6 of a button byte, which carry bits of the acceleration.
 void addBits(std::uint8_t& buttons, int bits) {
@@ -77,13 +59,13 @@ Bytes beginReport(std::uint8_t id, std::uint16_t buttons) {
 }
 
 bool isDataReport(std::uint8_t id) {
-  return id == kFirstHalf || id == kSecondHalf || layoutOf(id);
+  return id == kFirstHalf || id == kSecondHalf || kLayouts.count(id) > 0;
 }
 
 Bytes dataReport(std::uint8_t id, const Sample& sample) {
   if (id == kFirstHalf || id == kSecondHalf)
     return half(id == kFirstHalf, sample);
-  const Layout layout = *layoutOf(id);
+  const Layout& layout = kLayouts.at(id);
   Bytes report = beginReport(id, sample.buttons);
   if (layout.acceleration)
     appendAcceleration(sample.acceleration, report);

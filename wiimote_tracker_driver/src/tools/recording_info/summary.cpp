@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -20,40 +21,20 @@ using recording::Record;
 constexpr double kGap = 0.05;  // [s] About five lost reports.
 
 const char* nameOf(std::uint8_t id) {
-  switch (id) {
-    case 0x10:
-      return "rumble";
-    case 0x11:
-      return "LEDs";
-    case 0x12:
-      return "report mode";
-    case 0x13:
-      return "camera clock";
-    case 0x15:
-      return "status request";
-    case 0x16:
-      return "write memory";
-    case 0x17:
-      return "read memory";
-    case 0x1a:
-      return "camera logic";
-    case 0x20:
-      return "status";
-    case 0x21:
-      return "memory";
-    case 0x22:
-      return "acknowledgement";
-    case 0x33:
-      return "extended infrared";
-    case 0x36:
-    case 0x37:
-      return "basic infrared";
-    case 0x3e:
-    case 0x3f:
-      return "full infrared";
-    default:
-      return protocol::isDataReport(id) ? "other data" : "unknown";
-  }
+  static const std::map<std::uint8_t, const char*> kNames{
+      {0x10, "rumble"},          {0x11, "LEDs"},
+      {0x12, "report mode"},     {0x13, "camera clock"},
+      {0x15, "status request"},  {0x16, "write memory"},
+      {0x17, "read memory"},     {0x1a, "camera logic"},
+      {0x20, "status"},          {0x21, "memory"},
+      {0x22, "acknowledgement"}, {0x33, "extended infrared"},
+      {0x36, "basic infrared"},  {0x37, "basic infrared"},
+      {0x3e, "full infrared"},   {0x3f, "full infrared"},
+  };
+  const auto known = kNames.find(id);
+  if (known != kNames.end())
+    return known->second;
+  return protocol::isDataReport(id) ? "other data" : "unknown";
 }
 
 std::string dateOf(double seconds) {

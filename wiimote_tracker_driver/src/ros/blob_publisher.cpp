@@ -12,18 +12,11 @@ constexpr int kCell = 8;  // [px] Side of a cell of a bounding box.
 constexpr int kLastRow = protocol::kSensorHeight - 1;
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
-std::uint8_t irMode(IrFormat format) {
-  switch (format) {
-    case IrFormat::kBasic:
-      return IrBlobArray::IR_MODE_BASIC;
-    case IrFormat::kExtended:
-      return IrBlobArray::IR_MODE_EXTENDED;
-    case IrFormat::kFull:
-      return IrBlobArray::IR_MODE_FULL;
-    default:
-      return IrBlobArray::IR_MODE_UNKNOWN;
-  }
-}
+// Both are the values of the camera's mode register.
+static_assert(static_cast<int>(IrFormat::kNone) == IrBlobArray::IR_MODE_UNKNOWN &&
+              static_cast<int>(IrFormat::kBasic) == IrBlobArray::IR_MODE_BASIC &&
+              static_cast<int>(IrFormat::kExtended) == IrBlobArray::IR_MODE_EXTENDED &&
+              static_cast<int>(IrFormat::kFull) == IrBlobArray::IR_MODE_FULL);
 
 }  // namespace
 
@@ -69,7 +62,7 @@ void BlobPublisher::publish(const protocol::DataReport& image,
   message->width = protocol::kSensorWidth;
   message->height = protocol::kSensorHeight;
   message->max_blobs = static_cast<std::uint32_t>(image.spots.size());
-  message->ir_mode = irMode(image.ir_format);
+  message->ir_mode = static_cast<std::uint8_t>(image.ir_format);
   message->blobs.reserve(image.spots.size());
   for (std::size_t slot = 0; slot < image.spots.size(); ++slot) {
     if (image.spots[slot].seen)

@@ -3,6 +3,7 @@
 #include "ir_position.h"
 
 #include <algorithm>
+#include <map>
 
 namespace wiimote_tracker::protocol {
 namespace {
@@ -127,23 +128,17 @@ std::optional<MemoryPacket> decodeMemoryPacket(const Report& report) {
 }
 
 const char* errorName(std::uint8_t error) {
-  switch (error) {
-    case 0:
-      return "none";
-    case 2:
-      return "sent on the wrong Bluetooth channel";
-    case 4:
-      return "busy with another read";
-    case 5:
-    case 8:
-      return "address out of range";
-    case 6:
-      return "no such address space";
-    case 7:
-      return "no answer at this address";
-    default:
-      return "unknown";
-  }
+  static const std::map<std::uint8_t, const char*> kNames{
+      {0, "none"},
+      {2, "sent on the wrong Bluetooth channel"},
+      {4, "busy with another read"},
+      {5, "address out of range"},
+      {6, "no such address space"},
+      {7, "no answer at this address"},
+      {8, "address out of range"},
+  };
+  const auto known = kNames.find(error);
+  return known == kNames.end() ? "unknown" : known->second;
 }
 
 std::optional<Acknowledgement> decodeAcknowledgement(const Report& report) {

@@ -8,11 +8,9 @@
 #include <linux/input.h>
 #include <linux/uhid.h>
 #include <poll.h>
-#include <sys/eventfd.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -30,6 +28,7 @@ namespace {
 constexpr char kPath[] = "/dev/uhid";
 constexpr std::uint32_t kNintendo = 0x057e;
 constexpr std::size_t kLargestReport = 22;
+constexpr int kLongestWait = 50;  // [ms] Until the thread sees that it is to end.
 
 using Clock = std::chrono::steady_clock;
 
@@ -55,19 +54,15 @@ struct UhidDevice::State {
       : owner(uhid_device),
         address(std::move(device_address)),
         options(device_options),
-        uhid(::open(kPath, O_RDWR | O_CLOEXEC | O_NONBLOCK)),
-        wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+        uhid(::open(kPath, O_RDWR | O_CLOEXEC | O_NONBLOCK)) {
     if (!uhid.open())
       fail(std::string("cannot open ") + kPath + " (load the module uhid and be root)");
-    if (!wake.open())
-      fail("eventfd");
   }
 
   UhidDevice& owner;
   const std::string address;
   const Options options;
   const FileDescriptor uhid;
-  const FileDescriptor wake;
 
   struct InTransit {
     Clock::time_point due;
@@ -174,23 +169,20 @@ struct UhidDevice::State {
     }
   }
 
-  /// Time until the next report is due [ms, rounded up]; negative when none is in transit.
+  /// Time until the next report is due [ms, rounded up], at most kLongestWait.
   int timeout() const {
     const std::lock_guard<std::mutex> lock(owner.mutex_);
     if (in_transit.empty())
-      return -1;
+      return kLongestWait;
     const auto wait = std::chrono::duration_cast<std::chrono::milliseconds>(in_transit.front().due -
                                                                             Clock::now());
-    return wait.count() < 0 ? 0 : 1 + static_cast<int>(wait.count());
+    return std::clamp(1 + static_cast<int>(wait.count()), 0, kLongestWait);
   }
 
   void run() {
     while (!stop) {
-      std::array<pollfd, 2> fds{};
-      fds[0].fd = uhid.get();
-      fds[1].fd = wake.get();
-      fds[0].events = fds[1].events = POLLIN;
-      if (::poll(fds.data(), fds.size(), timeout()) > 0 && fds[0].revents != 0)
+      pollfd fd{uhid.get(), POLLIN, 0};
+      if (::poll(&fd, 1, timeout()) > 0)
         handleEvents();
       deliver();
     }
@@ -206,10 +198,6 @@ UhidDevice::UhidDevice(const std::string& address, const Options& options)
 
 UhidDevice::~UhidDevice() {
   state_->stop = true;
-  const std::uint64_t one = 1;
-  if (::write(state_->wake.get(), &one, sizeof(one)) < 0) {
-    // The counter is full: the thread is already being woken.
-  }
   state_->thread.join();
   // Closing the descriptor unplugs the device.
 }

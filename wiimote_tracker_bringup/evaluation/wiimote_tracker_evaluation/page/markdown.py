@@ -7,14 +7,15 @@ TITLE = 'Evaluation of the Wiimote tracker'
 
 
 def page(report):
-    lines = ['# ' + TITLE, '', words.about(report), '', '## In short', '']
+    lines, short = ['# ' + TITLE, '', words.about(report)], []
     for run in report.runs:
-        lines += ['- ' + sentence for sentence in run.summaries]
+        short += ['- ' + sentence for sentence in run.summaries]
         if run.failure:
-            lines.append(f'- **{run.title} failed:** {run.failure}')
+            short.append(f'- **{run.title} failed:** {run.failure}')
+    lines += ['', '## In short', ''] + short if short else []
     for run in report.runs:
         lines += section(run)
-    lines += ['', '## Every figure']
+    lines += ['', '## Every figure', '', 'As in figures.json.']
     for run in report.runs:
         if run.figures:
             lines += ['', '### ' + run.title, ''] + figures_table(run)
@@ -22,7 +23,7 @@ def page(report):
 
 
 def section(run):
-    lines = ['', '## ' + run.title, '', f'*{words.kinds(run)}*']
+    lines = ['', '## ' + run.title, '', f'{words.kinds(run)}; {words.duration(run.duration)}']
     for each in run.contents:
         lines.append('')
         if isinstance(each, Text):
@@ -44,12 +45,13 @@ def content_table(run, table):
     link = f'[{table.name}.csv]({run.name}/{table.name}.csv)'
     if not table.shown:
         return [f"{table.caption or words.plain(table.name) + '.'} {len(table.rows)} rows: {link}"]
-    lines = [row([words.with_unit(name, unit) for name, unit in table.columns]),
-             '|' + '---|' * len(table.columns)]
+    signs = ['---' if any(isinstance(cells[i], str) for cells in table.rows) else '--:'
+             for i in range(len(table.columns))]
+    lines = [row([words.with_unit(name, unit) for name, unit in table.columns]), row(signs)]
     lines += [row([words.number(cell) for cell in cells]) for cells in table.rows]
     return lines + ['', (table.caption + ' ' if table.caption else '') + link]
 
 
 def figures_table(run):
-    return [row(['', 'value', '95 %', 'samples', '']), '|---|---|---|---|---|'] + [
+    return [row(['', 'value', '95 %', 'samples', '']), '|---|--:|--:|--:|---|'] + [
         row(words.cells(figure)) for figure in run.figures]

@@ -12,6 +12,7 @@ import scipy.stats
 
 from wiimote_tracker_evaluation import (load, processes, programs, progress, results_table,
                                         rigs, scene, statistics)
+from wiimote_tracker_evaluation.errors import ExperimentError
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
@@ -176,7 +177,7 @@ def test_a_fresh_run_of_another_length_agrees_at_the_nominal_rate():
 
 @pytest.mark.parametrize('text', ['no marks', README + README, README.replace('begin', 'x')])
 def test_table_needs_its_marks(text):
-    with pytest.raises(results_table.TableError, match='document'):
+    with pytest.raises(ExperimentError, match='document'):
         results_table.written(text, content_of(1.0, None))
 
 
@@ -222,7 +223,7 @@ def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path
     programs.run_programs([['true'], ['true'], ['true']], log, lambda done, of: ended.append(
         (done, of)))
     assert ended[-1] == (3, 3)
-    with pytest.raises(programs.ExperimentError, match='no such luck'):
+    with pytest.raises(ExperimentError, match='no such luck'):
         programs.run_programs([['sh', '-c', 'echo no such luck; exit 3']], log)
 
 

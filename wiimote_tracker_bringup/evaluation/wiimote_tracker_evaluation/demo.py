@@ -9,6 +9,7 @@ import time
 from wiimote_tracker_evaluation import bound, experiment, scene as scene_module, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
+from wiimote_tracker_evaluation.output import prepare
 from wiimote_tracker_evaluation.processes import ProcessEnded
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.terminal import Terminal
@@ -40,23 +41,6 @@ class Progress(Terminal):
                                             time.monotonic() - self._start, text))
 
 
-def prepare_output(folder, cameras):
-    """Makes the output folder and removes results of an earlier run."""
-    try:
-        os.makedirs(folder, exist_ok=True)
-        for name in (['summary.json', 'rig.yaml', 'rig.yaml.bak', 'demo.bag', 'demo.bag.active',
-                      'points.csv', 'tracks.png', 'tracks.gif', 'nodes.log']
-                     + [camera + ending for camera in cameras for ending in ('.yaml', '.yaml.bak')]):
-            path = os.path.join(folder, name)
-            if os.path.exists(path):
-                os.remove(path)
-        with open(os.path.join(folder, 'nodes.log'), 'w'):
-            pass
-    except OSError as error:
-        raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '
-                              'with --output')
-
-
 def has_display():
     return bool(os.environ.get('DISPLAY') or os.environ.get('WAYLAND_DISPLAY'))
 
@@ -70,7 +54,10 @@ class Demo:
         self._mode = mode
         self._progress = Progress(8)
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
-        prepare_output(output, [camera.name for camera in self._scene.cameras])
+        prepare(output, [
+            'summary.json', 'demo.bag', 'demo.bag.active', 'points.csv', 'tracks.png', 'tracks.gif',
+            'nodes.log'] + [name + ending for name in ['rig', *(c.name for c in self._scene.cameras)]
+                            for ending in ('.yaml', '.yaml.bak')])
 
     def run(self):
         try:
@@ -81,11 +68,9 @@ class Demo:
             stack.stop_all()
 
     def file(self, name):
-        """Path of a file in the output folder."""
         return os.path.join(self._output, name)
 
     def _launch(self):
-        """Starts a separate master, the simulated rig, the tracker, and the recorder."""
         self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
         self._progress.line('Starting rviz.' if has_display() else
                             'No display: instead of rviz there will be a film, tracks.gif.')
@@ -152,7 +137,6 @@ class Demo:
         return segments, min(samples)
 
     def _report_view(self):
-        """Reports which points each camera misses."""
         complete = True
         for name, points in (('test point', experiment.TEST_POINTS),
                              ('circle point', experiment.circle_points())):

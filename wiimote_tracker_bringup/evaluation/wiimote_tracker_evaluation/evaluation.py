@@ -2,7 +2,6 @@
 
 import argparse
 import os
-import shutil
 import sys
 import time
 import traceback
@@ -11,6 +10,7 @@ from typing import List, Optional
 from wiimote_tracker_evaluation import ranges, rigs, sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
+from wiimote_tracker_evaluation.output import prepare
 from wiimote_tracker_evaluation.page import write_report
 from wiimote_tracker_evaluation.processes import ProcessEnded
 from wiimote_tracker_evaluation.progress import Progress
@@ -18,10 +18,6 @@ from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.section import Run
 
 REPORT_FILES = ('report.html', 'report.md', 'figures.json')
-
-
-class OutputError(Exception):
-    """The folder for the results cannot be used; the text says why and what to do."""
 
 
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
@@ -105,20 +101,6 @@ def folders_in(folder: str) -> List[str]:
     return [entry for entry in os.scandir(folder) if entry.is_dir()] if os.path.isdir(folder) else []
 
 
-def prepare(folder: str, names: List[str]) -> None:
-    """Makes the output folder and removes files of an earlier run that this one writes."""
-    try:
-        os.makedirs(folder, exist_ok=True)
-        for name in REPORT_FILES:
-            if os.path.exists(os.path.join(folder, name)):
-                os.remove(os.path.join(folder, name))
-        for name in names:
-            shutil.rmtree(os.path.join(folder, name), ignore_errors=True)
-    except OSError as error:
-        raise OutputError(f'cannot write to {folder}: {error.strerror}; choose another folder '
-                          'with --output')
-
-
 def carry_out(module, run, live):
     """Runs a section and records its failure; empty: none."""
     try:
@@ -137,7 +119,7 @@ def carry_out(module, run, live):
 def evaluate(options: argparse.Namespace) -> int:
     """Runs the sections. Returns 0 if all succeeded."""
     modules = [sections.load(name) for name in options.sections]
-    prepare(options.output, [module.NAME for module in modules])
+    prepare(options.output, [*REPORT_FILES, *(module.NAME for module in modules)])
     progress = Progress([sections.seconds(module.NAME, options.quick) for module in modules])
     begin, runs = time.time(), []
     try:
@@ -176,6 +158,6 @@ def main(arguments: Optional[List[str]] = None) -> int:
         return evaluate(options)
     except Interrupted:
         return 130
-    except OutputError as error:
+    except ExperimentError as error:
         print(error, file=sys.stderr)
         return 1

@@ -9,6 +9,7 @@ from typing import Dict, List, Optional, Tuple
 import numpy as np
 
 from wiimote_tracker_evaluation import statistics
+from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.page import words
 
 Measurement = Tuple[float, Tuple[float, float]]  # value, its 95 % interval
@@ -16,12 +17,7 @@ ROUNDING = 0.005  # relative, of the table's three digits
 BEGIN, END = '<!-- results: begin -->', '<!-- results: end -->'
 
 
-class TableError(Exception):
-    """The table cannot be made; the text says why and what to do."""
-
-
 def cells(entry: Dict) -> List[str]:
-    """A figure's row: description, value with unit, interval, origin."""
     description, value, interval, _, kind = words.cells(types.SimpleNamespace(**entry))
     return [description.replace('|', '/'), value, interval or '–', kind]
 
@@ -29,12 +25,11 @@ def cells(entry: Dict) -> List[str]:
 def headlines(content: Dict) -> List[Dict]:
     entries = [entry for entry in content['figures'] if entry['headline']]
     if not entries:
-        raise TableError('figures.json has no headline; run evaluate with all sections')
+        raise ExperimentError('figures.json has no headline; run evaluate with all sections')
     return entries
 
 
 def origin(content: Dict) -> str:
-    """How to get the table."""
     if not any(entry['simulated'] for entry in headlines(content)):
         return 'By `rosrun wiimote_tracker_bringup evaluate --sections recordings --recordings DIR`.'
     return 'By `rosrun wiimote_tracker_bringup evaluate%s --seed %d`, rig `%s`.' % (
@@ -44,7 +39,6 @@ def origin(content: Dict) -> str:
 
 
 def lines(content: Dict) -> List[str]:
-    """The table in Markdown."""
     return (['||value|95 % interval|how|', '|---|---|---|---|'] + [
         '|' + '|'.join(cells(entry)) + '|' for entry in headlines(content)] + [
         '', origin(content)])
@@ -53,7 +47,7 @@ def lines(content: Dict) -> List[str]:
 def split(text: str) -> Tuple[str, str, str]:
     """Text before, between and after the marks."""
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise TableError(f'the document needs the lines "{BEGIN}" and "{END}", once each')
+        raise ExperimentError(f'the document needs the lines "{BEGIN}" and "{END}", once each')
     before, rest = text.split(BEGIN)
     between, after = rest.split(END)
     return before, between, after
@@ -137,7 +131,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
         text = written(text, content)  # before the document is emptied: it may refuse
         with open(options.document, 'w', encoding='utf-8') as file:
             file.write(text)
-    except (OSError, ValueError, TableError) as error:
+    except (OSError, ValueError, ExperimentError) as error:
         print(error, file=sys.stderr)
         return 1
     return 0

@@ -56,15 +56,14 @@ class Setting:
 
 
 def run(run):
-    rigs_wanted = QUICK if run.quick else FULL
-    seconds = 4.0 if run.quick else 15.0
+    rigs_wanted, seconds = (QUICK, 4.0) if run.quick else (FULL, 15.0)
     of = sum(len(settings) for _, settings in rigs_wanted)
     measured = []
     for cameras, settings in rigs_wanted:
         full_stack = FullStack(run, cameras)
         for leds, busy in settings:
-            run.progress(0.9 * len(measured) / of, 1.0, '%d cameras, %d LEDs, %d busy processes'
-                         % (cameras, leds, busy))
+            run.progress(0.9 * len(measured), of,
+                         f'{cameras} cameras, {leds} LEDs, {busy} busy processes')
             measured.append(full_stack.measure(leds, busy, seconds))
         full_stack.end()
     tell(run, measured, measure_rooms(run), seconds)
@@ -159,16 +158,14 @@ def tell(run, measured, rooms, seconds):
 
 def figures_of(run, setting):
     name, words = setting.name(), setting.words()
-    headline = (setting.cameras, setting.leds, setting.busy) == (4, 1, 0)
-    run.figure(name + '_driver', 100 * setting.drivers().mean(), '% of a core', setting.cameras,
-               widened(run, 100 * setting.drivers(), setting.drivers().shape[1]),
-               f'processor time of one driver, {words}', end_to_end=True, headline=headline)
-    for key, shares, what in (('tracker', setting.shares['/triangulation'], 'the tracker'),
+    usual = (setting.cameras, setting.leds, setting.busy) == (4, 1, 0)
+    for key, shares, what in (('driver', setting.drivers(), 'one driver'),
+                              ('tracker', setting.shares['/triangulation'], 'the tracker'),
                               ('all', setting.whole(), 'all nodes')):
         run.figure(f'{name}_{key}', 100 * shares.mean(), '% of a core', len(shares),
-                   widened(run, 100 * shares, len(shares)),
+                   widened(run, 100 * shares, shares.shape[-1]),
                    f'processor time of {what}, {words}', end_to_end=True,
-                   headline=headline and key == 'all')
+                   headline=usual and key != 'tracker')
     p99 = statistics.quantile(0.99)
     own = 1e3 * setting.own
     run.figure(name + '_latency_p99_ms', p99(own), 'ms', len(own),

@@ -28,40 +28,30 @@ def run(run):
 
 
 def succeeded(tries):
-    """For each try, whether all labels were right in the end and none was ever wrong."""
     return (tries['labelled'] == LEDS) & (tries['wrong'] == 0) & (tries['ever_wrong'] == 0)
 
 
 class Line:
-    """One scheme and number of cameras, by the length of its period or chip [ms]."""
+    """One scheme and number of cameras, by the length of its period or chip [ms]. shares, intervals:
+    of the successes [%]; seconds: their times; wrong: tries in which a label was ever wrong."""
 
     def __init__(self, tries, scheme, cameras):
         chosen = sessions.where(tries, scheme=scheme, cameras=cameras)
-        self.lengths = np.unique(tries['length_ms'][chosen])
         good = succeeded(tries)
-        self.right, self.tries, self.seconds = [], [], []
-        for length in self.lengths:
-            here = chosen & (tries['length_ms'] == length)
-            self.right.append(int(good[here].sum()))
-            self.tries.append(int(here.sum()))
-            self.seconds.append(tries['seconds'][here & good])
+        self.lengths = np.unique(tries['length_ms'][chosen])
+        groups = [chosen & (tries['length_ms'] == length) for length in self.lengths]
+        self.tries = [int(here.sum()) for here in groups]
+        self.right = [int((here & good).sum()) for here in groups]
+        self.seconds = [tries['seconds'][here & good] for here in groups]
         self.wrong = int((tries['ever_wrong'][chosen] != 0).sum())
-
-    def shares(self):
-        return np.array(self.right) / np.array(self.tries)
-
-    def intervals(self):
-        return np.array([statistics.wilson(right, tries)
-                         for right, tries in zip(self.right, self.tries)])
+        self.shares = 100.0 * (np.array(self.right) / self.tries)
+        self.intervals = 100.0 * np.array(list(map(statistics.wilson, self.right, self.tries)))
 
     def shortest(self):
         """Shortest length from which on ENOUGH tries succeed [ms]; None without any."""
-        found = None
-        for length, right, tries in reversed(list(zip(self.lengths, self.right, self.tries))):
-            if right < ENOUGH * tries:
-                break
-            found = length
-        return found
+        poor = np.flatnonzero(np.array(self.right) < ENOUGH * np.array(self.tries))
+        enough = self.lengths[poor[-1] + 1:] if len(poor) else self.lengths
+        return enough[0] if len(enough) else None
 
     def at(self, length):
         return int(np.flatnonzero(self.lengths == length)[0])
@@ -86,16 +76,11 @@ def tell(run, tries):
         'future research.')
     plot(run, cameras, lines)
     rows = []
-    for scheme, word, title in SCHEMES:
-        for count in cameras:
-            line = lines[scheme, count]
-            for i, length in enumerate(line.lengths):
-                low, high = line.intervals()[i]
-                seconds = line.seconds[i]
-                rows.append([scheme, count, length, line.tries[i], 100.0 * line.shares()[i],
-                             100.0 * low, 100.0 * high,
-                             float(np.median(seconds)) if len(seconds) else None,
-                             float(np.max(seconds)) if len(seconds) else None])
+    for (scheme, count), line in lines.items():
+        for length, number, share, interval, seconds in zip(
+                line.lengths, line.tries, line.shares, line.intervals, line.seconds):
+            times = [float(np.median(seconds)), float(np.max(seconds))] if len(seconds) else 2 * [None]
+            rows.append([scheme, count, length, number, share, *interval, *times])
     run.table('lengths', [('scheme', ''), ('cameras', ''), ('period_or_chip', 'ms'), ('tries', ''),
                           ('success', '%'), ('low', '%'), ('high', '%'), ('median_time', 's'),
                           ('longest_time', 's')], rows,
@@ -144,18 +129,16 @@ def plot(run, cameras, lines):
     for column, (scheme, word, title) in enumerate(SCHEMES):
         for count, color in zip(cameras, charts.COLORS):
             line = lines[scheme, count]
-            shares, intervals = 100.0 * line.shares(), 100.0 * line.intervals()
-            top, bottom = axes[0][column], axes[1][column]
-            top.fill_between(line.lengths, intervals[:, 0], intervals[:, 1], color=color, alpha=0.12,
-                             linewidth=0)
-            top.plot(line.lengths, shares, 'o-', color=color, markersize=3,
-                     label='%d cameras' % count)
             some = [i for i, seconds in enumerate(line.seconds) if len(seconds)]
             times = np.array([np.quantile(line.seconds[i], [0.05, 0.5, 0.95])
                               for i in some]).reshape(-1, 3)
-            bottom.fill_between(line.lengths[some], times[:, 0], times[:, 2], color=color, alpha=0.12,
-                                linewidth=0)
-            bottom.plot(line.lengths[some], times[:, 1], 'o-', color=color, markersize=3)
+            shares = np.insert(line.intervals, 1, line.shares, axis=1)
+            for axis, lengths, bands in ((axes[0][column], line.lengths, shares),
+                                         (axes[1][column], line.lengths[some], times)):
+                low, middle, high = bands.T
+                axis.fill_between(lengths, low, high, color=color, alpha=0.12, linewidth=0)
+                axis.plot(lengths, middle, 'o-', color=color, markersize=3,
+                          label='%d cameras' % count)
         axes[0][column].set(title=title[0].upper() + title[1:], ylim=(0.0, 104.0))
         charts.log_axis(axes[1][column], 'x', (25, 50, 100, 200, 500) if scheme == 'paper' else
                         (3, 5, 10, 20, 40))

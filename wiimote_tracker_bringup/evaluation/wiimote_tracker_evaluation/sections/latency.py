@@ -24,10 +24,12 @@ PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'), ('driver', 'dr
 
 class Measured:
     """laps: crossings of the positive x axis [s since 1970]; angle: of the newest published
-    position at each, about the circle's centre [rad]; answer: the same of the trigger's answer."""
+    position at each, about the circle's centre [rad]; answer: the same of the trigger's answer.
+    chosen: mask of the outputs between the first and the last; parts: their times [ms]: each part,
+    their sum, and the sum without the radio."""
 
-    def __init__(self, trace, laps):
-        self.trace = trace
+    def __init__(self, name, title, trace, laps):
+        self.name, self.title, self.trace = name, title, trace
         self.laps = np.array(laps)
         newest = np.searchsorted(trace.published, self.laps, side='right') - 1
         kept = (newest >= 0) & (self.laps - trace.published[newest] < PERIOD / 4.0)
@@ -37,6 +39,9 @@ class Measured:
         self.answer = np.array([
             angle_of(np.array([trace.triggered[nanoseconds(lap)]]))[0]
             if nanoseconds(lap) in trace.triggered else np.nan for lap in self.laps])
+        self.chosen = trace.between(self.laps[0], self.laps[-1])
+        self.parts = {key: 1e3 * values for key, values in trace.parts(self.chosen).items()}
+        self.parts['own'] = self.parts['total'] - self.parts['bluetooth']
 
     def by_counter(self):
         """For each lap: age of the newest position [s], from its angle."""
@@ -48,17 +53,9 @@ class Measured:
         late = (self.answer - self.angle) * PERIOD / (2.0 * np.pi)
         return late[np.isfinite(late)]
 
-    def chosen(self):
-        return self.trace.between(self.laps[0], self.laps[-1])
-
-    def parts(self):
-        """Times of the chosen outputs [ms]: each part, their sum, and the sum without the radio."""
-        parts = {key: 1e3 * values for key, values in self.trace.parts(self.chosen()).items()}
-        return dict(parts, own=parts['total'] - parts['bluetooth'])
-
     def per_lap(self, values):
         """Values of the chosen outputs, divided by laps: the independent units."""
-        cut = np.searchsorted(self.trace.published[self.chosen()], self.laps[1:-1])
+        cut = np.searchsorted(self.trace.published[self.chosen], self.laps[1:-1])
         return [part for part in np.split(values, cut) if len(part)]
 
 
@@ -73,17 +70,14 @@ def nanoseconds(time):
 
 def run(run):
     laps = 6 if run.quick else 40
-    results = []
-    for number, (name, cameras, title) in enumerate(CASES):
-        results.append((name, title, measure(run, name, cameras, laps, number / len(CASES))))
-    tell(run, results)
+    tell(run, [measure(run, number, laps) for number in range(len(CASES))])
 
 
-def measure(run, name, cameras, laps, done):
-    share = 1.0 / len(CASES)
+def measure(run, number, laps):
+    name, cameras, title = CASES[number]
 
     def progress(part, what):
-        run.progress(done + share * part, 1.0, what)
+        run.progress(number + part, len(CASES), what)
     description = rigs.with_cameras(rigs.centred(rigs.read(run.rig), SIDE / experiment.SIDE), cameras)
     progress(0.0, 'starting %d virtual Wii Remotes' % cameras)
     _, conductor = stack.launch_rig(run, name, description, side_length=SIDE, origin=SIDE / 2.0)
@@ -99,7 +93,7 @@ def measure(run, name, cameras, laps, done):
         0.5 + 0.4 * lap / laps, 'lap %d of %d' % (lap, laps)))
     trace = recorder.read()
     stack.stop()
-    return Measured(trace, crossings)
+    return Measured(name, title, trace, crossings)
 
 
 def count_laps(conductor, laps, progress):
@@ -143,8 +137,7 @@ def tell(run, results):
         % (SIDE, SIDE, SIDE, HEIGHT, 100.0 * RADIUS, PERIOD))
     fig6(run, results)
     direct(run, results)
-    main = results[0][2]
-    parts = main.parts()
+    parts = results[0].parts
     run.summary(
         '**Latency**, simulated: a point is published %.1f ms after the exposure (median, 99 %% '
         'within %.1f ms) with four Wiimotes; %.1f ms of it are the simulated Bluetooth delay, the '
@@ -161,17 +154,17 @@ def fig6(run, results):
             'from the trigger\'s answer instead, the tracker\'s later estimate for the time of the '
             'crossing, this error cancels.')
     rows = []
-    for name, title, measured in results:
+    for measured in results:
         late = 1e3 * measured.by_counter()
         fair = 1e3 * measured.by_answer()
         for values, kind, note in (
                 (late, 'counter', 'from the x axis, as in Fig. 6'),
                 (fair, 'answer', "from the trigger's answer")):
-            run.estimate(f'{name}_by_{kind}_ms', values, np.mean, 'ms',
-                         f'latency by the angle {note}, mean, {title}', end_to_end=True,
+            run.estimate(f'{measured.name}_by_{kind}_ms', values, np.mean, 'ms',
+                         f'latency by the angle {note}, mean, {measured.title}', end_to_end=True,
                          headline=kind == 'counter')
-        rows.append((title, len(late), np.mean(late), np.min(late), np.max(late), np.mean(fair),
-                     1e3 * np.nanmean(measured.answer) * PERIOD / (2.0 * np.pi)))
+        rows.append((measured.title, len(late), np.mean(late), np.min(late), np.max(late),
+                     np.mean(fair), 1e3 * np.nanmean(measured.answer) * PERIOD / (2.0 * np.pi)))
     run.table('laps_counter', [
         ('cameras', ''), ('laps', ''), ('mean', 'ms'), ('least', 'ms'), ('most', 'ms'),
         ('mean_from_answer', 'ms'), ('answer_ahead', 'ms')], rows,
@@ -179,28 +172,25 @@ def fig6(run, results):
         'mean is the error of the calibration.')
     run.table('crossings', [('cameras', ''), ('crossing', 's'), ('x', 'm'), ('y', 'm'), ('z', 'm'),
                             ('angle', 'rad'), ('answer', 'rad')],
-              [(title, lap - measured.laps[0]) + tuple(position) + (angle, answer)
-               for _, title, measured in results for lap, position, angle, answer in zip(
+              [(measured.title, lap - measured.laps[0]) + tuple(position) + (angle, answer)
+               for measured in results for lap, position, angle, answer in zip(
                    measured.laps, measured.at_crossing, measured.angle, measured.answer)],
               'The newest position at every crossing.', shown=False)
     figure, views = charts.figure(1, 2, height=3.9)
-    for axes, (_, title, measured) in zip(views, results):
-        draw_fig6(axes, measured, title)
+    for axes, measured in zip(views, results):
+        draw_fig6(axes, measured)
     run.plot('fig6', figure, 'As Fig. 6: the circle fitted to all measured positions (red), the '
              'measured positions when the LED crossed the positive x axis (blue crosses), and '
              'their range of angles; inset: the crossing enlarged.')
 
 
-def draw_fig6(axes, measured, title):
-    chosen = measured.chosen()
-    centre, radius = alignment.fit_circle(measured.trace.position[chosen][:, :2])
+def draw_fig6(axes, measured):
+    centre, radius = alignment.fit_circle(measured.trace.position[measured.chosen][:, :2])
     turn = np.linspace(0.0, 2.0 * np.pi, 200)
-    axes.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
-              color=charts.RED, linewidth=1.2)
     near = axes.inset_axes([0.2, 0.22, 0.42, 0.23])  # the crossing, enlarged
-    near.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
-              color=charts.RED, linewidth=1.2)
     for part in (axes, near):
+        part.plot(centre[0] + radius * np.cos(turn), centre[1] + radius * np.sin(turn),
+                  color=charts.RED, linewidth=1.2)
         for angle in (measured.angle.min(), measured.angle.max()):
             part.plot([0.0, 1.3 * RADIUS * np.cos(angle)], [0.0, 1.3 * RADIUS * np.sin(angle)],
                       color=charts.SOFT, linewidth=0.8)
@@ -215,8 +205,8 @@ def draw_fig6(axes, measured, title):
                   arrowprops=dict(arrowstyle='->', color=charts.INK, linewidth=0.8))
     axes.text(1.43 * RADIUS, 0.0, 'x', va='center')
     late = 1e3 * measured.by_counter()
-    axes.text(-0.1 * RADIUS, 0.45 * RADIUS, f'{title}\n{late.min():.1f} to {late.max():.1f} ms',
-              ha='center', va='center')
+    axes.text(-0.1 * RADIUS, 0.45 * RADIUS, '%s\n%.1f to %.1f ms' % (
+        measured.title, late.min(), late.max()), ha='center', va='center')
     axes.set(xlim=(-1.2 * RADIUS, 1.55 * RADIUS), ylim=(-1.2 * RADIUS, 1.2 * RADIUS),
              aspect='equal', xlabel='x [m]', ylabel='y [m]')
 
@@ -231,39 +221,35 @@ def direct(run, results):
             'tracker\'s work and one more message. All include waiting for a processor. A bare '
             'message from the simulation to the recorder takes %s (median). Exposures are '
             'instantaneous here; an event waits %s for the next one on average.' % (
-                ' and '.join(f'{1e3 * np.median(m.trace.hop):.2f} ms with {title}'
-                             for _, title, m in results),
-                ' and '.join(f'{1e3 * m.trace.waiting():.1f} ms with {title}'
-                             for _, title, m in results)))
+                ' and '.join(f'{1e3 * np.median(m.trace.hop):.2f} ms with {m.title}'
+                             for m in results),
+                ' and '.join(f'{1e3 * m.trace.waiting():.1f} ms with {m.title}' for m in results)))
     rows = []
-    for name, title, measured in results:
-        parts = measured.parts()
+    for measured in results:
         for key, words in (('total', 'exposure to published point'),) + PARTS + (
                 ('own', 'total without Bluetooth'),):
-            values = parts[key]
-            rows.append((title, words, len(values), np.mean(values), np.median(values),
+            values = measured.parts[key]
+            rows.append((measured.title, words, len(values), np.mean(values), np.median(values),
                          np.quantile(values, 0.95), np.quantile(values, 0.99)))
-        tell_figures(run, name, title, measured)
+        tell_figures(run, measured)
     run.table('parts', [('cameras', ''), ('part', ''), ('points', ''), ('mean', 'ms'),
                         ('median', 'ms'), ('p95', 'ms'), ('p99', 'ms')], rows,
               'The means of the parts add up to the mean of the whole.')
     keys = ('total',) + tuple(key for key, _ in PARTS)
-    columns = [('cameras', ''), ('published', 's')] + [(key, 'ms') for key in keys]
-    run.table('points', columns, [
-        (title, published - measured.laps[0]) + tuple(values) for _, title, measured in results
-        for published, values in zip(
-            measured.trace.published[measured.chosen()],
-            np.column_stack([measured.parts()[key] for key in keys]))], 'Every point.', shown=False)
+    run.table('points', [('cameras', ''), ('published', 's')] + [(key, 'ms') for key in keys], [
+        (measured.title, published - measured.laps[0], *values) for measured in results
+        for published, *values in zip(measured.trace.published[measured.chosen],
+                                      *(measured.parts[key] for key in keys))],
+        'Every point.', shown=False)
     run.table('images', [('cameras', ''), ('exposed', 's'), ('bluetooth', 'ms')], [
-        (title, exposed - measured.laps[0], 1e3 * (delivered - exposed))
-        for _, title, measured in results
+        (measured.title, exposed - measured.laps[0], 1e3 * (delivered - exposed))
+        for measured in results
         for exposed, delivered in zip(measured.trace.exposures, measured.trace.deliveries)],
         'Every image, including those overtaken by a newer one, which gave no point.', shown=False)
     plot_distribution(run, results)
 
 
-def tell_figures(run, name, title, measured):
-    parts = measured.parts()
+def tell_figures(run, measured):
     for key, part, share, note in (
             ('total_median', 'total', 0.5, 'exposure to published point, median'),
             ('total_p99', 'total', 0.99, 'exposure to published point, 99 %'),
@@ -271,27 +257,26 @@ def tell_figures(run, name, title, measured):
              'Bluetooth delay that the simulation is given, median'),
             ('own_median', 'own', 0.5, 'exposure to published point without Bluetooth, median'),
             ('own_p99', 'own', 0.99, 'exposure to published point without Bluetooth, 99 %')):
-        values = parts[part]
+        values = measured.parts[part]
         statistic = statistics.quantile(share)
         units = measured.per_lap(values)
-        run.figure(f'{name}_{key}_ms', statistic(values), 'ms', len(values),
+        run.figure(f'{measured.name}_{key}_ms', statistic(values), 'ms', len(values),
                    statistics.bootstrap(units, statistic, run.seed) if len(units) > 1 else None,
-                   f'{note}, {title}', end_to_end=True, headline=key in (
-                       'total_median', 'own_p99'))
+                   f'{note}, {measured.title}', end_to_end=True,
+                   headline=key in ('total_median', 'own_p99'))
 
 
 def plot_distribution(run, results):
     figure, (whole, split) = charts.figure(1, 2, height=3.4)
-    for (_, title, measured), color in zip(results, (charts.BLUE, charts.ORANGE)):
-        parts = measured.parts()
-        charts.cumulative(whole, parts['total'], color, title)
-        charts.cumulative(whole, parts['own'], color, linestyle='--')
-    longest = max(np.quantile(m.parts()['total'], 0.995) for _, _, m in results)
+    for measured, color in zip(results, (charts.BLUE, charts.ORANGE)):
+        charts.cumulative(whole, measured.parts['total'], color, measured.title)
+        charts.cumulative(whole, measured.parts['own'], color, linestyle='--')
+    longest = max(np.quantile(measured.parts['total'], 0.995) for measured in results)
     whole.set(xlim=(0.0, 1.15 * longest), xlabel='exposure to published point [ms]',
               ylabel='share of the points')
     charts.key(whole, loc='lower right', extra=[('--', 'without Bluetooth')])
-    for row, (_, title, measured) in enumerate(results):
-        mean = {key: float(np.mean(values)) for key, values in measured.parts().items()}
+    for row, measured in enumerate(results):
+        mean = {key: float(np.mean(values)) for key, values in measured.parts.items()}
         begin = 0.0
         for (key, words), color in zip(PARTS[1:], (charts.GREEN, charts.BLUE, charts.ORANGE)):
             split.barh(row, mean[key], left=begin, color=color, height=0.5,
@@ -299,7 +284,7 @@ def plot_distribution(run, results):
             begin += mean[key]
         split.text(begin, row, f"  {begin:.2f} ms, after {mean['bluetooth']:.1f} ms\n  of "
                                "Bluetooth", va='center', fontsize=8.5)
-    split.set(yticks=range(len(results)), yticklabels=[title for _, title, _ in results],
+    split.set(yticks=range(len(results)), yticklabels=[measured.title for measured in results],
               xlim=(0.0, 1.5 * split.get_xlim()[1]), ylim=(-0.5, len(results) + 0.6),
               xlabel='mean time after Bluetooth [ms]')
     charts.key(split, loc='upper left')

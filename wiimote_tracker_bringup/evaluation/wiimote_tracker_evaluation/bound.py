@@ -46,22 +46,32 @@ def moved(camera, change, points):
 STEPS = np.array([1e-6] * 3 + [1e-6] * 3 + [1e-3] * 4 + [1e-6])
 
 
+def derivatives(pixels, steps):
+    """N x 2 x k: of N x 2 pixels, a function of k changes."""
+    return np.stack([(pixels(change) - pixels(-change)) / (2.0 * step)
+                     for change, step in zip(np.diag(steps), steps)], axis=2)
+
+
 def camera_derivative(camera: scene_module.Camera, point: np.ndarray) -> np.ndarray:
     """2 x 11: of the pixel with respect to the camera's parameters."""
-    columns = []
-    for i, step in enumerate(STEPS):
-        change = np.zeros(PER_CAMERA)
-        change[i] = step
-        columns.append((moved(camera, change, point) - moved(camera, -change, point))[0]
-                       / (2.0 * step))
-    return np.array(columns).T
+    return derivatives(lambda change: moved(camera, change, point), STEPS)[0]
 
 
 def point_derivative(camera: scene_module.Camera, point: np.ndarray) -> np.ndarray:
     """2 x 3: of the pixel with respect to the point."""
-    step = 1e-6
-    return np.array([(camera.project(point + step * axis) - camera.project(point - step * axis))[0]
-                     / (2.0 * step) for axis in np.eye(3)]).T
+    return derivatives(lambda change: camera.project(point + change), [1e-6] * 3)[0]
+
+
+def seen_derivatives(scene, point):
+    """Of the pixels of the cameras that see the point: 2 m x 3 with respect to it, 2 m x 11 n with
+    respect to the parameters of all cameras."""
+    seeing = [c for c, camera in enumerate(scene.cameras) if camera.sees(point[None])[0]]
+    by_point, by_camera = np.zeros((len(seeing), 2, 3)), np.zeros(
+        (len(seeing), 2, len(scene.cameras), PER_CAMERA))
+    for row, c in enumerate(seeing):
+        by_point[row] = point_derivative(scene.cameras[c], point)
+        by_camera[row, :, c] = camera_derivative(scene.cameras[c], point)
+    return by_point.reshape(-1, 3), by_camera.reshape(2 * len(seeing), -1)
 
 
 def lens_prior(camera, knowledge):
@@ -93,17 +103,14 @@ class Calibration:
         free = np.ones(size, dtype=bool)
         weight = samples / scene.effective_noise() ** 2
         for c, camera in enumerate(scene.cameras):
-            own = slice(PER_CAMERA * c, PER_CAMERA * (c + 1))
-            lens = slice(own.start + 6, own.stop)
+            lens = slice(PER_CAMERA * c + 6, PER_CAMERA * (c + 1))
             self._prior[lens, lens], free[lens] = lens_prior(camera, knowledge)
-            for k, corner in enumerate(corners):
-                if not camera.sees(corner[None])[0]:
-                    continue
-                place = slice(self._cameras + 2 * k, self._cameras + 2 * k + 2)
-                derivative = np.zeros((2, size))
-                derivative[:, own] = camera_derivative(camera, corner)
-                derivative[:, place] = point_derivative(camera, corner)[:, :2]
-                information += weight * derivative.T @ derivative
+        for k, corner in enumerate(corners):
+            by_point, by_camera = seen_derivatives(scene, corner)
+            derivative = np.zeros((len(by_point), size))
+            derivative[:, :self._cameras] = by_camera
+            derivative[:, self._cameras + 2 * k:][:, :2] = by_point[:, :2]
+            information += weight * derivative.T @ derivative
         placed = slice(self._cameras, size)
         if knowledge.corner > 0:
             self._prior[placed, placed] = np.eye(2 * len(corners)) / knowledge.corner ** 2
@@ -140,15 +147,10 @@ def point_sensitivity(scene, calibration, point, samples):
 
     The triangulation weights pixels with their own noise and that of the calibration.
     """
-    seeing = [c for c, camera in enumerate(scene.cameras) if camera.sees(point[None])[0]]
-    if len(seeing) < 2:
+    by_point, by_camera = seen_derivatives(scene, point)
+    if len(by_point) < 4:
         raise ValueError(f'fewer than two cameras see the point {point}')
-    by_point = np.concatenate([point_derivative(scene.cameras[c], point) for c in seeing])
-    by_camera = np.zeros((2 * len(seeing), len(calibration)))
-    for row, c in enumerate(seeing):
-        by_camera[2 * row:2 * row + 2, PER_CAMERA * c:PER_CAMERA * (c + 1)] = camera_derivative(
-            scene.cameras[c], point)
-    pixels = np.eye(2 * len(seeing)) * scene.effective_noise() ** 2 / samples
+    pixels = np.eye(len(by_point)) * scene.effective_noise() ** 2 / samples
     weight = np.linalg.inv(pixels + by_camera @ calibration @ by_camera.T)
     solve = np.linalg.solve(by_point.T @ weight @ by_point, by_point.T @ weight)
     return -solve @ by_camera, solve @ pixels @ solve.T

@@ -77,7 +77,8 @@ def by_session(columns, values):
     return [values[columns['session'] == session] for session in np.unique(columns['session'])]
 
 
-def per_session(columns, name, chosen):
-    """Finite values of a column in the chosen rows, one array per session that has any."""
-    chosen = chosen & np.isfinite(columns[name])
+def per_session(columns, name, chosen=True, **values):
+    """Finite values of a column in the chosen rows with these values, one array per session that has
+    any."""
+    chosen = chosen & where(columns, **values) & np.isfinite(columns[name])
     return by_session({'session': columns['session'][chosen]}, columns[name][chosen])

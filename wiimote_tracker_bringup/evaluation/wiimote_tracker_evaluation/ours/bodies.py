@@ -13,8 +13,7 @@ WRONG = 10.0  # greater rotation errors are wrong assignments [degrees]
 
 
 def tell(run, table):
-    counts = [int(count) for count in sorted(set(table['cameras']))]
-    speeds = sorted(set(table['speed_m_per_s']))
+    counts, speeds = np.unique(table['cameras']).astype(int), np.unique(table['speed_m_per_s'])
     run.say(
         '### Body poses\n\n'
         'Four LEDs on a frame about 40 cm wide, with six different distances, move and turn (2 '
@@ -28,8 +27,8 @@ def tell(run, table):
         for plot, column in zip(axes, ('position_rms_mm', 'rotation_rms_deg')):
             for name, style, label in ((column, 'o-', '%d cameras' % count),
                                        ('predicted_' + column.replace('_rms', ''), 'x--', None)):
-                low, middle, high = np.array([quantiles(per_session(table, name, right & where(
-                    table, cameras=count, led_size=SMALL, speed_m_per_s=speed)))
+                low, middle, high = np.array([quantiles(per_session(
+                    table, name, right, cameras=count, led_size=SMALL, speed_m_per_s=speed))
                     for speed in speeds]).T
                 plot.plot(speeds, middle, style, markersize=4, color=color, label=label)
                 if label:
@@ -40,14 +39,13 @@ def tell(run, table):
     run.plot('bodies', figure, 'RMS error of a body\'s pose per session by speed, small spots: '
              'median and 5 to 95 % of the sessions.')
     for count in counts:
-        chosen = right & where(table, cameras=count, led_size=SMALL, speed_m_per_s=1.0)
         for column, name, unit in (('position_rms_mm', 'position', 'mm'),
                                    ('rotation_rms_deg', 'rotation', 'deg')):
-            units = per_session(table, column, chosen)
-            if len(units) < 2:
-                continue
-            run.estimate(f'body_{name}_{count}_cameras', units, statistics.rms, unit,
-                         f'RMS error of a body\'s {name} at 1 m/s and 2 rad/s, {count} cameras')
+            units = per_session(table, column, right, cameras=count, led_size=SMALL,
+                                speed_m_per_s=1.0)
+            if len(units) > 1:
+                run.estimate(f'body_{name}_{count}_cameras', units, statistics.rms, unit,
+                             f'RMS error of a body\'s {name} at 1 m/s and 2 rad/s, {count} cameras')
         for size, word in ((SMALL, 'small'), (LARGE, 'large')):
             chosen = where(table, cameras=count, led_size=size)
             run.share(f'body_wrong_{word}_spots_{count}_cameras', int((chosen & ~right).sum()),

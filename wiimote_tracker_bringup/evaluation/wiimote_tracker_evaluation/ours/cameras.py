@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, scene, statistics
+from wiimote_tracker_evaluation import bound, charts, scene, statistics
 from wiimote_tracker_evaluation.sessions import per_session, where
 
 PROGRAM = 'evaluate_cameras'
@@ -15,7 +15,7 @@ MIDDLE = np.array([1.25, 1.25, 1.0])  # target of the ring of evaluate_cameras [
 
 
 def tell(run, table):
-    counts = [int(count) for count in sorted(set(table['cameras']))]
+    counts = np.unique(table['cameras']).astype(int).tolist()
     run.say(
         '### Two to eight cameras\n\n'
         'The cameras are exactly known and stand on a ring around the cube; two are at a right '
@@ -27,7 +27,8 @@ def tell(run, table):
     bounds = ring_bounds(run.rig, table, counts)
     figure, axes = charts.figure()
     for method, label, color in METHODS:
-        rms = [statistics.rms(np.concatenate(units_of(table, count, method))) for count in counts]
+        rms = [statistics.rms(np.concatenate(per_session(
+            table, 'error_mm', cameras=count, method=method))) for count in counts]
         axes.plot(counts, rms, 'o-', markersize=4, color=color, label=label)
     axes.plot(counts, bounds, '--', color=charts.SOFT, label='bound of single points')
     axes.set(xlabel='cameras', ylabel='RMS error [mm]', ylim=(0.0, None), xticks=counts)
@@ -35,14 +36,11 @@ def tell(run, table):
     run.plot('cameras', figure, 'RMS error by the number of exactly known cameras.')
     for count in (2, 4, 8):
         for method, label, _ in METHODS:
-            run.estimate(f'{method}_{count}_cameras', units_of(table, count, method), statistics.rms,
-                         'mm', f'RMS error with {count} cameras, {label}')
+            run.estimate(f'{method}_{count}_cameras', per_session(
+                table, 'error_mm', cameras=count, method=method), statistics.rms, 'mm',
+                f'RMS error with {count} cameras, {label}')
         run.figure('bound_%d_cameras' % count, bounds[counts.index(count)], 'mm', 1,
                    note='Cramér-Rao bound of single points with %d cameras' % count)
-
-
-def units_of(table, count, method):
-    return per_session(table, 'error_mm', where(table, cameras=count, method=method))
 
 
 def ring_bounds(rig, table, counts):
@@ -73,11 +71,9 @@ def ring(described, count):
 
 def point_bound(cameras, noise, points):
     """RMS over the points of the least standard deviation of a position [m]."""
-    step = 1e-5
     information = np.zeros((len(points), 3, 3))
     for camera in cameras:
-        jacobian = np.stack([(camera.project(points + move) - camera.project(points - move))
-                             / (2.0 * step) for move in step * np.eye(3)], axis=2)
+        jacobian = bound.derivatives(lambda move: camera.project(points + move), [1e-5] * 3)
         seen = camera.sees(points)
         information[seen] += np.einsum('nij,nik->njk', jacobian[seen], jacobian[seen]) / noise ** 2
     return float(np.sqrt(np.mean(np.trace(np.linalg.inv(information), axis1=1, axis2=2))))

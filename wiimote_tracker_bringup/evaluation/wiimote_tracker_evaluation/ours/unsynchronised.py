@@ -1,7 +1,9 @@
 """Unsynchronised cameras, and the benefit of estimated exposure times."""
 
+import numpy as np
+
 from wiimote_tracker_evaluation import charts, statistics
-from wiimote_tracker_evaluation.sessions import per_session, where
+from wiimote_tracker_evaluation.sessions import per_session
 
 PROGRAM = 'evaluate_unsynchronised'
 QUICK, FULL = 3, 40  # sessions
@@ -28,8 +30,8 @@ def tell(run, table):
     figure, axes = charts.figure()
     for stamps, method, label, color in METHODS:
         for clocks, style in (('own', 'o-'), ('synchronised', 'x--')):
-            rms = [statistics.rms([value for unit in units_of(table, speed, clocks, stamps, method)
-                                   for value in unit]) for speed in speeds]
+            rms = [statistics.rms(np.concatenate(units_of(table, speed, clocks, stamps, method)))
+                   for speed in speeds]
             axes.plot(speeds, rms, style, color=color, markersize=4,
                       label=label if clocks == 'own' else None)
     axes.set(xlabel='speed of the LED [m/s]', ylabel='RMS error [mm]', xlim=(0.0, None),
@@ -50,5 +52,5 @@ def tell(run, table):
 
 
 def units_of(table, speed, clocks, stamps, method):
-    return per_session(table, 'rms_mm', where(table, speed_m_per_s=speed, clocks=clocks,
-                                              stamps=stamps, method=method))
+    return per_session(table, 'rms_mm', speed_m_per_s=speed, clocks=clocks, stamps=stamps,
+                       method=method)

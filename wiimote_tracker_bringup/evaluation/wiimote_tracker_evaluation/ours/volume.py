@@ -45,12 +45,11 @@ def tell(run, table):
     run.plot('volume', figure, 'RMS errors in the cube [mm], measured and predicted, at three '
                                'heights.')
     for method, label in METHODS:
-        chosen = where(table, method=method)
         for column, word in (('error_mm', 'measured'), ('predicted_mm', 'predicted')):
-            run.estimate(f'volume_{method}_{word}', per_session(table, column, chosen), statistics.rms,
-                         'mm', f'RMS error over the cube, {label}, {word}')
+            run.estimate(f'volume_{method}_{word}', per_session(table, column, method=method),
+                         statistics.rms, 'mm', f'RMS error over the cube, {label}, {word}')
         run.estimate(f'volume_{method}_consistency',
-                     per_session(table, 'normalised_squared_error', chosen), np.mean, '',
+                     per_session(table, 'normalised_squared_error', method=method), np.mean, '',
                      f'Normalised squared error (1: the prediction is true), {label}')
 
 

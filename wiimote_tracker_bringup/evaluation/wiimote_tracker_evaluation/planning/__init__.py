@@ -1,7 +1,5 @@
 """Where to put the cameras of a room."""
 
-import importlib.util
-import sys
+from wiimote_tracker_evaluation.needs import require
 
-if importlib.util.find_spec('scipy') is None:
-    sys.exit('the search needs SciPy: apt install python3-scipy')
+require('scipy')

@@ -27,12 +27,13 @@ constexpr double kRest = 1.0;     // before and after a drawing [s]
 constexpr int kPoints = 400;      // per line
 constexpr double kMargin = 0.05;  // of the drawing, cut off with the rest [s]
 
-Line arc(double from, double to, const std::function<double(double)>& radius) {
+/// @param radius from the begin (0) to the end (1).
+Line arc(double from, double to, const std::function<double(double)>& radius, double z = 0.0) {
   Line line;
   for (int i = 0; i <= 60; ++i) {
-    const double share = i / 60.0;
-    const double angle = from + (to - from) * share;
-    line.push_back(radius(share) * Vector3d(std::cos(angle), 0.0, std::sin(angle)));
+    const double angle = from + (to - from) * i / 60.0;
+    line.push_back(z * Vector3d::UnitZ() +
+                   radius(i / 60.0) * Vector3d(std::cos(angle), 0.0, std::sin(angle)));
   }
   return line;
 }
@@ -47,11 +48,10 @@ Line infinity() {
 }
 
 Line sCurve() {
-  Line line = arc(0.3 * M_PI, 1.5 * M_PI, [](double) { return 0.25; });
-  for (Vector3d& point : line)
-    point.z() += 0.25;
-  for (const Vector3d& point : arc(0.5 * M_PI, -0.7 * M_PI, [](double) { return 0.25; }))
-    line.push_back(point - Vector3d(0.0, 0.0, 0.25));
+  const auto radius = [](double) { return 0.25; };
+  Line line = arc(0.3 * M_PI, 1.5 * M_PI, radius, 0.25);
+  const Line lower = arc(0.5 * M_PI, -0.7 * M_PI, radius, -0.25);
+  line.insert(line.end(), lower.begin(), lower.end());
   return line;
 }
 
@@ -81,15 +81,21 @@ std::map<std::string, Line> gestures() {
   };
 }
 
-/// `count` points at equal distances along a line.
-Line evenly(const Line& line, int count) {
+/// From the begin of a line to each of its points.
+std::vector<double> lengths(const Line& line) {
   std::vector<double> way = {0.0};
   for (std::size_t i = 1; i < line.size(); ++i)
     way.push_back(way.back() + (line[i] - line[i - 1]).norm());
+  return way;
+}
+
+/// kPoints points at equal distances along a line.
+Line evenly(const Line& line) {
+  const std::vector<double> way = lengths(line);
   Line result;
   std::size_t piece = 1;
-  for (int i = 0; i < count; ++i) {
-    const double at = way.back() * i / (count - 1);
+  for (int i = 0; i < kPoints; ++i) {
+    const double at = way.back() * i / (kPoints - 1);
     while (piece + 1 < way.size() && way[piece] < at)
       ++piece;
     const double share = (at - way[piece - 1]) / (way[piece] - way[piece - 1]);
@@ -113,11 +119,8 @@ class Hand {
 
   /// A drawing that starts at time 0. @param duration output [s].
   Path draw(const Line& gesture, double* duration) {
-    Line line = round(evenly(distort(gesture), kPoints));
-    double length = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i)
-      length += (line[i] - line[i - 1]).norm();
-    const double time = length / speed_ * uniform(0.85, 1.15);
+    const Line line = round(evenly(distort(gesture)));
+    const double time = lengths(line).back() / speed_ * uniform(0.85, 1.15);
     const double uneven = uniform(-0.3, 0.3), when = uniform(0.0, 2.0 * M_PI);
     *duration = time;
     return [=](double now) {
@@ -152,7 +155,7 @@ class Hand {
       phases(i) = uniform(0.0, 2.0 * M_PI);
       amplitudes(i) = wobble_ * uniform(-1.0, 1.0);
     }
-    Line line = evenly(gesture, kPoints);
+    Line line = evenly(gesture);
     for (int i = 0; i < kPoints; ++i) {
       Vector3d& point = line[static_cast<std::size_t>(i)];
       point.x() = aspect_ * point.x() + slant_ * point.z();

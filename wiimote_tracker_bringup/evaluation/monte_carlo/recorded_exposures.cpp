@@ -2,6 +2,8 @@
 
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -30,16 +32,10 @@ double costOf(double late) {
 
 /// Least squares of arrival over frame number.
 double periodOf(const std::vector<double>& arrivals, const std::vector<double>& numbers) {
-  double sum_n = 0.0, sum_a = 0.0, sum_nn = 0.0, sum_na = 0.0;
-  const auto count = static_cast<double>(arrivals.size());
-  for (std::size_t i = 0; i < arrivals.size(); ++i) {
-    const double a = arrivals[i] - arrivals[0];
-    sum_n += numbers[i];
-    sum_a += a;
-    sum_nn += numbers[i] * numbers[i];
-    sum_na += numbers[i] * a;
-  }
-  return (count * sum_na - sum_n * sum_a) / (count * sum_nn - sum_n * sum_n);
+  const auto count = static_cast<Eigen::Index>(arrivals.size());
+  const Eigen::Map<const Eigen::ArrayXd> n(numbers.data(), count), a(arrivals.data(), count);
+  const Eigen::ArrayXd off = n - n.mean();
+  return (off * (a - a[0])).sum() / off.square().sum();
 }
 
 /// Mean time at which the report of each frame comes, given the numbers [s].

@@ -61,10 +61,8 @@ struct SessionWriter {
   Table* traces;
 
   void writePaper() {
-    for (const auto& [model, name] :
-         {std::make_pair(geometry::RayModel::kCalibrated, "calibrated"),
-          std::make_pair(geometry::RayModel::kImageCenter, "image_center")})
-      writeCases(model, name);
+    writeCases(geometry::RayModel::kCalibrated, "calibrated");
+    writeCases(geometry::RayModel::kImageCenter, "image_center");
   }
 
   void writeOurs() {
@@ -80,7 +78,7 @@ struct SessionWriter {
     writeBound("bound_wand", session.wand_scene, session.wand);
   }
 
-  /// A rig without cameras if it cannot be solved.
+  /// A rig without cameras, which measures nothing, if it cannot be solved.
   static geometry::Rig solve(const std::function<geometry::Rig()>& solver) {
     try {
       return solver();
@@ -106,14 +104,11 @@ struct SessionWriter {
          {std::make_pair(PaperCase::kC1, "C1"), std::make_pair(PaperCase::kC2, "C2"),
           std::make_pair(PaperCase::kC3, "C3"), std::make_pair(PaperCase::kC4, "C4"),
           std::make_pair(PaperCase::kC5, "C5")}) {
-      geometry::Rig rig;
-      try {
+      const geometry::Rig rig = solve([&, which = which, name = name] {
         const principal_point::CorrectionResult result = solvePaperCase(session, which, model);
-        rig = result.rig;
         writeTrace(name, model_name, result.trace);
-      } catch (const geometry::Error&) {
-        // A rig without cameras measures nothing.
-      }
+        return result.rig;
+      });
       writeMeasured(name, model_name, rig, paperOptions());
       if (which == PaperCase::kC1)
         writeRemapped("C1_remapped", model_name, rig, paperOptions());
@@ -211,7 +206,9 @@ struct SessionWriter {
     for (std::size_t round = 0; round < trace.rounds.size(); ++round) {
       const principal_point::Round& values = trace.rounds[round];
       for (std::size_t i = 0; i < trace.cameras.size(); ++i) {
-        const std::size_t camera = numberOf(trace.cameras[i]);
+        std::size_t camera = 0;
+        while (session.wave.cameras[camera].name != trace.cameras[i])
+          ++camera;
         const geometry::Intrinsics& truth = session.wave.cameras[camera].intrinsics;
         *traces << number << cameras << name << model_name << round << camera + 1
                 << values.principal_points[i].x() << values.principal_points[i].y() << truth.cx
@@ -219,14 +216,6 @@ struct SessionWriter {
                 << values.origin_error;
       }
     }
-  }
-
-  /// Number of a camera among those of the session, from 0.
-  std::size_t numberOf(const std::string& name) const {
-    std::size_t i = 0;
-    while (session.wave.cameras[i].name != name)
-      ++i;
-    return i;
   }
 };
 

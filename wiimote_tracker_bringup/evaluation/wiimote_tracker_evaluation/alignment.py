@@ -12,7 +12,6 @@ class Alignment:
         self.scale = scale
 
     def apply(self, points: np.ndarray) -> np.ndarray:
-        """Aligned copies of N x 3 points."""
         return self.scale * np.asarray(points) @ self.rotation.T + self.translation
 
 

@@ -108,7 +108,6 @@ class Conductor:
     # --- The steps of a calibration
 
     def wait_for_cameras(self, names):
-        """Waits until every camera delivers images."""
         def missing():
             connected = {camera.name.strip('/') for camera in self._status.cameras
                          if camera.connected} if self._status else set()
@@ -121,7 +120,6 @@ class Conductor:
                                   % (', '.join(missing()), deadline))
 
     def wait_until_seen(self, names):
-        """Waits until every camera sees one spot."""
         def seeing():
             return {camera.name.strip('/') for camera in self._status.cameras if camera.sees_led}
         self.wait(lambda: seeing().issuperset(names), 10.0, 'all cameras to see the LED')

@@ -37,7 +37,6 @@ def alignment_points(seed: int, number: int = 25) -> np.ndarray:
 
 
 def circle_points() -> np.ndarray:
-    """Points on the three circles; 90 on each."""
     angle = np.linspace(0.0, 2.0 * np.pi, 90, endpoint=False)
     ring = CIRCLE_RADIUS * np.stack([np.cos(angle), np.sin(angle), 0.0 * angle], axis=1)
     return np.concatenate([center + ring for center in CIRCLE_CENTERS])

@@ -30,7 +30,6 @@ class Group:
         return solved(np.linalg.norm(self.measured - self.nominal, axis=2))
 
     def from_truth(self):
-        """Distance from the true position of the LED [m]."""
         return solved(np.linalg.norm(self.measured - self.true, axis=2))
 
     def unsolved(self):

@@ -71,7 +71,6 @@ class Processes:
         self._started = []  # (name, Popen, path of its output)
 
     def start(self, name: str, command: List[str], output: str) -> subprocess.Popen:
-        """Starts a command with its output in the file `output`."""
         process = spawn(command, output)
         self._started.append((name, process, output))
         return process

@@ -21,7 +21,6 @@ def package_file(path: str) -> str:
 
 
 def version() -> str:
-    """Of this package."""
     import rospkg
     return rospkg.RosPack().get_manifest('wiimote_tracker_bringup').version
 

@@ -32,11 +32,9 @@ class Recording:
         self.age = np.array(ages, dtype=float)
 
     def between(self, start: float, end: float) -> np.ndarray:
-        """Mask of the points in a time span."""
         return (self.stamp >= start) & (self.stamp <= end)
 
     def truth_at(self, stamps: np.ndarray) -> np.ndarray:
-        """True positions at these times, interpolated."""
         return np.stack([np.interp(stamps, self.truth_stamp, self.truth_position[:, axis])
                          for axis in range(3)], axis=1)
 

@@ -11,7 +11,6 @@ from wiimote_tracker_evaluation.scoring import milli
 
 
 def table(score, bounds):
-    """The results as lines of text."""
     lines = [f"{'':<3}  {'true [m]':<22}  {'measured [m]':<22}  {'error [mm]'}"]
     for place in score['points']:
         lines.append('%-3s  %s  %s  %10.1f' % (
@@ -56,7 +55,6 @@ def sentence(mode, score):
 
 
 def summary(mode, score, bounds):
-    """The results as a dictionary for summary.json."""
     return {
         'simulated': True,
         'mode': mode,
@@ -93,7 +91,6 @@ def write_csv(path, recording, segments):
 
 
 def draw_tracks(path, recording, segments, score):
-    """Picture of the true and measured tracks from above and from the side."""
     import matplotlib
     matplotlib.use('Agg')
     import matplotlib.pyplot as plt

@@ -19,7 +19,6 @@ def read(path: str) -> Dict:
 
 
 def is_description(path: str) -> bool:
-    """Whether this is a file that describes a simulated rig."""
     try:
         content = read(path)
     except (OSError, yaml.YAMLError):

@@ -18,8 +18,6 @@ from wiimote_tracker_evaluation import programs, statistics
 
 @dataclasses.dataclass(eq=False)
 class Figure:
-    """A number of the report; see Run.figure()."""
-
     name: str
     value: float
     unit: str
@@ -33,8 +31,6 @@ class Figure:
 
 @dataclasses.dataclass(eq=False)
 class Table:
-    """A table of the report; see Run.table()."""
-
     name: str
     columns: List[Tuple[str, str]]
     rows: List[list]
@@ -44,8 +40,6 @@ class Table:
 
 @dataclasses.dataclass(eq=False)
 class Plot:
-    """A plot of the report; see Run.plot()."""
-
     name: str
     svg: str
     caption: str
@@ -53,8 +47,6 @@ class Plot:
 
 @dataclasses.dataclass(eq=False)
 class Text:
-    """Markdown of the report; see Run.say()."""
-
     markdown: str
 
 
@@ -99,7 +91,6 @@ class Run:
             begin + (end - begin) * done / of, 1.0, what))
 
     def file(self, name: str) -> str:
-        """Path of a file in this section's folder."""
         return os.path.join(self.folder, name)
 
     # --- What was found

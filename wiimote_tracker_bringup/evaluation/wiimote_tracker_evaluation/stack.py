@@ -94,7 +94,6 @@ def complaint(run):
 
 
 def cores():
-    """Number of processor cores for this process."""
     return len(os.sched_getaffinity(0))
 
 

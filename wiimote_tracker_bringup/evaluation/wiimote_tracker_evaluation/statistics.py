@@ -57,7 +57,6 @@ def agreement(statements: int) -> float:
 
 
 def rms(values: Sequence[float]) -> float:
-    """Root mean square."""
     return float(np.sqrt(np.mean(np.square(values))))
 
 

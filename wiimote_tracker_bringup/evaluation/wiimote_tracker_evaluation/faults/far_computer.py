@@ -89,7 +89,6 @@ def _tunnel(name):
 
 
 def _carry(ends, pipe):
-    """Carries packets between the ends, as the pipe says."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
         signal.signal(number, signal.SIG_IGN)  # stop() ends it, after the nodes
     delay, cut = 0.0, False

@@ -38,7 +38,6 @@ class Figures:
 
 
 def select(window, chosen):
-    """The window with some of its points. chosen: a mask."""
     return dataclasses.replace(window, points=window.points[chosen], labels=window.labels[chosen],
                                cameras=window.cameras[chosen])
 

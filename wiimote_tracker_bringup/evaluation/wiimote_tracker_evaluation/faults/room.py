@@ -75,7 +75,6 @@ class Room:
         return os.path.join(self.folder, name)
 
     def rig_bytes(self):
-        """Of the rig's file."""
         with open(self.file('rig.yaml'), 'rb') as file:
             return file.read()
 
@@ -83,7 +82,6 @@ class Room:
         self.master = self._processes.start_master(self._port, self.log, START)
 
     def start_nodes(self):
-        """Starts all nodes, as a user does."""
         self.launch = self._processes.start('roslaunch', [
             'roslaunch', package_file('evaluation/fault_room.launch'), f'folder:={self.folder}',
             'labels:=' + ','.join(LABELS),
@@ -110,7 +108,6 @@ class Room:
         return figures.figures(self.window(start, end), end - start)
 
     def wait_until_tracked(self):
-        """Waits until all LEDs are tracked, by all cameras."""
         deadline = time.monotonic() + START
         while not figures.is_tracked(self.window(time.time() - SETTLED, time.time()), SETTLED,
                                      len(LEDS), self.cameras):

@@ -113,7 +113,6 @@ def wait_until_normal(room, gone, before, complete):
 
 
 def judge(chosen, result, room, start, end, nodes):
-    """Compares what happened with what may."""
     whole = room.figures(start, end)
     if result.recovery is None:
         result.problems.append(f'not normal again within {PATIENCE:.0f} s')

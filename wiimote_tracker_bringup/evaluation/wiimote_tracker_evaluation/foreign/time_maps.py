@@ -42,7 +42,6 @@ class TimeMap:
 
 
 def solve(views, folder):
-    """The time map of each camera."""
     first = views.cameras[0]
     maps = [TimeMap(0.5 * (camera.times[0] + camera.times[-1])) for camera in views.cameras]
     for camera, each in zip(views.cameras[1:], maps[1:]):

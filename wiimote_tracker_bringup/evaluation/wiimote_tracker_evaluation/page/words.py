@@ -25,7 +25,6 @@ def number(value, digits: int = 3) -> str:
 
 
 def plain(name: str) -> str:
-    """An under_scored name in words."""
     return name.replace('_', ' ')
 
 
@@ -34,7 +33,6 @@ def with_unit(name: str, unit: str) -> str:
 
 
 def kind(simulated: bool, end_to_end: bool) -> str:
-    """Origin of a number."""
     if not simulated:
         return 'measured'
     return 'simulated, full stack' if end_to_end else 'simulated, in process'
@@ -48,7 +46,6 @@ def cells(figure):
 
 
 def kinds(run):
-    """Origins of the numbers of a section."""
     found = sorted({kind(figure.simulated, figure.end_to_end) for figure in run.figures})
     return '; '.join(found) if found else ('simulated' if run.simulated else 'measured')
 

@@ -11,15 +11,12 @@ SECTIONS = (('distance', 2, 5), ('latency', 40, 150), ('identification', 10, 100
 
 
 def names() -> List[str]:
-    """Of all sections."""
     return [name for name, _, _ in SECTIONS]
 
 
 def load(name: str) -> types.ModuleType:
-    """The module of a section."""
     return importlib.import_module(f'{__name__}.{name}')
 
 
 def seconds(name: str, quick: bool) -> float:
-    """Approximate duration of a section."""
     return next(short if quick else full for each, short, full in SECTIONS if each == name)

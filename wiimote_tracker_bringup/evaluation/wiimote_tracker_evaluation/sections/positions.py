@@ -29,7 +29,6 @@ def run(run):
 
 
 def simulate(run, sessions):
-    """Results of this number of sessions."""
     commands, folders = [], []
     for first, number in parts_of(sessions, 4):
         folders.append(run.file('sessions_%d' % first))
@@ -167,7 +166,6 @@ def details(run, results):
 
 
 def conclusion(results, agreeing, of):
-    """Conclusions from the numbers, in words."""
     two, four = (statistics.rms(results.group(cameras, 'C3', 'image_center').from_nominal())
                  for cameras in (TWO, FOUR))
     words = ('Rays from the image centre reproduce %d of the %d numbers, rays as calibrated %d. After '

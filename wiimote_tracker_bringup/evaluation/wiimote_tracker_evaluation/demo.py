@@ -46,8 +46,7 @@ def has_display():
 
 
 class Demo:
-    """One run. All processes that it starts have ended when run() returns or raises. It returns a
-    sentence on the results."""
+    """One run, which returns a sentence on the results. Its processes end before it does."""
 
     def __init__(self, output, mode):
         self._output = output
@@ -81,8 +80,7 @@ class Demo:
         self._recorder = stack.record(self, self.file('demo.bag'), '--regex', RECORDED)
 
     def _experiment(self):
-        """The LED's tour. Returns the measured segments, and the number of images used per
-        corner."""
+        """The LED's tour. Returns the measured segments, and the images used per corner."""
         # Imported late: rospy reads the master's address at import.
         from wiimote_tracker_evaluation.conductor import Conductor
         from wiimote_tracker_evaluation.recording import LiveRecorder

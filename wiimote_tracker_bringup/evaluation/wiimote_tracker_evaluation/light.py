@@ -36,8 +36,7 @@ class Led:
 
 
 def detection_distance(brightness: float, threshold: float) -> float:
-    """Distance at which a light of this brightness (at 1 m) is just seen [m]: inverse square
-    law."""
+    """Where a light of this brightness (at 1 m) is just seen [m]: inverse square law."""
     return np.sqrt(np.asarray(brightness, dtype=float) / threshold)
 
 

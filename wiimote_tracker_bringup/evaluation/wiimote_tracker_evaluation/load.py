@@ -25,8 +25,7 @@ def processor_time(process: int) -> float:
 
 
 def measure(processes, seconds, check, interval=1.0):
-    """Processor load of each process (by name) as a share of one core, one value per interval;
-    check is called while waiting."""
+    """Load of each process (by name) [share of a core], one value per interval; calls check()."""
     names = list(processes)
     samples = [[processor_time(processes[name]) for name in names]]
     times = [time.monotonic()]

@@ -83,8 +83,7 @@ def worst_is_fourth_corner(results, ray_model):
 
 
 def farthest_principal_point(results, ray_model):
-    """95 % quantile of the distance of corrected principal points from (512, 384), each axis [px];
-    number of cameras and corrections."""
+    """How far 95 % of the corrected principal points are from (512, 384) [px]; interval; number."""
     rows = results.last_round(['C3', 'C4', 'C5'], ray_model)
     off = np.maximum(np.abs(rows['center_u'] - 512.0), np.abs(rows['center_v'] - 384.0))
     return (float(np.quantile(off, 0.95)),

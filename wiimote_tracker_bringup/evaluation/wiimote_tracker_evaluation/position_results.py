@@ -25,8 +25,7 @@ class Group:
     covariance: np.ndarray
 
     def from_nominal(self):
-        """Distance from the nominal position of the LED, as measured by the paper: solved sessions
-        x points [m]."""
+        """From the nominal position of the LED, as in the paper: solved sessions x points [m]."""
         return solved(np.linalg.norm(self.measured - self.nominal, axis=2))
 
     def from_truth(self):

@@ -86,8 +86,7 @@ def read_csv(path: str) -> Dict[str, np.ndarray]:
 
 
 def table_rows(columns):
-    """Result of read_csv() as rows for Run.table(): None for a missing number, integers in columns
-    of integers."""
+    """Rows for Run.table(): None for a missing number, integers in columns of integers."""
     cells = []
     for values in columns.values():
         if values.dtype.kind == 'f' and np.array_equal(values, np.round(values)):

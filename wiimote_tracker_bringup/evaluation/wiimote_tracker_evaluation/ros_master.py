@@ -5,8 +5,7 @@ import sys
 
 
 def master_problem(advice: str) -> str:
-    """Why no ROS master can be used, and what to do; empty if one answers. advice: what to do when
-    there is none."""
+    """Why no ROS master can be used, and what to do; empty if one answers. advice: without one."""
     import rosgraph  # evaluate --help must do without
     address = rosgraph.get_master_uri()
     try:

@@ -78,7 +78,6 @@ def by_session(columns, values):
 
 
 def per_session(columns, name, chosen=True, **values):
-    """Finite values of a column in the chosen rows with these values, one array per session that has
-    any."""
+    """Finite values of a column in the chosen rows with these values, by session that has any."""
     chosen = chosen & where(columns, **values) & np.isfinite(columns[name])
     return by_session({'session': columns['session'][chosen]}, columns[name][chosen])

@@ -82,8 +82,7 @@ def end(process):
 
 
 def complaint(run):
-    """The last fatal message of a node of this section, as an addition to another sentence; empty
-    without one."""
+    """The last fatal message of a section's node, to add to a sentence; empty without one."""
     try:
         with open(run.file('nodes.log'), errors='replace') as file:
             said = [line for line in file if 'FATAL' in line]

@@ -37,8 +37,7 @@ def expanded_tail(units: int, tail: float) -> float:
 
 
 def wilson(successes: int, trials: int) -> Tuple[float, float]:
-    """Interval of a probability after independent trials (E. B. Wilson, JASA 22, 1927).
-    @raise ValueError: no trials."""
+    """Of a probability (E. B. Wilson, JASA 22, 1927). @raise ValueError: no trials."""
     if not 0 <= successes <= trials or trials < 1:
         raise ValueError('successes must be between 0 and the number of trials, at least 1')
     z2 = NORMAL_QUANTILE ** 2

@@ -114,8 +114,7 @@ def is_normal(window, seconds, before) -> bool:
 
 
 def normal_since(window, start, end, before) -> Optional[float]:
-    """The time from which every piece until the end was normal [s since 1970]; None: not at the
-    end."""
+    """From when every piece until the end was normal [s since 1970]; None: not at the end."""
     edges = np.arange(end, start + 1e-6, -PIECE)
     since = None
     for last, first in zip(edges[:-1], edges[1:]):

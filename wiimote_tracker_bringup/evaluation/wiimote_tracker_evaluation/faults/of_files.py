@@ -17,8 +17,7 @@ SAVES = 20
 
 
 def answer_calls(pipe, verb):
-    """Loads or saves (verb: load, save) the rig file of each path that comes; answers whether that
-    was done, and the sentence."""
+    """Loads or saves (verb) the rig at each path that comes; answers success and sentence."""
     import rospy
     from wiimote_tracker_msgs.srv import LoadRig, SaveRig
     service = 'calibration/' + verb

@@ -31,8 +31,7 @@ def words(numbers):
 
 
 def own_noise(views):
-    """Of a coordinate of a light about the middle of all, whose noise is the rig's [px]; by the
-    bends of its path."""
+    """Of a coordinate of a light about the middle of all [px], by the bends of its path."""
     squares = []
     for camera in views.cameras:
         about = camera.pixels - camera.centers[:, None]

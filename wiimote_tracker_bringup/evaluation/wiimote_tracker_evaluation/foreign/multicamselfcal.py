@@ -83,8 +83,7 @@ def cameras_of(path):
 
 
 def prediction_error(cameras, pixels, name):
-    """Distance of a camera's pixel from that of the point that the others see [px]; None with fewer
-    than two others."""
+    """Distance of a camera's pixel from what the others predict [px]; None with fewer than two."""
     others = [(cameras[other], pixel) for other, pixel in pixels.items() if other != name]
     if len(others) < 2:
         return None

@@ -79,8 +79,7 @@ def first_poses(views, folder):
 
 
 def write_instants(views, pixels, folder):
-    """A recording of synchronised cameras in the layout of MultiCamSelfCal. pixels: n x 2 of each
-    camera."""
+    """Synchronised cameras in the layout of MultiCamSelfCal. pixels: n x 2 of each camera."""
     ones = np.ones(len(pixels[0]))
     np.savetxt(os.path.join(folder, 'points.dat'),
                np.concatenate([np.vstack([own.T, ones]) for own in pixels]))

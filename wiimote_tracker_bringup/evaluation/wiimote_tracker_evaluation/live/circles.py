@@ -37,8 +37,7 @@ def path_of(seen):
 
 
 def errors_of(positions, radius):
-    """Centre, and radial and height error of each point [m]. Centre and tilt are fitted; the radius
-    is given by the person."""
+    """Centre and tilt of a circle of this radius; radial and height error of each point [m]."""
     middle = positions.mean(axis=0)
     _, _, axes = np.linalg.svd(positions - middle, full_matrices=False)
     plane = (positions - middle) @ axes[:2].T

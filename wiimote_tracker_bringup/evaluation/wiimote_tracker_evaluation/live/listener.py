@@ -23,8 +23,7 @@ Place = collections.namedtuple('Place', 'position scatter points')  # mean, stan
 
 
 class Listener:
-    """Points and the rig of the tracker at the ROS master. @raise ExperimentError: there is no
-    master."""
+    """Points and rig of a running tracker. @raise ExperimentError: there is no ROS master."""
 
     def __init__(self):
         import rospy

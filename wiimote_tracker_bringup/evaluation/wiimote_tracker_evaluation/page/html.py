@@ -83,8 +83,7 @@ def inner_svg(name, plot):
 # --- The subset of Markdown that report.md uses
 
 def blocks(text: str, contents) -> str:
-    """Paragraphs, headings, lists, tables and plots; of the last ones, the next block is the
-    caption."""
+    """Paragraphs, headings, lists, tables, and plots, whose captions are the next blocks."""
     parts, rest = [], iter(re.split(r'\n\s*\n', text.strip()))
     for block in rest:
         lines = block.strip().split('\n')

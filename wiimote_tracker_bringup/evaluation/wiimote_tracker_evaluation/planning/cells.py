@@ -8,8 +8,7 @@ GOOD, BAD = 0.005, 0.05  # standard deviations that are green and yellow [m]
 
 
 def cloud(frame, points, cameras, stddev) -> PointCloud2:
-    """With the fields and colours of the node `coverage`. points: M x 3; cameras, stddev: M, NaN
-    (red) where a target is not located."""
+    """As of the node `coverage`. points: M x 3; cameras, stddev: M, NaN (red) where not located."""
     known = ~np.isnan(stddev)
     share = np.log(np.where(known, stddev, BAD) / GOOD) / np.log(BAD / GOOD)
     red = (255.0 * np.clip(share, 0.0, 1.0)).astype(np.uint32)

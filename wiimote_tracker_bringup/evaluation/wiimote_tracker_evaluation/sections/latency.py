@@ -97,8 +97,7 @@ def measure(run, number, laps):
 
 
 def count_laps(conductor, laps, progress):
-    """The laps counter: sends a trigger at every crossing of the positive x axis. Returns the
-    times."""
+    """The laps counter: triggers at every crossing of the positive x axis. Returns the times."""
     import rospy
     from std_msgs.msg import Header
     from wiimote_tracker_msgs.msg import TrackedPointArray

@@ -1,7 +1,6 @@
 // Errors of a moving LED with the exposure clock on recorded arrivals of real remotes.
-#include "grid_filter.h"
 #include "paper/experiment.h"
-#include "recorded_exposures.h"
+#include "reference_stamps.h"
 #include "remote_camera.h"
 #include "room.h"
 

@@ -1,4 +1,4 @@
-#include "grid_filter.h"
+#include "reference_stamps.h"
 
 #include <Eigen/Core>
 

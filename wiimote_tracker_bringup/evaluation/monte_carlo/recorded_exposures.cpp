@@ -1,4 +1,4 @@
-#include "recorded_exposures.h"
+#include "reference_stamps.h"
 
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 

@@ -39,6 +39,7 @@ def a_good_run(run):
     axes.set_xlabel('error [µm]')
     charts.key(axes)
     run.plot('line', figure, 'A line.')
+    run.table('line', [('x', '')], [[0], [1]], 'The same line.')
     run.table('places', [('name', ''), ('error', 'mm'), ('share', '%')],
               [('P1', 1.25, 3), ('a, "b"', None, np.float64(50.0))], 'Two places.')
     run.table('many', [('n', '')], [[i] for i in range(100)])
@@ -138,7 +139,8 @@ def test_the_page_is_self_contained(evaluate, tmp_path):
         else:  # the tables; nothing is loaded from elsewhere
             assert link.startswith('data:text/csv;base64,')
     tables = [base64.b64decode(link.split(',')[1]) for link in reader.links if ',' in link]
-    assert tables[0] == (tmp_path / 'out/first/places.csv').read_bytes()
+    assert tables[:2] == [(tmp_path / f'out/first/{name}.csv').read_bytes()
+                          for name in ('line', 'places')]
     assert not re.search(r'url\((?!#)', page)
     text = ''.join(reader.text)
     for words in ('error [µm]', 'a curve', 'RMS | error', '<text>', 'It can be trusted.',

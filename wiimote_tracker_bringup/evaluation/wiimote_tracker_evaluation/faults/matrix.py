@@ -4,7 +4,6 @@ import argparse
 import dataclasses
 import json
 import subprocess
-import sys
 from typing import List, Optional
 
 from wiimote_tracker_evaluation.errors import ExperimentError
@@ -130,7 +129,3 @@ def main(arguments: Optional[List[str]] = None) -> int:
     print(f'{len(results) - len(failed)} of {len(results)} faults were survived'
           + (f"; not: {', '.join(failed)}" if failed else ''))
     return 1 if failed else 0
-
-
-if __name__ == '__main__':
-    sys.exit(main())

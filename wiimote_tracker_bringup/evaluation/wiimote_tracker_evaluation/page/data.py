@@ -1,6 +1,7 @@
 """Figures, tables and plots as files for other programs."""
 
 import csv
+import dataclasses
 import io
 import json
 
@@ -11,20 +12,13 @@ from wiimote_tracker_evaluation.section import Plot, Table
 FORMAT = 1  # of figures.json
 
 
-def figure_entry(run, figure):
-    return {'name': figure.name, 'section': run.name, 'value': figure.value, 'unit': figure.unit,
-            'note': figure.note, 'seed': run.seed, 'samples': figure.samples,
-            'interval': list(figure.interval) if figure.interval else None,
-            'simulated': figure.simulated, 'end_to_end': figure.end_to_end,
-            'headline': figure.headline}
-
-
 def figures_json(report):
     return json.dumps({
         'format': FORMAT, 'quick': report.quick, 'seed': report.seed,
         'rig': report.rig, 'simulated': report.simulated,
         'failed': [run.name for run in report.runs if run.failure],
-        'figures': [figure_entry(run, figure) for run in report.runs for figure in run.figures],
+        'figures': [dict(dataclasses.asdict(figure), section=run.name, seed=run.seed)
+                    for run in report.runs for figure in run.figures],
     }, indent=1, ensure_ascii=False) + '\n'
 
 
@@ -68,10 +62,9 @@ def write_matlab(path, run):
     import scipy.io
     content = {'title': run.title, 'seed': float(run.seed), 'simulated': run.simulated,
                'quick': run.quick, 'failure': run.failure}
-    content['figures'] = {figure.name: {
-        'value': figure.value, 'unit': figure.unit, 'samples': float(figure.samples),
-        'interval': np.array(figure.interval if figure.interval else (np.nan, np.nan)),
-        'simulated': figure.simulated, 'end_to_end': figure.end_to_end, 'note': figure.note} for figure in run.figures}
+    content['figures'] = {figure.name: dict(
+        dataclasses.asdict(figure), samples=float(figure.samples),
+        interval=np.array(figure.interval or (np.nan, np.nan))) for figure in run.figures}
     for table in run.contents:
         if isinstance(table, Table):
             columns = zip(*table.rows) if table.rows else [()] * len(table.columns)

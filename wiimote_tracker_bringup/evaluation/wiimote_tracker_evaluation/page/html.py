@@ -8,6 +8,7 @@ from wiimote_tracker_evaluation.page import data, markdown
 from wiimote_tracker_evaluation.section import Plot, Table
 
 MOST_INLINE = 200000  # [bytes] of one table
+ENDINGS = {Plot: 'svg', Table: 'csv'}
 STYLE = '''
 :root { --ink: #1c2430; --soft: #5d6878; --line: #d9dee5; --accent: #1f5fa8; --bad: #a4262c; }
 * { box-sizing: border-box; }
@@ -45,8 +46,8 @@ code { font-size: .9em; background: #f2f4f7; padding: 0 .2em; }
 
 def page(report):
     head, *parts = markdown.page(report).split('\n## ')
-    contents = {(run.name, each.name): each for run in report.runs for each in run.contents
-                if isinstance(each, (Plot, Table))}
+    contents = {f'{run.name}/{each.name}.{ENDINGS[type(each)]}': each for run in report.runs
+                for each in run.contents if type(each) in ENDINGS}
     names = {'In short': 'short', **{run.title: run.name for run in report.runs},
              'Every figure': 'figures'}
     sections = ['<section id="%s">%s</section>' % (
@@ -58,16 +59,16 @@ def page(report):
         '<meta name="viewport" content="width=device-width, initial-scale=1">',
         f'<title>{markdown.TITLE}</title><style>{STYLE}</style></head><body>',
         blocks(head, contents), f'<nav>{"".join(links)}</nav>',
-        re.sub(r'href="(\w+)/(\w+)\.csv"', lambda link: with_data(link, contents),
+        re.sub(r'href="(\w+/(\w+\.csv))"', lambda link: with_data(link, contents[link[1]]),
                '\n'.join(sections)), '</body></html>\n'])
 
 
-def with_data(link, contents):
+def with_data(link, table):
     """A table's link with its data, for a page that is mailed alone; a large table stays a file."""
-    text = data.csv_text(contents[link.groups()]).encode()
+    text = data.csv_text(table).encode()
     if len(text) > MOST_INLINE:
         return link.group()
-    return f'download="{link[2]}.csv" href="data:text/csv;base64,{base64.b64encode(text).decode()}"'
+    return f'download="{link[2]}" href="data:text/csv;base64,{base64.b64encode(text).decode()}"'
 
 
 def inner_svg(name, plot):
@@ -87,10 +88,10 @@ def blocks(text: str, contents) -> str:
     parts, rest = [], iter(re.split(r'\n\s*\n', text.strip()))
     for block in rest:
         lines = block.strip().split('\n')
-        plot = re.match(r'!\[\w+\]\((\w+)/(\w+)\.svg\)', block)
+        plot = re.match(r'!\[\w+\]\((\w+/\w+)\.svg\)', block)
         if plot:
             parts.append('<figure>%s%s</figure>' % (
-                inner_svg('-'.join(plot.groups()), contents[plot.groups()]),
+                inner_svg(plot[1].replace('/', '-'), contents[plot[1] + '.svg']),
                 element('figcaption', next(rest))))
             continue
         if lines[0].startswith('|'):

@@ -141,8 +141,7 @@ void trackImages(const geometry::Rig& rig,
 
 simulation::Description withCameras(const simulation::Description& description, std::size_t count) {
   simulation::Description fewer = description;
-  while (fewer.cameras.size() > count)
-    fewer.cameras.pop_back();
+  fewer.cameras.resize(std::min(count, fewer.cameras.size()));
   return fewer;
 }
 

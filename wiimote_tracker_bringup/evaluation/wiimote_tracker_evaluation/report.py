@@ -54,21 +54,14 @@ def sentence(mode, score):
                 + (score['rate_hz'], score['latency_ms']['p50'], score['latency_ms']['p99'])))
 
 
-def summary(mode, score, bounds):
-    return {
-        'simulated': True,
-        'mode': mode,
-        'position_rms_mm': score['position_rms_mm'],
-        'best_for_this_rig_mm': {kind: milli(bounds[kind].best) for kind in KINDS},
-        'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
-        'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
-                                for kind in KINDS},
-        **score}
-
-
 def write_summary(path, mode, score, bounds):
     with open(path, 'w') as file:
-        json.dump(summary(mode, score, bounds), file, indent=2)
+        json.dump({
+            'simulated': True, 'mode': mode, 'position_rms_mm': score['position_rms_mm'],
+            'best_for_this_rig_mm': {kind: milli(bounds[kind].best) for kind in KINDS},
+            'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
+            'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
+                                    for kind in KINDS}, **score}, file, indent=2)
         file.write('\n')
 
 

@@ -18,7 +18,8 @@ def page(report):
     lines += ['', '## Every figure', '', 'As in figures.json.']
     for run in report.runs:
         if run.figures:
-            lines += ['', '### ' + run.title, ''] + figures_table(run)
+            lines += ['', '### ' + run.title, '', row(['', 'value', '95 %', 'samples', '']),
+                      '|---|--:|--:|--:|---|'] + [row(words.cells(each)) for each in run.figures]
     return '\n'.join(lines) + '\n'
 
 
@@ -50,8 +51,3 @@ def content_table(run, table):
     lines = [row([words.with_unit(name, unit) for name, unit in table.columns]), row(signs)]
     lines += [row([words.number(cell) for cell in cells]) for cells in table.rows]
     return lines + ['', (table.caption + ' ' if table.caption else '') + link]
-
-
-def figures_table(run):
-    return [row(['', 'value', '95 %', 'samples', '']), '|---|--:|--:|--:|---|'] + [
-        row(words.cells(figure)) for figure in run.figures]

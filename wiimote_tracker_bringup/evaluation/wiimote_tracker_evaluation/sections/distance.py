@@ -49,16 +49,13 @@ def tell(run, led, carried):
         distance = detection_distance(constant * PAPER_CURRENT, thresholds[level])
         table.append([level, thresholds[level], float(detection_distance(1.0, thresholds[level])),
                       float(distance)])
-        run.figure('distance_560_mA_' + level, distance, 'm', sessions_of(carried),
+        run.figure('distance_560_mA_' + level, distance, 'm',
+                   len(np.unique(carried['session'])),
                    note=f'Distance from which the LED is seen with 560 mA, sensitivity {level}')
     run.table('levels', [('sensitivity', ''), ('threshold', 'sensor bars at 1 m'),
                          ('sensor_bar_seen_from', 'm'), ('led_560_mA_seen_from', 'm')], table)
     tell_law(run, carried)
     tell_corners(run, led)
-
-
-def sessions_of(carried):
-    return len(np.unique(carried['session']))
 
 
 def threshold(carried, level):

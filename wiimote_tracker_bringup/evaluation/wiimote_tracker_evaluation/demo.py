@@ -53,10 +53,10 @@ class Demo:
         self._mode = mode
         self._progress = Progress(8)
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
+        names = ['rig'] + [camera.name for camera in self._scene.cameras]
         prepare(output, [
             'summary.json', 'demo.bag', 'demo.bag.active', 'points.csv', 'tracks.png', 'tracks.gif',
-            'nodes.log'] + [name + ending for name in ['rig', *(c.name for c in self._scene.cameras)]
-                            for ending in ('.yaml', '.yaml.bak')])
+            'nodes.log'] + [name + ending for name in names for ending in ('.yaml', '.yaml.bak')])
 
     def run(self):
         try:

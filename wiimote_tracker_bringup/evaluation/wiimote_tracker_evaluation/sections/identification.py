@@ -32,8 +32,8 @@ def succeeded(tries):
 
 
 class Line:
-    """One scheme and number of cameras, by the length of its period or chip [ms]. shares, intervals:
-    of the successes [%]; seconds: their times; wrong: tries in which a label was ever wrong."""
+    """One scheme and number of cameras, by the length of its period or chip [ms]. shares and
+    intervals: of the successes [%]; seconds: their times; wrong: tries with ever a wrong label."""
 
     def __init__(self, tries, scheme, cameras):
         chosen = sessions.where(tries, scheme=scheme, cameras=cameras)
@@ -79,7 +79,7 @@ def tell(run, tries):
     for (scheme, count), line in lines.items():
         for length, number, share, interval, seconds in zip(
                 line.lengths, line.tries, line.shares, line.intervals, line.seconds):
-            times = [float(np.median(seconds)), float(np.max(seconds))] if len(seconds) else 2 * [None]
+            times = [float(of(seconds)) if len(seconds) else None for of in (np.median, np.max)]
             rows.append([scheme, count, length, number, share, *interval, *times])
     run.table('lengths', [('scheme', ''), ('cameras', ''), ('period_or_chip', 'ms'), ('tries', ''),
                           ('success', '%'), ('low', '%'), ('high', '%'), ('median_time', 's'),

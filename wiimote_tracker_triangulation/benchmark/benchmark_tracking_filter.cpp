@@ -1,9 +1,9 @@
 // The accuracy of the motion filter of one LED, compared with bounds.
 #include "benchmark_tracking_sections.h"
-#include "constant_noise_filter.h"
 #include "geometry/accuracy.h"
 #include "motion/known_mode.h"
 #include "motion/motion_filter.h"
+#include "single_model_filter.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
 
@@ -68,9 +68,20 @@ bool takeIn(MotionFilter* filter, double time, const Camera& camera, const Vecto
   return prediction && filter->update(camera, *prediction, pixel);
 }
 
-void takeIn(ConstantNoiseFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
+void takeIn(SingleModelFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
   filter->predict(time);
-  filter->update(camera, pixel);
+  filter->update(camera, pixel, filter->state.position());
+}
+
+/// The acceleration is a random walk. @param density [m^2/s^5]  @param h duration [s]
+motion::Transition randomWalkOfAcceleration(double density, double h) {
+  motion::Transition result;
+  result.F << 1.0, h, 0.5 * h * h, 0.0, 1.0, h, 0.0, 0.0, 1.0;
+  result.Q << h * h * h * h / 20.0, h * h * h / 8.0, h * h / 6.0,  //
+      h * h * h / 8.0, h * h / 3.0, h / 2.0,                       //
+      h * h / 6.0, h / 2.0, 1.0;
+  result.Q *= density * h;
+  return result;
 }
 
 /// A true motion, whose model the bound knows.
@@ -213,7 +224,7 @@ void besideHindsight(const std::vector<std::vector<Sample>>& recordings,
   const Matrix3d covariance = kStartStddev * kStartStddev * Matrix3d::Identity();
   for (const std::vector<Sample>& samples : recordings) {
     MotionFilter filter(options, samples.front().time, samples.front().truth, covariance);
-    follow<MotionFilter>(samples, &filter, [&](const Sample& sample) {
+    follow(samples, &filter, [&](const Sample& sample) {
       figures[sample.speed_class].add(filter.position() - sample.truth,
                                       filter.positionCovariance());
     });
@@ -221,12 +232,18 @@ void besideHindsight(const std::vector<std::vector<Sample>>& recordings,
   // Random walks of the velocity or acceleration, densities from 1e-6 to 1e4, two per decade.
   for (const int order : {2, 3}) {
     for (int exponent = -12; exponent <= 8; ++exponent) {
+      const double density = std::pow(10.0, 0.5 * exponent);
       std::vector<double> squared(classes.size(), 0.0);
       for (const std::vector<Sample>& samples : recordings) {
-        ConstantNoiseFilter filter(order, std::pow(10.0, 0.5 * exponent), samples.front().time,
-                                   samples.front().truth, covariance, kPixelStddev);
-        follow<ConstantNoiseFilter>(samples, &filter, [&](const Sample& sample) {
-          squared[sample.speed_class] += (filter.position() - sample.truth).squaredNorm();
+        SingleModelFilter filter{
+            [&](double duration) {
+              return order == 2 ? motion::randomWalkOfVelocity(std::sqrt(density), duration)
+                                : randomWalkOfAcceleration(density, duration);
+            },
+            kPixelStddev, samples.front().time,
+            stateAt(samples.front().truth, covariance, 1.0, order == 2 ? 0.0 : 10.0)};
+        follow(samples, &filter, [&](const Sample& sample) {
+          squared[sample.speed_class] += (filter.state.position() - sample.truth).squaredNorm();
         });
       }
       for (std::size_t i = 0; i < classes.size(); ++i)

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 namespace wiimote_tracker {
 namespace {
@@ -18,8 +17,6 @@ constexpr double kMerging = 8.0;  // of the sensor; the tracker assumes its defa
 
 BenchmarkRow timeRow(const std::string& name,
                      double speed,
-                     double dropout,
-                     double ghosts,
                      double jitter,
                      int frames,
                      unsigned seed) {
@@ -28,8 +25,8 @@ BenchmarkRow timeRow(const std::string& name,
   SceneOptions options;
   options.pixel_noise = kPixelNoise;
   options.merging_distance = kMerging;
-  options.dropout = dropout;
-  options.ghosts = ghosts;
+  options.dropout = 0.1;
+  options.ghosts = 1.0;
   options.delay_jitter = jitter;
   options.clock_skew = 1e-4;
   const geometry::Rig rig = paperRig();
@@ -49,14 +46,14 @@ BenchmarkRow timeRow(const std::string& name,
     }
   }
   return {name,
-          {{"frames", static_cast<double>(frames)},
-           {"switches", static_cast<double>(check.switches)},
-           {"renamed", static_cast<double>(check.renamed)},
-           {"uncovered", static_cast<double>(check.uncovered)},
-           {"at_end", static_cast<double>(uncovered_at_end)},
-           {"false", static_cast<double>(check.false_tracks)},
+          {{"frames", frames},
+           {"switches", check.switches},
+           {"renamed", check.renamed},
+           {"uncovered", check.uncovered},
+           {"at_end", uncovered_at_end},
+           {"false", check.false_tracks},
            {"rms_mm", 1e3 * check.rms()},
-           {"late", static_cast<double>(tracker.counters().late)}}};
+           {"late", tracker.counters().late}}};
 }
 
 /// Ids of the tracks nearest to the LEDs; -1: none within 0.1 m.
@@ -110,45 +107,43 @@ BenchmarkRow meetingRow(const std::string& name,
         (snapshot->time < meeting.meeting_time ? before : after) = ids;
       }
     }
-    const std::optional<bool> oracle = oracleErrs(meeting, rig, leds, images, kPixelNoise);
+    const auto oracle = oracleErrors(meeting, {rig, leds, images, kPixelNoise});
     // Never merged in all views, or not resolved before: nothing to compare.
     if (!oracle || before[0] < 0 || before[1] < 0 || after[0] < 0 || after[1] < 0) {
       ++left_out;
       continue;
     }
     ++meetings;
-    oracle_errors += *oracle;
-    filter_errors +=
-        *oracleErrsWithFilters(motion::MotionOptions(), rig, leds, images, kPixelNoise);
+    oracle_errors += oracle->with_model;
+    filter_errors += oracle->with_filters;
     const bool exchanged = after[0] == before[1] || after[1] == before[0];
     errors += exchanged;
     renamed += !exchanged && (after[0] != before[0] || after[1] != before[1]);
   }
   return {name,
-          {{"encounters", static_cast<double>(meetings)},
-           {"left_out", static_cast<double>(left_out)},
-           {"oracle", static_cast<double>(oracle_errors)},
-           {"with_filters", static_cast<double>(filter_errors)},
-           {"tracker", static_cast<double>(errors)},
-           {"renamed", static_cast<double>(renamed)},
+          {{"encounters", meetings},
+           {"left_out", left_out},
+           {"oracle", oracle_errors},
+           {"with_filters", filter_errors},
+           {"tracker", errors},
+           {"renamed", renamed},
            {"ratio", static_cast<double>(errors + renamed) / oracle_errors}}};
 }
 
 void runIdentity(const BenchmarkSettings& settings, const RowCallback& row) {
   const int frames = 10000 * settings.runs;
-  row(timeRow("0.5 m/s", 0.5, 0.1, 1.0, 0.0, frames, settings.seed));
-  row(timeRow("1 m/s", 1.0, 0.1, 1.0, 0.0, frames, settings.seed + 1));
-  row(timeRow("2 m/s", 2.0, 0.1, 1.0, 0.0, frames, settings.seed + 2));
-  row(timeRow("1 m/s, late images", 1.0, 0.1, 1.0, 0.0024, frames, settings.seed + 3));
+  row(timeRow("0.5 m/s", 0.5, 0.0, frames, settings.seed));
+  row(timeRow("1 m/s", 1.0, 0.0, frames, settings.seed + 1));
+  row(timeRow("2 m/s", 2.0, 0.0, frames, settings.seed + 2));
+  row(timeRow("1 m/s, late images", 1.0, 0.0024, frames, settings.seed + 3));
   const int meetings = 20 * settings.runs;
   LedMeeting meeting;
   for (const double speed : {0.2, 0.5, 1.0}) {
     for (const double acceleration : {2.0, 5.0}) {
       meeting.relative_speed = speed;
       meeting.acceleration = acceleration;
-      char name[80];
-      std::snprintf(name, sizeof(name), "meeting at %.1f m/s, %.0f m/s^2", speed, acceleration);
-      row(meetingRow(name, meeting, meetings, settings.seed));
+      row(meetingRow(format("meeting at %.1f m/s, %.0f m/s^2", speed, acceleration), meeting,
+                     meetings, settings.seed));
     }
   }
 }

@@ -1,16 +1,12 @@
 #include "led_meeting.h"
 
-#include "motion/kinematic_state.h"
 #include "motion/motion_filter.h"
-#include "motion/transition.h"
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
+#include "single_model_filter.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -41,122 +37,53 @@ std::vector<Eigen::Vector3d> wander(geometry::test::Random& random,
   return samples;
 }
 
-/// An extended Kalman filter of the Singer model, linearised at the truth.
-class SingerFollower {
- public:
-  SingerFollower(const LedMeeting& meeting, double time, const Eigen::Vector3d& position)
-      : meeting_(meeting), time_(time) {
-    state_.mean << position, Eigen::Matrix<double, 6, 1>::Zero();
-    state_.covariance.setZero();
-    state_.covariance.diagonal().head<3>().setConstant(1e-2);
-    state_.covariance.diagonal().segment<3>(3).setConstant(4.0);
-    state_.covariance.diagonal().tail<3>().setConstant(meeting.acceleration * meeting.acceleration);
-  }
-
-  void predict(double time) {
-    state_.predict(motion::singer(meeting_.acceleration, meeting_.acceleration_time, time - time_));
-    time_ = time;
-  }
-
-  /// @returns log likelihood of the pixel.
-  double update(const geometry::Camera& camera,
-                const Eigen::Vector3d& truth,
-                const Eigen::Vector2d& pixel,
-                double pixel_stddev) {
-    Eigen::Matrix<double, 2, 3> jacobian;
-    const Eigen::Vector2d at_truth = *camera.project(truth, &jacobian);
-    const Eigen::Vector2d innovation = pixel - at_truth - jacobian * (state_.position() - truth);
-    const Eigen::Matrix2d covariance =
-        jacobian * state_.positionCovariance() * jacobian.transpose() +
-        pixel_stddev * pixel_stddev * Eigen::Matrix2d::Identity();
-    const Eigen::Matrix2d L = covariance.llt().matrixL();
-    const Eigen::Matrix2d whitening = L.inverse();
-    state_.update(jacobian, whitening, innovation);
-    return -0.5 * (whitening * innovation).squaredNorm() - std::log(L.determinant());
-  }
-
- private:
-  LedMeeting meeting_;
-  double time_;
-  motion::KinematicState state_;
-};
-
-/// The tracker's filter.
-class FilterFollower {
- public:
-  FilterFollower(const motion::MotionOptions& options, double time, const Eigen::Vector3d& place)
-      : filter_(options, time, place, 1e-2 * Eigen::Matrix3d::Identity()) {}
-
-  void predict(double time) { filter_.predict(time); }
-
-  double update(const geometry::Camera& camera,
-                const Eigen::Vector3d& /*truth*/,
-                const Eigen::Vector2d& pixel,
-                double pixel_stddev) {
-    const auto prediction = filter_.predictPixel(camera, {pixel_stddev, 0.0});
-    if (!prediction)
-      return -std::numeric_limits<double>::infinity();
-    const double result = prediction->logLikelihood(pixel);
-    filter_.update(camera, *prediction, pixel);
-    return result;
-  }
-
- private:
-  motion::MotionFilter filter_;
-};
-
 bool isMerged(const SceneImage& image) {
   return std::find(image.leds_of_spot.begin(), image.leds_of_spot.end(), std::uint64_t{3}) !=
          image.leds_of_spot.end();
 }
 
-/// @tparam Follower the filter of one LED. @tparam Model its parameters.
-template <typename Follower, typename Model>
-std::optional<bool> errs(const Model& model,
-                         const geometry::Rig& rig,
-                         const std::vector<Path>& leds,
-                         const std::vector<SceneImage>& images,
-                         double pixel_stddev) {
-  // The longest run of images that all show one spot.
-  std::size_t first = 0;
-  std::size_t last = 0;
+/// The longest run of images that all show one spot: its first image, and the one behind it.
+std::pair<std::size_t, std::size_t> longestMerged(const std::vector<SceneImage>& images) {
+  std::pair<std::size_t, std::size_t> longest = {0, 0};
   for (std::size_t i = 0; i < images.size();) {
     std::size_t end = i;
     while (end < images.size() && isMerged(images[end]))
       ++end;
-    if (end - i > last - first) {
-      first = i;
-      last = end;
-    }
+    if (end - i > longest.second - longest.first)
+      longest = {i, end};
     i = std::max(end, i + 1);
   }
-  if (last - first < rig.cameras.size())
-    return std::nullopt;
+  return longest;
+}
 
-  std::vector<Follower> followers;
-  for (const Path& led : leds)
-    followers.emplace_back(model, images[0].true_time, led(images[0].true_time));
-  const auto take = [&](Follower* follower, const SceneImage& image, std::size_t led) {
+/// @param filters of the LEDs, at the first image. @param update gives a filter a pixel, for its
+/// log likelihood.
+template <typename Filter, typename Update>
+bool errs(const MeetingFilm& film,
+          const std::pair<std::size_t, std::size_t>& merged,
+          std::vector<Filter> filters,
+          const Update& update) {
+  const auto take = [&](Filter* filter, const SceneImage& image, std::size_t led) {
     double sum = 0.0;
-    follower->predict(image.true_time);
+    filter->predict(image.true_time);
     for (std::size_t spot = 0; spot < image.leds_of_spot.size(); ++spot) {
       if (image.leds_of_spot[spot] == std::uint64_t{1} << led)
-        sum += follower->update(rig.cameras[image.camera].camera, leds[led](image.true_time),
-                                image.image.spots[spot].pixel, pixel_stddev);
+        sum += update(filter, film.rig.cameras[image.camera].camera, image.image.spots[spot].pixel,
+                      film.leds[led](image.true_time));
     }
     return sum;
   };
-  for (std::size_t i = 0; i < first; ++i) {
+  for (std::size_t i = 0; i < merged.first; ++i) {
     for (std::size_t led = 0; led < 2; ++led)
-      take(&followers[led], images[i], led);
+      take(&filters[led], film.images[i], led);
   }
   double straight = 0.0;
   double exchanged = 0.0;
-  std::vector<Follower> other = followers;
-  for (std::size_t i = last; i < images.size(); ++i) {
+  std::vector<Filter> other = filters;
+  for (std::size_t i = merged.second; i < film.images.size(); ++i) {
     for (std::size_t led = 0; led < 2; ++led) {
-      straight += take(&followers[led], images[i], led);
-      exchanged += take(&other[led], images[i], 1 - led);
+      straight += take(&filters[led], film.images[i], led);
+      exchanged += take(&other[led], film.images[i], 1 - led);
     }
   }
   return exchanged > straight;
@@ -189,20 +116,40 @@ std::vector<Path> LedMeeting::draw(geometry::test::Random& random) const {
   return paths;
 }
 
-std::optional<bool> oracleErrs(const LedMeeting& meeting,
-                               const geometry::Rig& rig,
-                               const std::vector<Path>& leds,
-                               const std::vector<SceneImage>& images,
-                               double pixel_stddev) {
-  return errs<SingerFollower>(meeting, rig, leds, images, pixel_stddev);
-}
-
-std::optional<bool> oracleErrsWithFilters(const motion::MotionOptions& options,
-                                          const geometry::Rig& rig,
-                                          const std::vector<Path>& leds,
-                                          const std::vector<SceneImage>& images,
-                                          double pixel_stddev) {
-  return errs<FilterFollower>(options, rig, leds, images, pixel_stddev);
+std::optional<OracleErrors> oracleErrors(const LedMeeting& meeting, const MeetingFilm& film) {
+  const auto merged = longestMerged(film.images);
+  if (merged.second - merged.first < film.rig.cameras.size())
+    return std::nullopt;
+  const auto model = [&](double duration) {
+    return motion::singer(meeting.acceleration, meeting.acceleration_time, duration);
+  };
+  const double begin = film.images[0].true_time;
+  const Eigen::Matrix3d covariance = 1e-2 * Eigen::Matrix3d::Identity();
+  const motion::MotionOptions options;
+  std::vector<SingleModelFilter> singers;
+  std::vector<motion::MotionFilter> filters;
+  for (const Path& led : film.leds) {
+    singers.push_back({model, film.pixel_stddev, begin,
+                       stateAt(led(begin), covariance, 2.0, meeting.acceleration)});
+    filters.emplace_back(options, begin, led(begin), covariance);
+  }
+  using Camera = geometry::Camera;
+  using Eigen::Vector2d;
+  using Eigen::Vector3d;
+  return OracleErrors{
+      errs(film, merged, singers,
+           [](SingleModelFilter* filter, const Camera& camera, const Vector2d& pixel,
+              const Vector3d& truth) { return filter->update(camera, pixel, truth); }),
+      errs(film, merged, filters,
+           [&](motion::MotionFilter* filter, const Camera& camera, const Vector2d& pixel,
+               const Vector3d&) {
+             const auto prediction = filter->predictPixel(camera, {film.pixel_stddev, 0.0});
+             if (!prediction)
+               return -std::numeric_limits<double>::infinity();
+             const double likelihood = prediction->logLikelihood(pixel);
+             filter->update(camera, *prediction, pixel);
+             return likelihood;
+           })};
 }
 
 }  // namespace wiimote_tracker

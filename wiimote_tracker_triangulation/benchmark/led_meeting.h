@@ -3,9 +3,7 @@
 
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/motion/motion_options.h"
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -24,22 +22,25 @@ struct LedMeeting {
   std::vector<tracking::test::Path> draw(geometry::test::Random& random) const;
 };
 
+/// A meeting as cameras saw it.
+struct MeetingFilm {
+  const geometry::Rig& rig;
+  const std::vector<tracking::test::Path>& leds;
+  const std::vector<tracking::test::SceneImage>& images;
+  double pixel_stddev;  ///< [px]
+};
+
 /// Whether an oracle confuses the two LEDs: whether the spots are more likely with the LEDs
 /// exchanged after the meeting than without. The oracle knows the motion model, the cameras' noise,
 /// all images, and before and after the meeting which spots are of one LED; its Kalman filters are
-/// linearised at the truth. Nothing when the spots were never merged in all views.
-std::optional<bool> oracleErrs(const LedMeeting& meeting,
-                               const geometry::Rig& rig,
-                               const std::vector<tracking::test::Path>& leds,
-                               const std::vector<tracking::test::SceneImage>& images,
-                               double pixel_stddev);
+/// linearised at the truth.
+struct OracleErrors {
+  bool with_model;
+  bool with_filters;  ///< With the tracker's filters instead of the true motion model.
+};
 
-/// The same oracle with the tracker's filters instead of the true motion model.
-std::optional<bool> oracleErrsWithFilters(const motion::MotionOptions& options,
-                                          const geometry::Rig& rig,
-                                          const std::vector<tracking::test::Path>& leds,
-                                          const std::vector<tracking::test::SceneImage>& images,
-                                          double pixel_stddev);
+/// Nothing when the spots were never merged in all views.
+std::optional<OracleErrors> oracleErrors(const LedMeeting& meeting, const MeetingFilm& film);
 
 }  // namespace wiimote_tracker
 

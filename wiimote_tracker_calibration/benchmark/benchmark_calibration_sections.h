@@ -16,50 +16,22 @@ struct BenchmarkSection {
   std::function<void(int runs, const RowCallback& row)> run;
 };
 
-/// The wave and the wand: errors beside the Fisher bound, coverage, positions.
-BenchmarkSection waveSection();
-
-/// The wand on the floor beside the square.
-BenchmarkSection floorSection();
-
-/// How long the wave takes to solve.
-BenchmarkSection waveTimeSection();
-
-/// The pose of the square in one image: errors beside the Cramer-Rao bound, branches, time.
+// What each measures is in its explanation.
 BenchmarkSection poseSection();
-
-/// The same beside OpenCV's methods.
 BenchmarkSection poseMethodsSection();
-
-/// What following the verdict's advice to measure gains.
+BenchmarkSection waveSection();
+BenchmarkSection floorSection();
+BenchmarkSection waveTimeSection();
 BenchmarkSection measureSection();
-
-/// The paper's procedure, with its principal point correction.
-BenchmarkSection paperSection();
-
-/// Mistakes of a person, and what is said of them.
 BenchmarkSection mistakesSection();
-
-/// Corrections of a deformed volume.
+BenchmarkSection paperSection();
 BenchmarkSection remapSection();
-
-/// Rooms that share no view, joined by an LED carried through the door.
 BenchmarkSection roomsSection();
-
-/// Eight hours with a rig that corrects itself.
 BenchmarkSection continuousSection();
-
-/// Other lights, and masked cameras, that must not change a rig.
-BenchmarkSection misledSection();
-
-/// A day without motion.
-BenchmarkSection restSection();
-
-/// Thirty days of tracker and health watch.
-BenchmarkSection monthSection();
-
-/// How soon it brings back a camera that was knocked.
 BenchmarkSection knockSection();
+BenchmarkSection misledSection();
+BenchmarkSection restSection();
+BenchmarkSection monthSection();
 
 }  // namespace wiimote_tracker
 

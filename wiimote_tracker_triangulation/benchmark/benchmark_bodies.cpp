@@ -1,5 +1,4 @@
-// Accuracy of finding and following rigid bodies: one table per section. With --body FILE the first
-// body of that file is measured too (a file of bodies, or one of rpg_monocular_pose_estimator).
+// Accuracy of finding and following rigid bodies: one table per section.
 #include "benchmark_program.h"
 #include "body/bodies_file.h"
 #include "body/body_scene.h"
@@ -29,8 +28,6 @@ using tracking::test::SceneOptions;
 constexpr double kPixelNoise = 0.5;  // [px]
 constexpr double kBegin = 1001.0;    // errors before are not scored [s]
 constexpr double kWrong = 0.35;      // a larger rotation error means a wrong assignment [rad]
-
-std::vector<Constellation> g_bodies;
 
 Constellation threeLeds() {
   return {"three_leds", {{0.1, 0.0, 0.03}, {-0.06, 0.09, 0.0}, {0.02, -0.03, 0.02}}};
@@ -114,7 +111,8 @@ BenchmarkRow measure(const std::string& name,
 
 void runAccuracy(const BenchmarkSettings& settings, const RowCallback& row) {
   std::vector<Constellation> bodies = {fourLeds(), threeLeds()};
-  bodies.insert(bodies.end(), g_bodies.begin(), g_bodies.end());
+  for (const std::string& file : settings.bodies)
+    bodies.push_back(body::readBodies(file).at(0));
   for (const Constellation& body : bodies) {
     for (const std::size_t cameras : {4, 2}) {
       const std::string where = body.name + ", " + std::to_string(cameras) + " cameras, ";
@@ -191,19 +189,6 @@ void runRecovery(const BenchmarkSettings& settings, const RowCallback& row) {
 
 int main(int argc, char** argv) {
   using namespace wiimote_tracker;
-  std::vector<char*> others;
-  for (int i = 0; i < argc; ++i) {
-    if (std::string(argv[i]) != "--body" || i + 1 == argc) {
-      others.push_back(argv[i]);
-      continue;
-    }
-    try {
-      g_bodies.push_back(body::readBodies(argv[++i]).at(0));
-    } catch (const std::exception& error) {
-      std::fprintf(stderr, "%s\n", error.what());
-      return 1;
-    }
-  }
   return runBenchmark(
       "benchmark_bodies",
       {{"accuracy",
@@ -213,5 +198,9 @@ int main(int argc, char** argv) {
         runAccuracy},
        {"hidden", "The same with LEDs hidden, or spots that merge.", runHidden},
        {"recovery", "Time to the first pose after all LEDs were hidden for 0.8 s.", runRecovery}},
-      static_cast<int>(others.size()), others.data());
+      argc, argv, [](ArgumentParser* parser, BenchmarkSettings* settings) {
+        parser->option("--body FILE", &settings->bodies,
+                       "for the section accuracy: the first body of this file of bodies, or of "
+                       "rpg_monocular_pose_estimator, is measured, too");
+      });
 }

@@ -1,6 +1,5 @@
 // How often blinking LEDs get a wrong label: one table per section.
-#include "benchmark_identity_sections.h"
-#include "benchmark_program.h"
+#include "benchmark_sections.h"
 
 int main(int argc, char** argv) {
   using namespace wiimote_tracker;

@@ -1,5 +1,5 @@
 // Blinking LEDs, followed by the tracker as they move.
-#include "benchmark_identity_sections.h"
+#include "benchmark_sections.h"
 #include "identity/blinking.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"

@@ -1,5 +1,5 @@
 // Processing time of the identification.
-#include "benchmark_identity_sections.h"
+#include "benchmark_sections.h"
 #include "identity/blinking.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"

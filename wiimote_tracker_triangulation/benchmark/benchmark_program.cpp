@@ -8,7 +8,7 @@ int runBenchmark(const std::string& program,
                  const std::vector<BenchmarkSection>& sections,
                  int argc,
                  char** argv,
-                 bool takes_motion) {
+                 const std::function<void(ArgumentParser*, BenchmarkSettings*)>& add_options) {
   BenchmarkSettings settings;
   BenchmarkTables tables;
   std::string only;
@@ -20,9 +20,8 @@ int runBenchmark(const std::string& program,
   parser.option("--section NAME", &only, names, "run only this one");
   parser.option("--runs N", &settings.runs, 1, 1000000000, "repetitions per row");
   parser.option("--seed N", &settings.seed, 0, 4294967295, "of the random numbers");
-  if (takes_motion)
-    parser.option("--motion FILE.csv", &settings.motion,
-                  "recorded motion [mm] for the section filter");
+  if (add_options)
+    add_options(&parser, &settings);
   return parser.run(argc, argv, [&] {
     std::printf("Simulated; runs %d, seed %u.\n", settings.runs, settings.seed);
     for (const BenchmarkSection& section : sections) {

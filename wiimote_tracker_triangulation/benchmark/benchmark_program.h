@@ -1,20 +1,35 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H
 
-#include "benchmark_tracking_sections.h"
+#include <wiimote_tracker_msgs/benchmark_tables.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker {
 
+struct BenchmarkSettings {
+  int runs = 20;                    ///< At least 1; each section says how much one run is.
+  unsigned seed = 1;                ///< Of the random numbers.
+  std::string motion;               ///< CSV file of recorded motion [mm]; empty: none.
+  std::vector<std::string> bodies;  ///< Files of which the first body is measured, too.
+};
+
+/// A section of a benchmark, in a file of its own.
+struct BenchmarkSection {
+  std::string name;
+  std::string explanation;  ///< Of the columns.
+  std::function<void(const BenchmarkSettings& settings, const RowCallback& row)> run;
+};
+
 /// A benchmark's main(): runs all sections, or the requested one, prints their tables and writes
-/// them as JSON. @param takes_motion whether it has the option --motion.
+/// them as JSON. @param add_options of this benchmark only.
 int runBenchmark(const std::string& program,
                  const std::vector<BenchmarkSection>& sections,
                  int argc,
                  char** argv,
-                 bool takes_motion = false);
+                 const std::function<void(ArgumentParser*, BenchmarkSettings*)>& add_options = {});
 
 }  // namespace wiimote_tracker
 

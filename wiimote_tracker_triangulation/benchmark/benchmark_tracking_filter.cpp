@@ -1,5 +1,5 @@
 // The accuracy of the motion filter of one LED, compared with bounds.
-#include "benchmark_tracking_sections.h"
+#include "benchmark_sections.h"
 #include "geometry/accuracy.h"
 #include "motion/known_mode.h"
 #include "motion/motion_filter.h"

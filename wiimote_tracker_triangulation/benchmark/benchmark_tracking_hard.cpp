@@ -1,5 +1,5 @@
 // The accuracy of random motion, from slow to hard, with unsynchronised cameras.
-#include "benchmark_tracking_sections.h"
+#include "benchmark_sections.h"
 #include "geometry/accuracy.h"
 #include "motion/smoother.h"
 #include "tracking/paths.h"

@@ -1,4 +1,4 @@
-#include "benchmark_tracking_sections.h"
+#include "benchmark_sections.h"
 #include "led_meeting.h"
 #include "tracking/identity_check.h"
 #include "tracking/scene.h"

@@ -1,4 +1,4 @@
-#include "benchmark_tracking_sections.h"
+#include "benchmark_sections.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 

@@ -1,5 +1,5 @@
 // The error that unsynchronised cameras and uncertain stamps cause.
-#include "benchmark_tracking_sections.h"
+#include "benchmark_sections.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"

@@ -3,23 +3,22 @@
 #include "baselines.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/median.h>
+
 #include <algorithm>
 #include <chrono>
-#include <limits>
 #include <set>
+#include <utility>
 
 namespace wiimote_tracker::gesture_tool {
 namespace {
 
 using Distance = double (*)(const Cloud&, const Cloud&);
 
-const std::vector<std::pair<const char*, Distance>>& otherMethods() {
-  static const std::vector<std::pair<const char*, Distance>> methods = {
-      {"$P point cloud", pointCloudDistance},
-      {"dynamic time warping", timeWarpingDistance},
-      {"nearest neighbour", pointwiseDistance}};
-  return methods;
-}
+constexpr std::pair<const char*, Distance> kOtherMethods[] = {
+    {"$P point cloud", pointCloudDistance},
+    {"dynamic time warping", timeWarpingDistance},
+    {"nearest neighbour", pointwiseDistance}};
 
 /// The examples for testing one person.
 std::vector<const Sample*> examplesFor(const Person& person,
@@ -65,7 +64,7 @@ Evaluation evaluate(const std::vector<Person>& train,
   }
   result.gestures.assign(names.begin(), names.end());
   result.confusion.assign(names.size(), std::vector<std::size_t>(names.size(), 0));
-  for (const auto& [name, distance] : otherMethods())
+  for (const auto& [name, distance] : kOtherMethods)
     result.others.push_back({name, 0});
 
   std::vector<double> seconds;
@@ -98,24 +97,17 @@ Evaluation evaluate(const std::vector<Person>& train,
       result.unknown_rejected += !unknown || !unknown->accepted() ? 1 : 0;
 
       const Cloud cloud = cloudOf(sample.path);
-      for (std::size_t m = 0; m < otherMethods().size(); ++m) {
-        const Sample* nearest = nullptr;
-        double least = std::numeric_limits<double>::infinity();
-        for (std::size_t i = 0; i < clouds.size(); ++i) {
-          const double d = otherMethods()[m].second(cloud, clouds[i]);
-          if (d < least) {
-            least = d;
-            nearest = teachers[i];
-          }
-        }
-        result.others[m].right += nearest && nearest->gesture == sample.gesture ? 1 : 0;
+      for (std::size_t m = 0; m < result.others.size(); ++m) {
+        std::vector<double> distances;
+        for (const Cloud& example : clouds)
+          distances.push_back(kOtherMethods[m].second(cloud, example));
+        const auto nearest = std::min_element(distances.begin(), distances.end());
+        const Sample& taken = *teachers[static_cast<std::size_t>(nearest - distances.begin())];
+        result.others[m].right += taken.gesture == sample.gesture ? 1 : 0;
       }
     }
   }
-  std::nth_element(seconds.begin(),
-                   seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2),
-                   seconds.end());
-  result.median_seconds = seconds[seconds.size() / 2];
+  result.median_seconds = medianOf(&seconds);
   return result;
 }
 

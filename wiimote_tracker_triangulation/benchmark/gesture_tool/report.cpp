@@ -4,8 +4,10 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
-#include <cstdio>
+#include <map>
 #include <sstream>
 
 namespace wiimote_tracker::gesture_tool {
@@ -17,16 +19,6 @@ double share(std::size_t part, std::size_t whole) {
 
 std::string line(const char* what, std::size_t part, std::size_t whole) {
   return format("  %-38s %5.1f %%  (%zu of %zu)\n", what, 100.0 * share(part, whole), part, whole);
-}
-
-std::string quoted(const std::string& text) {
-  std::string result = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\')
-      result += '\\';
-    result += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-  }
-  return result + "\"";
 }
 
 }  // namespace
@@ -66,34 +58,36 @@ std::string table(const Evaluation& e, const std::optional<FalseAlarms>& alarms)
 void writeJson(const std::string& file,
                const Evaluation& e,
                const std::optional<FalseAlarms>& alarms) {
-  std::ostringstream out;
-  out.precision(17);
-  out << "{\n  \"accuracy\": " << share(e.right, e.tested) << ",\n  \"tested\": " << e.tested
-      << ",\n  \"right\": " << e.right << ",\n  \"rejected\": " << e.rejected
-      << ",\n  \"unknown_tested\": " << e.tested
-      << ",\n  \"unknown_rejected\": " << e.unknown_rejected << ",\n  \"examples\": " << e.examples
-      << ",\n  \"median_recognition_s\": " << e.median_seconds << ",\n  \"others\": {";
-  for (std::size_t i = 0; i < e.others.size(); ++i)
-    out << (i > 0 ? ", " : "") << quoted(e.others[i].name) << ": "
-        << share(e.others[i].right, e.tested);
-  out << "},\n";
+  YAML::Emitter out;  // JSON is YAML
+  out.SetMapFormat(YAML::Flow);
+  out.SetSeqFormat(YAML::Flow);
+  out.SetStringFormat(YAML::DoubleQuoted);
+  out.SetDoublePrecision(17);
+  const auto add = [&](const char* name, const auto& value) {
+    out << YAML::Key << name << YAML::Value << value;
+  };
+  std::map<std::string, double> others;
+  for (const MethodResult& other : e.others)
+    others[other.name] = share(other.right, e.tested);
+  out << YAML::BeginMap;
+  add("accuracy", share(e.right, e.tested));
+  add("tested", e.tested);
+  add("right", e.right);
+  add("rejected", e.rejected);
+  add("unknown_tested", e.tested);
+  add("unknown_rejected", e.unknown_rejected);
+  add("examples", e.examples);
+  add("median_recognition_s", e.median_seconds);
+  add("others", others);
   if (alarms) {
-    out << "  \"motion_minutes\": " << alarms->minutes
-        << ",\n  \"false_alarms_continuous\": " << alarms->continuous
-        << ",\n  \"false_alarms_between_rests\": " << alarms->between_rests << ",\n";
+    add("motion_minutes", alarms->minutes);
+    add("false_alarms_continuous", alarms->continuous);
+    add("false_alarms_between_rests", alarms->between_rests);
   }
-  out << "  \"gestures\": [";
-  for (std::size_t i = 0; i < e.gestures.size(); ++i)
-    out << (i > 0 ? ", " : "") << quoted(e.gestures[i]);
-  out << "],\n  \"confusion\": [\n";
-  for (std::size_t i = 0; i < e.confusion.size(); ++i) {
-    out << "    [";
-    for (std::size_t k = 0; k < e.confusion[i].size(); ++k)
-      out << (k > 0 ? ", " : "") << e.confusion[i][k];
-    out << (i + 1 < e.confusion.size() ? "],\n" : "]\n");
-  }
-  out << "  ]\n}\n";
-  geometry::writeFileAtomically(file, out.str());
+  add("gestures", e.gestures);
+  add("confusion", e.confusion);
+  out << YAML::EndMap << YAML::Newline;
+  geometry::writeFileAtomically(file, out.c_str());
 }
 
 }  // namespace wiimote_tracker::gesture_tool

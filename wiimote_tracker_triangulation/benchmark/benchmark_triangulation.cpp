@@ -1,16 +1,15 @@
 // Accuracy and time of triangulation, ours and other libraries', in one table: RMS over the
 // Cramer-Rao bound, normalised error squared (3 when the covariance is consistent), time per point.
-#include "triangulation_methods.h"
+#include "triangulation_scene.h"
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 
-#include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -19,13 +18,12 @@ using namespace wiimote_tracker;
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr std::size_t kTimedPoints = 1000;
 constexpr int kRepetitions = 21;  // of each method, taken in turn against drift
 
-/// RMS over the bound, and NEES; NaN for a method without covariance.
+/// RMS over the bound, and NEES: NaN for a method without covariance.
 std::pair<double, double> errors(const TriangulationScene& scene,
-                                 const TriangulationMethodUnderTest& method,
+                                 const TriangulationMethod& method,
                                  const TriangulationOutput& output) {
   double squared = 0.0;
   double nees = 0.0;
@@ -35,11 +33,10 @@ std::pair<double, double> errors(const TriangulationScene& scene,
       position = scene.cameras[0].world_from_camera * position;
     const Eigen::Vector3d error = position - scene.truth[i];
     squared += error.squaredNorm();
-    if (method.has_covariance)
-      nees += geometry::squaredMahalanobis(error, output.covariances[i]);
+    nees += error.dot(output.covariances[i].inverse() * error);
   }
   const auto count = static_cast<double>(scene.truth.size());
-  return {std::sqrt(squared / count) / scene.bound, method.has_covariance ? nees / count : kNaN};
+  return {std::sqrt(squared / count) / scene.bound, nees / count};
 }
 
 double secondsOf(const std::function<void(TriangulationOutput*)>& run,
@@ -56,25 +53,18 @@ TriangulationScene firstPoints(const TriangulationScene& scene) {
   return part;
 }
 
-TriangulationOutput roomFor(const TriangulationScene& scene) {
-  TriangulationOutput output;
-  output.positions.resize(scene.truth.size());
-  output.covariances.resize(scene.truth.size());
-  return output;
-}
-
 std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
-  std::vector<TriangulationMethodUnderTest> methods = ourMethods();
-  if (scene.cameras.size() == 2) {
-    for (const TriangulationMethodUnderTest& peer : peerMethods())
+  std::vector<TriangulationMethod> methods = ourMethods();
+  for (const TriangulationMethod& peer : peerMethods()) {
+    if (scene.cameras.size() == 2)
       methods.push_back(peer);
   }
-  TriangulationOutput output = roomFor(scene);
   const TriangulationScene part = firstPoints(scene);
-  TriangulationOutput part_output = roomFor(part);
+  TriangulationOutput part_output(part.truth.size());
   std::vector<BenchmarkRow> rows;
   std::vector<std::function<void(TriangulationOutput*)>> timed;
-  for (const TriangulationMethodUnderTest& method : methods) {
+  for (const TriangulationMethod& method : methods) {
+    TriangulationOutput output(scene.truth.size());
     method.prepare(scene)(&output);
     const auto [rms_over_bound, nees] = errors(scene, method, output);
     rows.push_back(

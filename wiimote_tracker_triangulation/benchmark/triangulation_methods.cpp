@@ -1,16 +1,16 @@
-#include "triangulation_methods.h"
+#include "triangulation_scene.h"
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <limits>
-#include <memory>
+#include <optional>
 
 namespace wiimote_tracker {
 namespace {
 
-using geometry::TriangulationMethod;
+using Way = geometry::TriangulationMethod;
 
-geometry::TriangulationOptions optionsFor(TriangulationMethod method) {
+geometry::TriangulationOptions optionsFor(Way method) {
   geometry::TriangulationOptions options;
   options.method = method;
   options.pixel_stddev = kBenchmarkPixelStddev;
@@ -20,16 +20,14 @@ geometry::TriangulationOptions optionsFor(TriangulationMethod method) {
 void take(const std::optional<geometry::TriangulatedPoint>& point,
           std::size_t i,
           TriangulationOutput* output) {
-  if (!point) {
-    output->positions[i].setConstant(std::numeric_limits<double>::quiet_NaN());
-    return;
-  }
+  if (!point)
+    return;  // it stays NaN
   output->positions[i] = point->position;
   output->covariances[i] = point->covariance;
 }
 
-TriangulationMethodUnderTest fromSights(const std::string& name, TriangulationMethod method) {
-  return {name, true, false, [method](const TriangulationScene& scene) {
+TriangulationMethod fromSights(const std::string& name, Way method) {
+  return {name, false, [method](const TriangulationScene& scene) {
             std::vector<geometry::Sight> sights;  // of one point after the other
             for (const auto& pixels : scene.pixels) {
               for (std::size_t c = 0; c < pixels.size(); ++c)
@@ -44,16 +42,16 @@ TriangulationMethodUnderTest fromSights(const std::string& name, TriangulationMe
 }
 
 /// Includes undistortion.
-TriangulationMethodUnderTest fromPixels() {
-  return {"maximum likelihood, from pixels", true, false, [](const TriangulationScene& scene) {
+TriangulationMethod fromPixels() {
+  return {"maximum likelihood, from pixels", false, [](const TriangulationScene& scene) {
             std::vector<std::vector<geometry::Observation>> observations;
             for (const auto& pixels : scene.pixels) {
               observations.emplace_back();
               for (std::size_t c = 0; c < pixels.size(); ++c)
                 observations.back().push_back({&scene.cameras[c], pixels[c]});
             }
-            return [observations, options = optionsFor(TriangulationMethod::kMaximumLikelihood)](
-                       TriangulationOutput* output) {
+            return [observations,
+                    options = optionsFor(Way::kMaximumLikelihood)](TriangulationOutput* output) {
               for (std::size_t i = 0; i < output->positions.size(); ++i)
                 take(geometry::triangulate(observations[i], options), i, output);
             };
@@ -62,11 +60,15 @@ TriangulationMethodUnderTest fromPixels() {
 
 }  // namespace
 
-std::vector<TriangulationMethodUnderTest> ourMethods() {
-  return {fromSights("maximum likelihood", TriangulationMethod::kMaximumLikelihood), fromPixels(),
-          fromSights("reweighted midpoint", TriangulationMethod::kReweightedMidpoint),
-          fromSights("least squares", TriangulationMethod::kLeastSquares),
-          fromSights("mean of closest points (paper)", TriangulationMethod::kMeanClosest)};
+TriangulationOutput::TriangulationOutput(std::size_t points)
+    : positions(points, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())),
+      covariances(points, Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN())) {}
+
+std::vector<TriangulationMethod> ourMethods() {
+  return {fromSights("maximum likelihood", Way::kMaximumLikelihood), fromPixels(),
+          fromSights("reweighted midpoint", Way::kReweightedMidpoint),
+          fromSights("least squares", Way::kLeastSquares),
+          fromSights("mean of closest points (paper)", Way::kMeanClosest)};
 }
 
 }  // namespace wiimote_tracker

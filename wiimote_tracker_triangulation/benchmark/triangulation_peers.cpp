@@ -1,6 +1,6 @@
 // Other libraries' methods, called as their users call them: many points at once where the method
 // takes many, without covariance. All take two views.
-#include "triangulation_methods.h"
+#include "triangulation_scene.h"
 
 #ifdef WIIMOTE_TRACKER_HAVE_OPENCV
 #include <opencv2/calib3d.hpp>
@@ -155,27 +155,27 @@ Run mrcalLindstrom(const TriangulationScene& scene) {
 
 }  // namespace
 
-std::vector<TriangulationMethodUnderTest> peerMethods() {
-  std::vector<TriangulationMethodUnderTest> methods;
+std::vector<TriangulationMethod> peerMethods() {
+  std::vector<TriangulationMethod> methods;
 #ifdef WIIMOTE_TRACKER_HAVE_OPENCV
-  methods.push_back({"OpenCV triangulatePoints", false, false, opencv});
+  methods.push_back({"OpenCV triangulatePoints", false, opencv});
 #endif
 #ifdef WIIMOTE_TRACKER_HAVE_OPENGV
-  methods.push_back({"OpenGV triangulate (DLT)", false, true, [](const auto& scene) {
+  methods.push_back({"OpenGV triangulate (DLT)", true, [](const auto& scene) {
                        return opengvRun(scene, opengv::triangulation::triangulate);
                      }});
-  methods.push_back({"OpenGV triangulate2 (midpoint)", false, true, [](const auto& scene) {
+  methods.push_back({"OpenGV triangulate2 (midpoint)", true, [](const auto& scene) {
                        return opengvRun(scene, opengv::triangulation::triangulate2);
                      }});
 #endif
 #ifdef WIIMOTE_TRACKER_HAVE_MRCAL
   methods.push_back(
-      {"mrcal geometric (midpoint)", false, true, mrcalInFirstCamera(mrcal_triangulate_geometric)});
-  methods.push_back({"mrcal lindstrom", false, true, mrcalLindstrom});
+      {"mrcal geometric (midpoint)", true, mrcalInFirstCamera(mrcal_triangulate_geometric)});
+  methods.push_back({"mrcal lindstrom", true, mrcalLindstrom});
   methods.push_back(
-      {"mrcal leecivera_l1", false, true, mrcalInFirstCamera(mrcal_triangulate_leecivera_l1)});
+      {"mrcal leecivera_l1", true, mrcalInFirstCamera(mrcal_triangulate_leecivera_l1)});
   methods.push_back(
-      {"mrcal leecivera_mid2", false, true, mrcalInFirstCamera(mrcal_triangulate_leecivera_mid2)});
+      {"mrcal leecivera_mid2", true, mrcalInFirstCamera(mrcal_triangulate_leecivera_mid2)});
 #endif
   return methods;
 }

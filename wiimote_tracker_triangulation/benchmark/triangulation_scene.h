@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +31,29 @@ TriangulationScene paperScene(int cameras, int points, unsigned seed);
 /// A cube of 1.5 m, cameras on a ring of 4.1 m around it, a quarter turn apart (eighths beyond
 /// four), 1 m above its middle: the ranges differ more, and the cameras lie nearer.
 TriangulationScene ringScene(int cameras, int points, unsigned seed);
+
+/// A method's results for all points of a scene. Memory is allocated before the timing.
+struct TriangulationOutput {
+  explicit TriangulationOutput(std::size_t points);
+
+  std::vector<Eigen::Vector3d> positions;    ///< World [m], or in the first camera's axes.
+  std::vector<Eigen::Matrix3d> covariances;  ///< [m^2]; NaN where a method has none.
+};
+
+/// A way to intersect rays, ours or a library's.
+struct TriangulationMethod {
+  std::string name;
+  bool in_first_camera;  ///< Positions are in the first camera's axes, not the world's.
+
+  /// Converts a scene to the method's input (undistorted pixels, rays, matrices) and returns the
+  /// function to be timed.
+  std::function<std::function<void(TriangulationOutput*)>(const TriangulationScene&)> prepare;
+};
+
+std::vector<TriangulationMethod> ourMethods();
+
+/// Those of OpenCV, OpenGV and mrcal that were found when this was configured.
+std::vector<TriangulationMethod> peerMethods();
 
 }  // namespace wiimote_tracker
 

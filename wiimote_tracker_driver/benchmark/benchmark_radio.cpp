@@ -17,15 +17,6 @@ namespace {
 
 constexpr double kSettling = 10.0;  // [s] Not judged: the clock learns the period.
 
-struct Row {
-  double rate = 0.0;           ///< images/s of the remote that has the fewest
-  double lost = 0.0;           ///< share of the images of all remotes
-  double mean_delay = 0.0;     ///< [s] From exposure to arrival.
-  double longest_delay = 0.0;  ///< [s] 99 % are shorter.
-  double error = 0.0;          ///< [s] RMS error of the exposure times less its median.
-  double covered = 0.0;        ///< share of errors within two stated standard deviations
-};
-
 double quantile(std::vector<double> values, double q) {
   const auto nth =
       values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size()));
@@ -33,9 +24,8 @@ double quantile(std::vector<double> values, double q) {
   return *nth;
 }
 
-Row judge(const RadioModel& model, double duration) {
-  Row row;
-  row.rate = 1e9;
+BenchmarkRow judge(const std::string& name, const RadioModel& model, double duration) {
+  double rate = 1e9;  // of the remote that has the fewest images [1/s]
   std::vector<double> delays, errors, stddevs;
   double frames = 0.0;
   for (const std::vector<RadioReport>& reports : simulateRadio(model, duration, 1)) {
@@ -52,23 +42,27 @@ Row judge(const RadioModel& model, double duration) {
       errors.push_back(estimate.exposure - report.exposure);
       stddevs.push_back(estimate.stddev);
     }
-    row.rate = std::min(row.rate, static_cast<double>(judged) / (duration - kSettling));
+    rate = std::min(rate, static_cast<double>(judged) / (duration - kSettling));
     if (!reports.empty())
       frames += static_cast<double>(reports.back().frame - first_frame + 1);
   }
   const auto count = static_cast<double>(errors.size());
   // The constant part of the delay. Wrong frame numbers, all of them too high, would move a mean.
   const double constant = quantile(errors, 0.5);
+  double mean_delay = 0.0, squared = 0.0, covered = 0.0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double error = errors[i] - constant;
-    row.mean_delay += delays[i] / count;
-    row.error += error * error / count;
-    row.covered += (std::abs(error) < 2.0 * stddevs[i]) / count;
+    mean_delay += delays[i] / count;
+    squared += error * error / count;
+    covered += (std::abs(error) < 2.0 * stddevs[i]) / count;
   }
-  row.error = std::sqrt(row.error);
-  row.lost = 1.0 - count / frames;
-  row.longest_delay = quantile(delays, 0.99);
-  return row;
+  return {name,
+          {{"images/s", rate},
+           {"lost%", 100.0 * (1.0 - count / frames)},
+           {"delay_ms", 1e3 * mean_delay},
+           {"99%_ms", 1e3 * quantile(delays, 0.99)},
+           {"error_ms", 1e3 * std::sqrt(squared)},
+           {"in_2sd%", 100.0 * covered}}};
 }
 
 constexpr char kExplanation[] =
@@ -92,14 +86,7 @@ void addRows(double duration, BenchmarkTables* tables) {
         model.remotes = remotes;
         model.loss = loss;
         model.polling = polling;
-        const Row row = judge(model, duration);
-        tables->add({format("%d, %s, %g %%", remotes, name, 100.0 * loss),
-                     {{"images/s", row.rate},
-                      {"lost%", 100.0 * row.lost},
-                      {"delay_ms", 1e3 * row.mean_delay},
-                      {"99%_ms", 1e3 * row.longest_delay},
-                      {"error_ms", 1e3 * row.error},
-                      {"in_2sd%", 100.0 * row.covered}}});
+        tables->add(judge(format("%d, %s, %g %%", remotes, name, 100.0 * loss), model, duration));
       }
     }
   }

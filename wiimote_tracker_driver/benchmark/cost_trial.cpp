@@ -1,8 +1,8 @@
 #include "trials.h"
 
-#include "folder.h"
 #include "own_master.h"
 #include "process.h"
+#include "temporary_folder.h"
 #include "virtual_remotes.h"
 
 #include <ros/callback_queue.h>
@@ -83,7 +83,7 @@ class Listener {
 }  // namespace
 
 Results runCost(double duration) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const VirtualRemotes remotes(1, folder.path());
   OwnMaster master;
   const Process publisher(publishOnly);

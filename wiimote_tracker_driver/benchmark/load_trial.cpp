@@ -1,18 +1,17 @@
 #include "trials.h"
 
-#include "folder.h"
 #include "own_master.h"
+#include "temporary_folder.h"
 #include "virtual_remotes.h"
 
 #include <nodelet/loader.h>
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <ctime>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -58,14 +57,9 @@ class Arrivals {
   std::atomic<std::uint32_t> received_{0};
 };
 
-/// CPU time of this process [s].
+/// Of this process [s].
 double processorTime() {
-  rusage usage{};
-  ::getrusage(RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
 }
 
 std::string nameOf(int remote) {
@@ -130,7 +124,7 @@ Results evaluate(const VirtualRemotes& remotes,
 }  // namespace
 
 Results runLoad(int count, double duration) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const VirtualRemotes remotes(count, folder.path());
   OwnMaster master;
   master.connect();

@@ -11,25 +11,22 @@ namespace wiimote_tracker::exposure_clock {
 
 namespace {
 
-/// One session: errors of the last report's exposure time [s], named as in TimingScore.
-struct Trial {
-  double arrival = 0.0, oracle = 0.0, blind_oracle = 0.0;
-  double least_squares = 0.0, convex_hull = 0.0, olson = 0.0;
-  double least_squares_own = 0.0, convex_hull_own = 0.0;
-  double clock = 0.0, total = 0.0;
+/// One session.
+struct Trial : TimingErrors {
+  double total = 0.0;
   bool wrong_frame = false, blind_oracle_wrong_frame = false;
   double clock_stddev = 0.0, stddev = 0.0;
   double seconds = 0.0;     ///< CPU time of the clock.
   std::size_t reports = 0;  ///< That it took.
 };
 
-double mean(const std::vector<Trial>& trials, double Trial::*error) {
+double mean(const std::vector<Trial>& trials, double TimingErrors::*error) {
   double sum = 0.0;
   for (const Trial& trial : trials)
     sum += trial.*error;
   return sum / static_cast<double>(trials.size());
 }
-double rmsAboutMean(const std::vector<Trial>& trials, double Trial::*error) {
+double rmsAboutMean(const std::vector<Trial>& trials, double TimingErrors::*error) {
   const double m = mean(trials, error);
   double sum = 0.0;
   for (const Trial& trial : trials)
@@ -106,15 +103,11 @@ TimingScore runTiming(const LinkModel& link,
   score.clock_ratio = std::sqrt(ratio);
   score.total = std::sqrt(total_square);
   score.update_seconds /= static_cast<double>(reports);
-  score.arrival = rmsAboutMean(trials, &Trial::arrival);
-  score.least_squares = rmsAboutMean(trials, &Trial::least_squares);
-  score.convex_hull = rmsAboutMean(trials, &Trial::convex_hull);
-  score.least_squares_own = rmsAboutMean(trials, &Trial::least_squares_own);
-  score.convex_hull_own = rmsAboutMean(trials, &Trial::convex_hull_own);
-  score.olson = rmsAboutMean(trials, &Trial::olson);
-  score.oracle = rmsAboutMean(trials, &Trial::oracle);
-  score.blind_oracle = rmsAboutMean(trials, &Trial::blind_oracle);
-  score.clock = rmsAboutMean(trials, &Trial::clock);
+  using E = TimingErrors;
+  for (const auto error :
+       {&E::arrival, &E::oracle, &E::blind_oracle, &E::least_squares, &E::convex_hull, &E::olson,
+        &E::least_squares_own, &E::convex_hull_own, &E::clock})
+    score.*error = rmsAboutMean(trials, error);
   return score;
 }
 

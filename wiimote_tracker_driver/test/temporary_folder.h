@@ -6,16 +6,19 @@
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <stdexcept>
 #include <string>
 
 namespace wiimote_tracker {
 
-/// A folder for one test, removed at its end.
+/// A folder for one test or benchmark, removed at its end.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    char name[] = "/tmp/wiimote_tracker_test.XXXXXX";
-    path_ = ::mkdtemp(name);
+    char name[] = "/tmp/wiimote_tracker.XXXXXX";
+    if (!::mkdtemp(name))
+      throw std::runtime_error("no folder can be made in /tmp: make room there");
+    path_ = name;
   }
   ~TemporaryFolder() {
     std::error_code ignored;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <set>
 #include <string>
 
 using namespace wiimote_tracker;
@@ -35,14 +36,6 @@ struct Options {
   double hour = 3600.0;  // [s]
 };
 
-double value(const Results& results, const std::string& name) {
-  for (const Result& result : results) {
-    if (result.name == name)
-      return result.value;
-  }
-  return 0.0;
-}
-
 struct Section {
   const char* explanation;
   std::string arguments;  // of the command line
@@ -66,18 +59,17 @@ int run(const Options& options, BenchmarkTables* tables) {
                 "rosrun wiimote_tracker_driver benchmark_driver --section " + options.section +
                     section.arguments);
   // Load and cost fork while this process has one thread.
-  const Results results = section.run();
-  for (const Result& result : results)
+  const std::set<std::string> faults = {"dropped", "allocations_not_freed_since_then",
+                                        "clock_steps_not_noticed", "times_not_increasing"};
+  bool faulty = false;
+  for (const Result& result : section.run()) {
     tables->add({result.name, {{"value", result.value}}, result.unit});
-  tables->write();
-  for (const char* fault : {"dropped", "allocations_not_freed_since_then",
-                            "clock_steps_not_noticed", "times_not_increasing"}) {
-    if (value(results, fault) > 0.0) {
-      std::printf("Reports were dropped, memory grew, or times are wrong: see above.\n");
-      return 1;
-    }
+    faulty |= faults.count(result.name) > 0 && result.value > 0.0;
   }
-  return 0;
+  tables->write();
+  if (faulty)
+    std::printf("Reports were dropped, memory grew, or times are wrong: see above.\n");
+  return faulty ? 1 : 0;
 }
 
 }  // namespace

@@ -1,9 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_SOAK_STAMPS_H
 #define WIIMOTE_TRACKER_DRIVER_BENCHMARK_SOAK_STAMPS_H
 
-#include "results.h"
-
 #include "ros/image_stamper.h"
+#include "trials.h"
 
 #include <cstdint>
 #include <optional>

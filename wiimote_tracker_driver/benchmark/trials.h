@@ -1,14 +1,23 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_TRIALS_H
 #define WIIMOTE_TRACKER_DRIVER_BENCHMARK_TRIALS_H
 
-#include "results.h"
-
 #include <cstdint>
+#include <string>
+#include <vector>
 
-/// The sections of benchmark_driver. Each throws std::runtime_error when it cannot be measured;
-/// what() says what to do. Load and cost start their own ROS master and fork: call them while this
-/// process has one thread.
+// The sections of benchmark_driver. Each throws std::runtime_error when it cannot be measured;
+// what() says what to do. Load and cost start their own ROS master and fork: call them while this
+// process has one thread.
 namespace wiimote_tracker {
+
+/// A number with its unit and its name.
+struct Result {
+  std::string name;  ///< Lower case with underscores.
+  double value;
+  std::string unit;
+};
+
+using Results = std::vector<Result>;
 
 /// Virtual remotes in their own process, at 100 Hz each, and driver nodelets in this process, which
 /// subscribes to their blobs as another nodelet would. Measures for `duration` [s]: CPU time of

@@ -14,7 +14,6 @@
 #include <cstdio>
 #include <fstream>
 #include <map>
-#include <memory>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -47,14 +46,15 @@ std::string summary(const std::string& name, std::vector<double> seconds) {
 /// PointStamped: in this process, and in a callback. In one nodelet manager the former is the time
 /// of publication. Then measures the round trip of a message to LatencyEcho and back. Both are two
 /// hops. Callbacks must come from one thread.
-class LatencyProbe {
+class LatencyProbe : public nodelet::Nodelet {
  public:
-  /// Private parameters: file (YAML results), label of the LED (default led), seconds (of each
-  /// measurement, default 10). @throws std::runtime_error if one is missing.
-  LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
-  ~LatencyProbe();
+  ~LatencyProbe() override;
 
  private:
+  /// Private parameters: file (YAML results), label of the LED (default led), seconds (of each
+  /// measurement, default 10). @throws std::runtime_error if one is missing.
+  void onInit() override;
+
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points);
   void onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event);
   void onPong(const geometry_msgs::PointStampedConstPtr& pong);
@@ -64,7 +64,7 @@ class LatencyProbe {
   std::vector<double> measureRoundTrips();
 
   std::string file_;
-  double seconds_;
+  double seconds_ = 0.0;
   std::mutex mutex_;  // protects the members below
   struct Arrival {
     ros::Time in_process, in_callback;
@@ -80,19 +80,23 @@ class LatencyProbe {
   std::thread thread_;
 };
 
-LatencyProbe::LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
-    : file_(private_nh.param<std::string>("file", "")),
-      seconds_(private_nh.param("seconds", 10.0)) {
-  if (file_.empty())
-    throw std::runtime_error("set " + private_nh.resolveName("file") +
-                             " to the file for the results");
+void LatencyProbe::onInit() {
+  ros::NodeHandle& nh = getNodeHandle();
+  const ros::NodeHandle& private_nh = getPrivateNodeHandle();
+  file_ = private_nh.param<std::string>("file", "");
+  seconds_ = private_nh.param("seconds", 10.0);
+  if (file_.empty()) {
+    const std::string refusal =
+        "set " + private_nh.resolveName("file") + " to the file for the results";
+    NODELET_FATAL("%s", refusal.c_str());
+    throw std::runtime_error(refusal);
+  }
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
-  ros::NodeHandle handle(nh);
-  ping_ = handle.advertise<geometry_msgs::PointStamped>("latency/ping", 10);
-  pong_ = handle.subscribe("latency/pong", 10, &LatencyProbe::onPong, this, no_delay);
-  points_ = handle.subscribe("points", 1000, &LatencyProbe::onPoints, this, no_delay);
+  ping_ = nh.advertise<geometry_msgs::PointStamped>("latency/ping", 10);
+  pong_ = nh.subscribe("latency/pong", 10, &LatencyProbe::onPong, this, no_delay);
+  points_ = nh.subscribe("points", 1000, &LatencyProbe::onPoints, this, no_delay);
   using PointEvent = ros::MessageEvent<const geometry_msgs::PointStamped>;
-  point_ = handle.subscribe<geometry_msgs::PointStamped, const PointEvent&>(
+  point_ = nh.subscribe<geometry_msgs::PointStamped, const PointEvent&>(
       private_nh.param<std::string>("label", "led") + "/point", 1000,
       [this](const PointEvent& event) { onPoint(event); }, ros::VoidConstPtr(), no_delay);
   thread_ = std::thread([this] { run(); });
@@ -101,7 +105,8 @@ LatencyProbe::LatencyProbe(const ros::NodeHandle& nh, const ros::NodeHandle& pri
 LatencyProbe::~LatencyProbe() {
   ended_ = true;
   change_.notify_all();
-  thread_.join();
+  if (thread_.joinable())
+    thread_.join();
 }
 
 void LatencyProbe::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points) {
@@ -189,21 +194,8 @@ std::vector<double> LatencyProbe::measureRoundTrips() {
   return latencies;
 }
 
-class LatencyProbeNodelet : public nodelet::Nodelet {
-  void onInit() override {
-    try {
-      probe_ = std::make_unique<LatencyProbe>(getNodeHandle(), getPrivateNodeHandle());
-    } catch (const std::exception& e) {
-      NODELET_FATAL("%s", e.what());
-      throw;
-    }
-  }
-
-  std::unique_ptr<LatencyProbe> probe_;
-};
-
 /// Returns every message unchanged.
-class LatencyEchoNodelet : public nodelet::Nodelet {
+class LatencyEcho : public nodelet::Nodelet {
   void onInit() override {
     pong_ = getNodeHandle().advertise<geometry_msgs::PointStamped>("latency/pong", 10);
     ping_ = getNodeHandle().subscribe<geometry_msgs::PointStamped>(
@@ -218,5 +210,5 @@ class LatencyEchoNodelet : public nodelet::Nodelet {
 
 }  // namespace wiimote_tracker
 
-PLUGINLIB_EXPORT_CLASS(wiimote_tracker::LatencyProbeNodelet, nodelet::Nodelet)
-PLUGINLIB_EXPORT_CLASS(wiimote_tracker::LatencyEchoNodelet, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(wiimote_tracker::LatencyProbe, nodelet::Nodelet)
+PLUGINLIB_EXPORT_CLASS(wiimote_tracker::LatencyEcho, nodelet::Nodelet)

@@ -1,8 +1,8 @@
 // The accuracy of the motion filter of one LED, compared with bounds.
 #include "benchmark_sections.h"
 #include "geometry/accuracy.h"
+#include "motion/filter_scene.h"
 #include "motion/known_mode.h"
-#include "motion/motion_filter.h"
 #include "single_model_filter.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
@@ -25,13 +25,13 @@ using geometry::Camera;
 using geometry::test::Random;
 using motion::MotionFilter;
 using motion::MotionOptions;
+using motion::test::kPixelStddev;
+using motion::test::kStep;
+using motion::test::takeIn;
 using tracking::test::Path;
 
-constexpr double kPixelStddev = 0.5;
-constexpr double kPeriod = 0.01;         // of each camera's images [s]
-constexpr double kStep = kPeriod / 4.0;  // from one camera's image to the next one's [s]
-constexpr double kStartStddev = 2e-3;    // of the first position, per axis [m]
-constexpr double kSettled = 0.5;         // errors before are not scored [s]
+constexpr double kStartStddev = 2e-3;  // of the first position, per axis [m]
+constexpr double kSettled = 0.5;       // errors before are not scored [s]
 
 /// Errors, and their bound.
 struct Figures : geometry::test::Accuracy {
@@ -60,12 +60,6 @@ std::vector<Camera> cameras() {
   for (const geometry::RigCamera& camera : tracking::test::paperRig().cameras)
     result.push_back(camera.camera);
   return result;
-}
-
-bool takeIn(MotionFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
-  filter->predict(time);
-  const auto prediction = filter->predictPixel(camera, {kPixelStddev, 0.0});
-  return prediction && filter->update(camera, *prediction, pixel);
 }
 
 void takeIn(SingleModelFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
@@ -129,10 +123,7 @@ void runDrawn(const Drawn& drawn,
     const Camera& camera = all[i % all.size()];
     if (!camera.sees(truth.position()))
       return;
-    const double u = kPixelStddev * random.gaussian();
-    const Vector2d pixel =
-        *camera.project(truth.position()) + Vector2d(u, kPixelStddev * random.gaussian());
-    takeIn(&filter, time, camera, pixel);
+    takeIn(&filter, time, camera, motion::test::noisyPixel(camera, truth.position(), random));
     bound.observe(camera, truth.position(), kPixelStddev);
     Figures* figures = truth.moves() ? moving : still;
     figures->add(filter.position() - truth.position(), filter.positionCovariance());
@@ -186,7 +177,6 @@ std::vector<Sample> watch(const Path& path,
                           unsigned seed) {
   tracking::test::SceneOptions options;
   options.start = 0.0;
-  options.period = kPeriod;
   options.pixel_noise = kPixelStddev;
   tracking::test::Scene scene(tracking::test::paperRig(), {path}, options, seed);
   std::vector<Sample> samples;

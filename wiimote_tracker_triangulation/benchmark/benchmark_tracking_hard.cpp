@@ -36,36 +36,19 @@ std::vector<SceneImage> filmHard(const geometry::Rig& rig, const Path& path, uns
   return images;
 }
 
-void trackHard(const geometry::Rig& rig,
-               const std::vector<SceneImage>& images,
-               const Path& path,
-               const tracking::EstimatorOptions& options,
-               Accuracy* errors) {
-  const auto estimator = tracking::makeEstimator(rig, options);
-  for (const SceneImage& image : images) {
-    estimator->add(image.camera, image.image);
-    while (const tracking::Snapshot* snapshot = estimator->next()) {
-      if (snapshot->time < images.front().true_time + kStartOfRun)
-        continue;
-      for (const tracking::TrackedLed& led : snapshot->leds) {
-        if (led.state == tracking::TrackState::kTracked)
-          errors->add(led.position - path(snapshot->time), led.position_covariance);
-      }
-    }
-  }
-}
+/// What is known of an LED.
+struct Track {
+  std::vector<motion::Observation> observations;
+  std::vector<motion::Place> places;
+};
 
-/// The tracks, smoothed.
-void smooth(const geometry::Rig& rig,
-            const std::vector<SceneImage>& images,
-            const Path& path,
-            Accuracy* errors) {
-  struct Track {
-    std::vector<motion::Observation> observations;
-    std::vector<motion::Place> places;
-  };
-  std::map<std::uint32_t, Track> tracks;  // by id
-  const tracking::EstimatorOptions options;
+/// @returns the tracks by id.
+std::map<std::uint32_t, Track> trackHard(const geometry::Rig& rig,
+                                         const std::vector<SceneImage>& images,
+                                         const Path& path,
+                                         const tracking::EstimatorOptions& options,
+                                         Accuracy* errors) {
+  std::map<std::uint32_t, Track> tracks;
   const auto estimator = tracking::makeEstimator(rig, options);
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
@@ -78,15 +61,25 @@ void smooth(const geometry::Rig& rig,
                                                    {options.tracks.pixel_stddev, 0.0}});
       }
       for (const tracking::TrackedLed& led : snapshot->leds) {
-        if (led.state == tracking::TrackState::kTracked)
-          tracks[led.id].places.push_back({snapshot->time, led.position});
+        if (led.state != tracking::TrackState::kTracked)
+          continue;
+        tracks[led.id].places.push_back({snapshot->time, led.position});
+        if (snapshot->time >= images.front().true_time + kStartOfRun)
+          errors->add(led.position - path(snapshot->time), led.position_covariance);
       }
     }
   }
+  return tracks;
+}
+
+void smooth(const std::map<std::uint32_t, Track>& tracks,
+            const std::vector<SceneImage>& images,
+            const Path& path,
+            Accuracy* errors) {
   const double start = images.front().true_time + kStartOfRun;
   const double end = images.back().true_time - kStartOfRun;
   for (const auto& [id, track] : tracks) {
-    const auto states = motion::smooth(options.tracks.motion, track.observations, track.places);
+    const auto states = motion::smooth(motion::MotionOptions(), track.observations, track.places);
     for (std::size_t i = 0; i < states.size(); ++i) {
       const double time = track.places[i].time;
       if (time > start && time < end)
@@ -128,8 +121,7 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
         geometry::test::Random random(settings.seed + i);
         const Path path = tracking::test::shaken(random, {1.25, 1.25, 1.2}, speed, acceleration);
         const std::vector<SceneImage> images = filmHard(rig, path, settings.seed + i);
-        trackHard(rig, images, path, default_options, &tracks);
-        smooth(rig, images, path, &smoothed);
+        smooth(trackHard(rig, images, path, default_options, &tracks), images, path, &smoothed);
         trackHard(rig, images, path, single, &singles);
         trackHard(rig, images, path, instant, &instants);
       }

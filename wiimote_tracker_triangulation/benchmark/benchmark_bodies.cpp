@@ -3,6 +3,8 @@
 #include "body/bodies_file.h"
 #include "body/body_scene.h"
 
+#include <wiimote_tracker_msgs/median.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -39,37 +41,6 @@ geometry::Rig rigOf(std::size_t cameras) {
   return rig;
 }
 
-/// A body in front of cameras, and the time its tracker takes.
-class Session {
- public:
-  Session(const geometry::Rig& rig,
-          const Constellation& body,
-          const Motion& motion,
-          const SceneOptions& options,
-          unsigned seed)
-      : followed_(rig, body, motion, options, seed) {}
-
-  void step() {
-    followed_.show();
-    const auto start = std::chrono::steady_clock::now();
-    followed_.track();
-    seconds_.push_back(
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
-  }
-
-  const FollowedBody& followed() const { return followed_; }
-
-  /// Quantile of the processing time per image [s].
-  double took(double q) {
-    std::sort(seconds_.begin(), seconds_.end());
-    return seconds_[static_cast<std::size_t>(q * static_cast<double>(seconds_.size() - 1))];
-  }
-
- private:
-  FollowedBody followed_;
-  std::vector<double> seconds_;
-};
-
 SceneOptions sceneOptions() {
   SceneOptions options;
   options.pixel_noise = kPixelNoise;
@@ -87,13 +58,18 @@ BenchmarkRow measure(const std::string& name,
   BodyScore score;
   double median = 0.0;
   for (int run = 0; run < settings.runs; ++run) {
-    Session session(rig, body, motion, options, settings.seed + static_cast<unsigned>(run));
-    while (session.followed().time() < judged_from + 10.0) {
-      session.step();
-      if (session.followed().time() >= judged_from)
-        score.add(session.followed());
+    FollowedBody followed(rig, body, motion, options, settings.seed + static_cast<unsigned>(run));
+    std::vector<double> seconds;  // of processing, per image
+    while (followed.time() < judged_from + 10.0) {
+      followed.show();
+      const auto start = std::chrono::steady_clock::now();
+      followed.track();
+      seconds.push_back(
+          std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+      if (followed.time() >= judged_from)
+        score.add(followed);
     }
-    median += session.took(0.5) / settings.runs;
+    median += medianOf(&seconds) / settings.runs;
   }
   return {name,
           {{"position mm", 1e3 * score.position()},
@@ -153,12 +129,11 @@ void runRecovery(const BenchmarkSettings& settings, const RowCallback& row) {
     std::vector<double> delays;
     double wrong = 0.0;
     for (int run = 0; run < settings.runs; ++run) {
-      Session session(rigOf(4), fourLeds(), motion, options,
-                      settings.seed + static_cast<unsigned>(run));
+      FollowedBody followed(rigOf(4), fourLeds(), motion, options,
+                            settings.seed + static_cast<unsigned>(run));
       bool was_lost = false;
-      const FollowedBody& followed = session.followed();
       while (followed.time() < 1021.0) {
-        session.step();
+        followed.step();
         if (!followed.estimate()) {
           was_lost = true;
           continue;

@@ -16,6 +16,7 @@ using namespace identity;
 using geometry::test::Random;
 using identity::test::BlinkingOptions;
 using identity::test::LedSighting;
+using identity::test::paperCodes;
 using identity::test::simulateBlinking;
 
 constexpr int kRunsPerRun = 50;  // simulated runs for each of --runs
@@ -31,14 +32,6 @@ struct Score {
   int given_wrong = 0;    // some LED was given a wrong label
   int none_yet = 0;       // no wrong label was given, but an LED has none
   int counted_wrong = 0;  // some LED is wrong by isCountedWrong()
-
-  void add(const Score& other) {
-    runs += other.runs;
-    wrong += other.wrong;
-    given_wrong += other.given_wrong;
-    none_yet += other.none_yet;
-    counted_wrong += other.counted_wrong;
-  }
 
   double percent(int count) const { return 100.0 * count / runs; }
 
@@ -128,12 +121,13 @@ double knownPhaseNoneYet(const BlinkingOptions& options, int runs, unsigned seed
   return 100.0 * none_yet / runs;
 }
 
-/// Blinking LEDs, observed for options.duration, and the labels at its end.
+/// Blinking LEDs, observed for options.duration, and the labels at its end. @param score so far
 Score simulate(const BlinkingOptions& options,
                const Hypotheses& hypotheses,
                int runs,
                unsigned seed,
-               double steady = IdentifierOptions().steady) {
+               double steady = IdentifierOptions().steady,
+               Score score = {}) {
   const double decide_at = IdentifierOptions().decide_at;
   LabelPosterior posterior(hypotheses, steady);
   std::vector<Evidence> evidence(options.leds.size(), Evidence(hypotheses));
@@ -141,8 +135,8 @@ Score simulate(const BlinkingOptions& options,
   for (const Evidence& led : evidence)
     leds.push_back(&led);
   Random random(seed);
-  Score score;
-  for (score.runs = 0; score.runs < runs; ++score.runs) {
+  score.runs += runs;
+  for (int run = 0; run < runs; ++run) {
     for (Evidence& led : evidence)
       led.reset(options.start);
     const std::vector<LedSighting> sightings = simulateBlinking(options, &random);
@@ -165,11 +159,6 @@ Score simulate(const BlinkingOptions& options,
     score.counted_wrong += isCountedWrong(options, sightings);
   }
   return score;
-}
-
-BlinkCodes paperCodes(double shortest, double longest) {
-  return dutyCodes({{"led_1", 0.9}, {"led_2", 0.6}, {"led_3", 0.4}, {"led_4", 0.2}}, shortest,
-                   longest);
 }
 
 BlinkingOptions paperOptions(const BlinkCodes& codes,
@@ -247,11 +236,6 @@ void runPeriods(const BenchmarkSettings& settings, const RowCallback& row) {
   }
 }
 
-struct WordSet {
-  std::string name;
-  std::vector<std::string> words;
-};
-
 /// One LED of each word, at several times after the first image.
 BenchmarkRow cyclicRow(const std::string& name,
                        BlinkingOptions options,
@@ -265,8 +249,9 @@ BenchmarkRow cyclicRow(const std::string& name,
     for (int led = 0; led < words; ++led) {
       options.leds = {static_cast<std::size_t>(led)};
       // A run of a single LED is short, so there are many.
-      score.add(simulate(options, hypotheses, 20 * kRunsPerRun * settings.runs / words,
-                         settings.seed + static_cast<unsigned>(led)));
+      score =
+          simulate(options, hypotheses, 20 * kRunsPerRun * settings.runs / words,
+                   settings.seed + static_cast<unsigned>(led), IdentifierOptions().steady, score);
     }
     row.figures.emplace_back(format("wrong %% %d ms", ms), score.percent(score.wrong));
     row.figures.emplace_back(format("given wrong %% %d ms", ms), score.percent(score.given_wrong));
@@ -275,34 +260,30 @@ BenchmarkRow cyclicRow(const std::string& name,
   return row;
 }
 
-void runCyclic(const BenchmarkSettings& settings, const RowCallback& row) {
-  const auto named = [](const std::vector<std::string>& words, const std::string& rest) {
-    return WordSet{
-        std::to_string(words.size()) + " words of " + std::to_string(words.front().size()) + rest,
-        words};
-  };
-  std::vector<WordSet> sets;
-  for (const std::size_t count : {4, 8, 16}) {
-    sets.push_back(named(chooseWords(count), ""));
-    WordRules shorter;
-    shorter.longest_dark = 2;
-    shorter.distance = 1;
-    sets.push_back(named(chooseWords(count, shorter), ", 1 apart"));
+void runWords(const std::vector<std::string>& words,
+              const std::string& rest,
+              const BenchmarkSettings& settings,
+              const RowCallback& row) {
+  BlinkingOptions options;
+  options.codes = identity::test::wordCodes(words, 0.001);
+  options.period = 0.023 * static_cast<double>(words[0].size());
+  options.flip = 0.01;
+  const Hypotheses hypotheses(options.codes, {}, IdentifierOptions().memory);
+  for (const std::size_t cameras : {1, 4}) {
+    options.cameras = cameras;
+    row(cyclicRow(format("%zu words of %zu%s, cameras: %zu", words.size(), words[0].size(),
+                         rest.c_str(), cameras),
+                  options, hypotheses, settings));
   }
-  constexpr double kChip = 0.023;  // [s]
-  for (const WordSet& set : sets) {
-    std::vector<CyclicLed> leds;
-    for (const std::string& word : set.words)
-      leds.push_back({"led_" + std::to_string(leds.size()), word});
-    BlinkingOptions options;
-    options.codes = cyclicCodes(leds, kChip, 0.001);
-    options.period = kChip * static_cast<double>(set.words[0].size());
-    options.flip = 0.01;
-    const Hypotheses hypotheses(options.codes, {}, IdentifierOptions().memory);
-    for (const std::size_t cameras : {1, 4}) {
-      options.cameras = cameras;
-      row(cyclicRow(set.name + format(", cameras: %zu", cameras), options, hypotheses, settings));
-    }
+}
+
+void runCyclic(const BenchmarkSettings& settings, const RowCallback& row) {
+  WordRules shorter;
+  shorter.longest_dark = 2;
+  shorter.distance = 1;
+  for (const std::size_t count : {4, 8, 16}) {
+    runWords(chooseWords(count), "", settings, row);
+    runWords(chooseWords(count, shorter), ", 1 apart", settings, row);
   }
 }
 

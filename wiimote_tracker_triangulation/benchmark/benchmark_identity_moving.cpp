@@ -138,12 +138,8 @@ Result simulate(const Kind& kind, double speed, const BenchmarkSettings& setting
 }
 
 void runMoving(const BenchmarkSettings& settings, const RowCallback& row) {
-  std::vector<CyclicLed> leds;
-  for (const std::string& word : chooseWords(4))
-    leds.push_back({"led_" + std::to_string(leds.size()), word});
-  const BlinkCodes cyclic = cyclicCodes(leds, 0.023, 0.001);
-  const BlinkCodes paper =
-      dutyCodes({{"led_1", 0.9}, {"led_2", 0.6}, {"led_3", 0.4}, {"led_4", 0.2}}, 0.11, 0.25);
+  const BlinkCodes cyclic = identity::test::fourWords(0.001);
+  const BlinkCodes paper = identity::test::paperCodes(0.11, 0.25);
   for (const Kind& kind : {Kind{"steady", cyclic, 0.0}, Kind{"cyclic", cyclic, 0.184},
                            Kind{"paper, 150 ms", paper, 0.15}}) {
     for (const double speed : {0.0, 0.3, 1.0}) {

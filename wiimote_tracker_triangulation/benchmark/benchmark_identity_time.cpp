@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <string>
 
 namespace wiimote_tracker {
@@ -15,7 +14,9 @@ namespace {
 using namespace identity;
 using geometry::test::Random;
 using identity::test::BlinkingOptions;
+using identity::test::fourWords;
 using identity::test::LedSighting;
+using identity::test::paperCodes;
 
 double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
@@ -62,21 +63,12 @@ BenchmarkRow measure(const std::string& name,
 }
 
 void runTime(const BenchmarkSettings& settings, const RowCallback& row) {
-  std::vector<CyclicLed> leds;
-  for (const std::string& word : chooseWords(4))
-    leds.push_back({"led_" + std::to_string(leds.size()), word});
-  const auto paper = [](double shortest, double longest) {
-    return dutyCodes({{"led_1", 0.9}, {"led_2", 0.6}, {"led_3", 0.4}, {"led_4", 0.2}}, shortest,
-                     longest);
-  };
-  row(measure("cyclic, 4 words, clocks within 0.1 %", cyclicCodes(leds, 0.023, 0.001), 0.184,
-              settings));
-  row(measure("cyclic, 4 words, clocks within 1 %", cyclicCodes(leds, 0.023, 0.01), 0.184,
-              settings));
-  row(measure("paper, period known", paper(0.15, 0.15), 0.15, settings));
-  row(measure("paper, period 110 to 250 ms", paper(0.11, 0.25), 0.15, settings));
-  row(measure("paper, period 110 to 500 ms", paper(0.11, 0.5), 0.15, settings));
-  row(measure("paper, period 40 to 250 ms", paper(0.04, 0.25), 0.15, settings));
+  row(measure("cyclic, 4 words, clocks within 0.1 %", fourWords(0.001), 0.184, settings));
+  row(measure("cyclic, 4 words, clocks within 1 %", fourWords(0.01), 0.184, settings));
+  row(measure("paper, period known", paperCodes(0.15, 0.15), 0.15, settings));
+  row(measure("paper, period 110 to 250 ms", paperCodes(0.11, 0.25), 0.15, settings));
+  row(measure("paper, period 110 to 500 ms", paperCodes(0.11, 0.5), 0.15, settings));
+  row(measure("paper, period 40 to 250 ms", paperCodes(0.04, 0.25), 0.15, settings));
 }
 
 }  // namespace

@@ -18,12 +18,16 @@ inline BlinkCodes paperCodes(double shortest, double longest) {
   return dutyCodes({{"a", 0.9}, {"b", 0.6}, {"c", 0.4}, {"d", 0.2}}, shortest, longest);
 }
 
-/// Cyclic codes with chips of 23 ms and exact clocks.
-inline BlinkCodes fourWords() {
+/// Cyclic codes with chips of 23 ms. @param tolerance of the clocks, relative
+inline BlinkCodes wordCodes(const std::vector<std::string>& words, double tolerance) {
   std::vector<CyclicLed> leds;
-  for (const std::string& word : chooseWords(4))
+  for (const std::string& word : words)
     leds.push_back({"led_" + std::to_string(leds.size()), word});
-  return cyclicCodes(leds, 0.023, 0.0);
+  return cyclicCodes(leds, 0.023, tolerance);
+}
+
+inline BlinkCodes fourWords(double tolerance = 0.0) {
+  return wordCodes(chooseWords(4), tolerance);
 }
 
 /// How LEDs blink and cameras see. LED i has label i.

@@ -45,29 +45,47 @@ std::string cameraName(std::size_t camera) {
   return "camera_" + std::to_string(camera + 1);
 }
 
-std::string cornerName(std::size_t corner) {
-  return "corner " + std::to_string(corner + 1);
-}
+/// @param which camera or corner. @returns what must be said.
+using Make = std::function<Words(Spoilt* recording, std::size_t which)>;
 
 /// The LED lay this far from a corner [m].
-Words displaceCorner(Spoilt* it, std::size_t which, double distance) {
-  const std::size_t corner = which % 4;
-  const Eigen::Vector3d place =
-      it->wave.corners[corner] + distance * Eigen::Vector3d(0.8, -0.6, 0.0);
-  for (std::size_t i = 0; i < it->cameras().size(); ++i)
-    it->cameras()[i].sightings.corners[corner] = *it->wave.cameras[i].project(place);
-  return {cornerName(corner)};
+Make displaceCorner(double distance) {
+  return [=](Spoilt* it, std::size_t corner) -> Words {
+    const Eigen::Vector3d place =
+        it->wave.corners[corner] + distance * Eigen::Vector3d(0.8, -0.6, 0.0);
+    for (std::size_t i = 0; i < it->cameras().size(); ++i)
+      it->cameras()[i].sightings.corners[corner] = *it->wave.cameras[i].project(place);
+    return {"corner " + std::to_string(corner + 1)};
+  };
 }
 
-Words moveClock(Spoilt* it, std::size_t camera, double by, double since) {
-  std::vector<wave::Frame>& frames = it->cameras()[camera].frames;
-  const double start = frames.front().stamp + since;
-  for (wave::Frame& frame : frames)
-    frame.stamp += frame.stamp >= start ? by : 0.0;
-  return {"the clock of " + cameraName(camera)};
+/// Some time after the first image [s].
+Make moveClock(double by, double since) {
+  return [=](Spoilt* it, std::size_t camera) -> Words {
+    std::vector<wave::Frame>& frames = it->cameras()[camera].frames;
+    const double start = frames.front().stamp + since;
+    for (wave::Frame& frame : frames)
+      frame.stamp += frame.stamp >= start ? by : 0.0;
+    return {"the clock of " + cameraName(camera)};
+  };
 }
 
-Words captureClockwise(Spoilt* it) {
+Make stateSides(double x, double y, const char* word) {
+  return [=](Spoilt* it, std::size_t) -> Words {
+    it->square().side_x = x;
+    it->square().side_y = y;
+    return {word};
+  };
+}
+
+Make stateWand(double length) {
+  return [=](Spoilt* it, std::size_t) -> Words {
+    it->wave.recording.wand->length = length;
+    return {"by the square the wand is 0."};
+  };
+}
+
+Words captureClockwise(Spoilt* it, std::size_t /*any*/) {
   for (wave::CameraRecording& camera : it->cameras())
     std::swap(camera.sightings.corners[1], camera.sightings.corners[3]);
   return {"clockwise"};
@@ -83,6 +101,11 @@ Words knockBetweenCorners(Spoilt* it, std::size_t camera) {
   for (std::size_t corner = 1; corner < 4; ++corner)
     *it->cameras()[camera].sightings.corners[corner] += Eigen::Vector2d(60.0, 25.0);
   return {cameraName(camera)};
+}
+
+Words moveAfterTheCorners(Spoilt* it, std::size_t camera) {
+  it->cameras()[camera].frames = it->framesOfTurned(camera);
+  return {cameraName(camera), "moved"};
 }
 
 Words moveInTheWave(Spoilt* it, std::size_t camera) {
@@ -107,71 +130,42 @@ Words exchange(Spoilt* it, std::size_t camera) {
   return {cameraName(camera), cameraName(other), "exchanged"};
 }
 
-Words tapeWrongly(Spoilt* it) {
+Words tapeWrongly(Spoilt* it, std::size_t /*any*/) {
   const square::Corners& corners = it->wave.corners;
   it->square().lengths = {{0, 1, (corners[1] - corners[0]).norm()},
                           {0, 2, (corners[2] - corners[0]).norm() + 0.06}};
   return {"the length from corner 1 to corner 3"};
 }
 
-Words stateSides(Spoilt* it, double x, double y, const std::string& word) {
-  it->square().side_x = x;
-  it->square().side_y = y;
-  return {word};
-}
-
 struct Mistake {
   const char* done;
   bool waved;
   double wand;  ///< Length [m]; 0: none.
-  /// @param which camera or corner. @returns what must be said.
-  std::function<Words(Spoilt* recording, std::size_t which)> make;
+  Make make;
 };
 
 std::vector<Mistake> allMistakes() {
-  const auto corner = [](double distance) {
-    return [=](Spoilt* it, std::size_t i) { return displaceCorner(it, i, distance); };
-  };
-  const auto clock = [](double by, double since) {
-    return [=](Spoilt* it, std::size_t i) { return moveClock(it, i, by, since); };
-  };
-  const auto sides = [](double x, double y, const char* word) {
-    return [=](Spoilt* it, std::size_t) { return stateSides(it, x, y, word); };
-  };
-  const auto wand = [](double stated) {
-    return [=](Spoilt* it, std::size_t) {
-      it->wave.recording.wand->length = stated;
-      return Words{"by the square the wand is 0."};
-    };
-  };
   return {
-      {"corner 20 cm off", false, 0.0, corner(0.2)},
+      {"corner 20 cm off", false, 0.0, displaceCorner(0.2)},
       {"camera knocked between the corners", false, 0.0, knockBetweenCorners},
-      {"second side 2 m instead of 2.5", false, 0.0, sides(2.5, 2.0, "sides of the square")},
+      {"second side 2 m instead of 2.5", false, 0.0, stateSides(2.5, 2.0, "sides of the square")},
       {"accelerometer's axes turned", false, 0.0, turnGravity},
-      {"corners clockwise", false, 0.0,
-       [](Spoilt* it, std::size_t) { return captureClockwise(it); }},
-      {"corner 20 cm off, wave", true, 0.0, corner(0.2)},
-      {"corner 5 cm off, wave", true, 0.0, corner(0.05)},
-      {"camera turned after the corners", true, 0.0,
-       [](Spoilt* it, std::size_t i) {
-         it->cameras()[i].frames = it->framesOfTurned(i);
-         return Words{cameraName(i), "moved"};
-       }},
+      {"corners clockwise", false, 0.0, captureClockwise},
+      {"corner 20 cm off, wave", true, 0.0, displaceCorner(0.2)},
+      {"corner 5 cm off, wave", true, 0.0, displaceCorner(0.05)},
+      {"camera turned after the corners", true, 0.0, moveAfterTheCorners},
       {"camera turned in the wave", true, 0.0, moveInTheWave},
-      {"clock 1 s ahead", true, 0.0, clock(1.0, 0.0)},
-      {"clock 0.3 s behind", true, 0.0, clock(-0.3, 0.0)},
-      {"clock that jumps by 20 ms", true, 0.0, clock(0.02, 2.0)},
-      {"wand of 0.5 m stated as 0.6 m", true, 0.5, wand(0.6)},
-      {"wand of 0.5 m stated as 0.45 m", true, 0.5, wand(0.45)},
-      {"diagonal measured 6 cm too long", true, 0.0,
-       [](Spoilt* it, std::size_t) { return tapeWrongly(it); }},
+      {"clock 1 s ahead", true, 0.0, moveClock(1.0, 0.0)},
+      {"clock 0.3 s behind", true, 0.0, moveClock(-0.3, 0.0)},
+      {"clock that jumps by 20 ms", true, 0.0, moveClock(0.02, 2.0)},
+      {"wand of 0.5 m stated as 0.6 m", true, 0.5, stateWand(0.6)},
+      {"wand of 0.5 m stated as 0.45 m", true, 0.5, stateWand(0.45)},
+      {"diagonal measured 6 cm too long", true, 0.0, tapeWrongly},
       {"drivers exchanged after the corners", true, 0.0, exchange},
       {"image mirrored in the wave", true, 0.0, mirror},
-      {"sides in centimetres, wave", true, 0.0, sides(250.0, 250.0, "is the square really")},
-      {"sides in centimetres", false, 0.0, sides(250.0, 250.0, "is the square really")},
-      {"corners clockwise, wave", true, 0.0,
-       [](Spoilt* it, std::size_t) { return captureClockwise(it); }},
+      {"sides in centimetres, wave", true, 0.0, stateSides(250.0, 250.0, "is the square really")},
+      {"sides in centimetres", false, 0.0, stateSides(250.0, 250.0, "is the square really")},
+      {"corners clockwise, wave", true, 0.0, captureClockwise},
   };
 }
 

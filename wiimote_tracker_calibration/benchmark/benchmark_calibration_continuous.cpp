@@ -1,7 +1,6 @@
 // A rig that corrects itself: eight hours of drift, knocks and reconnects, compressed to the
 // motion.
 #include "benchmark_calibration_sections.h"
-#include "changed_rig.h"
 #include "wave_trial.h"
 #include "waved_led.h"
 
@@ -34,6 +33,32 @@ constexpr double kMotion = 60.0;                // After each step [s].
 constexpr double kPause = 540.0;                // Without images before each step [s].
 constexpr double kDriftPerHour = 0.5 / 1300.0;  // 0.5 px [rad].
 constexpr double kChiSquared = 12.592;          // 95 %, six degrees of freedom.
+
+/// How far points of the volume that rest seem to move when a rig is replaced, RMS [m].
+struct Movement {
+  double all = 0.0;
+  double apart = 0.0;  // Without the similarity by which they move together.
+};
+
+Movement movementOf(const std::vector<geometry::RigCamera>& truth,
+                    const geometry::Rig& from,
+                    const geometry::Rig& to) {
+  const std::vector<geometry::Camera> cameras = wave::camerasOf(truth);
+  const std::vector<Eigen::Vector3d> points = wave::cubePoints(cameras);
+  const Eigen::Map<const Eigen::Matrix3Xd> places(points[0].data(), 3,
+                                                  static_cast<Eigen::Index>(points.size()));
+  const auto seenBy = [&](const geometry::Rig& rig) {
+    return Eigen::Matrix3Xd(places +
+                            wave::pointErrors(cameras, wave::camerasOf(rig.cameras), points));
+  };
+  const auto rms = [](const Eigen::Matrix3Xd& columns) {
+    return std::sqrt(columns.colwise().squaredNorm().mean());
+  };
+  const Eigen::Matrix3Xd before = seenBy(from);
+  const Eigen::Matrix3Xd after = seenBy(to);
+  const Eigen::Affine3d together(Eigen::umeyama(before, after, true));
+  return {rms(after - before), rms(after - together * before)};
+}
 
 /// What is known after an hour, over all runs.
 struct Hour {
@@ -99,8 +124,8 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
         rig = *next;
       });
     }
-    at.kept += std::pow(volumeError(led.truth, first), 2);
-    at.corrected += std::pow(volumeError(led.truth, rig), 2);
+    at.kept += std::pow(wave::volumeError(led.truth, first), 2);
+    at.corrected += std::pow(wave::volumeError(led.truth, rig), 2);
     for (std::size_t i = 0; i < led.truth.size(); ++i) {
       const double nees = square::poseNees(rig, i, led.truth[i].camera);
       at.covered.count(nees < kChiSquared);

@@ -1,6 +1,6 @@
 #include "misled_trial.h"
 
-#include "changed_rig.h"
+#include "wave_trial.h"
 #include "waved_led.h"
 
 #include "continuous/continuous_calibration.h"
@@ -85,7 +85,7 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
   const double share = always ? 1.0 : square::uniform(random, 0.2, 1.0);
 
   MisledTrial trial;
-  const double before = volumeError(led.truth, rig);
+  const double before = wave::volumeError(led.truth, rig);
   std::optional<continuous::ContinuousCalibration> watch;
   watch.emplace(rig, continuous::Options{});
   led.runUntil(kMisledDuration, [&](capture::Image image) {
@@ -105,7 +105,7 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
     watch.emplace(rig, continuous::Options{});
     ++trial.changes;
   });
-  trial.worse = volumeError(led.truth, rig) - before;
+  trial.worse = wave::volumeError(led.truth, rig) - before;
   return trial;
 }
 

@@ -170,6 +170,12 @@ Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
   return errors;
 }
 
+double volumeError(const std::vector<geometry::RigCamera>& truth, const geometry::Rig& rig) {
+  const std::vector<geometry::Camera> cameras = camerasOf(truth);
+  const Eigen::Matrix3Xd errors = pointErrors(cameras, camerasOf(rig.cameras), cubePoints(cameras));
+  return std::sqrt(errors.colwise().squaredNorm().mean());
+}
+
 WaveOptions optionsFor(const WaveScene& scene) {
   WaveOptions options;
   options.uncertainty = scene.uncertainty;

@@ -57,6 +57,9 @@ Eigen::Matrix3Xd pointErrors(const std::vector<geometry::Camera>& truth,
                              const std::vector<geometry::Camera>& estimate,
                              const std::vector<Eigen::Vector3d>& points);
 
+/// RMS error of the points of the cube [m].
+double volumeError(const std::vector<geometry::RigCamera>& truth, const geometry::Rig& rig);
+
 /// The options that fit to a scene.
 WaveOptions optionsFor(const WaveScene& scene);
 

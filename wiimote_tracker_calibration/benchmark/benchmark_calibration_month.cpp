@@ -27,16 +27,16 @@ void writeRow(const std::string& name,
               const Month& month,
               const MonthFigures& found,
               const RowCallback& row) {
-  const auto count = [](std::uint64_t n) { return static_cast<double>(n); };
   row({name,
-       {{"images", count(found.images)},
-        {"points", count(found.points)},
-        {"rms_mm", 1e3 * std::sqrt(found.squared / count(found.points - found.wrong))},
-        {"wrong", count(found.wrong)},
-        {"dark", count(found.hours_dark)},
-        {"ids", static_cast<double>(month.highestId() + 1)},
-        {"reused", count(found.reused_ids)},
-        {"alarms", count(found.alarms)},
+       {{"images", found.images},
+        {"points", found.points},
+        {"rms_mm",
+         1e3 * std::sqrt(found.squared / static_cast<double>(found.points - found.wrong))},
+        {"wrong", found.wrong},
+        {"dark", found.hours_dark},
+        {"ids", month.highestId() + 1},
+        {"reused", found.reused_ids},
+        {"alarms", found.alarms},
         {"MB", residentMemory()}}});
 }
 

@@ -45,8 +45,8 @@ BenchmarkRow rowOf(const std::string& name, PaperSession session, int runs) {
            {"worst", 100.0 * worst},
            {"origin", 100.0 * origin / solved},
            {"moved px", moved},
-           {"lost", static_cast<double>(lost)},
-           {"refused", static_cast<double>(runs - solved)}}};
+           {"lost", lost},
+           {"refused", runs - solved}}};
 }
 
 void runPaper(int runs, const RowCallback& row) {

@@ -62,15 +62,15 @@ BenchmarkRow tiltRow(const std::string& name,
       tally.add(trials[i], found[i], multiStartPoses(trials[i], kStarts, random));
   }
   return {name,
-          {{"poses", static_cast<double>(tally.poses)},
-           {"judged", static_cast<double>(tally.judged)},
+          {{"poses", tally.poses},
+           {"judged", tally.judged},
            {"whitened", tally.whitened()},
            {"worst", tally.worst_excess},
-           {"wrong", static_cast<double>(tally.wrong)},
-           {"wrong_ml", static_cast<double>(tally.wrong_multi_start)},
-           {"two", static_cast<double>(tally.two)},
-           {"two_ml", static_cast<double>(tally.two_multi_start)},
-           {"missed", static_cast<double>(tally.missed)},
+           {"wrong", tally.wrong},
+           {"wrong_ml", tally.wrong_multi_start},
+           {"two", tally.two},
+           {"two_ml", tally.two_multi_start},
+           {"missed", tally.missed},
            {"us", 1e6 * seconds / poses}}};
 }
 
@@ -182,9 +182,9 @@ void runMethods(int runs, const RowCallback& row) {
     row({method.name,
          {{"us", 1e6 * method.seconds / poses},
           {"whitened", std::sqrt(method.nees / (6.0 * method.judged))},
-          {"wrong", static_cast<double>(method.wrong)},
-          {"failed", static_cast<double>(method.failed)},
-          {"poses", static_cast<double>(poses)}}});
+          {"wrong", method.wrong},
+          {"failed", method.failed},
+          {"poses", poses}}});
 }
 
 }  // namespace

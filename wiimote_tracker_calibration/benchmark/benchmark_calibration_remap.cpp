@@ -81,11 +81,11 @@ BenchmarkRow rowOf(const std::string& name, Deformation deformation, int side, i
           {{"before", 1e3 * std::sqrt(before / used)},
            {"after", 1e3 * std::sqrt(after / used)},
            {"expected", 1e3 * std::sqrt(promised / used)},
-           {"affine", static_cast<double>(chosen[0])},
-           {"projective", static_cast<double>(chosen[1])},
-           {"trilinear", static_cast<double>(chosen[2])},
-           {"thin_plate", static_cast<double>(chosen[3])},
-           {"refused", static_cast<double>(refused)}}};
+           {"affine", chosen[0]},
+           {"projective", chosen[1]},
+           {"trilinear", chosen[2]},
+           {"thin_plate", chosen[3]},
+           {"refused", refused}}};
 }
 
 void runRemap(int runs, const RowCallback& row) {

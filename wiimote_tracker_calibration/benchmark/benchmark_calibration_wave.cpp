@@ -87,7 +87,7 @@ BenchmarkRow rowOf(const std::string& name, const WaveScene& scene, int runs) {
            {"position", 1e3 * solved.value()},
            {"/perfect", solved.value() / perfect.value()},
            {"square/", square.value() / solved.value()},
-           {"refused", static_cast<double>(refused)}}};
+           {"refused", refused}}};
 }
 
 void runWave(int runs, const RowCallback& row) {

@@ -151,7 +151,7 @@ void runRecovery(const BenchmarkSettings& settings, const RowCallback& row) {
       return 1e3 * delays[static_cast<std::size_t>(q * static_cast<double>(delays.size() - 1))];
     };
     row({name,
-         {{"times", static_cast<double>(delays.size())},
+         {{"times", delays.size()},
           {"median ms", quantile(0.5)},
           {"p95 ms", quantile(0.95)},
           {"worst ms", quantile(1.0)},

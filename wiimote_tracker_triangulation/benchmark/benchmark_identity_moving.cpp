@@ -147,7 +147,7 @@ void runMoving(const BenchmarkSettings& settings, const RowCallback& row) {
       const std::string name = format("%s, %.1f m/s", kind.name.c_str(), speed);
       BenchmarkRow figures{name,
                            {{"followed %", 100.0 * result.followed / result.led_time},
-                            {"tracks", static_cast<double>(result.tracks)},
+                            {"tracks", result.tracks},
                             {"RMS mm", 1e3 * std::sqrt(result.squared / result.followed)}}};
       if (kind.period > 0.0) {
         figures.figures.push_back({"labelled %", 100.0 * result.labelled / result.led_time});

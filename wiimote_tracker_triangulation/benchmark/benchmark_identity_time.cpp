@@ -55,7 +55,7 @@ BenchmarkRow measure(const std::string& name,
     cells = Hypotheses(codes, {}, 1.0).cells();
   }
   return {name,
-          {{"cells", static_cast<double>(cells)},
+          {{"cells", cells},
            {"sighting us", 1e6 * best_add},
            {"decision us", 1e6 * best_decide},
            // Four cameras with 100 images per second see four LEDs; default interval of decisions.

@@ -28,11 +28,11 @@ BenchmarkRow judge(const std::string& name, const RadioModel& model, double dura
   double rate = 1e9;  // of the remote that has the fewest images [1/s]
   std::vector<double> delays, errors, stddevs;
   double frames = 0.0;
-  for (const std::vector<RadioReport>& reports : simulateRadio(model, duration, 1)) {
+  for (const auto& reports : simulateRadio(model, duration, 1)) {
     ExposureClock clock;
     std::size_t judged = 0;
     std::int64_t first_frame = 0;
-    for (const RadioReport& report : reports) {
+    for (const virtual_wiimote::FrameTime& report : reports) {
       const Estimate estimate = clock.update(report.arrival);
       if (report.arrival < kSettling)
         continue;

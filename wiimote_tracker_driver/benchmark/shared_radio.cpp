@@ -1,7 +1,5 @@
 #include "shared_radio.h"
 
-#include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
-
 #include <cstddef>
 #include <deque>
 #include <random>
@@ -49,16 +47,16 @@ int polled(const RadioModel& model, std::int64_t turn, double chance) {
 
 }  // namespace
 
-std::vector<std::vector<RadioReport>> simulateRadio(const RadioModel& model,
-                                                    double duration,
-                                                    std::uint64_t seed) {
+std::vector<std::vector<virtual_wiimote::FrameTime>> simulateRadio(const RadioModel& model,
+                                                                   double duration,
+                                                                   std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
   std::deque<Sender> senders;
   for (int i = 0; i < model.remotes; ++i)
     senders.emplace_back(0.01 * uniform(random), random());
 
-  std::vector<std::vector<RadioReport>> reports(senders.size());
+  std::vector<std::vector<virtual_wiimote::FrameTime>> reports(senders.size());
   const auto turns = static_cast<std::int64_t>(duration / (2.0 * kSlot));
   for (std::int64_t turn = 0; turn < turns; ++turn) {
     const auto index = static_cast<std::size_t>(polled(model, turn, uniform(random)));
@@ -69,8 +67,8 @@ std::vector<std::vector<RadioReport>> simulateRadio(const RadioModel& model,
     sender.sampleUntil(begin + kSlot, static_cast<std::size_t>(model.queue));
     if (sender.waiting.empty() || uniform(random) < model.loss)
       continue;
-    const virtual_wiimote::FrameTime& sent = sender.waiting.front();
-    reports[index].push_back({sent.frame, sent.exposure, begin + 2.0 * kSlot});
+    reports[index].push_back(sender.waiting.front());
+    reports[index].back().arrival = begin + 2.0 * kSlot;
     sender.waiting.pop_front();
   }
   return reports;

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_SHARED_RADIO_H
 #define WIIMOTE_TRACKER_DRIVER_SHARED_RADIO_H
 
+#include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
+
 #include <cstdint>
 #include <vector>
 
@@ -28,18 +30,11 @@ struct RadioModel {
   int queue = 2;
 };
 
-/// A report that reached the computer.
-struct RadioReport {
-  std::int64_t frame = 0;
-  double exposure = 0.0;  ///< [s]
-  double arrival = 0.0;   ///< [s]
-};
-
-/// The reports of each remote during `duration` [s]. Cameras have a period of 10.035 ms +- 500 ppm
-/// and independent phases.
-std::vector<std::vector<RadioReport>> simulateRadio(const RadioModel& model,
-                                                    double duration,
-                                                    std::uint64_t seed);
+/// The reports of each remote that reached the computer during `duration` [s]. Cameras have a
+/// period of 10.035 ms +- 500 ppm and independent phases.
+std::vector<std::vector<virtual_wiimote::FrameTime>> simulateRadio(const RadioModel& model,
+                                                                   double duration,
+                                                                   std::uint64_t seed);
 
 }  // namespace wiimote_tracker::exposure_clock
 

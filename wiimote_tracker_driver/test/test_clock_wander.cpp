@@ -81,7 +81,7 @@ Score meanOverRemotes(RadioModel::Polling polling, double loss) {
   model.loss = loss;
   model.polling = polling;
   Score mean;
-  for (const std::vector<RadioReport>& reports : simulateRadio(model, 60.0, 1)) {
+  for (const auto& reports : simulateRadio(model, 60.0, 1)) {
     const Score score = scoreOf(reports);
     mean.mean_error += score.mean_error / model.remotes;
     mean.inside += score.inside / model.remotes;

@@ -48,13 +48,6 @@ struct Figures : geometry::test::Accuracy {
   }
 };
 
-Vector3d gaussian(Random& random, double stddev) {
-  Vector3d v;
-  for (int i = 0; i < 3; ++i)
-    v[i] = stddev * random.gaussian();
-  return v;
-}
-
 std::vector<Camera> cameras() {
   std::vector<Camera> result;
   for (const geometry::RigCamera& camera : tracking::test::paperRig().cameras)
@@ -95,7 +88,7 @@ void runDrawn(const Drawn& drawn,
   motion::test::SingerTruth truth(drawn.stddev, drawn.time, kStep);
   const Matrix3d covariance = kStartStddev * kStartStddev * Matrix3d::Identity();
   const double speed = drawn.jumps ? 0.0 : options.initial_speed;
-  truth.place(Vector3d(1.25, 1.25, 1.2) + random.inBox(0.2), gaussian(random, speed));
+  truth.place(Vector3d(1.25, 1.25, 1.2) + random.inBox(0.2), random.gaussianVector(speed));
   motion::test::KnownModeBound bound(drawn.stddev, drawn.time, kStep, covariance, speed);
   double next_jump = std::numeric_limits<double>::infinity();
   if (drawn.jumps) {
@@ -104,7 +97,8 @@ void runDrawn(const Drawn& drawn,
   } else {
     truth.startMoving(random);
   }
-  MotionFilter filter(options, 0.0, truth.position() + gaussian(random, kStartStddev), covariance);
+  MotionFilter filter(options, 0.0, truth.position() + random.gaussianVector(kStartStddev),
+                      covariance);
   for (int i = 1; i * kStep < drawn.duration; ++i) {
     const double time = i * kStep;
     if (time >= next_jump) {

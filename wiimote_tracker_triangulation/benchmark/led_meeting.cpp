@@ -21,17 +21,12 @@ std::vector<Eigen::Vector3d> wander(geometry::test::Random& random,
                                     Eigen::Vector3d v,
                                     Eigen::Vector3d a,
                                     double interval) {
-  const auto noise = [&] {
-    const double x = random.gaussian();
-    const double y = random.gaussian();
-    return Eigen::Vector3d(x, y, random.gaussian());
-  };
   const double keep = std::exp(-interval / meeting.acceleration_time);
   std::vector<Eigen::Vector3d> samples = {p};
   for (double t = 0.0; t < meeting.half_duration; t += interval) {
     p += interval * v + 0.5 * interval * interval * a;
     v += interval * a;
-    a = keep * a + std::sqrt(1.0 - keep * keep) * meeting.acceleration * noise();
+    a = keep * a + std::sqrt(1.0 - keep * keep) * meeting.acceleration * random.gaussianVector(1.0);
     samples.push_back(p);
   }
   return samples;
@@ -93,18 +88,13 @@ bool errs(const MeetingFilm& film,
 
 std::vector<Path> LedMeeting::draw(geometry::test::Random& random) const {
   constexpr double kInterval = 0.001;  // [s]
-  const auto drawn = [&](double stddev) {
-    const double x = random.gaussian();
-    const double y = random.gaussian();
-    return Eigen::Vector3d(stddev * Eigen::Vector3d(x, y, random.gaussian()));
-  };
   const Eigen::Vector3d middle(1.25, 1.25, 1.0);
   std::vector<Path> paths;
   for (int led = 0; led < 2; ++led) {
     // The difference of two independent velocities has twice the variance of one.
-    const Eigen::Vector3d p = middle + drawn(0.003);
-    const Eigen::Vector3d v = drawn(relative_speed / std::sqrt(2.0));
-    const Eigen::Vector3d a = drawn(acceleration);
+    const Eigen::Vector3d p = middle + random.gaussianVector(0.003);
+    const Eigen::Vector3d v = random.gaussianVector(relative_speed / std::sqrt(2.0));
+    const Eigen::Vector3d a = random.gaussianVector(acceleration);
     std::vector<Eigen::Vector3d> samples = wander(random, *this, p, -v, a, kInterval);
     std::reverse(samples.begin(), samples.end());
     const std::vector<Eigen::Vector3d> after = wander(random, *this, p, v, a, kInterval);

@@ -25,9 +25,7 @@ Isometry3d randomPose(geometry::test::Random& random, const Vector3d& center) {
 }
 
 Vector3d noise(geometry::test::Random& random, double stddev) {
-  const double x = random.gaussian();
-  const double y = random.gaussian();
-  return stddev * Vector3d(x, y, random.gaussian());
+  return random.gaussianVector(stddev);
 }
 
 Isometry3d handheld(double time) {

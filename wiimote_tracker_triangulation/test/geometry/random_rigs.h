@@ -24,6 +24,13 @@ class Random {
     return radius * std::cos(uniform(0.0, 2.0 * M_PI));
   }
 
+  /// Of this standard deviation along each axis.
+  Eigen::Vector3d gaussianVector(double stddev) {
+    const double x = gaussian();
+    const double y = gaussian();
+    return stddev * Eigen::Vector3d(x, y, gaussian());
+  }
+
   Eigen::Vector3d inBox(double half_side) {
     const double x = uniform(-half_side, half_side);
     const double y = uniform(-half_side, half_side);

@@ -23,12 +23,6 @@ using wiimote_tracker_msgs::TrackedPointArray;
 using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-Vector3d gaussian(Random& random) {
-  const double x = random.gaussian();
-  const double y = random.gaussian();
-  return {x, y, random.gaussian()};
-}
-
 Matrix6 someCovariance(Random& random, double stddev) {
   Matrix6 root = Matrix6::Identity();
   for (Eigen::Index i = 0; i < 36; ++i)
@@ -91,11 +85,11 @@ TEST(BodyOdometry, TheCovarianceIsTheSpreadOfTwists) {
   constexpr int kDraws = 20000;
   for (int i = 0; i < kDraws; ++i) {
     // A true orientation and twist, as they may be.
-    const Vector3d turn = rotation_root * gaussian(random);
+    const Vector3d turn = rotation_root * random.gaussianVector(1.0);
     const Matrix3d truth =
         Eigen::AngleAxisd(turn.norm(), turn.normalized()) * rotation.toRotationMatrix();
     Vector6 z;
-    z << gaussian(random), gaussian(random);
+    z << random.gaussianVector(1.0), random.gaussianVector(1.0);
     Vector6 twist;
     twist << v, w;
     twist += twist_root * z;

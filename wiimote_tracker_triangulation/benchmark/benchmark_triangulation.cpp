@@ -3,6 +3,7 @@
 #include "triangulation_scene.h"
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
+#include <wiimote_tracker_msgs/median.h>
 
 #include <Eigen/LU>
 
@@ -78,9 +79,8 @@ std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
       seconds[m].push_back(secondsOf(timed[m], &part_output));
   }
   for (std::size_t m = 0; m < methods.size(); ++m) {
-    std::sort(seconds[m].begin(), seconds[m].end());
     rows[m].figures.emplace_back(
-        "ns / point", 1e9 * seconds[m][kRepetitions / 2] / static_cast<double>(part.truth.size()));
+        "ns / point", 1e9 * medianOf(&seconds[m]) / static_cast<double>(part.truth.size()));
   }
   return rows;
 }
@@ -106,9 +106,9 @@ int main(int argc, char** argv) {
                points, kBenchmarkPixelStddev, kRepetitions, kTimedPoints),
         format("rosrun wiimote_tracker_triangulation benchmark_triangulation --points %d --seed %u",
                points, seed));
-    for (const auto make : {paperScene, ringScene}) {
+    for (const TriangulationLayout& layout : kTriangulationLayouts) {
       for (const int cameras : {2, 4}) {
-        for (const BenchmarkRow& row : measure(make(cameras, points, seed)))
+        for (const BenchmarkRow& row : measure(makeScene(layout, cameras, points, seed)))
           tables.add(row);
       }
     }

@@ -36,28 +36,27 @@ double squaredBoundAt(const std::vector<Camera>& cameras, const Vector3d& point)
   return information.inverse().trace() * kBenchmarkPixelStddev * kBenchmarkPixelStddev;
 }
 
-TriangulationScene makeScene(const std::string& name,
+}  // namespace
+
+TriangulationScene makeScene(const TriangulationLayout& layout,
                              int cameras,
-                             double distance,
-                             double height,
-                             double side,
                              int points,
                              unsigned seed) {
   geometry::test::Random random(seed);
   TriangulationScene scene;
-  scene.name = name + " " + std::to_string(cameras);
+  scene.name = std::string(layout.name) + " " + std::to_string(cameras);
   for (int i = 0; i < cameras; ++i) {
     const double angle = M_PI / 4.0 + i * M_PI / 2.0 + (i < 4 ? 0.0 : M_PI / 4.0);
     Camera camera;
     camera.name = "camera_" + std::to_string(i + 1);
-    camera.world_from_camera =
-        geometry::lookAt({distance * std::cos(angle), distance * std::sin(angle), height},
-                         Vector3d::Zero(), Vector3d::UnitZ());
+    camera.world_from_camera = geometry::lookAt(
+        {layout.distance * std::cos(angle), layout.distance * std::sin(angle), layout.height},
+        Vector3d::Zero(), Vector3d::UnitZ());
     scene.cameras.push_back(camera);
   }
   double squared_bound = 0.0;
   for (int i = 0; i < points; ++i) {
-    const Vector3d truth = random.inBox(0.5 * side);
+    const Vector3d truth = random.inBox(0.5 * layout.side);
     std::vector<Vector2d> pixels;
     for (const Camera& camera : scene.cameras) {
       const double noise_u = random.gaussian();
@@ -70,16 +69,6 @@ TriangulationScene makeScene(const std::string& name,
   }
   scene.bound = std::sqrt(squared_bound / points);
   return scene;
-}
-
-}  // namespace
-
-TriangulationScene paperScene(int cameras, int points, unsigned seed) {
-  return makeScene("paper", cameras, 1.25 * std::sqrt(2.0) + 4.5, 0.75, 2.5, points, seed);
-}
-
-TriangulationScene ringScene(int cameras, int points, unsigned seed) {
-  return makeScene("ring", cameras, 4.1, 1.0, 1.5, points, seed);
 }
 
 }  // namespace wiimote_tracker

@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <string>
@@ -24,13 +25,23 @@ struct TriangulationScene {
   double bound;  ///< Cramer-Rao bound on the RMS distance of unbiased estimates [m].
 };
 
-/// The paper's Fig. 1: a cube of 2.5 m, cameras 4.5 m outside its vertical edges, 2 m high. Fewer
-/// than four: neighbours. Beyond four: between them.
-TriangulationScene paperScene(int cameras, int points, unsigned seed);
+/// A cube, and cameras a quarter turn apart (eighths beyond four) about it, which see its middle.
+struct TriangulationLayout {
+  const char* name;
+  double distance;  ///< Of the cameras from the cube's axis [m].
+  double height;    ///< Above its middle [m].
+  double side;      ///< [m]
+};
 
-/// A cube of 1.5 m, cameras on a ring of 4.1 m around it, a quarter turn apart (eighths beyond
-/// four), 1 m above its middle: the ranges differ more, and the cameras lie nearer.
-TriangulationScene ringScene(int cameras, int points, unsigned seed);
+/// The paper's Fig. 1: cameras 4.5 m outside the cube's vertical edges, 2 m high. Then a ring: the
+/// ranges differ more, and the cameras lie nearer.
+constexpr TriangulationLayout kTriangulationLayouts[] = {{"paper", 1.25 * M_SQRT2 + 4.5, 0.75, 2.5},
+                                                         {"ring", 4.1, 1.0, 1.5}};
+
+TriangulationScene makeScene(const TriangulationLayout& layout,
+                             int cameras,
+                             int points,
+                             unsigned seed);
 
 /// A method's results for all points of a scene. Memory is allocated before the timing.
 struct TriangulationOutput {

@@ -1,10 +1,8 @@
-#include "false_alarms.h"
-
+#include "evaluate.h"
+#include "gesture/segmenter.h"
 #include "gesture/spotter.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/gesture/path_file.h"
-
-#include <cmath>
 
 namespace wiimote_tracker::gesture_tool {
 

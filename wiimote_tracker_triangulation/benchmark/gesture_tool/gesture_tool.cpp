@@ -1,7 +1,6 @@
 // Accuracy of gesture recognition on recordings of people.
 
 #include "evaluate.h"
-#include "false_alarms.h"
 #include "report.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>

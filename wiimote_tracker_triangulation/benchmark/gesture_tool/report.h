@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H
 
 #include "evaluate.h"
-#include "false_alarms.h"
 
 #include <optional>
 #include <string>

@@ -5,7 +5,6 @@
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <algorithm>
-#include <chrono>
 #include <string>
 
 namespace wiimote_tracker {
@@ -17,10 +16,6 @@ using identity::test::BlinkingOptions;
 using identity::test::fourWords;
 using identity::test::LedSighting;
 using identity::test::paperCodes;
-
-double now() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 BenchmarkRow measure(const std::string& name,
                      const BlinkCodes& codes,
@@ -42,14 +37,14 @@ BenchmarkRow measure(const std::string& name,
   std::size_t cells = 0;
   for (int run = 0; run < std::max(3, settings.runs / 4); ++run) {
     Identifier identifier(codes, rarely);
-    const double start = now();
+    const double start = processorTime();
     for (const LedSighting& s : sightings)
       identifier.add(static_cast<std::uint32_t>(s.led), s.sighting);
-    const double added = now();
+    const double added = processorTime();
     constexpr int kDecisions = 50;
     for (int i = 0; i < kDecisions; ++i)
       identifier.decide(sightings.back().sighting.time + 2.0 * i);
-    const double decided = now();
+    const double decided = processorTime();
     best_add = std::min(best_add, (added - start) / static_cast<double>(sightings.size()));
     best_decide = std::min(best_decide, (decided - added) / kDecisions);
     cells = Hypotheses(codes, {}, 1.0).cells();

@@ -1,8 +1,15 @@
 #include "benchmark_program.h"
 
 #include <cstdio>
+#include <ctime>
 
 namespace wiimote_tracker {
+
+double processorTime() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
 
 int runBenchmark(const std::string& program,
                  const std::vector<BenchmarkSection>& sections,

@@ -23,6 +23,9 @@ struct BenchmarkSection {
   std::function<void(const BenchmarkSettings& settings, const RowCallback& row)> run;
 };
 
+/// Processor time of this program [s]: other programs do not count.
+double processorTime();
+
 /// A benchmark's main(): runs all sections, or the requested one, prints their tables and writes
 /// them as JSON. @param add_options of this benchmark only.
 int runBenchmark(const std::string& program,

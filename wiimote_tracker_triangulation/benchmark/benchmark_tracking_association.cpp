@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <ctime>
 #include <limits>
 #include <string>
 #include <vector>
@@ -24,13 +23,6 @@ using association::test::Tuple;
 
 constexpr int kLeds = 4;
 constexpr int kTimedTogether = 100;  // frames per timing
-
-/// CPU time of this process [s]: other processes do not count.
-double processTime() {
-  timespec time{};
-  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
 
 /// The LEDs that at least two cameras see.
 Division truthOf(const SimulatedViews& views) {
@@ -77,14 +69,14 @@ BenchmarkRow runCase(const Case& c, const BenchmarkSettings& settings) {
       const auto leds = association::test::randomLeds(random, rig, kLeds);
       batch.push_back(association::test::simulateViews(random, rig, leds, c.disturbance));
     }
-    const double start = processTime();
+    const double start = processorTime();
     for (const SimulatedViews& views : batch)
       associator.associate(views.views);
-    seconds += processTime() - start;
+    seconds += processorTime() - start;
     for (const SimulatedViews& views : batch) {
-      const double frame_start = processTime();
+      const double frame_start = processorTime();
       const association::Association& association = associator.associate(views.views);
-      longest = std::max(longest, processTime() - frame_start);
+      longest = std::max(longest, processorTime() - frame_start);
       const Division found = association::test::divisionOf(association, cameras);
       ++frames;
       proven += association.proven;
@@ -143,12 +135,12 @@ BenchmarkRow runOneImage(int tracks, const BenchmarkSettings& settings) {
   double sum = 0.0;
   double seconds = 0.0;
   for (int run = 0; run < settings.runs; ++run) {
-    const double start = processTime();
+    const double start = processorTime();
     for (int i = 0; i < kRepetitions; ++i) {
       for (const association::SpotCosts& costs : images)
         sum += costOf(costs, association::assignSpots(costs));
     }
-    seconds += processTime() - start;
+    seconds += processorTime() - start;
   }
   const double count = static_cast<double>(kRepetitions * kTimedTogether) * settings.runs;
   return {"one image, " + std::to_string(tracks) + " tracks, one spot more",

@@ -5,18 +5,12 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
-#include <ctime>
 
 namespace wiimote_tracker {
 namespace {
 
 using namespace tracking;
 using namespace tracking::test;
-
-/// CPU time since `start` [s].
-double since(std::clock_t start) {
-  return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-}
 
 struct Timing {
   double seconds = 0.0;  // CPU time
@@ -40,7 +34,7 @@ Timing timed(const geometry::Rig& rig,
   for (int i = 0; i <= batches; ++i) {  // the first warms up
     for (SceneImage& image : batch)
       image = scene.next();
-    const std::clock_t start = std::clock();
+    const double start = processorTime();
     for (const SceneImage& image : batch) {
       tracker.add(image.camera, image.image);
       while (const Snapshot* snapshot = tracker.next()) {
@@ -50,11 +44,9 @@ Timing timed(const geometry::Rig& rig,
                           [](auto& led) { return led.state == TrackState::kTracked; }));
       }
     }
-    if (i == 0)
-      continue;
-    timing.seconds += since(start);
-    timing.images += kBatch;
+    timing.seconds += i > 0 ? processorTime() - start : 0.0;
   }
+  timing.images = static_cast<double>(kBatch) * batches;
   return timing;
 }
 

@@ -118,11 +118,9 @@ std::optional<Eigen::Isometry3d> solveWithOpenCv(const PoseTrial& trial, int met
 struct Method {
   std::string name;
   Solver solve;
+  PoseErrors errors = {};
   double seconds = 0.0;
   int failed = 0;
-  int wrong = 0;
-  int judged = 0;
-  double nees = 0.0;
 };
 
 /// All methods on the same poses, one after the other on each batch: their times are those of one
@@ -165,24 +163,18 @@ void runMethods(int runs, const RowCallback& row) {
         found[i] = method.solve(trials[i]);
       method.seconds += since(start);
       for (std::size_t i = 0; i < trials.size(); ++i) {
-        if (!found[i]) {
+        if (found[i])
+          method.errors.add(trials[i], minima[i], *found[i]);
+        else
           ++method.failed;
-          continue;
-        }
-        method.wrong += isWrongBranch(trials[i], minima[i], *found[i]);
-        if (!isJudged(trials[i], minima[i]))
-          continue;
-        const auto error = poseError(trials[i], *found[i]);
-        method.nees += error.dot(poseInformation(trials[i]) * error);
-        ++method.judged;
       }
     }
   }
   for (const Method& method : methods)
     row({method.name,
          {{"us", 1e6 * method.seconds / poses},
-          {"whitened", std::sqrt(method.nees / (6.0 * method.judged))},
-          {"wrong", method.wrong},
+          {"whitened", method.errors.whitened()},
+          {"wrong", method.errors.wrong},
           {"failed", method.failed},
           {"poses", poses}}});
 }

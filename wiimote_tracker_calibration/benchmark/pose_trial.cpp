@@ -149,6 +149,36 @@ std::size_t nearest(const std::vector<square::PlanarPose>& minima, const Eigen::
   return best;
 }
 
+/// Rotation from the truth to an estimate in the optical frame [rad], then displacement of the
+/// square's middle in it [m].
+Vector6 poseError(const PoseTrial& trial, const Eigen::Isometry3d& world_from_camera) {
+  const Eigen::Isometry3d truth = trial.truth.world_from_camera.inverse();
+  const Eigen::Isometry3d estimate = world_from_camera.inverse();
+  Vector6 error;
+  error << geometry::so3::log(estimate.linear() * truth.linear().transpose()),
+      estimate.translation() - truth.translation();
+  return error;
+}
+
+/// Fisher information of the pose at the truth, order and units as poseError(), by numerical
+/// differentiation of the projection.
+Eigen::Matrix<double, 6, 6> poseInformation(const PoseTrial& trial) {
+  const Eigen::Matrix<double, 8, 6> jacobian = jacobianOf(trial, trial.truth).value();
+  return jacobian.transpose() * jacobian / (kPosePixelStddev * kPosePixelStddev);
+}
+
+bool isJudged(const PoseTrial& trial, const std::vector<square::PlanarPose>& minima) {
+  const Eigen::Matrix<double, 6, 6> bound = poseInformation(trial).inverse();
+  return std::sqrt(bound.topLeftCorner<3, 3>().trace()) <= kMostRotation &&
+         (minima.size() < 2 || chiSquared(minima[1].cost - minima[0].cost) >= kClear);
+}
+
+bool isWrongBranch(const PoseTrial& trial,
+                   const std::vector<square::PlanarPose>& minima,
+                   const Eigen::Isometry3d& world_from_camera) {
+  return nearest(minima, world_from_camera) != nearest(minima, trial.truth.world_from_camera);
+}
+
 }  // namespace
 
 PoseTrial drawPoseTrial(Random& random,
@@ -194,20 +224,6 @@ PoseTrial drawPoseTrial(Random& random,
   return trial;
 }
 
-Vector6 poseError(const PoseTrial& trial, const Eigen::Isometry3d& world_from_camera) {
-  const Eigen::Isometry3d truth = trial.truth.world_from_camera.inverse();
-  const Eigen::Isometry3d estimate = world_from_camera.inverse();
-  Vector6 error;
-  error << geometry::so3::log(estimate.linear() * truth.linear().transpose()),
-      estimate.translation() - truth.translation();
-  return error;
-}
-
-Eigen::Matrix<double, 6, 6> poseInformation(const PoseTrial& trial) {
-  const Eigen::Matrix<double, 8, 6> jacobian = jacobianOf(trial, trial.truth).value();
-  return jacobian.transpose() * jacobian / (kPosePixelStddev * kPosePixelStddev);
-}
-
 std::vector<square::PlanarPose> multiStartPoses(const PoseTrial& trial,
                                                 int starts,
                                                 Random& random) {
@@ -229,16 +245,19 @@ std::vector<square::PlanarPose> multiStartPoses(const PoseTrial& trial,
   return minima;
 }
 
-bool isJudged(const PoseTrial& trial, const std::vector<square::PlanarPose>& minima) {
-  const Eigen::Matrix<double, 6, 6> bound = poseInformation(trial).inverse();
-  return std::sqrt(bound.topLeftCorner<3, 3>().trace()) <= kMostRotation &&
-         (minima.size() < 2 || chiSquared(minima[1].cost - minima[0].cost) >= kClear);
+void PoseErrors::add(const PoseTrial& trial,
+                     const std::vector<square::PlanarPose>& minima,
+                     const Eigen::Isometry3d& world_from_camera) {
+  wrong += isWrongBranch(trial, minima, world_from_camera);
+  if (!isJudged(trial, minima))
+    return;
+  ++judged;
+  const Vector6 error = poseError(trial, world_from_camera);
+  nees += error.dot(poseInformation(trial) * error);
 }
 
-bool isWrongBranch(const PoseTrial& trial,
-                   const std::vector<square::PlanarPose>& minima,
-                   const Eigen::Isometry3d& world_from_camera) {
-  return nearest(minima, world_from_camera) != nearest(minima, trial.truth.world_from_camera);
+double PoseErrors::whitened() const {
+  return std::sqrt(nees / (6.0 * judged));
 }
 
 void PoseTally::add(const PoseTrial& trial,
@@ -252,19 +271,10 @@ void PoseTally::add(const PoseTrial& trial,
     return;
   }
   worst_excess = std::max(worst_excess, chiSquared(found[0].cost - minima[0].cost));
-  wrong += isWrongBranch(trial, minima, found[0].world_from_camera);
   wrong_multi_start += isWrongBranch(trial, minima, minima[0].world_from_camera);
   if (minima.size() > 1 && chiSquared(minima[1].cost - minima[0].cost) < kClear)
     missed += found.size() < 2 || chiSquared(found[1].cost - minima[1].cost) > 1e-6;
-  if (!isJudged(trial, minima))
-    return;
-  ++judged;
-  const Vector6 error = poseError(trial, found[0].world_from_camera);
-  nees += error.dot(poseInformation(trial) * error);
-}
-
-double PoseTally::whitened() const {
-  return std::sqrt(nees / (6.0 * judged));
+  PoseErrors::add(trial, minima, found[0].world_from_camera);
 }
 
 }  // namespace wiimote_tracker

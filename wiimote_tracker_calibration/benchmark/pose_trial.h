@@ -43,37 +43,31 @@ PoseTrial drawPoseTrial(std::mt19937_64& random,
                         double least_tilt,
                         double most_tilt);
 
-/// Rotation from the truth to an estimate in the optical frame [rad], then displacement of the
-/// square's middle in it [m].
-Eigen::Matrix<double, 6, 1> poseError(const PoseTrial& trial,
-                                      const Eigen::Isometry3d& world_from_camera);
-
-/// Fisher information of the pose at the truth, order and units as poseError(), by numerical
-/// differentiation of the projection.
-Eigen::Matrix<double, 6, 6> poseInformation(const PoseTrial& trial);
-
 /// All minima of the reprojection error that Levenberg-Marquardt with numerical derivatives finds
 /// from the truth, its mirror image and `starts` random poses: distinct ones, best first.
 std::vector<square::PlanarPose> multiStartPoses(const PoseTrial& trial,
                                                 int starts,
                                                 std::mt19937_64& random);
 
-/// Whether the truth is so well determined that errors are Gaussian: rotation known to 1.5 degrees
-/// (Cramer-Rao), and no second minimum within 80 in chi^2.
-bool isJudged(const PoseTrial& trial, const std::vector<square::PlanarPose>& minima);
+/// Sums over trials of one method's best poses.
+struct PoseErrors {
+  int wrong = 0;  ///< Poses that belong to another of the minima than the truth does.
+  /// Trials of which the truth is so well determined that errors are Gaussian: rotation known to
+  /// 1.5 degrees (Cramer-Rao), and no second minimum within 80 in chi^2.
+  int judged = 0;
+  double nees = 0.0;
 
-/// Whether the pose belongs to another of the minima than the truth does.
-bool isWrongBranch(const PoseTrial& trial,
-                   const std::vector<square::PlanarPose>& minima,
-                   const Eigen::Isometry3d& world_from_camera);
+  void add(const PoseTrial& trial,
+           const std::vector<square::PlanarPose>& minima,
+           const Eigen::Isometry3d& world_from_camera);
+  /// Errors of the judged poses in standard deviations, RMS over the six parameters.
+  double whitened() const;
+};
 
 /// Sums over trials of planarPoses() beside multiStartPoses().
-struct PoseTally {
+struct PoseTally : PoseErrors {
   int poses = 0;
-  int judged = 0;  ///< See isJudged().
-  double nees = 0.0;
   double worst_excess = 0.0;  ///< Of the best cost over the multi-start's [chi^2].
-  int wrong = 0;              ///< Best pose on another branch than the truth.
   int wrong_multi_start = 0;
   int two = 0;  ///< Two branches found.
   int two_multi_start = 0;
@@ -82,8 +76,6 @@ struct PoseTally {
   void add(const PoseTrial& trial,
            const square::PlanarPoses& found,
            const std::vector<square::PlanarPose>& minima);
-  /// Errors of the judged poses in standard deviations, RMS over the six parameters.
-  double whitened() const;
 };
 
 }  // namespace wiimote_tracker

@@ -62,9 +62,9 @@ rooms::Path carriedPath(bool from_first, const CarriedLed& led, square::Random& 
   const double height = 1.1 + square::normal(random, 0.1);
   Wander heading(led.heading, 0.7, random);
   Wander speed(0.05, 1.0, random);
-  std::vector<Wander> hand(3, Wander(0.0, 1.0, random));
-  for (Wander& axis : hand)
-    axis = Wander(0.015, 1.0, random);
+  std::vector<Wander> hand;
+  for (int axis = 0; axis < 3; ++axis)
+    hand.emplace_back(0.015, 1.0, random);
   const double stride = 2.0 * M_PI * 0.76 * led.speed;  // Two steps of 0.66 m [rad/s].
   const Eigen::Vector3d phase(square::uniform(random, 0.0, 6.28),
                               square::uniform(random, 0.0, 6.28),
@@ -176,11 +176,6 @@ Eigen::Matrix<double, 6, 1> TwoRooms::errorOf(const rooms::JoinedRooms& joined) 
   return error;
 }
 
-double TwoRooms::nees(const rooms::JoinedRooms& joined) const {
-  const std::size_t index = first.cameras.size();
-  return square::poseNees(joined.rig, index, trueCameras()[index].camera);
-}
-
 RoomErrors errorsOfRooms(int pairs,
                          const std::function<void(TwoRooms*)>& carry,
                          const rooms::JoinOptions& options,
@@ -195,7 +190,10 @@ RoomErrors errorsOfRooms(int pairs,
     sum.rotation += error.head<3>().squaredNorm() / pairs;
     sum.stated_position += std::pow(joined.position_stddev, 2) / pairs;
     sum.stated_rotation += std::pow(joined.rotation_stddev, 2) / pairs;
-    sum.nees += trial.nees(joined) / 6.0 / pairs;
+    // Of one camera of the second room.
+    const std::size_t index = trial.first.cameras.size();
+    sum.nees +=
+        square::poseNees(joined.rig, index, trial.trueCameras()[index].camera) / 6.0 / pairs;
   }
   return {std::sqrt(sum.position), std::sqrt(sum.rotation), std::sqrt(sum.stated_position),
           std::sqrt(sum.stated_rotation), sum.nees};

@@ -49,10 +49,6 @@ class TwoRooms {
   /// cameras [m].
   Eigen::Matrix<double, 6, 1> errorOf(const rooms::JoinedRooms& joined) const;
 
-  /// NEES of the pose of one camera of the second room, in the first world (6 if the covariance is
-  /// right).
-  double nees(const rooms::JoinedRooms& joined) const;
-
   geometry::Rig first;
   geometry::Rig second;
   std::vector<rooms::Path> first_tracks;

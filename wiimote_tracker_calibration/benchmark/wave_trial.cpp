@@ -23,6 +23,30 @@ namespace {
 constexpr double kInterval = 1.959964;
 constexpr double kRegion = 7.814728;
 
+bool allSee(const std::vector<geometry::Camera>& cameras, const Eigen::Vector3d& point) {
+  return std::all_of(cameras.begin(), cameras.end(),
+                     [&](const geometry::Camera& camera) { return camera.sees(point); });
+}
+
+std::vector<geometry::Camera> movedBy(std::vector<geometry::Camera> cameras,
+                                      const Eigen::Isometry3d& by) {
+  for (geometry::Camera& camera : cameras)
+    camera.world_from_camera = by * camera.world_from_camera;
+  return cameras;
+}
+
+/// Without square and floor the cameras stand in the first, whose true place is known here.
+Eigen::Isometry3d trueFromSolved(const WaveScene& scene,
+                                 const SimulatedWave& wave,
+                                 const WaveSolution& solution) {
+  if (scene.square)
+    return Eigen::Isometry3d::Identity();
+  if (scene.rest > 0.0)
+    return scene.cubeFromFloor();
+  return wave.cameras.front().world_from_camera *
+         solution.rig.cameras.front().camera.world_from_camera.inverse();
+}
+
 void countCoverage(const std::vector<geometry::Camera>& truth,
                    const SimulatedWave& wave,
                    const WaveSolution& solution,
@@ -43,11 +67,7 @@ void countCoverage(const std::vector<geometry::Camera>& truth,
   for (std::size_t p = 0; p < solution.path.size(); p += solution.path.size() / 10) {
     const Eigen::Vector3d& point = solution.path[p];
     const std::vector<std::size_t> seeing = geometry::camerasSeeing(solution.rig, point);
-    const bool all_see =
-        seeing.size() == truth.size() &&
-        std::all_of(truth.begin(), truth.end(),
-                    [&](const geometry::Camera& camera) { return camera.sees(point); });
-    if (!all_see)
+    if (seeing.size() < truth.size() || !allSee(truth, point))
       continue;
     const Eigen::Vector3d error = pointErrors(truth, estimate, {point});
     const Eigen::MatrixXd by_parameters =
@@ -138,16 +158,12 @@ std::vector<geometry::Camera> camerasOf(const std::vector<geometry::RigCamera>& 
 
 std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& truth) {
   std::vector<Eigen::Vector3d> points;
-  const int kSteps = 6;
-  for (int x = 0; x < kSteps; ++x) {
-    for (int y = 0; y < kSteps; ++y) {
-      for (int z = 0; z < kSteps; ++z) {
-        const Eigen::Vector3d point = 2.5 / (kSteps - 1) * Eigen::Vector3d(x, y, z);
-        if (std::all_of(truth.begin(), truth.end(),
-                        [&](const geometry::Camera& camera) { return camera.sees(point); }))
-          points.push_back(point);
-      }
-    }
+  constexpr int kSteps = 6;
+  for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
+    const Eigen::Vector3d point =
+        2.5 / (kSteps - 1) * Eigen::Vector3d(i / kSteps / kSteps, i / kSteps % kSteps, i % kSteps);
+    if (allSee(truth, point))
+      points.push_back(point);
   }
   return points;
 }
@@ -184,30 +200,10 @@ WaveOptions optionsFor(const WaveScene& scene) {
   return options;
 }
 
-namespace {
-
-/// Without square and floor the cameras stand in the first, whose true place is known here.
-Eigen::Isometry3d trueFromSolved(const WaveScene& scene,
-                                 const SimulatedWave& wave,
-                                 const WaveSolution& solution) {
-  if (scene.square)
-    return Eigen::Isometry3d::Identity();
-  if (scene.rest > 0.0)
-    return scene.cubeFromFloor();
-  return wave.cameras.front().world_from_camera *
-         solution.rig.cameras.front().camera.world_from_camera.inverse();
-}
-
-}  // namespace
-
 std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const SimulatedWave& wave,
                                           const WaveSolution& solution) {
-  std::vector<geometry::Camera> cameras = camerasOf(solution.rig.cameras);
-  const Eigen::Isometry3d move = trueFromSolved(scene, wave, solution);
-  for (geometry::Camera& camera : cameras)
-    camera.world_from_camera = move * camera.world_from_camera;
-  return cameras;
+  return movedBy(camerasOf(solution.rig.cameras), trueFromSolved(scene, wave, solution));
 }
 
 WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_positions) {
@@ -236,10 +232,7 @@ WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_pos
     trial.offset_stddevs.push_back(std::sqrt(solution.rig.covariance(clock, clock)));
   }
   const Eigen::Isometry3d solved_from_true = trueFromSolved(scene, wave, solution).inverse();
-  std::vector<geometry::Camera> truth = wave.cameras;
-  for (geometry::Camera& camera : truth)
-    camera.world_from_camera = solved_from_true * camera.world_from_camera;
-  countCoverage(truth, wave, solution, &trial);
+  countCoverage(movedBy(wave.cameras, solved_from_true), wave, solution, &trial);
   if (scene.length > 0.0) {
     // Sticks of the wand's length in the cube, as the solved cameras measure them.
     double sum = 0.0;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 
@@ -28,36 +29,16 @@ constexpr char kSoak[] =
     "s. Wrong: off by more than 1 ms and five stated deviations (from 30 s after the begin of an "
     "epoch), probably first images after pauses, taken for delayed ones.";
 
-struct Options {
-  std::string section = "load";
-  int remotes = 32;
-  double seconds = 30.0;  // [s]
-  std::uint64_t reports = 60000000;
-  double hour = 3600.0;  // [s]
-};
-
 struct Section {
   const char* explanation;
   std::string arguments;  // of the command line
   std::function<Results()> run;
 };
 
-Section sectionOf(const Options& o) {
-  if (o.section == "load")
-    return {kLoad, format(" --remotes %d --seconds %g", o.remotes, o.seconds),
-            [&o] { return runLoad(o.remotes, o.seconds); }};
-  if (o.section == "cost")
-    return {kCost, format(" --seconds %g", o.seconds), [&o] { return runCost(o.seconds); }};
-  return {kSoak,
-          format(" --reports %llu --hour %g", static_cast<unsigned long long>(o.reports), o.hour),
-          [&o] { return runSoak(o.reports, o.hour); }};
-}
-
-int run(const Options& options, BenchmarkTables* tables) {
-  const Section section = sectionOf(options);
-  tables->begin(options.section, section.explanation,
-                "rosrun wiimote_tracker_driver benchmark_driver --section " + options.section +
-                    section.arguments);
+int run(const std::string& name, const Section& section, BenchmarkTables* tables) {
+  tables->begin(
+      name, section.explanation,
+      "rosrun wiimote_tracker_driver benchmark_driver --section " + name + section.arguments);
   // Load and cost fork while this process has one thread.
   const std::set<std::string> faults = {"dropped", "allocations_not_freed_since_then",
                                         "clock_steps_not_noticed", "times_not_increasing"};
@@ -75,7 +56,11 @@ int run(const Options& options, BenchmarkTables* tables) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Options options;
+  std::string name = "load";
+  int remotes = 32;
+  double seconds = 30.0;  // [s]
+  std::uint64_t reports = 60000000;
+  double hour = 3600.0;  // [s]
   BenchmarkTables tables;
   ArgumentParser parser(
       "benchmark_driver",
@@ -85,11 +70,22 @@ int main(int argc, char** argv) {
       "Load and cost bring their own ROS master. The exit status is 1 when reports were dropped,\n"
       "memory grew, or times went back.");
   tables.addOptions(&parser);
-  parser.option("--section NAME", &options.section, {"load", "cost", "soak"}, "what to run");
-  parser.option("--remotes N", &options.remotes, 1, 256, "of the load");
-  parser.option("--seconds S", &options.seconds, 1.0, 500.0, "of load and cost [s]");
+  parser.option("--section NAME", &name, {"load", "cost", "soak"}, "what to run");
+  parser.option("--remotes N", &remotes, 1, 256, "of the load");
+  parser.option("--seconds S", &seconds, 1.0, 500.0, "of load and cost [s]");
   // At least more than a day's worth, so that what grows has time to.
-  parser.option("--reports N", &options.reports, 10000000, 1000000000000, "of the soak");
-  parser.option("--hour S", &options.hour, 5.0, 3600.0, "that the soak's hours last [s]");
-  return parser.run(argc, argv, [&] { return run(options, &tables); });
+  parser.option("--reports N", &reports, 10000000, 1000000000000, "of the soak");
+  parser.option("--hour S", &hour, 5.0, 3600.0, "that the soak's hours last [s]");
+  return parser.run(argc, argv, [&] {
+    const std::map<std::string, Section> sections = {
+        {"load",
+         {kLoad, format(" --remotes %d --seconds %g", remotes, seconds),
+          [&] { return runLoad(remotes, seconds); }}},
+        {"cost", {kCost, format(" --seconds %g", seconds), [&] { return runCost(seconds); }}},
+        {"soak",
+         {kSoak,
+          format(" --reports %llu --hour %g", static_cast<unsigned long long>(reports), hour),
+          [&] { return runSoak(reports, hour); }}}};
+    return run(name, sections.at(name), &tables);
+  });
 }

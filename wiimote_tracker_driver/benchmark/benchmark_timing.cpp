@@ -4,22 +4,17 @@
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <string>
-#include <vector>
 
 using namespace wiimote_tracker;
 using namespace wiimote_tracker::exposure_clock;
 
 namespace {
-struct Row {
-  std::string name;
-  LinkModel link;
-};
-
-std::vector<Row> rows() {
+/// Every link of the table, with its name.
+void forLinks(const std::function<void(const std::string& name, const LinkModel& link)>& run) {
   using Core = LinkModel::Core;
-  std::vector<Row> rows;
   const auto add = [&](Core core, double spread, double wander, double slot, double stalls) {
     LinkModel link;
     link.core = core;
@@ -27,10 +22,9 @@ std::vector<Row> rows() {
     link.wander = wander;
     link.slot = slot;
     link.stalls = stalls;
-    const std::string name =
-        format("%s %g, wander %g%s%s", core == Core::kHardEdge ? "edge" : "bell", spread * 1e3,
-               wander * 1e3, slot > 0.0 ? ", slots" : "", stalls > 0.0 ? ", stalls" : "");
-    rows.push_back({name, link});
+    run(format("%s %g, wander %g%s%s", core == Core::kHardEdge ? "edge" : "bell", spread * 1e3,
+               wander * 1e3, slot > 0.0 ? ", slots" : "", stalls > 0.0 ? ", stalls" : ""),
+        link);
   };
   for (double spread : {2e-3, 5e-3, 10e-3})
     for (double wander : {0.0, 0.3e-3, 1e-3})
@@ -43,7 +37,6 @@ std::vector<Row> rows() {
     add(Core::kBell, 2.4e-3, wander, 1.25e-3, 0.0);
   add(Core::kHardEdge, 5e-3, 0.0, 1.25e-3, 0.3);
   add(Core::kBell, 2.4e-3, 0.3e-3, 1.25e-3, 0.3);
-  return rows;
 }
 
 constexpr char kExplanation[] =
@@ -93,8 +86,9 @@ int main(int argc, char** argv) {
                  format("rosrun wiimote_tracker_driver benchmark_timing --sessions %d --seconds %g "
                         "--seed %llu",
                         sessions, duration, static_cast<unsigned long long>(seed)));
-    for (const Row& row : rows())
-      tables.add(tableRow(row.name, runTiming(row.link, duration, sessions, true, seed)));
+    forLinks([&](const std::string& name, const LinkModel& link) {
+      tables.add(tableRow(name, runTiming(link, duration, sessions, true, seed)));
+    });
     tables.write();
     return 0;
   });

@@ -13,6 +13,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <stdexcept>
 #include <string>
 
@@ -47,10 +48,8 @@ void publishOnly() {
 }
 
 void runDriver(const std::string& socket) {
-  char self[4096];
-  const ssize_t size = ::readlink("/proc/self/exe", self, sizeof(self) - 1);
-  const std::string here(self, size > 0 ? static_cast<std::size_t>(size) : 0);
-  const std::string program = here.substr(0, here.rfind('/') + 1) + "driver_node";
+  const auto self = std::filesystem::read_symlink("/proc/self/exe");
+  const std::string program = self.parent_path() / "driver_node";
   ::execl(program.c_str(), program.c_str(), "__ns:=/wiimote_1",
           ("_device:=virtual:" + socket).c_str(), nullptr);
 }

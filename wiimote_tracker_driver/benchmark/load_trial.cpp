@@ -12,7 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <ctime>
-#include <memory>
+#include <deque>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -85,7 +85,7 @@ double quantile(const std::vector<double>& values, double q) {
 }
 
 Results evaluate(const VirtualRemotes& remotes,
-                 const std::vector<std::unique_ptr<Arrivals>>& arrivals,
+                 const std::deque<Arrivals>& arrivals,
                  double from,
                  double to,
                  double processor_time) {
@@ -97,7 +97,7 @@ Results evaluate(const VirtualRemotes& remotes,
       if (sent_at < from || sent_at > to)
         continue;
       ++sent;
-      const double arrival = arrivals[static_cast<std::size_t>(i)]->at(sample);
+      const double arrival = arrivals[static_cast<std::size_t>(i)].at(sample);
       if (arrival > 0.0)
         latencies.push_back(arrival - sent_at);
     }
@@ -130,13 +130,13 @@ Results runLoad(int count, double duration) {
   master.connect();
 
   ros::NodeHandle nh;
-  std::vector<std::unique_ptr<Arrivals>> arrivals;
+  std::deque<Arrivals> arrivals;
   std::vector<ros::Subscriber> subscribers;
   for (int i = 0; i < count; ++i) {
-    arrivals.push_back(std::make_unique<Arrivals>());
+    arrivals.emplace_back();
     subscribers.push_back(nh.subscribe<wiimote_tracker_msgs::IrBlobArray>(
         nameOf(i) + "/ir_blobs", 100,
-        [to = arrivals.back().get()](const wiimote_tracker_msgs::IrBlobArray::ConstPtr& message) {
+        [to = &arrivals.back()](const wiimote_tracker_msgs::IrBlobArray::ConstPtr& message) {
           to->add(*message);
         }));
   }
@@ -146,7 +146,7 @@ Results runLoad(int count, double duration) {
   load(loader, remotes, folder.path());
 
   const double limit = steadyNow() + kStartLimit;
-  const auto warm = [](const std::unique_ptr<Arrivals>& a) { return a->received() > kWarmUp; };
+  const auto warm = [](const Arrivals& a) { return a.received() > kWarmUp; };
   while (!std::all_of(arrivals.begin(), arrivals.end(), warm)) {
     if (steadyNow() > limit)
       throw std::runtime_error("not all virtual remotes stream after a minute: use fewer of them");

@@ -25,18 +25,19 @@ using SteadyClock = std::chrono::steady_clock;
 namespace {
 
 std::size_t sharedSize(int count) {
-  return sizeof(std::int64_t) * static_cast<std::size_t>(count) * VirtualRemotes::kMostSamples;
+  return sizeof(std::atomic<double>) * static_cast<std::size_t>(count) *
+         VirtualRemotes::kMostSamples;
 }
 
 /// All zeros.
-std::atomic<std::int64_t>* sharedMemory(int count) {
-  static_assert(std::atomic<std::int64_t>::is_always_lock_free, "it is shared between processes");
+std::atomic<double>* sharedMemory(int count) {
+  static_assert(std::atomic<double>::is_always_lock_free, "it is shared between processes");
   void* memory =
       ::mmap(nullptr, sharedSize(count), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   if (memory == MAP_FAILED)
     throw std::system_error(errno, std::generic_category(),
                             "memory shared with the virtual remotes");
-  return static_cast<std::atomic<std::int64_t>*>(memory);
+  return static_cast<std::atomic<double>*>(memory);
 }
 
 }  // namespace
@@ -48,16 +49,11 @@ VirtualRemotes::~VirtualRemotes() {
   ::munmap(sent_, sharedSize(count_));
 }
 
-std::atomic<std::int64_t>& VirtualRemotes::sent(int remote, std::uint32_t sample) const {
+std::atomic<double>& VirtualRemotes::sent(int remote, std::uint32_t sample) const {
   return sent_[static_cast<std::size_t>(remote) * kMostSamples + sample];
 }
 
-double VirtualRemotes::sentAt(int remote, std::uint32_t sample) const {
-  return 1e-9 * static_cast<double>(sent(remote, sample).load());
-}
-
 void VirtualRemotes::serve() {
-  using std::chrono::nanoseconds;
   ::signal(SIGINT, SIG_IGN);  // the benchmark ends this process
   try {
     std::vector<std::unique_ptr<virtual_wiimote::Server>> servers;
@@ -68,16 +64,17 @@ void VirtualRemotes::serve() {
     }
     virtual_wiimote::Senses senses;
     senses.lights.resize(1);
-    const auto step = nanoseconds(static_cast<std::int64_t>(1e9 * kPeriod / count_));
+    const auto step = std::chrono::duration_cast<SteadyClock::duration>(
+        std::chrono::duration<double>(kPeriod / count_));
     auto due = SteadyClock::now();
     for (std::uint32_t sample = 1; sample < kMostSamples; ++sample) {
       senses.lights[0].x = sample % 1024;
       senses.lights[0].y = sample / 1024;
       for (int i = 0; i < count_; ++i, due += step) {
         std::this_thread::sleep_until(due);
-        const auto before = SteadyClock::now().time_since_epoch();
+        const double before = steadyNow();
         if (servers[static_cast<std::size_t>(i)]->sample(senses))
-          sent(i, sample) = std::chrono::duration_cast<nanoseconds>(before).count();
+          sent(i, sample) = before;
       }
     }
     ::pause();

@@ -33,18 +33,18 @@ class VirtualRemotes {
   std::string socket(int remote) const { return folder_ + "/" + std::to_string(remote); }
 
   /// When this sample's data report was given to the link [s]; 0 when there was none (yet).
-  double sentAt(int remote, std::uint32_t sample) const;
+  double sentAt(int remote, std::uint32_t sample) const { return sent(remote, sample); }
 
   /// The sample that a light at this place (y up) encodes.
   static std::uint32_t sampleAt(int x, int y) { return static_cast<std::uint32_t>(1024 * y + x); }
 
  private:
-  std::atomic<std::int64_t>& sent(int remote, std::uint32_t sample) const;
+  std::atomic<double>& sent(int remote, std::uint32_t sample) const;
   [[noreturn]] void serve();
 
   const int count_;
   const std::string folder_;
-  std::atomic<std::int64_t>* const sent_;  ///< [ns] A row for each remote; both processes see it.
+  std::atomic<double>* const sent_;  ///< [s] A row for each remote; both processes see it.
   const Process process_;
 };
 

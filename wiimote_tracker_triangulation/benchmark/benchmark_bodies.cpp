@@ -15,15 +15,7 @@ namespace wiimote_tracker {
 namespace {
 
 using body::Constellation;
-using body::test::BodyScore;
-using body::test::FollowedBody;
-using body::test::fourLeds;
-using body::test::handheld;
-using body::test::held;
-using body::test::Motion;
-using body::test::rotationError;
-using body::test::shaken;
-using body::test::tumbling;
+using namespace body::test;
 using tracking::test::SceneOptions;
 
 constexpr double kPixelNoise = 0.5;  // [px]

@@ -14,10 +14,7 @@ namespace {
 
 using namespace identity;
 using geometry::test::Random;
-using identity::test::BlinkingOptions;
-using identity::test::LedSighting;
-using identity::test::paperCodes;
-using identity::test::simulateBlinking;
+using namespace identity::test;
 
 constexpr int kRunsPerRun = 50;  // simulated runs for each of --runs
 
@@ -265,7 +262,7 @@ void runWords(const std::vector<std::string>& words,
               const BenchmarkSettings& settings,
               const RowCallback& row) {
   BlinkingOptions options;
-  options.codes = identity::test::wordCodes(words, 0.001);
+  options.codes = wordCodes(words, 0.001);
   options.period = 0.023 * static_cast<double>(words[0].size());
   options.flip = 0.01;
   const Hypotheses hypotheses(options.codes, {}, IdentifierOptions().memory);

@@ -12,10 +12,7 @@ namespace {
 
 using namespace identity;
 using geometry::test::Random;
-using identity::test::BlinkingOptions;
-using identity::test::fourWords;
-using identity::test::LedSighting;
-using identity::test::paperCodes;
+using namespace identity::test;
 
 BenchmarkRow measure(const std::string& name,
                      const BlinkCodes& codes,
@@ -30,7 +27,7 @@ BenchmarkRow measure(const std::string& name,
   options.drop = 0.05;
   options.flip = 0.01;
   Random random(settings.seed);
-  const std::vector<LedSighting> sightings = identity::test::simulateBlinking(options, &random);
+  const std::vector<LedSighting> sightings = simulateBlinking(options, &random);
   IdentifierOptions rarely;
   rarely.interval = 1.0;
   double best_add = 1e9, best_decide = 1e9;

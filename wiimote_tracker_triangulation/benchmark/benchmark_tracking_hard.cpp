@@ -8,7 +8,6 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <map>
@@ -99,16 +98,9 @@ motion::MotionOptions singleMode(double speed, double acceleration) {
 }
 
 void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
-  constexpr std::array<std::pair<double, double>, 10> kMotions{{{0.05, 0.1},
-                                                                {0.2, 0.5},
-                                                                {0.5, 2.0},
-                                                                {1.0, 6.0},
-                                                                {1.5, 10.0},
-                                                                {2.0, 8.0},
-                                                                {2.0, 17.0},
-                                                                {3.0, 12.0},
-                                                                {3.0, 25.0},
-                                                                {3.0, 38.0}}};
+  constexpr std::pair<double, double> kMotions[] = {
+      {0.05, 0.1}, {0.2, 0.5},  {0.5, 2.0},  {1.0, 6.0},  {1.5, 10.0},
+      {2.0, 8.0},  {2.0, 17.0}, {3.0, 12.0}, {3.0, 25.0}, {3.0, 38.0}};
   for (const std::size_t cameras : {4, 2}) {
     geometry::Rig rig = tracking::test::paperRig();
     rig.cameras.resize(cameras);

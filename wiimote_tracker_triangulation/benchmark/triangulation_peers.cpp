@@ -38,14 +38,9 @@ cv::Mat_<double> projectionOf(const geometry::Camera& camera) {
   Eigen::Matrix3d K;
   K << camera.intrinsics.fx, 0, camera.intrinsics.cx, 0, camera.intrinsics.fy, camera.intrinsics.cy,
       0, 0, 1;
-  const Eigen::Matrix<double, 3, 4> P =
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> P =
       K * camera.world_from_camera.inverse(Eigen::Isometry).matrix().topRows<3>();
-  cv::Mat_<double> projection(3, 4);
-  for (int r = 0; r < 3; ++r) {
-    for (int c = 0; c < 4; ++c)
-      projection(r, c) = P(r, c);
-  }
-  return projection;
+  return cv::Mat_<double>(3, 4, P.data()).clone();
 }
 
 Run opencv(const TriangulationScene& scene) {

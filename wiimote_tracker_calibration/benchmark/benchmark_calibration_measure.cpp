@@ -1,68 +1,56 @@
 #include "benchmark_calibration_sections.h"
 #include "measure_trial.h"
+#include "rms.h"
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
 #include <algorithm>
-#include <cmath>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
 namespace {
 
-constexpr int kMeasurements = 6;
+using session::MeasureStep;
 
-/// Sums over the sessions after the same number of measurements.
-struct Sums {
-  int sessions = 0;
-  int tapes = 0;
-  double expected = 0.0;  // squares [m^2], as the following
-  double error = 0.0;
-  double shape = 0.0;
-  double promised = 0.0;  // after the next measurement, of sessions with one
-  double kept = 0.0;      // as expected then
-  double came = 0.0;      // the error then
-};
+constexpr int kMeasurements = 6;
 
 void runRow(const std::string& name,
             const wave::WaveScene& scene,
             int runs,
             const RowCallback& row) {
-  std::vector<Sums> all(kMeasurements + 1);
+  std::vector<std::vector<MeasureStep>> sessions;
   for (int seed = 1; seed <= runs; ++seed) {
-    std::vector<session::MeasureStep> steps;
     try {
-      steps = session::runMeasureTrial(scene, static_cast<std::uint64_t>(seed), kMeasurements);
+      sessions.push_back(
+          session::runMeasureTrial(scene, static_cast<std::uint64_t>(seed), kMeasurements));
     } catch (const geometry::Error&) {
       continue;  // shown by the number of sessions
     }
-    for (std::size_t k = 0; k < all.size(); ++k) {
-      // Where nothing more helps, a person stops.
-      const session::MeasureStep& step = steps[std::min(k, steps.size() - 1)];
-      Sums& sums = all[k];
-      ++sums.sessions;
-      sums.expected += step.expected * step.expected;
-      sums.error += step.error * step.error;
-      sums.shape += step.shape * step.shape;
+  }
+  for (std::size_t k = 0; k <= kMeasurements; ++k) {
+    // Where nothing more helps, a person stops: the last step stands for those that follow.
+    std::vector<MeasureStep> all, measuring, then;
+    double tapes = 0.0;
+    for (const std::vector<MeasureStep>& steps : sessions) {
+      all.push_back(steps[std::min(k, steps.size() - 1)]);
       if (k + 1 >= steps.size())
         continue;
-      sums.tapes += step.next->corners ? 1 : 0;
-      sums.promised += std::pow(step.next->expected_error, 2);
-      sums.kept += std::pow(steps[k + 1].expected, 2);
-      sums.came += std::pow(steps[k + 1].error, 2);
+      measuring.push_back(steps[k]);
+      then.push_back(steps[k + 1]);
+      tapes += steps[k].next->corners ? 1.0 : 0.0;
     }
-  }
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    const Sums& sums = all[k];
-    const auto rms = [&](double squares) { return 1e3 * std::sqrt(squares / sums.sessions); };
+    const double said =
+        rms(measuring, [](const MeasureStep& step) { return step.next->expected_error; });
     row({name + ", " + std::to_string(k) + " measured",
-         {{"sessions", sums.sessions},
-          {"expected", rms(sums.expected)},
-          {"error", rms(sums.error)},
-          {"shape", rms(sums.shape)},
-          {"by tape", static_cast<double>(sums.tapes) / sums.sessions},
-          {"kept/said", std::sqrt(sums.kept / sums.promised)},
-          {"came/said", std::sqrt(sums.came / sums.promised)}}});
+         {{"sessions", sessions.size()},
+          {"expected", 1e3 * rms(all, &MeasureStep::expected)},
+          {"error", 1e3 * rms(all, &MeasureStep::error)},
+          {"shape", 1e3 * rms(all, &MeasureStep::shape)},
+          {"by tape", tapes / static_cast<double>(sessions.size())},
+          {"kept/said", rms(then, &MeasureStep::expected) / said},
+          {"came/said", rms(then, &MeasureStep::error) / said}}});
   }
 }
 

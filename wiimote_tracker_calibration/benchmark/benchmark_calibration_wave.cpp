@@ -1,4 +1,5 @@
 #include "benchmark_calibration_sections.h"
+#include "rms.h"
 #include "wave_trial.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -15,79 +16,57 @@ namespace {
 
 using namespace wave;
 
-/// Root of the mean of squares.
-class Rms {
- public:
-  void add(double value) {
-    if (!std::isfinite(value))
-      return;
-    sum_ += value * value;
-    ++count_;
-  }
-  double value() const {
-    return count_ > 0 ? std::sqrt(sum_ / count_) : std::numeric_limits<double>::quiet_NaN();
-  }
-
- private:
-  double sum_ = 0.0;
-  int count_ = 0;
-};
-
 double percent(const Share& share) {
   return share.all > 0 ? 100.0 * share.inside / share.all
                        : std::numeric_limits<double>::quiet_NaN();
 }
 
 BenchmarkRow rowOf(const std::string& name, const WaveScene& scene, int runs) {
-  Rms absolute, rigid, similarity, rigid_bound, similarity_bound;
-  Rms offset, offset_bound, offset_stated, solved, perfect, square;
-  double worst_offset = 0.0;
+  std::vector<WaveTrial> trials;
+  std::vector<double> offsets, offset_bounds, offset_stddevs;
   double worst_length = 0.0;
-  int refused = 0;
   Share intervals, regions;
+  const auto append = [](const std::vector<double>& from, std::vector<double>* to) {
+    to->insert(to->end(), from.begin(), from.end());
+  };
   for (int seed = 1; seed <= runs; ++seed) {
     const WaveTrial trial = runWaveTrial(scene, static_cast<std::uint64_t>(seed), true);
-    if (!trial.refusal.empty()) {
-      ++refused;
+    if (!trial.refusal.empty())
       continue;
-    }
-    absolute.add(trial.error.absolute);
-    rigid.add(trial.error.rigid);
-    similarity.add(trial.error.similarity);
-    rigid_bound.add(trial.bound.rigid);
-    similarity_bound.add(trial.bound.similarity);
-    for (std::size_t i = 0; i < trial.offset_errors.size(); ++i) {
-      offset.add(trial.offset_errors[i]);
-      offset_bound.add(trial.offset_bounds[i]);
-      offset_stated.add(trial.offset_stddevs[i]);
-      worst_offset = std::max(worst_offset, std::abs(trial.offset_errors[i]));
-    }
+    trials.push_back(trial);
+    append(trial.offset_errors, &offsets);
+    append(trial.offset_bounds, &offset_bounds);
+    append(trial.offset_stddevs, &offset_stddevs);
     worst_length = std::max(worst_length, std::abs(trial.length_error));
     intervals.inside += trial.intervals.inside;
     intervals.all += trial.intervals.all;
     regions.inside += trial.regions.inside;
     regions.all += trial.regions.all;
-    solved.add(trial.position.solved);
-    perfect.add(trial.position.perfect);
-    square.add(trial.position.square);
   }
+  const auto magnitude = [](double x) { return std::abs(x); };
+  double worst_offset = 0.0;
+  for (const double offset : offsets)
+    worst_offset = std::max(worst_offset, std::abs(offset));
+  const double rigid = rms(trials, [](auto& t) { return t.error.rigid; });
+  const double similarity = rms(trials, [](auto& t) { return t.error.similarity; });
+  const double solved = rms(trials, [](auto& t) { return t.position.solved; });
   return {name,
-          {{"absolute", 1e3 * absolute.value()},
-           {"rigid", 1e3 * rigid.value()},
-           {"rigid/bd", rigid.value() / rigid_bound.value()},
-           {"similar", 1e3 * similarity.value()},
-           {"similar/bd", similarity.value() / similarity_bound.value()},
-           {"offset", 1e3 * offset.value()},
-           {"offset/bd", offset.value() / offset_bound.value()},
-           {"stated", 1e3 * offset_stated.value()},
+          {{"absolute", 1e3 * rms(trials, [](auto& t) { return t.error.absolute; })},
+           {"rigid", 1e3 * rigid},
+           {"rigid/bd", rigid / rms(trials, [](auto& t) { return t.bound.rigid; })},
+           {"similar", 1e3 * similarity},
+           {"similar/bd", similarity / rms(trials, [](auto& t) { return t.bound.similarity; })},
+           {"offset", 1e3 * rms(offsets, magnitude)},
+           {"offset/bd", rms(offsets, magnitude) / rms(offset_bounds, magnitude)},
+           {"stated", 1e3 * rms(offset_stddevs, magnitude)},
            {"worst", 1e3 * worst_offset},
            {"params %", percent(intervals)},
            {"points %", percent(regions)},
            {"length %", 100.0 * worst_length},
-           {"position", 1e3 * solved.value()},
-           {"/perfect", solved.value() / perfect.value()},
-           {"square/", square.value() / solved.value()},
-           {"refused", refused}}};
+           {"position", 1e3 * solved},
+           {"/perfect", solved / rms(trials, [](auto& t) { return t.position.perfect; })},
+           {"square/", rms(trials, [](auto& t) { return t.position.square; }) / solved},
+           {"refused", static_cast<double>(runs) - static_cast<double>(trials.size())}}};
 }
 
 void runWave(int runs, const RowCallback& row) {

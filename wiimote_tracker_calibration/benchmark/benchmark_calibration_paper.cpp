@@ -5,6 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -50,16 +53,11 @@ BenchmarkRow rowOf(const std::string& name, PaperSession session, int runs) {
 }
 
 void runPaper(int runs, const RowCallback& row) {
-  struct Cameras {
-    const char* name;
-    std::vector<std::size_t> indices;
-  };
-  const std::vector<Cameras> rigs = {
+  const std::vector<std::pair<std::string, std::vector<std::size_t>>> rigs = {
       {"2 adjacent", {0, 1}}, {"2 diagonal", {0, 2}}, {"4 cameras", {0, 1, 2, 3}}};
-  for (const Cameras& cameras : rigs) {
-    const std::string name = cameras.name;
+  for (const auto& [name, cameras] : rigs) {
     PaperSession session;
-    session.cameras = cameras.indices;
+    session.cameras = cameras;
     row(rowOf(name + ", calibrated", session, runs));
     session.correction.ray_model = geometry::RayModel::kImageCenter;
     row(rowOf(name + ", image_center", session, runs));

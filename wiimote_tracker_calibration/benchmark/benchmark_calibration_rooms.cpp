@@ -10,19 +10,14 @@ namespace {
 
 void runRooms(int runs, const RowCallback& row) {
   constexpr double kDegree = M_PI / 180.0;
-  struct Walk {
-    double heading;  // Standard deviation [degrees].
-    double slowing;  // Share.
-  };
-  for (const Walk walk : {Walk{1.5, 0.0}, {1.5, 0.05}}) {
+  CarriedLed led;
+  for (const double slowing : {0.0, 0.05}) {
+    led.slowing = slowing;
     for (const int passages : {4, 10, 16}) {
-      CarriedLed led;
-      led.heading = walk.heading * kDegree;
-      led.slowing = walk.slowing;
       const RoomErrors errors =
           errorsOfRooms(runs, [&](TwoRooms* trial) { trial->carryOften(passages, led); });
-      row({format("passages %d, headings %.1f, slowing %.0f %%", passages, walk.heading,
-                  100.0 * walk.slowing),
+      row({format("passages %d, headings %.1f, slowing %.0f %%", passages, led.heading / kDegree,
+                  100.0 * slowing),
            {{"cm", 1e2 * errors.position},
             {"stated cm", 1e2 * errors.stated_position},
             {"degrees", errors.rotation / kDegree},

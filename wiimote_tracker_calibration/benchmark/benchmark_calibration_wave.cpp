@@ -9,6 +9,8 @@
 #include <cstdio>
 #include <ctime>
 #include <limits>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -115,16 +117,12 @@ void runFloor(int runs, const RowCallback& row) {
 }
 
 void runTime(int runs, const RowCallback& row) {
-  struct Size {
-    std::size_t cameras;
-    double duration;
-  };
-  for (const Size& size : {Size{4, 5.0}, Size{4, 25.0}, Size{16, 50.0}}) {
+  constexpr std::pair<int, double> kSizes[] = {{4, 5.0}, {4, 25.0}, {16, 50.0}};
+  for (const auto& [cameras, duration] : kSizes) {
     WaveScene scene;
-    scene.duration = size.duration;
-    for (std::size_t i = 0; i < size.cameras; ++i) {
-      const double angle =
-          2.0 * M_PI * (static_cast<double>(i) + 0.5) / static_cast<double>(size.cameras);
+    scene.duration = duration;
+    for (int i = 0; i < cameras; ++i) {
+      const double angle = 2.0 * M_PI * (i + 0.5) / cameras;
       scene.cameras.push_back(
           geometry::lookAt({1.25 + 6.3 * std::cos(angle), 1.25 + 6.3 * std::sin(angle), 2.0},
                            {1.25, 1.25, 1.0}, Eigen::Vector3d::UnitZ()));
@@ -141,8 +139,7 @@ void runTime(int runs, const RowCallback& row) {
       slowest = std::max(slowest, seconds);
       sum += seconds;
     }
-    row({std::to_string(size.cameras) + " cameras, " +
-             std::to_string(static_cast<int>(scene.rate * size.duration)) + " images each",
+    row({format("%d cameras, %.0f images each", cameras, scene.rate * duration),
          {{"mean [s]", sum / count}, {"slowest", slowest}}});
   }
 }

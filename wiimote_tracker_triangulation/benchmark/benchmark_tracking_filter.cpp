@@ -47,11 +47,9 @@ struct Figures : geometry::test::Accuracy {
   }
 };
 
-std::vector<Camera> cameras() {
-  std::vector<Camera> result;
-  for (const geometry::RigCamera& camera : tracking::test::paperRig().cameras)
-    result.push_back(camera.camera);
-  return result;
+const Camera& cameraOf(std::size_t index) {
+  static const geometry::Rig rig = tracking::test::paperRig();
+  return rig.cameras[index].camera;
 }
 
 void takeIn(SingleModelFilter* filter, double time, const Camera& camera, const Vector2d& pixel) {
@@ -83,7 +81,6 @@ void runDrawn(const Drawn& drawn,
               Random& random,
               Figures* moving,
               Figures* still) {
-  static const std::vector<Camera> all = cameras();
   motion::test::SingerTruth truth(drawn.stddev, drawn.time, kStep);
   const Matrix3d covariance = kStartStddev * kStartStddev * Matrix3d::Identity();
   const double speed = drawn.jumps ? 0.0 : options.initial_speed;
@@ -113,7 +110,7 @@ void runDrawn(const Drawn& drawn,
     }
     truth.step(random);
     bound.step();
-    const Camera& camera = all[i % all.size()];
+    const Camera& camera = cameraOf(static_cast<std::size_t>(i % 4));
     if (!camera.sees(truth.position()))
       return;
     takeIn(&filter, time, camera, motion::test::noisyPixel(camera, truth.position(), random));
@@ -164,10 +161,11 @@ struct Sample {
   int speed_class;
 };
 
-std::vector<Sample> watch(const Path& path,
-                          double duration,
-                          const std::function<int(double)>& speed_class,
-                          unsigned seed) {
+std::vector<Sample> watch(
+    const Path& path,
+    double duration,
+    unsigned seed,
+    const std::function<int(double)>& speed_class = [](double) { return 0; }) {
   tracking::test::SceneOptions options;
   options.start = 0.0;
   options.pixel_noise = kPixelStddev;
@@ -189,9 +187,8 @@ template <typename Filter>
 void follow(const std::vector<Sample>& samples,
             Filter* filter,
             const std::function<void(const Sample&)>& look) {
-  static const std::vector<Camera> all = cameras();
   for (const Sample& sample : samples) {
-    takeIn(filter, sample.time, all[sample.camera], sample.pixel);
+    takeIn(filter, sample.time, cameraOf(sample.camera), sample.pixel);
     if (sample.time > kSettled)
       look(sample);
   }
@@ -247,8 +244,7 @@ void circles(const BenchmarkSettings& settings, const RowCallback& row) {
     for (int run = 0; run < settings.runs; ++run) {
       const Path path =
           tracking::test::circle({1.25, 1.25, 1.2}, 0.75, speed, 2.0 * M_PI * run / settings.runs);
-      recordings.push_back(watch(
-          path, 3.0, [](double) { return 0; }, settings.seed + run));
+      recordings.push_back(watch(path, 3.0, settings.seed + run));
     }
     const std::string name = format("(c) circle of 0.75 m at %.1f m/s", speed);
     besideHindsight(recordings, {name}, row);
@@ -290,7 +286,7 @@ void recorded(const BenchmarkSettings& settings, const RowCallback& row) {
         ++i;
       return i;
     };
-    recordings.push_back(watch(path, duration, speed_class, settings.seed + 100 + marker));
+    recordings.push_back(watch(path, duration, settings.seed + 100 + marker, speed_class));
   }
   besideHindsight(recordings,
                   {"(c) recorded, below 0.1 m/s", "(c) recorded, 0.1 to 0.5 m/s",
@@ -300,10 +296,8 @@ void recorded(const BenchmarkSettings& settings, const RowCallback& row) {
 
 /// Time of an image's prediction, innovation and update.
 void speed(const BenchmarkSettings& settings, const RowCallback& row) {
-  static const std::vector<Camera> all = cameras();
-  const std::vector<Sample> samples = watch(
-      tracking::test::circle({1.25, 1.25, 1.2}, 0.75, 1.0), 10.0, [](double) { return 0; },
-      settings.seed);
+  const std::vector<Sample> samples =
+      watch(tracking::test::circle({1.25, 1.25, 1.2}, 0.75, 1.0), 10.0, settings.seed);
   const MotionOptions options;
   double best = std::numeric_limits<double>::infinity();
   for (int run = 0; run < settings.runs; ++run) {
@@ -311,7 +305,7 @@ void speed(const BenchmarkSettings& settings, const RowCallback& row) {
                         1e-6 * Matrix3d::Identity());
     const double start = processorTime();
     for (const Sample& sample : samples)
-      takeIn(&filter, sample.time, all[sample.camera], sample.pixel);
+      takeIn(&filter, sample.time, cameraOf(sample.camera), sample.pixel);
     best = std::min(best, (processorTime() - start) / static_cast<double>(samples.size()));
   }
   row({"time per image, fastest run", {{"ns", 1e9 * best}}});

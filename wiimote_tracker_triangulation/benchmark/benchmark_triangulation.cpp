@@ -47,20 +47,15 @@ double secondsOf(const std::function<void(TriangulationOutput*)>& run,
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-TriangulationScene firstPoints(const TriangulationScene& scene) {
-  TriangulationScene part = scene;
-  part.truth.resize(std::min(part.truth.size(), kTimedPoints));
-  part.pixels.resize(part.truth.size());
-  return part;
-}
-
 std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
   std::vector<TriangulationMethod> methods = ourMethods();
   for (const TriangulationMethod& peer : peerMethods()) {
     if (scene.cameras.size() == 2)
       methods.push_back(peer);
   }
-  const TriangulationScene part = firstPoints(scene);
+  TriangulationScene part = scene;
+  part.truth.resize(std::min(part.truth.size(), kTimedPoints));
+  part.pixels.resize(part.truth.size());
   TriangulationOutput part_output(part.truth.size());
   std::vector<BenchmarkRow> rows;
   std::vector<std::function<void(TriangulationOutput*)>> timed;

@@ -42,7 +42,6 @@ Cloud cloudOf(const gesture::Path& path) {
   if (!(lengths.back() > 0.0))
     throw Error("a path has no length; remove it");
   Cloud cloud;
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < kPoints; ++i) {
     const double wanted = lengths.back() * static_cast<double>(i) / (kPoints - 1);
     const auto above = std::lower_bound(lengths.begin(), lengths.end(), wanted);
@@ -51,16 +50,10 @@ Cloud cloudOf(const gesture::Path& path) {
     cloud[i] =
         k == 0 ? path[0].position
                : Eigen::Vector3d((1.0 - share) * path[k - 1].position + share * path[k].position);
-    mean += cloud[i] / kPoints;
   }
-  Eigen::Array3d low = cloud[0].array();
-  Eigen::Array3d high = low;
-  for (const Eigen::Vector3d& point : cloud) {
-    low = low.min(point.array());
-    high = high.max(point.array());
-  }
-  for (Eigen::Vector3d& point : cloud)
-    point = (point - mean) / (high - low).maxCoeff();
+  Eigen::Map<Eigen::Matrix<double, 3, kPoints>> points(cloud[0].data());
+  points.colwise() -= points.rowwise().mean().eval();
+  points /= (points.rowwise().maxCoeff() - points.rowwise().minCoeff()).maxCoeff();
   return cloud;
 }
 

@@ -32,15 +32,13 @@ struct Score {
 
   double percent(int count) const { return 100.0 * count / runs; }
 
-  BenchmarkRow row(const std::string& name, bool with_counting) const {
-    BenchmarkRow row{name,
-                     {{"runs", runs},
-                      {"wrong %", percent(wrong)},
-                      {"given wrong %", percent(given_wrong)},
-                      {"none yet %", percent(none_yet)}}};
-    if (with_counting)
-      row.figures.push_back({"counting %", percent(counted_wrong)});
-    return row;
+  BenchmarkRow row(const std::string& name) const {
+    return {name,
+            {{"runs", runs},
+             {"wrong %", percent(wrong)},
+             {"given wrong %", percent(given_wrong)},
+             {"none yet %", percent(none_yet)},
+             {"counting %", percent(counted_wrong)}}};
   }
 };
 
@@ -185,8 +183,8 @@ void runPaper(const BenchmarkSettings& settings, const RowCallback& row) {
     for (const double period : {0.11, 0.15, 0.2, 0.3, 0.5}) {
       const BlinkingOptions options = paperOptions(codes, period, 2.0, cameras);
       const int runs = kRunsPerRun * settings.runs;
-      BenchmarkRow result = simulate(options, hypotheses, runs, settings.seed)
-                                .row(camerasAndPeriod(cameras, period), true);
+      BenchmarkRow result =
+          simulate(options, hypotheses, runs, settings.seed).row(camerasAndPeriod(cameras, period));
       const Hypotheses known(paperCodes(period, period), {}, IdentifierOptions().memory);
       const Score known_period = simulate(options, known, runs, settings.seed);
       result.figures.push_back(
@@ -215,8 +213,7 @@ void runSomeInView(const BenchmarkSettings& settings, const RowCallback& row) {
           camerasAndPeriod(1, 0.15) + ", " + std::to_string(std::lround(periods)) + " periods, LED";
       for (const std::size_t led : leds)
         name += " " + std::to_string(led + 1);
-      row(simulate(options, hypotheses, kRunsPerRun * settings.runs, settings.seed)
-              .row(name, true));
+      row(simulate(options, hypotheses, kRunsPerRun * settings.runs, settings.seed).row(name));
     }
   }
 }
@@ -228,7 +225,7 @@ void runPeriods(const BenchmarkSettings& settings, const RowCallback& row) {
     for (int ms = 40; ms <= 200; ms += ms < 120 ? 5 : 20) {
       const Score score = simulate(paperOptions(codes, 1e-3 * ms, 2.0, cameras), hypotheses,
                                    kRunsPerRun * settings.runs, settings.seed);
-      row(score.row(camerasAndPeriod(cameras, 1e-3 * ms), true));
+      row(score.row(camerasAndPeriod(cameras, 1e-3 * ms)));
     }
   }
 }

@@ -4,8 +4,9 @@
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
-#include <array>
 #include <cmath>
+#include <cstdint>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -23,7 +24,6 @@ BenchmarkRow timeRow(const std::string& name,
   // Some view always resolves them. In single views they often pass and merge.
   const std::vector<Path> leds = wanderers(4, seed, speed);
   SceneOptions options;
-  options.pixel_noise = kPixelNoise;
   options.merging_distance = kMerging;
   options.dropout = 0.1;
   options.ghosts = 1.0;
@@ -31,7 +31,7 @@ BenchmarkRow timeRow(const std::string& name,
   options.clock_skew = 1e-4;
   const geometry::Rig rig = paperRig();
   Scene scene(rig, leds, options, seed);
-  Tracker tracker(rig, trackerOptions());
+  Tracker tracker(rig, exactOptions());
   IdentityCheck check(leds);
   constexpr int kWarmUp = 400;  // images until all are confirmed
   std::uint64_t uncovered_at_end = 0;
@@ -56,22 +56,6 @@ BenchmarkRow timeRow(const std::string& name,
            {"late", tracker.counters().late}}};
 }
 
-/// Ids of the tracks nearest to the LEDs; -1: none within 0.1 m.
-std::array<std::int64_t, 2> idsAt(const Snapshot& snapshot, const std::vector<Path>& leds) {
-  std::array<std::int64_t, 2> ids = {-1, -1};
-  for (std::size_t led = 0; led < 2; ++led) {
-    double least = 0.1;
-    for (const TrackedLed& track : snapshot.leds) {
-      const double distance = (track.position - leds[led](snapshot.time)).norm();
-      if (track.state != TrackState::kTracked || distance >= least)
-        continue;
-      least = distance;
-      ids[led] = track.id;
-    }
-  }
-  return ids;
-}
-
 BenchmarkRow meetingRow(const std::string& name,
                         const LedMeeting& meeting,
                         int wanted,
@@ -79,7 +63,6 @@ BenchmarkRow meetingRow(const std::string& name,
   const geometry::Rig rig = paperRig();
   SceneOptions options;
   options.start = meeting.meeting_time - meeting.half_duration + 0.01;
-  options.pixel_noise = kPixelNoise;
   options.merging_distance = kMerging;
   geometry::test::Random random(seed);
   int meetings = 0;
@@ -91,23 +74,23 @@ BenchmarkRow meetingRow(const std::string& name,
   for (unsigned trial = 0; meetings < wanted; ++trial) {
     const std::vector<Path> leds = meeting.draw(random);
     Scene scene(rig, leds, options, seed + trial);
-    Tracker tracker(rig, trackerOptions());
+    Tracker tracker(rig, exactOptions());
     std::vector<SceneImage> images;
-    std::array<std::int64_t, 2> before = {-1, -1};
-    std::array<std::int64_t, 2> after = {-1, -1};
+    std::vector<std::int64_t> before = {-1, -1};
+    std::vector<std::int64_t> after = {-1, -1};
     const double end = meeting.meeting_time + meeting.half_duration - 0.01;
     while (images.empty() || images.back().true_time < end) {
       images.push_back(scene.next());
       tracker.add(images.back().camera, images.back().image);
       while (const Snapshot* snapshot = tracker.next()) {
-        const auto ids = idsAt(*snapshot, leds);
+        const auto ids = idsAt(*snapshot, leds, 0.1);
         const double apart = (leds[0](snapshot->time) - leds[1](snapshot->time)).norm();
         if (apart < 0.08)
           continue;
         (snapshot->time < meeting.meeting_time ? before : after) = ids;
       }
     }
-    const auto oracle = oracleErrors(meeting, {rig, leds, images, kPixelNoise});
+    const auto oracle = oracleErrors(meeting, {rig, leds, images, options.pixel_noise});
     // Never merged in all views, or not resolved before: nothing to compare.
     if (!oracle || before[0] < 0 || before[1] < 0 || after[0] < 0 || after[1] < 0) {
       ++left_out;

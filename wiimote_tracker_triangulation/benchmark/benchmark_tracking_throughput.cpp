@@ -52,7 +52,6 @@ Timing timed(const geometry::Rig& rig,
 
 SceneOptions sceneOptions() {
   SceneOptions options;
-  options.pixel_noise = kPixelNoise;
   options.clock_skew = 1e-4;
   return options;
 }
@@ -70,7 +69,7 @@ void runThroughput(const BenchmarkSettings& settings, const RowCallback& row) {
   geometry::test::Random random(settings.seed);
   std::vector<Path> leds = ledsIn(random, {1.25, 1.25, 1.0});
   const auto add = [&](const char* name, const SceneOptions& options, const geometry::Rig& rig) {
-    const Timing timing = timed(rig, leds, options, trackerOptions(), settings.runs, settings.seed);
+    const Timing timing = timed(rig, leds, options, exactOptions(), settings.runs, settings.seed);
     row({name,
          {{"images", timing.images},
           {"us/image", 1e6 * timing.seconds / timing.images},
@@ -102,7 +101,7 @@ void runScale(const BenchmarkSettings& settings, const RowCallback& row) {
     for (const double interval : {0.0, 0.0025}) {
       SceneOptions options = sceneOptions();
       options.delay_jitter = 0.0024;
-      TrackerOptions tracker_options = trackerOptions();
+      TrackerOptions tracker_options = exactOptions();
       tracker_options.output_interval = interval;
       const Timing timing =
           timed(roomsRig(rooms, 4), leds, options, tracker_options, settings.runs, settings.seed);

@@ -5,6 +5,24 @@
 
 namespace wiimote_tracker::tracking::test {
 
+std::vector<std::int64_t> idsAt(const Snapshot& snapshot,
+                                const std::vector<Path>& leds,
+                                double within) {
+  std::vector<std::int64_t> ids;
+  for (const Path& path : leds) {
+    double least = within;
+    ids.push_back(-1);
+    for (const TrackedLed& led : snapshot.leds) {
+      const double distance = (led.position - path(snapshot.time)).norm();
+      if (led.state == TrackState::kTracked && distance < least) {
+        least = distance;
+        ids.back() = led.id;
+      }
+    }
+  }
+  return ids;
+}
+
 void IdentityCheck::look(const Snapshot& snapshot) {
   ++snapshots;
   for (const TrackedLed& track : snapshot.leds) {

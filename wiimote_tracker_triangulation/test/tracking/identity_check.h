@@ -11,6 +11,11 @@
 
 namespace wiimote_tracker::tracking::test {
 
+/// Id of the tracked LED nearest to each true one; -1: none within a distance [m].
+std::vector<std::int64_t> idsAt(const Snapshot& snapshot,
+                                const std::vector<Path>& leds,
+                                double within);
+
 /// Compares snapshots with the true positions.
 class IdentityCheck {
  public:

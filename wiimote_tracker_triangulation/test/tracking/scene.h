@@ -5,6 +5,7 @@
 #include "tracking/paths.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -45,6 +46,14 @@ struct SceneOptions {
   /// Whether an LED is hidden from a camera at a time [s].
   std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;
 };
+
+/// For a scene with the default noise, and exact stamps.
+inline TrackerOptions exactOptions() {
+  TrackerOptions options;
+  options.pixel_stddev = SceneOptions().pixel_noise;
+  options.stamp_stddev = 0.0;
+  return options;
+}
 
 /// An image and its ground truth.
 struct SceneImage {

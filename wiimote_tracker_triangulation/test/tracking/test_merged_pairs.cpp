@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
 #include <cstdint>
 #include <set>
 #include <vector>
@@ -36,28 +35,12 @@ std::vector<Path> passing(geometry::test::Random& random, double speed) {
   return leds;
 }
 
-/// Id of the tracked LED nearest to each true one; -1: none within 5 cm.
-std::array<std::int64_t, 2> idsAt(const Snapshot& snapshot, const std::vector<Path>& leds) {
-  std::array<std::int64_t, 2> result = {-1, -1};
-  for (std::size_t i = 0; i < 2; ++i) {
-    double least = 0.05;
-    for (const TrackedLed& led : snapshot.leds) {
-      const double distance = (led.position - leds[i](snapshot.time)).norm();
-      if (led.state == TrackState::kTracked && distance < least) {
-        least = distance;
-        result[i] = led.id;
-      }
-    }
-  }
-  return result;
-}
-
 /// Ids at the last snapshot before a time [s].
-std::array<std::int64_t, 2> follow(Tracker* tracker,
-                                   Scene* scene,
-                                   double end,
-                                   std::set<std::size_t>* merged = nullptr) {
-  std::array<std::int64_t, 2> ids = {-1, -1};
+std::vector<std::int64_t> follow(Tracker* tracker,
+                                 Scene* scene,
+                                 double end,
+                                 std::set<std::size_t>* merged = nullptr) {
+  std::vector<std::int64_t> ids = {-1, -1};
   for (;;) {
     const SceneImage& image = scene->next();
     if (image.true_time >= end)
@@ -66,7 +49,7 @@ std::array<std::int64_t, 2> follow(Tracker* tracker,
       merged->insert(image.camera);
     tracker->add(image.camera, image.image);
     while (const Snapshot* snapshot = tracker->next())
-      ids = idsAt(*snapshot, scene->leds());
+      ids = idsAt(*snapshot, scene->leds(), 0.05);
   }
 }
 

@@ -6,13 +6,6 @@
 
 namespace wiimote_tracker::tracking::test {
 
-TrackerOptions exactOptions() {
-  TrackerOptions options;
-  options.pixel_stddev = 0.3;  // the scene's
-  options.stamp_stddev = 0.0;
-  return options;
-}
-
 std::vector<SceneImage> imagesOf(const geometry::Rig& rig,
                                  const std::vector<Path>& leds,
                                  const SceneOptions& options,

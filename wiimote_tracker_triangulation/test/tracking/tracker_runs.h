@@ -13,9 +13,6 @@
 
 namespace wiimote_tracker::tracking::test {
 
-/// Options for a scene of 0.3 px of noise and exact stamps.
-TrackerOptions exactOptions();
-
 std::vector<SceneImage> imagesOf(const geometry::Rig& rig,
                                  const std::vector<Path>& leds,
                                  const SceneOptions& options,

@@ -121,10 +121,8 @@ void LatencyProbe::onPoint(const ros::MessageEvent<const geometry_msgs::PointSta
 }
 
 void LatencyProbe::onPong(const geometry_msgs::PointStampedConstPtr&) {
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    is_back_ = true;
-  }
+  const std::lock_guard<std::mutex> lock(mutex_);
+  is_back_ = true;
   change_.notify_all();
 }
 

@@ -6,9 +6,6 @@
 
 #include <opencv2/calib3d.hpp>
 
-#include <Eigen/LU>
-
-#include <algorithm>
 #include <cmath>
 #include <ctime>
 #include <functional>

@@ -2,7 +2,6 @@
 #include "room_trial.h"
 
 #include <cmath>
-#include <string>
 
 namespace wiimote_tracker {
 

@@ -1,5 +1,7 @@
 #include "pose_trial.h"
 
+#include "simulated_square.h"
+
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Cholesky>
@@ -16,14 +18,11 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Residuals = Eigen::Matrix<double, 8, 1>;
-using Random = std::mt19937_64;
+using square::Random;
+using square::uniform;
 
 constexpr double kMostRotation = 1.5 * M_PI / 180.0;
 constexpr double kClear = 80.0;  // [chi^2]
-
-double uniform(Random& random, double low, double high) {
-  return std::uniform_real_distribution<double>(low, high)(random);
-}
 
 Eigen::Vector3d unitVector(Random& random) {
   std::normal_distribution<double> normal;

@@ -11,10 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
-#include <utility>
 
 namespace wiimote_tracker {
 namespace {

@@ -4,7 +4,6 @@
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
-#include <cmath>
 #include <cstdint>
 #include <vector>
 

@@ -50,7 +50,7 @@ std::string refusal(const SyntheticRig& rig, const SelfCalibrationOptions& optio
 double shapeError(const SyntheticRig& rig, const SelfCalibration& result) {
   const auto [from, to] = rig.paired(result.reconstruction);
   EXPECT_GT(from.size(), rig.points.size() / 2);
-  const Similarity similarity = fitSimilarity(from, to);
+  const Eigen::Affine3d similarity = fitSimilarity(from, to);
   double squares = 0.0;
   for (std::size_t i = 0; i < from.size(); ++i)
     squares += (similarity * from[i] - to[i]).squaredNorm();

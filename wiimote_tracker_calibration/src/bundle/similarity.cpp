@@ -5,7 +5,6 @@
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <cmath>
 #include <cstddef>
 
 namespace wiimote_tracker::bundle {
@@ -21,8 +20,8 @@ bool onOneLine(const std::vector<Eigen::Vector3d>& points) {
 
 }  // namespace
 
-Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
-                         const std::vector<Eigen::Vector3d>& to) {
+Eigen::Affine3d fitSimilarity(const std::vector<Eigen::Vector3d>& from,
+                              const std::vector<Eigen::Vector3d>& to) {
   if (from.size() != to.size() || from.size() < 3)
     throw BundleError("an alignment needs three or more points, as many in both frames");
   const auto count = static_cast<Eigen::Index>(from.size());
@@ -30,12 +29,7 @@ Similarity fitSimilarity(const std::vector<Eigen::Vector3d>& from,
     throw BundleError("the points of an alignment must not lie on one line");
   const Columns from_columns(from.front().data(), 3, count);
   const Columns to_columns(to.front().data(), 3, count);
-  const Eigen::Matrix4d transform = Eigen::umeyama(from_columns, to_columns, true);
-  Similarity similarity;
-  similarity.scale = std::cbrt(transform.topLeftCorner<3, 3>().determinant());
-  similarity.rotation = transform.topLeftCorner<3, 3>() / similarity.scale;
-  similarity.translation = transform.topRightCorner<3, 1>();
-  return similarity;
+  return Eigen::Affine3d(Eigen::umeyama(from_columns, to_columns, true));
 }
 
 Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points) {
@@ -53,10 +47,11 @@ Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points) {
   return motions;
 }
 
-void transform(const Similarity& similarity, Reconstruction* reconstruction) {
+void transform(const Eigen::Affine3d& similarity, Reconstruction* reconstruction) {
+  const Eigen::Matrix3d rotation = similarity.rotation();
   for (geometry::Camera& camera : reconstruction->cameras) {
     const Eigen::Vector3d center = similarity * camera.center();
-    camera.world_from_camera.linear() = similarity.rotation * camera.world_from_camera.linear();
+    camera.world_from_camera.linear() = rotation * camera.world_from_camera.linear();
     camera.world_from_camera.translation() = center;
   }
   for (auto& point : reconstruction->points) {

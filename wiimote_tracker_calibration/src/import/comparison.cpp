@@ -98,7 +98,7 @@ void comparePoints(const bundle::Reconstruction& own,
   comparison->points = from.size();
   if (from.size() < 10)
     return;
-  const auto move = [](const bundle::Similarity& similarity, const Points& points) {
+  const auto move = [](const Eigen::Affine3d& similarity, const Points& points) {
     Points moved;
     for (const Eigen::Vector3d& point : points)
       moved.push_back(similarity * point);
@@ -116,7 +116,8 @@ void comparePoints(const bundle::Reconstruction& own,
   comparison->projective = distancesBetween(aligned(from, to, fitProjective, project), to);
   comparison->extent = geometry::spreadOf(to).norm();
   if (expected)
-    comparison->expected = *expected * bundle::fitSimilarity(from, to).scale;
+    comparison->expected =
+        *expected * std::cbrt(bundle::fitSimilarity(from, to).linear().determinant());
 }
 
 /// Errors of the own solution in the undistorted pixels of the shipped matrices.

@@ -224,7 +224,7 @@ void moveOnSquare(const Recording& recording,
         "only " + std::to_string(from.size()) +
         " corners of the square were seen by two cameras that agree on them, but three tell "
         "where the world is: capture the corners where two cameras see them");
-  bundle::Similarity similarity = bundle::fitSimilarity(from, to);
+  Eigen::Affine3d similarity = bundle::fitSimilarity(from, to);
   double side = 0.0;
   double error = 0.0;
   for (std::size_t k = 0; k < from.size(); ++k) {
@@ -242,7 +242,7 @@ void moveOnSquare(const Recording& recording,
   // All cameras are above the floor, as the LED is: with z down it has the opposite height.
   result->z_up = height > 0.0;
   if (!result->z_up)
-    similarity.translation.z() -= 2.0 * recording.square->led_height;
+    similarity.translation().z() -= 2.0 * recording.square->led_height;
   bundle::transform(similarity, wave);
   result->metric = true;
 }

@@ -141,8 +141,8 @@ TEST_F(JoinRigs, ARigIsNotJoinedWithItself) {
 
 TEST_F(JoinRigs, ExactRigsMakeAnExactOne) {
   const JoinedRigs joined = joinRigs(first_, second_);
-  EXPECT_LT((joined.first_from_second.matrix() - worldFromSecond().matrix()).norm(), 1e-9);
-  EXPECT_EQ(joined.degrees_of_freedom, 6);
+  EXPECT_LT((joined.motion.first_from_second.matrix() - worldFromSecond().matrix()).norm(), 1e-9);
+  EXPECT_EQ(joined.motion.degrees_of_freedom, 6);
   EXPECT_SAYS(joined.message,
               "2 cameras joined to the 4 of the first rig over camera_3 and camera_4;");
   ASSERT_EQ(joined.rig.cameras.size(), 6U);
@@ -166,7 +166,7 @@ TEST_F(JoinRigs, ErrorsAreAsLargeAsStated) {
     for (int run = 0; run < kRuns; ++run) {
       const JoinedRigs joined = joinRigs(drawn(first_, random_), drawn(second, random_));
       sum += normalizedSquare(joined.rig, 0) / kRuns;
-      disagreement += joined.chi_squared / kRuns;
+      disagreement += joined.motion.chi_squared / kRuns;
     }
     // Means of chi-squared with 36 and 6 degrees of freedom, to within four standard deviations.
     EXPECT_NEAR(sum, 36.0, 4.0 * std::sqrt(72.0 / kRuns));
@@ -261,7 +261,7 @@ TEST_F(JoinRigs, PlacesJoinRigsWithoutACommonCamera) {
     const JoinedRigs joined =
         joinRigs(drawn(first, random_), measuring, places(measuring, 0.003, random_), 0.003);
     sum += normalizedSquare(joined.rig, 0) / kRuns;
-    disagreement += joined.chi_squared / kRuns;
+    disagreement += joined.motion.chi_squared / kRuns;
   }
   EXPECT_NEAR(sum, 36.0, 4.0 * std::sqrt(72.0 / kRuns));
   EXPECT_NEAR(disagreement, 6.0, 4.0 * std::sqrt(12.0 / kRuns));

@@ -1,7 +1,6 @@
 #include "session/join_rigs.h"
 
 #include "joined_rig.h"
-#include "rig_motion.h"
 #include "square/usable_cameras.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -40,11 +39,7 @@ JoinedRigs finish(const geometry::Rig& first,
                   const geometry::Rig& second,
                   const RigMotion& motion,
                   const std::string& over) {
-  JoinedRigs result;
-  result.first_from_second = motion.first_from_second;
-  result.chi_squared = motion.chi_squared;
-  result.degrees_of_freedom = motion.degrees_of_freedom;
-  result.rig = joinedRig(first, second, motion, clockShift(first, second));
+  JoinedRigs result{joinedRig(first, second, motion, clockShift(first, second)), motion, ""};
   const std::size_t added = result.rig.cameras.size() - first.cameras.size();
   result.message = format("%zu %s joined to the %zu of the first rig over ", added,
                           added == 1 ? "camera" : "cameras", first.cameras.size()) +

@@ -1,12 +1,10 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
 #define WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
 
+#include "session/rig_motion.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
-
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <string>
 #include <vector>
@@ -15,11 +13,8 @@ namespace wiimote_tracker::session {
 
 /// Two rigs in one world.
 struct JoinedRigs {
-  geometry::Rig rig;  ///< The first as it was, then the cameras that only the second has.
-  Eigen::Isometry3d first_from_second;  ///< World of the second in the world of the first [m].
-  /// Disagreement of the two rigs, chi-squared distributed with degrees_of_freedom.
-  double chi_squared = 0.0;
-  int degrees_of_freedom = 0;
+  geometry::Rig rig;    ///< The first as it was, then the cameras that only the second has.
+  RigMotion motion;     ///< From the world of the second to that of the first.
   std::string message;  ///< One sentence: what they share, and how well that agrees.
 };
 

@@ -98,13 +98,12 @@ TEST(Remap, EachModelRecoversItsOwnDeformationExactlyAndIsChosen) {
 TEST(Remap, AThinPlateRecoversItsOwnDeformationExactly) {
   Random random(5);
   const std::vector<Eigen::Vector3d> measured = grid(random);
-  FitOptions options;
-  options.models = {Model::kThinPlate};
-  const Correction truth(fitRemap(deformed(measured, wavy), kRig, options).remap, kRig);
+  const std::vector<Model> allowed = {Model::kThinPlate};
+  const Correction truth(fitRemap(deformed(measured, wavy), kRig, allowed).remap, kRig);
   const Deformation plate = [&](const Eigen::Vector3d& p) {
     return truth.apply(p, Eigen::Matrix3d::Zero())->position;
   };
-  const Correction correction(fitRemap(deformed(measured, plate), kRig, options).remap, kRig);
+  const Correction correction(fitRemap(deformed(measured, plate), kRig, allowed).remap, kRig);
   for (int i = 0; i < 100; ++i) {
     const Eigen::Vector3d point = inCube(random, 0.0, 2.5);
     const auto corrected = correction.apply(point, Eigen::Matrix3d::Zero());
@@ -137,14 +136,13 @@ TEST(Remap, AThinPlateIsChosenForWhatNoOtherModelCan) {
 // The closed form for left out points, against fitting without each point in turn.
 TEST(Remap, LeftOutErrorsOfAThinPlateAreThoseOfFitsWithoutThePoint) {
   Random random(7);
-  FitOptions options;
-  options.models = {Model::kThinPlate};
+  const std::vector<Model> allowed = {Model::kThinPlate};
   std::vector<KnownPoint> points = deformed(grid(random), wavy);
-  const FitResult all = fitRemap(points, kRig, options);
+  const FitResult all = fitRemap(points, kRig, allowed);
   for (const std::size_t left_out : {0U, 13U, 26U}) {
     std::vector<KnownPoint> others = points;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(left_out));
-    const FitResult without = fitRemap(others, kRig, options);
+    const FitResult without = fitRemap(others, kRig, allowed);
     // Some of these lie outside the others: the model itself is asked, not what is published.
     const auto predicted =
         evaluate(without.remap, frameOf(without.remap.support), points[left_out].measured);
@@ -240,9 +238,7 @@ TEST(Remap, CovarianceFollowsTheDerivativeOfTheModel) {
   covariance << 4e-6, 1e-6, 0.0, 1e-6, 9e-6, 2e-6, 0.0, 2e-6, 1e-6;
   for (const auto& [model, deformation] : cases) {
     SCOPED_TRACE(nameOf(model));
-    FitOptions options;
-    options.models = {model};
-    const Correction correction(fitRemap(deformed(measured, deformation), kRig, options).remap,
+    const Correction correction(fitRemap(deformed(measured, deformation), kRig, {model}).remap,
                                 kRig);
     const Eigen::Vector3d point(0.7, 1.6, 0.9);
     Eigen::Matrix3d jacobian;
@@ -341,9 +337,6 @@ TEST(Remap, EachKindOfUselessPointsHasItsOwnRefusal) {
     bad.push_back({point, point + noise(random, 0.002)});
   expectRefused(bad, "better than none");
   EXPECT_THROW(fitRemap(good, ""), Error);
-  FitOptions nothing;
-  nothing.models.clear();
-  EXPECT_THROW(fitRemap(good, kRig, nothing), Error);
 }
 
 TEST(Remap, AModelThatNeedsMorePointsSaysSoAndTheOthersAreUsed) {

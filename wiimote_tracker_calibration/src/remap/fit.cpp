@@ -138,11 +138,11 @@ bool reachInside(const std::vector<Eigen::Vector3d>& support) {
 
 FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const std::string& rig_id,
-                   const FitOptions& options) {
+                   const std::vector<Model>& allowed) {
   checkPoints(points, rig_id);
-  if (options.models.empty())
-    throw Error("no model of a correction of the volume is allowed: allow at least one");
-  std::vector<Model> models = options.models;
+  std::vector<Model> models = allowed;
+  if (models.empty())
+    models = {Model::kAffine, Model::kProjective, Model::kTrilinear, Model::kThinPlate};
   std::sort(models.begin(), models.end());
 
   FitResult result;

@@ -75,16 +75,6 @@ square::KnownPlace knownPlace(const CheckPlace::Request& request, double usual_s
           request.known_stddev != 0.0 ? request.known_stddev : usual_stddev};
 }
 
-remap::FitOptions fitOptions(const std::vector<std::string>& models) {
-  remap::FitOptions options;
-  if (models.empty())
-    return options;
-  options.models.clear();
-  for (const std::string& name : models)
-    options.models.push_back(remap::modelFromName(name));
-  return options;
-}
-
 class PlaceServices {
  public:
   explicit PlaceServices(NodeContext* context) : context_(*context) {
@@ -188,8 +178,11 @@ class PlaceServices {
     Reply reply = context_.answer(&lock, [&] {
       const std::string rig_id = context_.existingRig("to correct", lock).id();
       const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).places();
-      const remap::FitResult result = context_.compute(
-          &lock, [&] { return remap::fitRemap(points, rig_id, fitOptions(request.models)); });
+      std::vector<remap::Model> allowed;
+      for (const std::string& name : request.models)
+        allowed.push_back(remap::modelFromName(name));
+      const remap::FitResult result =
+          context_.compute(&lock, [&] { return remap::fitRemap(points, rig_id, allowed); });
       context_.requireSameRig(rig_id, lock);
       geometry::Rig rig = *context_.rig(lock);
       rig.remap = result.remap;

@@ -16,12 +16,6 @@ struct KnownPoint {
   Eigen::Vector3d known;     ///< World [m].
 };
 
-struct FitOptions {
-  /// The models to choose from.
-  std::vector<Model> models = {Model::kAffine, Model::kProjective, Model::kTrilinear,
-                               Model::kThinPlate};
-};
-
 /// The result of one model.
 struct ModelReport {
   Model model = Model::kAffine;
@@ -40,7 +34,7 @@ struct FitResult {
   /// places, and tends to be too large, because a corner that is left out is extrapolated. It holds
   /// for places like the measured ones: points at the corners say nothing about the inside.
   double expected_error = 0.0;
-  std::vector<ModelReport> models;      ///< Those of the options, the simplest first.
+  std::vector<ModelReport> models;      ///< Those allowed, the simplest first.
   std::vector<double> left_out_errors;  ///< Of the chosen model, per point [m].
   std::vector<std::string> warnings;    ///< One sentence each.
 };
@@ -49,12 +43,13 @@ struct FitResult {
 /// more parameters predicts left out points better by more than the standard error of the
 /// difference of their squared errors. The smoothing of a thin plate is chosen in the same way.
 /// Takes milliseconds for tens of points, seconds for hundreds.
+/// @param allowed models to choose from; empty: all.
 /// @throws Error: fewer than 6 or more than 500 points, points on one line or in one plane,
 /// twice in one place, not finite; mirrored; no rig id; no model determined by the points, or none
 /// better than no correction.
 FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const std::string& rig_id,
-                   const FitOptions& options = {});
+                   const std::vector<Model>& allowed = {});
 
 /// A text table of the models.
 std::string table(const FitResult& result);

@@ -105,9 +105,10 @@ TEST_F(NextMeasurementOf, IsNoneWhereNoneGains) {
   const wave::WaveSolution solution =
       wave::solveWave(simulated.recording, wave::optionsFor(scene_));
   const auto next = [&](double scale) {
-    return nextMeasurement(solution.rig, simulated.recording.square.value(), true,
-                           {{0.0, 0.0, 2.0}, {2.5, 2.5, 2.0}},
-                           {scale * solution.joint_covariance, 0.2});
+    wave::WaveSolution scaled = solution;
+    scaled.joint_covariance *= scale;
+    return nextMeasurement(scaled, simulated.recording.square.value(),
+                           {{0.0, 0.0, 2.0}, {2.5, 2.5, 2.0}}, 0.2);
   };
   EXPECT_TRUE(next(1.0));
   EXPECT_FALSE(next(1e-4));

@@ -238,8 +238,7 @@ void predict(const square::SquareLayout& layout,
     verdict->predicted_stddev[i] = square::expectedError(rig, {verdict->predicted_at[i]});
   verdict->expected_error = square::expectedError(rig, verdict->predicted_at);
   if (found.joint_covariance.size() > 0)  // else the corners were taken as exact
-    verdict->next = nextMeasurement(rig, layout, found.z_up, verdict->predicted_at,
-                                    {found.joint_covariance, pixel});
+    verdict->next = nextMeasurement(found, layout, verdict->predicted_at, pixel);
 }
 
 }  // namespace

@@ -102,20 +102,21 @@ std::string textOf(const NextMeasurement& next) {
 
 }  // namespace
 
-std::optional<NextMeasurement> nextMeasurement(const geometry::Rig& rig,
+std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
                                                const square::SquareLayout& layout,
-                                               bool z_up,
                                                const std::vector<Eigen::Vector3d>& places,
-                                               const JointError& joint) {
-  const Eigen::Index parameters = joint.covariance.rows();
+                                               double pixel) {
+  const geometry::Rig& rig = found.rig;
+  const Eigen::MatrixXd& covariance = found.joint_covariance;
+  const Eigen::Index parameters = covariance.rows();
   const Eigen::MatrixXd slopes = placesByParameters(rig, places, parameters);
   const double count = static_cast<double>(slopes.rows()) / 3.0;
-  const double now = (slopes * joint.covariance).cwiseProduct(slopes).sum() / count;
+  const double now = (slopes * covariance).cwiseProduct(slopes).sum() / count;
   NextMeasurement best;
   double least = now;
   // By a Kalman update.
   const auto consider = [&](const NextMeasurement& next, const Observation& observation) {
-    const Eigen::MatrixXd gain = joint.covariance * observation.slopes.transpose();
+    const Eigen::MatrixXd gain = covariance * observation.slopes.transpose();
     const Eigen::MatrixXd innovation = observation.slopes * gain + observation.covariance;
     const Eigen::MatrixXd moved = slopes * gain;
     const double squared = now - geometry::solveSymmetric(innovation, moved.transpose())
@@ -128,7 +129,7 @@ std::optional<NextMeasurement> nextMeasurement(const geometry::Rig& rig,
     }
   };
   NextMeasurement next;
-  const square::Corners corners = layout.corners(z_up);
+  const square::Corners corners = layout.corners(found.z_up);
   for (std::size_t from = 0; from < corners.size(); ++from) {
     for (std::size_t to = from + 1; to < corners.size(); ++to) {
       next.corners = {from, to};
@@ -136,10 +137,10 @@ std::optional<NextMeasurement> nextMeasurement(const geometry::Rig& rig,
     }
   }
   next.corners.reset();
-  for (const Eigen::Vector3d& place : placesOver(corners, z_up)) {
+  for (const Eigen::Vector3d& place : placesOver(corners, found.z_up)) {
     next.place = place;
     if (geometry::camerasSeeing(rig, place).size() >= 2)
-      consider(next, pixelsOf(rig, place, joint.pixel, parameters));
+      consider(next, pixelsOf(rig, place, pixel, parameters));
   }
   best.expected_error = std::sqrt(least);
   if (!(best.expected_error < (1.0 - kLeastGain) * std::sqrt(now)))

@@ -13,6 +13,18 @@ const char kSuffix[] = "/ir_blobs";
 
 }  // namespace
 
+capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message) {
+  capture::Image image;
+  image.camera = message.camera;
+  image.identity = message.identity;
+  image.stamp = message.header.stamp.toSec();
+  image.clock_epoch = message.clock_epoch;
+  for (const wiimote_tracker_msgs::IrBlob& blob : message.blobs)
+    image.spots.emplace_back(blob.x, blob.y);
+  capture::removeImpossible(message.width, message.height, &image.spots);
+  return image;
+}
+
 CameraInputs::CameraInputs(const ros::NodeHandle& nh,
                            const std::vector<std::string>& names,
                            const std::string& ignored,
@@ -100,17 +112,11 @@ void CameraInputs::restartGravity() {
 
 void CameraInputs::onBlobs(const std::string& name,
                            const wiimote_tracker_msgs::IrBlobArray& message) {
-  capture::Image image;
+  capture::Image image = imageOf(message);
   image.camera = name;
-  image.stamp = message.header.stamp.toSec();
-  image.clock_epoch = message.clock_epoch;
-  for (const wiimote_tracker_msgs::IrBlob& blob : message.blobs)
-    image.spots.emplace_back(blob.x, blob.y);
-  capture::removeImpossible(message.width, message.height, &image.spots);
   if (image.spots.size() < message.blobs.size())
     ROS_WARN_STREAM_THROTTLE(10.0, name << " reports spots outside its image, which are "
                                            "ignored: repair its driver");
-  image.identity = message.identity;
   {
     const Lock lock(*mutex_);
     CameraInput& camera = cameras_[name];

@@ -27,6 +27,9 @@
 
 namespace wiimote_tracker {
 
+/// What a camera saw, without spots that its image cannot have.
+capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message);
+
 /// The last known properties of one camera, and its latest images.
 struct CameraInput {
   std::string identity;

@@ -2,10 +2,10 @@
 
 #include "capture/masks.h"
 #include "continuous/continuous_calibration.h"
+#include "ros/camera_inputs.h"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
-#include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
@@ -19,18 +19,6 @@
 namespace {
 
 using namespace wiimote_tracker;
-
-capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message) {
-  capture::Image image;
-  image.camera = message.camera;
-  image.identity = message.identity;
-  image.stamp = message.header.stamp.toSec();
-  image.clock_epoch = message.clock_epoch;
-  for (const wiimote_tracker_msgs::IrBlob& blob : message.blobs)
-    image.spots.emplace_back(blob.x, blob.y);
-  capture::removeImpossible(message.width, message.height, &image.spots);
-  return image;
-}
 
 /// The rig in use, and what corrects it. Every proposal is applied, as by the policy `all`.
 class KeptRig {

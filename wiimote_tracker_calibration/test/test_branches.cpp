@@ -34,7 +34,7 @@ std::string solveOrRefusal(const SquareLayout& layout,
                            const SimulatedSquare& simulated,
                            double* worst_distance) {
   try {
-    const SquareSolution solution = solveSquare(layout, simulated.sightings, SolveOptions());
+    const Solution solution = solveSquare(layout, simulated.sightings, SolveOptions());
     *worst_distance = 0.0;
     for (std::size_t i = 0; i < simulated.truth.size(); ++i)
       *worst_distance =
@@ -160,7 +160,7 @@ TEST(Branches, TheOtherCamerasResolveACameraThatCannotTell) {
     if (!misled)
       continue;
     ++misled_alone;
-    const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
+    const Solution solution = solveSquare(layout, simulated.sightings, options);
     EXPECT_LT((solution.rig.cameras[0].camera.center() - far.translation()).norm(), 1.0);
   }
   EXPECT_GE(misled_alone, 3);
@@ -191,7 +191,7 @@ TEST(Branches, AWrongBranchIsNotReturned) {
     const bool with_gravity = trial % 2 == 0;
     const SimulatedSquare simulated =
         simulateSquare(poses, layout, true, errors, with_gravity, random);
-    std::optional<SquareSolution> solution;
+    std::optional<Solution> solution;
     try {
       solution = solveSquare(layout, simulated.sightings, SolveOptions());
     } catch (const SquareError&) {

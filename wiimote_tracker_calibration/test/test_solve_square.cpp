@@ -69,7 +69,7 @@ TEST_P(NoiseFree, RandomRigsAreSolvedExactly) {
     const auto poses = posesAround(layout, GetParam().z_up, count, random);
     const SimulatedSquare simulated =
         simulateSquare(poses, layout, GetParam().z_up, noErrors(), true, random);
-    const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
+    const Solution solution = solveSquare(layout, simulated.sightings, options);
     ASSERT_EQ(solution.rig.cameras.size(), count);
     EXPECT_EQ(solution.z_up, GetParam().z_up);
     for (std::size_t i = 0; i < count; ++i) {
@@ -105,7 +105,7 @@ TEST_F(FourCameras, ClockwiseCornersPutZDownWithOneWarning) {
   // Seen from above: first, fourth, third, second corner of the same square.
   for (CameraSightings& camera : simulated_.sightings)
     std::swap(camera.corners[1], camera.corners[3]);
-  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  const Solution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
   EXPECT_FALSE(solution.z_up);
   ASSERT_EQ(solution.warnings.size(), 1U);
   EXPECT_SAYS(solution.warnings[0], "counter-clockwise to get z up");
@@ -122,7 +122,7 @@ TEST_F(FourCameras, ClockwiseCornersPutZDownWithOneWarning) {
 TEST_F(FourCameras, ACameraThatMissesACornerIsLeftOutAndNamed) {
   simulated_.sightings[1].corners[2].reset();
   simulated_.sightings[3].corners = {};
-  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  const Solution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
   ASSERT_EQ(solution.rig.cameras.size(), 2U);
   EXPECT_EQ(solution.rig.cameras[0].camera.name, "camera_1");
   EXPECT_EQ(solution.rig.cameras[1].camera.name, "camera_3");
@@ -144,7 +144,7 @@ TEST_P(ThreeCorners, PlaceACameraThatHasAnAccelerometer) {
     const auto poses = posesAround(layout, z_up, 3, random);
     SimulatedSquare simulated = simulateSquare(poses, layout, z_up, noErrors(), true, random);
     simulated.sightings[1].corners[static_cast<std::size_t>(trial % 4)].reset();
-    const SquareSolution solution = solveSquare(layout, simulated.sightings, options);
+    const Solution solution = solveSquare(layout, simulated.sightings, options);
     const auto warning = std::find_if(
         solution.warnings.begin(), solution.warnings.end(), [](const std::string& text) {
           return text.find("camera_2 saw only three corners") != std::string::npos;
@@ -164,8 +164,6 @@ TEST_P(ThreeCorners, PlaceACameraThatHasAnAccelerometer) {
       EXPECT_EQ(camera.observations, i == 1 ? 3U : 4U);
     }
     EXPECT_TRUE(solution.rig.covariance.allFinite());
-    EXPECT_EQ(solution.branches.size(), 3U);
-    EXPECT_EQ(solution.chosen[1], 0U);
   }
   EXPECT_GT(solved, 30);
 }
@@ -241,7 +239,7 @@ TEST(WideLens, IsSolvedExactly) {
       sightings.corners[c] = camera.project(layout.corners(true)[c]).value();
     simulated.sightings.push_back(sightings);
   }
-  const SquareSolution solution = solveSquare(layout, simulated.sightings, SolveOptions());
+  const Solution solution = solveSquare(layout, simulated.sightings, SolveOptions());
   for (std::size_t i = 0; i < poses.size(); ++i)
     EXPECT_LT((solution.rig.cameras[i].camera.center() - poses[i].translation()).norm(), 1e-6);
 }
@@ -323,7 +321,7 @@ TEST_F(FourCameras, ACornerFarFromItsPlaceIsNamed) {
   for (std::size_t i = 0; i < 4; ++i)
     simulated_.sightings[i].corners[2] =
         simulated_.truth[i].project(Eigen::Vector3d(2.56, 2.56, 0.0)).value();
-  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
+  const Solution solution = solveSquare(layout_, simulated_.sightings, SolveOptions());
   ASSERT_EQ(solution.warnings.size(), 1U) << solution.rig.verdict;
   EXPECT_SAYS(solution.warnings[0], "the cameras disagree");
   ASSERT_TRUE(solution.suspect);
@@ -344,7 +342,7 @@ TEST_F(FourCameras, ResidualsAreInPixelsAndMetres) {
     for (auto& corner : camera.corners)
       *corner += Eigen::Vector2d(normal(random, 0.5), normal(random, 0.5));
   }
-  const SquareSolution solution = solveSquare(layout_, simulated_.sightings, options);
+  const Solution solution = solveSquare(layout_, simulated_.sightings, options);
   for (std::size_t i = 0; i < 4; ++i) {
     const geometry::RigCamera& camera = solution.rig.cameras[i];
     double sum = 0.0;

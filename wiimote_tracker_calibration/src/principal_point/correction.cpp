@@ -96,10 +96,10 @@ std::optional<Round> evaluate(const geometry::Rig& rig,
   return round;
 }
 
-square::SquareSolution solve(const square::SquareLayout& layout,
-                             const std::vector<square::CameraSightings>& cameras,
-                             const CorrectionOptions& options) {
-  square::SquareSolution solution = square::solveSquare(
+square::Solution solve(const square::SquareLayout& layout,
+                       const std::vector<square::CameraSightings>& cameras,
+                       const CorrectionOptions& options) {
+  square::Solution solution = square::solveSquare(
       layout, cameras, {square::Method::kPerCamera, options.uncertainty, options.branch_odds});
   solution.rig.ray_model = options.ray_model;
   solution.rig.virtual_hfov = options.virtual_hfov;
@@ -174,7 +174,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
                                         const CorrectionOptions& options,
                                         const RoundCallback& progress) {
   options.check();
-  square::SquareSolution solution = solve(layout, cameras, options);
+  square::Solution solution = solve(layout, cameras, options);
   std::vector<square::CameraSightings> sightings = solvedOnes(cameras, solution.rig);
   checkCorners(sightings);
   const square::Corners ideal = layout.corners(solution.z_up);
@@ -205,7 +205,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
       sightings[i].intrinsics.cy += options.step * last.differences[i].y();
     }
     try {
-      const square::SquareSolution next = solve(layout, sightings, options);
+      const square::Solution next = solve(layout, sightings, options);
       round = evaluate(next.rig, sightings, ideal, options);
       if (round)
         solution = next;

@@ -116,7 +116,7 @@ void checkGravity(const RigModel& model,
 }
 
 /// Warns about, or refuses, residuals that the uncertainties do not explain.
-void checkMisfit(const RigModel& model, const BranchChoice& choice, SquareSolution* solution) {
+void checkMisfit(const RigModel& model, const BranchChoice& choice, Solution* solution) {
   const int freedom = model.degreesOfFreedom();
   solution->misfit = std::sqrt(choice.cost / std::max(1, freedom));
   const bool implausible = isImplausible(model, choice.state);
@@ -158,7 +158,7 @@ geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std:
   return result;
 }
 
-std::string verdict(const SquareSolution& solution) {
+std::string verdict(const Solution& solution) {
   const geometry::Rig& rig = solution.rig;
   double worst_px = 0.0;
   double worst_m = 0.0;
@@ -181,13 +181,13 @@ std::string verdict(const SquareSolution& solution) {
 
 }  // namespace
 
-SquareSolution solveSquare(const SquareLayout& layout,
-                           const std::vector<CameraSightings>& cameras,
-                           const SolveOptions& options) {
+Solution solveSquare(const SquareLayout& layout,
+                     const std::vector<CameraSightings>& cameras,
+                     const SolveOptions& options) {
   layout.check();
   options.uncertainty.check();
   const UsableCameras usable = usableCameras(cameras);
-  SquareSolution solution;
+  Solution solution;
   solution.z_up = usable.z_up;
   solution.warnings = usable.warnings;
   const Candidates candidates =
@@ -196,8 +196,6 @@ SquareSolution solveSquare(const SquareLayout& layout,
   const RigModel model(candidates.cameras, layout, usable.z_up, options.uncertainty);
   const std::vector<std::vector<Branch>>& branches = candidates.branches;
   const BranchChoice choice = chooseBranches(model, branches, options.branch_odds);
-  solution.branches = branches;
-  solution.chosen = choice.chosen;
   checkGravity(model, choice.state, usable.z_up, options.uncertainty);
   Eigen::MatrixXd joint;
   if (!isImplausible(model, choice.state)) {

@@ -275,7 +275,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
     if (sightings.size() >= 2) {
       square::SolveOptions square_options;
       square_options.uncertainty = options.uncertainty;
-      const square::SquareSolution solution =
+      const square::Solution solution =
           square::solveSquare(*recording.square, sightings, square_options);
       for (geometry::Camera& camera : wave.cameras) {
         if (const geometry::RigCamera* solved = solution.rig.find(camera.name))

@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
 
-#include "wiimote_tracker_calibration/square/branches.h"
 #include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -40,6 +39,9 @@ struct Solution {
   Eigen::MatrixXd joint_covariance;
   /// The corner that contradicts the rest most; nothing when the data cannot tell.
   std::optional<SuspectCorner> suspect;
+  /// Expected RMS error of points in the box over the square, of a wave on its path, as far as it
+  /// comes from the calibration [m]. NaN when no two cameras look there.
+  double expected_error = 0.0;
   /// Ratio of the residuals to those expected, and whether that is significant (99.9 %). Of a wave
   /// it is that of corners, places, lengths and priors.
   double misfit = 0.0;
@@ -48,25 +50,15 @@ struct Solution {
   std::vector<std::string> warnings;
 };
 
-/// A solved square.
-struct SquareSolution : Solution {
-  /// Per camera of the rig: the poses that explain what it alone saw, and the index of the one that
-  /// was chosen by all cameras together.
-  std::vector<std::vector<Branch>> branches;
-  std::vector<std::size_t> chosen;
-  /// expectedError() in the box over the square [m]. NaN when no two cameras look into it.
-  double expected_error = 0.0;
-};
-
 /// Estimates the cameras' poses. A camera that saw three corners is placed by them and its
 /// accelerometer, with a warning; others that did not see all four are left out, with a warning
 /// that names them.
 /// @throws SquareError: fewer than two cameras saw all corners; corners not captured, in one place,
 /// on one line, in crossing order; order not the same for all cameras; an unresolved planar
 /// ambiguity; cameras that contradict the square, gravity or one another.
-SquareSolution solveSquare(const SquareLayout& layout,
-                           const std::vector<CameraSightings>& cameras,
-                           const SolveOptions& options);
+Solution solveSquare(const SquareLayout& layout,
+                     const std::vector<CameraSightings>& cameras,
+                     const SolveOptions& options);
 
 }  // namespace wiimote_tracker::square
 

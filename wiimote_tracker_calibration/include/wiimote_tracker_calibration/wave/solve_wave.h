@@ -36,9 +36,7 @@ struct WaveSolution : square::Solution {
   double seconds_seen = 0.0;                         ///< In which two cameras or more saw it [s].
   Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Of the path: principal stddevs [m].
   std::vector<Eigen::Vector3d> path;                 ///< A point of it per knot that was seen [m].
-  /// Expected RMS error of a point on the path as far as it comes from the calibration [m].
-  double expected_error = 0.0;
-  /// Same after the best rigid motion: independent of the world frame.
+  /// expected_error after the best rigid motion: independent of the world frame [m].
   double expected_shape_error = 0.0;
 };
 

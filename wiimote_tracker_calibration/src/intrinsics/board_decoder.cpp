@@ -248,17 +248,17 @@ BoardReading BoardDecoder::read() const {
     if (leds[i].seen())
       view.pixels[i] = leds[i].mean();
   }
-  reading.motion = motionBetweenFlashes(leds);
+  const double motion = motionBetweenFlashes(leds);
   const double explained = has_lamps ? shareInLitSteps(lights, phase) : shareOfLeds(lights, leds);
   if (explained < kLeastExplained)
     reading.message = format(
         "%.0f %% of the spots follow the board's sequence, at least %.0f %% are "
         "needed: hold the board still and cover other lights",
         100.0 * explained, 100.0 * kLeastExplained);
-  else if (reading.motion > kMostMotion)
+  else if (motion > kMostMotion)
     reading.message =
-        format("the board moved by %.1f px, at most %.1f px are allowed: hold it still",
-               reading.motion, kMostMotion);
+        format("the board moved by %.1f px, at most %.1f px are allowed: hold it still", motion,
+               kMostMotion);
   else if (static_cast<int>(view.count()) < minimum_leds_)
     reading.message = format(
         "%zu of %d LEDs stayed in place, at least %d are needed: hold the board "

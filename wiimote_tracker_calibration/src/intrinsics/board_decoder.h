@@ -16,7 +16,6 @@ namespace wiimote_tracker::intrinsics {
 struct BoardReading {
   std::optional<BoardView> view;  ///< Nothing: message says why.
   std::string message;            ///< In words.
-  double motion = 0.0;            ///< Of the LEDs between their two flashes, RMS [px].
 };
 
 /// Identifies the LED of each spot from one cycle (board_sequence.h) during which the board was

@@ -2,6 +2,7 @@
 
 #include "start.h"
 
+#include "adjust/opencv.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
 
@@ -64,7 +65,12 @@ void refuseUnexplained(const Reconstruction& reconstruction, const Options& opti
 
 bool isOnALine(const Reconstruction& reconstruction) {
   const NormalizedViews views = normalize(reconstruction);
-  return std::none_of(views.begin(), views.end(), fillsAnArea);
+  return std::none_of(views.begin(), views.end(), [](const auto& view) {
+    std::vector<cv::Point2d> places;
+    for (const auto& [point, place] : view)
+      places.emplace_back(place.x(), place.y());
+    return adjust::fillAnArea(places);
+  });
 }
 
 bool isFlat(const Reconstruction& solution, const Options& options, double slack) {

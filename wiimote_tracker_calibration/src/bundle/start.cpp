@@ -36,13 +36,6 @@ NormalizedViews normalize(const Reconstruction& reconstruction) {
   return views;
 }
 
-bool fillsAnArea(const std::map<std::size_t, Eigen::Vector2d>& view) {
-  std::vector<cv::Point2d> points;
-  for (const auto& [index, pixel] : view)
-    points.emplace_back(pixel.x(), pixel.y());
-  return adjust::fillAnArea(points);
-}
-
 CommonViews commonViews(const std::map<std::size_t, Eigen::Vector2d>& first,
                         const std::map<std::size_t, Eigen::Vector2d>& second) {
   CommonViews common;

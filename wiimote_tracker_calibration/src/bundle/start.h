@@ -20,9 +20,6 @@ using NormalizedViews = std::vector<std::map<std::size_t, Eigen::Vector2d>>;
 
 NormalizedViews normalize(const Reconstruction& reconstruction);
 
-/// Whether a view covers more than a line, which would be the image of a line in space.
-bool fillsAnArea(const std::map<std::size_t, Eigen::Vector2d>& view);
-
 /// Views of the points that two cameras saw, in the order of the points.
 struct CommonViews {
   std::vector<cv::Point2d> first;

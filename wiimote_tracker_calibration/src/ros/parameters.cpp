@@ -21,16 +21,6 @@ void readCapture(ParameterReader* reader, capture::CornerCaptureOptions* options
   reader->read("capture_timeout", &options->timeout, 0.1, 3600.0);
 }
 
-void readHandsFree(ParameterReader* reader, capture::HandsFreeOptions* options) {
-  reader->read("hands_free_hold", &options->hold, 0.5, 60.0);
-  reader->read("hands_free_distance", &options->distance, 5.0, 10000.0);
-}
-
-void readMasks(ParameterReader* reader, capture::MaskOptions* options) {
-  reader->read("mask_share", &options->share, 0.001, 1.0);
-  reader->read("mask_margin", &options->margin, 0.0, 1000.0);
-}
-
 void readCoverage(ParameterReader* reader, wave::CoverageOptions* options) {
   reader->read("wave_seconds", &options->seconds, 1.0, 600.0);
   reader->read("wave_image_share", &options->image_share, 0.0, 1.0);
@@ -169,7 +159,8 @@ Parameters readParameters(ParameterReader* reader) {
   readCapture(reader, &calibration.capture);
   reader->read("hands_free", &parameters.hands_free);
   reader->read("sounds", &parameters.sounds);
-  readHandsFree(reader, &calibration.hands_free);
+  reader->read("hands_free_hold", &calibration.hands_free.hold, 0.5, 60.0);
+  reader->read("hands_free_distance", &calibration.hands_free.distance, 5.0, 10000.0);
   calibration.hands_free.minimum_cameras = calibration.capture.minimum_cameras;
   parameters.button_remote = reader->optional<std::string>("button_remote", "");
   if (std::count(parameters.cameras.begin(), parameters.cameras.end(), parameters.button_remote) >
@@ -177,7 +168,8 @@ Parameters readParameters(ParameterReader* reader) {
     throw ParameterError(reader->nameOf("button_remote") + " is " + parameters.button_remote +
                          ", which is one of the cameras, and pressing moves it: name a spare "
                          "remote that is held in the hand");
-  readMasks(reader, &parameters.masks);
+  reader->read("mask_share", &parameters.masks.share, 0.001, 1.0);
+  reader->read("mask_margin", &parameters.masks.margin, 0.0, 1000.0);
   readCoverage(reader, &calibration.coverage);
   readSolve(reader, &parameters.solve.square);
   readWave(reader, &parameters.solve.wave);

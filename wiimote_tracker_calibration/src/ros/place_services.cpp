@@ -36,10 +36,6 @@ constexpr double kMostError = 5.0;
 // No correction moves a place farther, and rooms that are joined are nearer [m].
 constexpr double kLargestRoom = 50.0;
 
-std::string metres(const Eigen::Vector3d& point) {
-  return format("(%.3f, %.3f, %.3f) m", point.x(), point.y(), point.z());
-}
-
 /// How far the measured place is from the one that was typed.
 std::string distanceText(const Eigen::Vector3d& measured, const Eigen::Vector3d& known) {
   const double distance = (measured - known).norm();
@@ -133,18 +129,19 @@ class PlaceServices {
     Reply reply = context_.answer(&lock, [&] {
       square::KnownPlace known;
       known.position = vectorOf(request.known);
-      return measure(known, request.duration, &lock,
-                     [&](const auto& place, const auto& rig, const auto&) {
-                       if (!place.rays_agree)
-                         throw Refusal(place::checkPlace(place, known.position, 0.0).message);
-                       context_.requireSameRig(rig.id(), lock);
-                       // Without the present correction: the one that is fitted will replace it.
-                       places.add({place.position, known.position});
-                       response->measured = pointOf(place.position);
-                       return Reply{true, "place " + std::to_string(places.places().size()) +
-                                              " measured at " + metres(place.position) +
-                                              distanceText(place.position, known.position)};
-                     });
+      return measure(
+          known, request.duration, &lock, [&](const auto& place, const auto& rig, const auto&) {
+            if (!place.rays_agree)
+              throw Refusal(place::checkPlace(place, known.position, 0.0).message);
+            context_.requireSameRig(rig.id(), lock);
+            // Without the present correction: the one that is fitted will replace it.
+            places.add({place.position, known.position});
+            response->measured = pointOf(place.position);
+            return Reply{
+                true, format("place %zu measured at (%.3f, %.3f, %.3f) m", places.places().size(),
+                             place.position.x(), place.position.y(), place.position.z()) +
+                          distanceText(place.position, known.position)};
+          });
     });
     response->places = static_cast<std::uint32_t>(places.places().size());
     reply.message += dropped;

@@ -25,11 +25,6 @@ std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
 }
 
-/// <camera>.yaml in the folder of the rig file.
-std::string cameraFile(const std::string& rig_file, const std::string& camera) {
-  return beside(rig_file, geometry::withoutSlashes(camera) + ".yaml");
-}
-
 /// @returns why the driver does not know its lens now; empty when it does.
 std::string callDriver(const std::string& name,
                        const std::string& service,
@@ -56,7 +51,7 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
   std::vector<std::string> warnings;
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
-    const std::string file = cameraFile(path, camera.name);
+    const std::string file = beside(path, geometry::withoutSlashes(camera.name) + ".yaml");
     const bool is_for_rigs = file == beside(path, kRigFile);
     if (is_for_rigs || file == beside(path, kSamplesFile)) {
       warnings.push_back(file + (is_for_rigs ? " is for rigs" : " is for samples") +

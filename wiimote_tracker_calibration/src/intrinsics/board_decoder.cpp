@@ -136,7 +136,6 @@ double bestPhase(const std::vector<Light>& lights, double start) {
   return best;
 }
 
-/// Share of the spots that belong to LEDs.
 double shareOfLeds(const std::vector<Light>& lights, const Leds& leds) {
   std::size_t spots = 0;
   for (const Light& light : lights)

@@ -90,7 +90,6 @@ std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
   design.bottomRightCorner(second, 2) = lineDesign(after, middle);
   const Eigen::MatrixX4d weighed = covarianceOf(all, middle, model).ldlt().solve(design);
   const Eigen::Matrix4d lines = (design.transpose() * weighed).inverse();
-  // The later line less the earlier one.
   Eigen::Matrix<double, 2, 4> later_less_earlier;
   later_less_earlier << -Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity();
   const Eigen::Matrix2d covariance = later_less_earlier * lines * later_less_earlier.transpose();

@@ -39,7 +39,6 @@ struct Observation {
   Eigen::MatrixXd covariance;
 };
 
-/// The length between two corners.
 Observation lengthBetween(const square::Corners& corners,
                           std::size_t from,
                           std::size_t to,

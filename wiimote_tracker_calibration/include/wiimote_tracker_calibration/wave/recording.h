@@ -69,7 +69,6 @@ struct Recording {
     return {start, end};
   }
 
-  /// Of all cameras.
   std::vector<square::CameraSightings> sightings() const {
     std::vector<square::CameraSightings> result;
     for (const CameraRecording& camera : cameras)

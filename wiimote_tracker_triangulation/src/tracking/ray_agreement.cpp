@@ -19,11 +19,6 @@ constexpr double kCorrelationTime = 0.2;  // of distances [s]
 constexpr double kLeast = -20.0;
 constexpr double kMost = 10.0;
 
-double evidenceOf(double distance, double stddev) {
-  const double normalized = distance / stddev;
-  return std::log(kRange / (stddev * std::sqrt(2.0 * M_PI))) - 0.5 * normalized * normalized;
-}
-
 }  // namespace
 
 void RayOffset::add(const RayOffset& spot) {
@@ -42,25 +37,17 @@ double distanceOf(const RayOffset& a, const RayOffset& b) {
   return distance / std::hypot(a.scale, b.scale);
 }
 
-void RayAgreement::weigh(const RayOffset& a, const RayOffset& b, double stddev, double time) {
-  latest_ = evidenceOf(distanceOf(a, b), stddev);
-  add(latest_, time);
-}
-
-void RayAgreement::support(double stddev, double time) {
-  latest_ = evidenceOf(0.0, stddev);
-  add(latest_, time);
+void RayAgreement::weigh(double distance, double stddev, double time) {
+  const double normalized = distance / stddev;
+  latest_ = std::log(kRange / (stddev * std::sqrt(2.0 * M_PI))) - 0.5 * normalized * normalized;
+  const double elapsed = std::max(time - time_, 0.0);
+  log_odds_ = std::clamp(log_odds_ + latest_ * elapsed / kCorrelationTime, kLeast, kMost);
+  time_ = time;
 }
 
 void RayAgreement::reacquire() {
   constexpr double kReacquired = 3.0;  // 20 to 1
   log_odds_ = std::max(log_odds_, kReacquired);
-}
-
-void RayAgreement::add(double evidence, double time) {
-  const double elapsed = std::max(time - time_, 0.0);
-  log_odds_ = std::clamp(log_odds_ + evidence * elapsed / kCorrelationTime, kLeast, kMost);
-  time_ = time;
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -29,11 +29,9 @@ double distanceOf(const RayOffset& a, const RayOffset& b);
 class RayAgreement {
  public:
   /// Adds the evidence of two rays since the last call. @param time of this image [s]
-  /// @param stddev of the distance of an LED's rays [px], see distanceOf
-  void weigh(const RayOffset& a, const RayOffset& b, double stddev, double time);
-
-  /// A third camera sees it too.
-  void support(double stddev, double time);
+  /// @param distance of the rays, see distanceOf; 0 where a third camera sees the LED too [px]
+  /// @param stddev of that of an LED's rays [px]
+  void weigh(double distance, double stddev, double time);
 
   /// No two cameras see it.
   void wait(double time) { time_ = time; }
@@ -45,8 +43,6 @@ class RayAgreement {
   bool areNowOne() const { return latest_ >= 0.0; }
 
  private:
-  void add(double evidence, double time);
-
   double log_odds_ = -9.0;  // of a new track: about 0.5 s of agreement
   double latest_ = -1.0;    // evidence of a time constant
   double time_ = std::numeric_limits<double>::infinity();

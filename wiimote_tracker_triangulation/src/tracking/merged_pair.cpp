@@ -17,15 +17,15 @@ constexpr double kImageInterval = 0.02;
 
 MergedPair::MergedPair(std::uint32_t a, std::uint32_t b, const Filters& before)
     : ids_{a, b}, opened_at_(before[0].time()), last_separate_(opened_at_) {
-  hypotheses_[0] = Hypothesis{before, 0.0};
+  hypotheses_.push_back({before, 0.0});
 }
 
 std::optional<MergedPair::SpotIndices> MergedPair::update(const View& view, double gate) {
   if (view.spot_count < 2)
     return std::nullopt;
   Predictions predictions;
-  for (std::size_t i = 0; i < hypothesis_count_; ++i)
-    predictions[i] = predict(view, gate, &*hypotheses_[i]);
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i)
+    predictions[i] = predict(view, gate, &hypotheses_[i]);
   const std::optional<SpotIndices> spots = likeliestSpots(predictions, view.spot_count);
   if (!spots)
     return std::nullopt;
@@ -62,13 +62,13 @@ std::optional<MergedPair::SpotIndices> MergedPair::likeliestSpots(const Predicti
                                                                   std::size_t spot_count) const {
   std::optional<SpotIndices> result;
   double greatest = -std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < hypothesis_count_; ++i) {
+  for (std::size_t i = 0; i < hypotheses_.size(); ++i) {
     const Prediction& prediction = predictions[i];
     for (std::size_t a = 0; a < spot_count; ++a) {
       for (std::size_t b = 0; b < spot_count; ++b) {
         if (a == b || !prediction.within_gate[0][a] || !prediction.within_gate[1][b])
           continue;
-        const double sum = hypotheses_[i]->log_likelihood + prediction.log_likelihoods[0][a] +
+        const double sum = hypotheses_[i].log_likelihood + prediction.log_likelihoods[0][a] +
                            prediction.log_likelihoods[1][b];
         if (sum > greatest) {
           greatest = sum;
@@ -90,34 +90,30 @@ MergedPair::SpotIndices MergedPair::branch(const Predictions& predictions,
     SpotIndices spots;
     double log_likelihood;
   };
-  std::array<Branch, 2 * kMaximumHypotheses> branches;
-  std::size_t count = 0;
-  for (std::size_t parent = 0; parent < hypothesis_count_; ++parent) {
+  boost::container::static_vector<Branch, 2 * kMaximumHypotheses> branches;
+  for (std::size_t parent = 0; parent < hypotheses_.size(); ++parent) {
     const auto& likelihoods = predictions[parent].log_likelihoods;
     for (const SpotIndices& assigned : {spots, SpotIndices{spots[1], spots[0]}})
-      branches[count++] = {parent, assigned,
-                           hypotheses_[parent]->log_likelihood + likelihoods[0][assigned[0]] +
-                               likelihoods[1][assigned[1]]};
+      branches.push_back({parent, assigned,
+                          hypotheses_[parent].log_likelihood + likelihoods[0][assigned[0]] +
+                              likelihoods[1][assigned[1]]});
   }
-  const std::size_t most = std::min(count, kMaximumHypotheses);
+  const std::size_t most = std::min(branches.size(), kMaximumHypotheses);
   std::partial_sort(
-      branches.begin(), branches.begin() + most, branches.begin() + count,
+      branches.begin(), branches.begin() + most, branches.end(),
       [](const Branch& a, const Branch& b) { return a.log_likelihood > b.log_likelihood; });
   const double greatest = branches[0].log_likelihood;
-  const std::array<std::optional<Hypothesis>, kMaximumHypotheses> parents = hypotheses_;
-  hypothesis_count_ = 0;
-  for (std::optional<Hypothesis>& hypothesis : hypotheses_) {
-    const Branch& branch = branches[hypothesis_count_];
-    if (hypothesis_count_ == most || branch.log_likelihood < greatest - kNegligible) {
-      hypothesis.reset();
-      continue;
-    }
-    ++hypothesis_count_;
-    hypothesis = parents[branch.parent];
-    hypothesis->log_likelihood = branch.log_likelihood - greatest;
+  const auto parents = hypotheses_;
+  hypotheses_.clear();
+  for (std::size_t i = 0; i < most; ++i) {
+    const Branch& branch = branches[i];
+    if (branch.log_likelihood < greatest - kNegligible)
+      break;
+    Hypothesis& hypothesis = hypotheses_.emplace_back(
+        Hypothesis{parents[branch.parent].filters, branch.log_likelihood - greatest});
     for (std::size_t led = 0; led < 2; ++led) {
       if (const auto& predicted = predictions[branch.parent].pixels[led])
-        hypothesis->filters[led].update(*view.camera, *predicted, view.pixels[branch.spots[led]]);
+        hypothesis.filters[led].update(*view.camera, *predicted, view.pixels[branch.spots[led]]);
     }
   }
   return branches[0].spots;
@@ -133,7 +129,7 @@ bool MergedPair::isDecided(double time, double doubt_time) const {
   // No view adds evidence while the spots are merged again: count from the last one that did.
   const bool is_timed_out = time - separated_at_ > doubt_time &&
                             (areSeparate(time) || time - last_separate_ > doubt_time);
-  return hypothesis_count_ == 1 || is_timed_out;
+  return hypotheses_.size() == 1 || is_timed_out;
 }
 
 }  // namespace wiimote_tracker::tracking

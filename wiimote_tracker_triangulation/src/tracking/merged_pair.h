@@ -6,6 +6,7 @@
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <cstddef>
@@ -49,7 +50,7 @@ class MergedPair {
   std::optional<SpotIndices> update(const View& view, double gate);
 
   /// The filters of the most likely hypothesis, at the last view that updated them.
-  const Filters& likeliest() const { return hypotheses_[0]->filters; }
+  const Filters& likeliest() const { return hypotheses_.front().filters; }
 
   /// Whether some view showed two spots just before a time [s].
   bool areSeparate(double time) const;
@@ -83,8 +84,7 @@ class MergedPair {
   double last_separate_;        // last view with two spots [s]; opened_at_ before the first
   bool has_separated_ = false;  // there was such a view
   double separated_at_ = 0.0;   // when the spots last separated [s]
-  std::size_t hypothesis_count_ = 1;
-  std::array<std::optional<Hypothesis>, kMaximumHypotheses> hypotheses_;  // most likely first
+  boost::container::static_vector<Hypothesis, kMaximumHypotheses> hypotheses_;  // likeliest first
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -17,9 +17,6 @@
 namespace wiimote_tracker::measurements {
 namespace {
 
-using wiimote_tracker_msgs::TrackedPoint;
-using wiimote_tracker_msgs::TrackedPointArray;
-
 const char* const kReadme =
     "One row per LED and time. time [s since 1970]; stamp, the same exactly [ns since 1970]; "
     "triggered: interpolated for an external trigger; id of the track; label_confidence: "
@@ -94,23 +91,13 @@ class MatlabWriter : public Writer {
   explicit MatlabWriter(const std::string& path) : path_(path) {
     createPart(path_);
     const auto stamp = [](const Measurement& m) { return nanosecondsOf(m.message.header.stamp); };
-    const auto led = [](auto field) {
-      return [=](const Measurement& m) -> const auto& {
-        return m.led.*field;
-      };
-    };
-    const auto message = [](auto field) {
-      return [=](const Measurement& m) -> const auto& {
-        return m.message.*field;
-      };
-    };
     addColumn<double>("time", [=](auto& m) { return 1e-9 * static_cast<double>(stamp(m)); });
     addColumn<std::int64_t>("stamp", stamp);
     addColumn<std::uint8_t>(
         "triggered", [](auto& m) { return m.triggered; }, MAT_F_LOGICAL);
-    addColumn<std::uint32_t>("id", led(&TrackedPoint::id));
-    addWords("label", led(&TrackedPoint::label));
-    addColumn<double>("label_confidence", led(&TrackedPoint::label_confidence));
+    addColumn<std::uint32_t>("id", [](auto& m) { return m.led.id; });
+    addWords("label", [](auto& m) { return m.led.label; });
+    addColumn<double>("label_confidence", [](auto& m) { return m.led.label_confidence; });
     addColumn<std::int64_t>("label_since",
                             [](auto& m) { return nanosecondsOf(m.led.label_since); });
     addWords("state", [](auto& m) { return wordOf(m.led.state); });
@@ -120,17 +107,17 @@ class MatlabWriter : public Writer {
                 [](auto& m) { return matrixOf<3>(m.led.position_covariance); });
     addMatrices("velocity_covariance",
                 [](auto& m) { return matrixOf<3>(m.led.velocity_covariance); });
-    addColumn<std::uint32_t>("rays_used", led(&TrackedPoint::rays_used));
-    addColumn<std::uint32_t>("rays_possible", led(&TrackedPoint::rays_possible));
-    addColumn<double>("residual", led(&TrackedPoint::residual));
+    addColumn<std::uint32_t>("rays_used", [](auto& m) { return m.led.rays_used; });
+    addColumn<std::uint32_t>("rays_possible", [](auto& m) { return m.led.rays_possible; });
+    addColumn<double>("residual", [](auto& m) { return m.led.residual; });
     addColumn<std::int64_t>("last_observed",
                             [](auto& m) { return nanosecondsOf(m.led.last_observed); });
-    addColumn<double>("age", led(&TrackedPoint::age));
+    addColumn<double>("age", [](auto& m) { return m.led.age; });
     addColumn<std::uint8_t>(
         "remapped", [](auto& m) { return m.led.remapped != 0; }, MAT_F_LOGICAL);
     addWords("frame", [](auto& m) { return m.message.header.frame_id; });
-    addWords("rig_id", message(&TrackedPointArray::rig_id));
-    addWords("method", message(&TrackedPointArray::method));
+    addWords("rig_id", [](auto& m) { return m.message.rig_id; });
+    addWords("method", [](auto& m) { return m.message.method; });
   }
 
   void add(const Measurement& measurement) override {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -16,23 +17,11 @@ using wiimote_tracker_msgs::ZoneEvent;
 
 constexpr double kCountWindow = 2.0;  // [s]
 
-std::string stateOf(const TrackedPoint& led) {
-  switch (led.state) {
-    case TrackedPoint::TENTATIVE:
-      return "tentative";
-    case TrackedPoint::TRACKED:
-      return "tracked";
-    case TrackedPoint::PREDICTED:
-      return "predicted";
-    default:
-      return "lost";
-  }
-}
-
-std::string stateOf(const TrackedBody& body) {
-  return body.state == TrackedBody::TRACKED     ? "tracked"
-         : body.state == TrackedBody::PREDICTED ? "predicted"
-                                                : "lost";
+/// Of an LED or a body that is not lost.
+std::string stateOf(std::uint8_t state) {
+  return state == TrackedPoint::TRACKED     ? "tracked"
+         : state == TrackedPoint::PREDICTED ? "predicted"
+                                            : "tentative";
 }
 
 double length(double x, double y, double z) {
@@ -86,7 +75,7 @@ std::vector<TracksView::Row> TracksView::leds(double now) const {
       continue;
     const auto& p = led.position;
     const auto& c = led.position_covariance;
-    rows.push_back({led.label, stateOf(led), p.x, p.y, p.z, std::sqrt(c[0] + c[4] + c[8]),
+    rows.push_back({led.label, stateOf(led.state), p.x, p.y, p.z, std::sqrt(c[0] + c[4] + c[8]),
                     length(led.velocity.x, led.velocity.y, led.velocity.z),
                     std::to_string(led.rays_used) + " of " + std::to_string(led.rays_possible)});
   }
@@ -106,7 +95,7 @@ std::vector<TracksView::Row> TracksView::bodies(double now) const {
     const auto& v = body.twist.twist.linear;
     const auto seen = std::count_if(body.leds.begin(), body.leds.end(),
                                     [](const BodyLed& led) { return !led.cameras.empty(); });
-    rows.push_back({body.name, stateOf(body), p.x, p.y, p.z, std::sqrt(c[0] + c[7] + c[14]),
+    rows.push_back({body.name, stateOf(body.state), p.x, p.y, p.z, std::sqrt(c[0] + c[7] + c[14]),
                     length(v.x, v.y, v.z),
                     std::to_string(seen) + " of " + std::to_string(body.leds.size())});
   }

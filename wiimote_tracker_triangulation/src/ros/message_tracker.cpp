@@ -298,9 +298,7 @@ void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {
 }
 
 void MessageTracker::takeTrigger(const std_msgs::Header& trigger) {
-  triggers_[next_trigger_] = trigger;
-  trigger_.ask(trigger.stamp.toSec(), next_trigger_);
-  ++next_trigger_;
+  trigger_.ask(trigger.stamp.toSec(), trigger.stamp.toNSec());
   answerTriggers();
 }
 
@@ -312,19 +310,19 @@ void MessageTracker::finish() {
 
 void MessageTracker::answerTriggers() {
   while (const events::TriggerAnswer* answer = trigger_.next()) {
-    const auto request = triggers_.find(answer->request);
+    ros::Time asked;  // to the nanosecond
+    asked.fromNSec(answer->request);
     if (answer->result == events::TriggerResult::kAnswered) {
       corrected_ = answer->snapshot;
       correction_.apply(&corrected_);
       TrackedPointArray message = messageOf(corrected_);
-      message.header.stamp = request->second.stamp;  // to the nanosecond
+      message.header.stamp = asked;
       sink_->onTriggeredPoints(message);
     } else {
       std::ostringstream stamp;
-      stamp << request->second.stamp;
+      stamp << asked;
       refusals_.add(answer->result, stamp.str());
     }
-    triggers_.erase(request);
   }
   reportRefusals(newest_arrival_);
 }

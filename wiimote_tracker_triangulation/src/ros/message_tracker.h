@@ -152,10 +152,8 @@ class MessageTracker {
   identity::SnapshotSightings sightings_;
   LedLabels labels_;
   events::ZoneWatch zones_;
-  events::Trigger trigger_;
+  events::Trigger trigger_;  // requests: their times [ns]
   events::Refusals refusals_;
-  std::map<std::uint64_t, std_msgs::Header> triggers_;  // waiting, by number
-  std::uint64_t next_trigger_ = 0;
   Statistics statistics_;
   std::set<std::pair<std::size_t, ImageFault>> reported_faults_;  // of this rig's cameras
   std::set<std::pair<std::size_t, tracking::CameraFault::Kind>> reported_cameras_;  // the same

@@ -50,6 +50,30 @@ class Player {
     }
   }
 
+  /// Where a rig is given, with that one instead of the recorded ones.
+  /// @param before called with each message before it is played.
+  /// @throws BagError: the tracker got no rig or no image.
+  void play(const Recording& recording,
+            const std::optional<RigCalibration>& own_rig,
+            const std::function<void(const rosbag::MessageInstance&)>& before) {
+    if (own_rig)
+      play(*own_rig);
+    for (std::size_t i = 0; i < recording.size(); ++i) {
+      const rosbag::MessageInstance& message = recording[i];
+      if (own_rig && message.getTopic() == topics_("calibration/rig"))
+        continue;
+      before(message);
+      play(message);
+    }
+    finish();
+  }
+
+  const tracking::Counters& counters() const { return tracker_.counters(); }
+
+  /// Images of the first rig's cameras that came before it: they give no points.
+  std::size_t imagesBeforeRig() const { return before_rig_; }
+
+ private:
   /// Reports a rig that cannot be used; the previous one stays.
   void play(const RigCalibration& rig) {
     try {
@@ -91,7 +115,6 @@ class Player {
     }
   }
 
-  /// @throws BagError: the tracker got no rig or no image.
   void finish() {
     if (!tracker_.hasRig())
       throw BagError(refusal_.empty()
@@ -107,12 +130,6 @@ class Player {
     tracker_.finish();
   }
 
-  const tracking::Counters& counters() const { return tracker_.counters(); }
-
-  /// Images of the first rig's cameras that came before it: they give no points.
-  std::size_t imagesBeforeRig() const { return before_rig_; }
-
- private:
   MessageTracker tracker_;
   Topics topics_;
   MessageSink* sink_;
@@ -168,32 +185,6 @@ void leaveOutEarlierResults(const Recording& recording,
   output->leaveOut(labels, bodies);
 }
 
-struct Played {
-  tracking::Counters counters;
-  std::size_t images_before_rig;
-};
-
-/// The tracker, where a rig is given with that one instead of the recorded ones.
-Played play(const Recording& recording,
-            const Topics& topics,
-            const TrackingParameters& parameters,
-            const std::optional<RigCalibration>& own_rig,
-            const std::function<void(const rosbag::MessageInstance&)>& before,
-            MessageSink* sink) {
-  Player player(parameters, topics, sink);
-  if (own_rig)
-    player.play(*own_rig);
-  for (std::size_t i = 0; i < recording.size(); ++i) {
-    const rosbag::MessageInstance& message = recording[i];
-    if (own_rig && message.getTopic() == topics("calibration/rig"))
-      continue;
-    before(message);
-    player.play(message);
-  }
-  player.finish();
-  return {player.counters(), player.imagesBeforeRig()};
-}
-
 /// @throws BagError: the outputs are not of the images' times.
 void checkForSmoothing(const TrackingParameters& parameters) {
   if (parameters.estimator.mode != tracking::Mode::kTracks)
@@ -204,7 +195,7 @@ void checkForSmoothing(const TrackingParameters& parameters) {
 
 void printSummary(const Recording& recording,
                   const Output& output,
-                  const Played& played,
+                  const Player& player,
                   double seconds) {
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   const auto images = static_cast<double>(recording.images());
@@ -214,11 +205,11 @@ void printSummary(const Recording& recording,
       recording.images(), images / seconds, count(output.points()), count(output.leds()),
       count(output.triggersAnswered()), count(output.zoneEvents()));
   std::printf("Images that were late: %llu, too late to be used: %llu, repeated: %llu.\n",
-              count(played.counters.late), count(played.counters.dropped),
-              count(played.counters.repeated));
-  if (played.images_before_rig > 0)
+              count(player.counters().late), count(player.counters().dropped),
+              count(player.counters().repeated));
+  if (player.imagesBeforeRig() > 0)
     std::printf("%zu images came before the first rig and gave no points: name a rig with --rig.\n",
-                played.images_before_rig);
+                player.imagesBeforeRig());
 }
 
 void run(const Arguments& arguments) {
@@ -254,8 +245,7 @@ void run(const Arguments& arguments) {
   if (arguments.smooth) {
     TrackingParameters all_images = parameters;
     all_images.estimator.tracks.output_interval = 0.0;
-    play(
-        recording, topics, all_images, own_rig, [](const auto&) {}, &smoothed);
+    Player(all_images, topics, &smoothed).play(recording, own_rig, [](const auto&) {});
     smoothed.smooth();
   }
   if (own_rig) {
@@ -267,10 +257,11 @@ void run(const Arguments& arguments) {
       output.copy(message);
     output.setTime(message.getTime());
   };
-  const Played played = play(recording, topics, parameters, own_rig, copy, &output);
+  Player player(parameters, topics, &output);
+  player.play(recording, own_rig, copy);
   output.finish();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-  printSummary(recording, output, played, duration.count());
+  printSummary(recording, output, player, duration.count());
 }
 
 }  // namespace

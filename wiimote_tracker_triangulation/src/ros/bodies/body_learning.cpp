@@ -11,6 +11,7 @@
 #include <cmath>
 #include <cstddef>
 #include <exception>
+#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -125,32 +126,30 @@ void BodyLearning::addPoints(const wiimote_tracker_msgs::TrackedPointArray& poin
   if (!is_collecting_)
     return;
   body::LedsInstant instant{points.header.stamp.toSec(), {}};
-  if (!instants_.empty() && instant.time < instants_.back().time) {
-    instants_.clear();
-    ++jumps_;
+  std::vector<body::LedsInstant>& instants = collected_.instants;
+  if (!instants.empty() && instant.time < instants.back().time) {
+    instants.clear();
+    ++collected_.jumps;
   }
   for (const TrackedPoint& point : points.points) {
     if (point.state != TrackedPoint::TRACKED)
       continue;
-    seen_labels_.insert(point.label);
+    collected_.seen_labels.insert(point.label);
     if (!labels_.empty() && labels_.count(point.label) == 0)
       continue;
     instant.leds.push_back({point.id, vectorOf(point.position), stddevOf(point)});
     if (codes_.count(point.label) > 0)
-      blinks_[point.id] = point.label;
+      collected_.blinks[point.id] = point.label;
   }
-  instants_.push_back(instant);
+  instants.push_back(instant);
   // Between two jumps lies a whole round of a bag that is played in a loop.
-  is_collecting_ = jumps_ < 2 && instant.time - instants_.front().time < duration_;
+  is_collecting_ = collected_.jumps < 2 && instant.time - instants.front().time < duration_;
   changed_.notify_all();
 }
 
 std::optional<std::vector<Constellation>> BodyLearning::change() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  if (!has_change_)
-    return std::nullopt;
-  has_change_ = false;
-  return tracked_;
+  return std::exchange(change_, std::nullopt);
 }
 
 bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& response) {
@@ -159,8 +158,7 @@ bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& r
     return true;
   track(without(request.name, bodies_));
   try {
-    collect(request);
-    learn(request, &response);
+    learn(request, collect(request), &response);
   } catch (const std::exception& e) {  // of any kind: the bodies are tracked again in the end
     response.message = e.what();
   }
@@ -194,22 +192,19 @@ std::string BodyLearning::refusal(const LearnBody::Request& request) {
   return "";
 }
 
-void BodyLearning::collect(const LearnBody::Request& request) {
+BodyLearning::Collected BodyLearning::collect(const LearnBody::Request& request) {
   std::unique_lock<std::mutex> lock(mutex_);
-  const bool was_tracked = tracked_.size() < bodies_.size();
+  const bool was_tracked = without(request.name, bodies_).size() < bodies_.size();
   duration_ = request.duration == 0.0 ? kDefaultDuration : request.duration;
   labels_ = {request.labels.begin(), request.labels.end()};
   const double until_free = was_tracked ? kUntilFree : 0.0;
   duration_ += until_free;
-  instants_.clear();
-  blinks_.clear();
-  seen_labels_.clear();
-  jumps_ = 0;
+  collected_ = {};
   is_collecting_ = true;
   while (is_collecting_ && !is_over_) {
-    const std::size_t count = instants_.size();
+    const std::size_t count = collected_.instants.size();
     const bool has_news = changed_.wait_for(lock, std::chrono::seconds(kSilence), [&] {
-      return is_over_ || !is_collecting_ || instants_.size() != count;
+      return is_over_ || !is_collecting_ || collected_.instants.size() != count;
     });
     if (!has_news) {
       is_collecting_ = false;
@@ -218,29 +213,24 @@ void BodyLearning::collect(const LearnBody::Request& request) {
   }
   if (is_over_)
     throw Error("the tracker was stopped");
-  if (jumps_ > 1)
+  if (collected_.jumps > 1)
     throw Error(
         "time jumped back twice before it was seen long enough, as where a bag is played in a "
         "loop: give a shorter duration, or play a longer bag");
-  const double begin = instants_.front().time + until_free;
-  instants_.erase(instants_.begin(),
-                  std::find_if(instants_.begin(), instants_.end(),
-                               [&](const auto& instant) { return instant.time >= begin; }));
+  Collected result = std::move(collected_);
+  const double begin = result.instants.front().time + until_free;
+  result.instants.erase(result.instants.begin(),
+                        std::find_if(result.instants.begin(), result.instants.end(),
+                                     [&](const auto& instant) { return instant.time >= begin; }));
+  return result;
 }
 
-void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response* response) {
-  std::vector<body::LedsInstant> instants;
-  std::map<std::uint32_t, std::string> blinks;
-  std::set<std::string> seen_labels;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    instants.swap(instants_);
-    blinks.swap(blinks_);
-    seen_labels.swap(seen_labels_);
-  }
-  const std::string unseen = describeUnseen(request.labels, seen_labels);
-  body::LearnedConstellation learned = learnFrom(request.name, instants, unseen);
-  learned.constellation.labels = labelsOf(learned.ids, blinks);
+void BodyLearning::learn(const LearnBody::Request& request,
+                         const Collected& collected,
+                         LearnBody::Response* response) {
+  const std::string unseen = describeUnseen(request.labels, collected.seen_labels);
+  body::LearnedConstellation learned = learnFrom(request.name, collected.instants, unseen);
+  learned.constellation.labels = labelsOf(learned.ids, collected.blinks);
   learned.constellation.check();
   const body::Symmetry symmetry = body::nearestSymmetry(learned.constellation);
   response->stddev = learned.stddev;
@@ -274,8 +264,7 @@ void BodyLearning::learn(const LearnBody::Request& request, LearnBody::Response*
 /// Gives the bodies to the tracker's thread.
 void BodyLearning::track(const std::vector<Constellation>& bodies) {
   const std::lock_guard<std::mutex> lock(mutex_);
-  tracked_ = bodies;
-  has_change_ = true;
+  change_ = bodies;
 }
 
 }  // namespace wiimote_tracker

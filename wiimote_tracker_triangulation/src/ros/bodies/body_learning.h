@@ -49,10 +49,20 @@ class BodyLearning {
  private:
   using LearnBody = wiimote_tracker_msgs::LearnBody;
 
+  /// What was seen of the LEDs to learn from.
+  struct Collected {
+    std::vector<body::LedsInstant> instants;
+    std::map<std::uint32_t, std::string> blinks;  // labels of LEDs that blink, by id
+    std::set<std::string> seen_labels;            // of all tracked LEDs
+    int jumps = 0;                                // how often time jumped back
+  };
+
   bool onRequest(LearnBody::Request& request, LearnBody::Response& response);
   std::string refusal(const LearnBody::Request& request);
-  void collect(const LearnBody::Request& request);
-  void learn(const LearnBody::Request& request, LearnBody::Response* response);
+  Collected collect(const LearnBody::Request& request);
+  void learn(const LearnBody::Request& request,
+             const Collected& collected,
+             LearnBody::Response* response);
   void track(const std::vector<body::Constellation>& bodies);
 
   std::string file_;
@@ -63,16 +73,12 @@ class BodyLearning {
   std::mutex mutex_;  // protects all below
   std::condition_variable changed_;
   bool is_collecting_ = false;
-  bool has_change_ = false;
   bool is_over_ = false;
-  std::vector<std::string> frames_;              // of the rig
-  double duration_ = 0.0;                        // [s]
-  int jumps_ = 0;                                // how often time jumped back meanwhile
-  std::set<std::string> labels_;                 // empty: all
-  std::set<std::string> seen_labels_;            // of all tracked LEDs meanwhile
-  std::vector<body::LedsInstant> instants_;      // collected
-  std::map<std::uint32_t, std::string> blinks_;  // labels of LEDs that blink, by id
-  std::vector<body::Constellation> tracked_;
+  std::vector<std::string> frames_;  // of the rig
+  double duration_ = 0.0;            // [s]
+  std::set<std::string> labels_;     // empty: all
+  Collected collected_;
+  std::optional<std::vector<body::Constellation>> change_;  // see change()
 
   ros::CallbackQueue queue_;
   ros::ServiceServer server_;

@@ -22,9 +22,9 @@ class NextStep : public testing::Test {
     guide_.onStatus(status_, now_);
     return guide_.advice(now_);
   }
-  void answered(Command command, const std::string& text = "done") {
-    guide_.onRequest(command);
-    guide_.onAnswer(command, text);
+  void answered(const std::string& service, const std::string& text = "done") {
+    guide_.onRequest(service);
+    guide_.onAnswer(service, text);
   }
 
   Guide guide_;
@@ -51,7 +51,7 @@ TEST_F(NextStep, IsWhatTheNodeSays) {
   EXPECT_EQ(advice.title, "Corner 3");
   EXPECT_EQ(advice.sentence, "Put the LED on corner 3 again.");
   EXPECT_EQ(advice.button, "Capture corner 3 again");
-  EXPECT_EQ(advice.request.command, Command::kCapture);
+  EXPECT_EQ(advice.request.service, "capture_corner");
   EXPECT_EQ(advice.request.corner, 2);
 }
 
@@ -84,9 +84,9 @@ TEST_F(NextStep, SpotsOfACameraAreNoProblemOnceThereIsARig) {
 TEST_F(NextStep, NothingCanBePressedUntilAnAnswerAndItsEffectAreKnown) {
   at(CalibrationStatus::IDLE);
   EXPECT_FALSE(guide_.isWaiting());
-  guide_.onRequest(Command::kMasks);
+  guide_.onRequest("learn_masks");
   EXPECT_TRUE(guide_.isWaiting());
-  guide_.onAnswer(Command::kMasks, "done");
+  guide_.onAnswer("learn_masks", "done");
   EXPECT_TRUE(guide_.isWaiting());
   at(CalibrationStatus::IDLE);
   EXPECT_FALSE(guide_.isWaiting());
@@ -95,7 +95,7 @@ TEST_F(NextStep, NothingCanBePressedUntilAnAnswerAndItsEffectAreKnown) {
 TEST_F(NextStep, ARefusalStaysUntilTheNodeSaysSomethingNew) {
   status_.message = "ready";
   at(CalibrationStatus::READY);
-  answered(Command::kCapture, "refused: the LED is hidden");
+  answered("capture_corner", "refused: the LED is hidden");
   at(CalibrationStatus::READY);
   EXPECT_EQ(guide_.answer(), "refused: the LED is hidden");
   status_.message = "corner 1 captured";
@@ -120,16 +120,16 @@ TEST_F(NextStep, ProgressIsThatOfTheCaptureOrOfTheNode) {
   EXPECT_EQ(guide_.progress(), 0.0);
   status_.progress = 0.25;
   at(CalibrationStatus::WAVING);
-  guide_.onRequest(Command::kSolve);
+  guide_.onRequest("solve");
   guide_.onProgress("", 0.75);
   EXPECT_EQ(guide_.progress(), 0.25);
-  guide_.onAnswer(Command::kSolve, "done");
-  guide_.onRequest(Command::kCapture);
+  guide_.onAnswer("solve", "done");
+  guide_.onRequest("capture_corner");
   EXPECT_EQ(guide_.progress(), 0.0);
   guide_.onProgress("1 of 2 samples", 0.5);
   EXPECT_EQ(guide_.progress(), 0.5);
   EXPECT_EQ(guide_.answer(), "1 of 2 samples");
-  guide_.onAnswer(Command::kCapture, "done");
+  guide_.onAnswer("capture_corner", "done");
   status_.progress = NAN;
   at(CalibrationStatus::READY);
   EXPECT_EQ(guide_.progress(), 0.0) << "not known";
@@ -137,11 +137,11 @@ TEST_F(NextStep, ProgressIsThatOfTheCaptureOrOfTheNode) {
 
 TEST_F(NextStep, WhatIsCancelledRunsUntilItsOwnAnswer) {
   at(CalibrationStatus::READY);
-  guide_.onRequest(Command::kSolve);
-  answered(Command::kCancel);
-  EXPECT_EQ(guide_.running(), Command::kSolve);
-  guide_.onAnswer(Command::kSolve, "cancelled");
-  EXPECT_EQ(guide_.running(), Command::kNone);
+  guide_.onRequest("solve");
+  answered("cancel");
+  EXPECT_EQ(guide_.running(), "solve");
+  guide_.onAnswer("solve", "cancelled");
+  EXPECT_EQ(guide_.running(), "");
   EXPECT_EQ(guide_.answer(), "cancelled");
 }
 

@@ -122,11 +122,11 @@ void CalibratePage::addAdvice() {
   advice->addWidget(answer_ = wrappedLabel("answer", this));
 }
 
-QPushButton* CalibratePage::addButton(const QString& words, Command command) {
+QPushButton* CalibratePage::addButton(const QString& words, const std::string& service) {
   auto* button = new QPushButton(words, this);
   button->setObjectName(words);
-  connect(button, &QPushButton::clicked, this, [this, command] { sendCommand(command); });
-  if (command != Command::kCancel)
+  connect(button, &QPushButton::clicked, this, [this, service] { sendFilled({service}); });
+  if (service != "cancel")
     buttons_.push_back(button);
   return button;
 }
@@ -166,17 +166,17 @@ void CalibratePage::addLengths(QVBoxLayout* layout) {
 
 void CalibratePage::addButtons(QVBoxLayout* layout) {
   auto* rows = new QGridLayout;
-  rows->addWidget(addButton("Start again", Command::kStart), 0, 0);
-  QPushButton* undo = addButton("Undo", Command::kUndo);
+  rows->addWidget(addButton("Start again", "start"), 0, 0);
+  QPushButton* undo = addButton("Undo", "undo");
   undo->setToolTip("drops the last place to solve with, else the wave, else the last corner");
   rows->addWidget(undo, 0, 1);
-  rows->addWidget(addButton("Solve now", Command::kSolve), 1, 0);
-  rows->addWidget(cancel_ = addButton("Stop", Command::kCancel), 1, 1);
+  rows->addWidget(addButton("Solve now", "solve"), 1, 0);
+  rows->addWidget(cancel_ = addButton("Stop", "cancel"), 1, 1);
   hands_free_ = new QCheckBox("Capture a corner when the LED is held still", this);
   hands_free_->setObjectName("hands_free");
   connect(hands_free_, &QCheckBox::clicked, this, [this](bool on) {
     Request request;
-    request.command = Command::kHandsFree;
+    request.service = "hands_free";
     request.on = on;
     send_(request);
   });
@@ -188,8 +188,8 @@ void CalibratePage::addFile(QVBoxLayout* layout) {
   auto* file = new QHBoxLayout;
   file->addWidget(path_ = new QLineEdit(this), 1);
   path_->setPlaceholderText("parameter rig_file");
-  file->addWidget(addButton("Save", Command::kSave));
-  file->addWidget(addButton("Load", Command::kLoad));
+  file->addWidget(addButton("Save", "save"));
+  file->addWidget(addButton("Load", "load"));
   layout->addLayout(file);
 }
 
@@ -209,8 +209,8 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
     row->setColumnStretch(i + 1, 1);
   }
   auto* buttons = new QHBoxLayout;
-  buttons->addWidget(addButton("Check the LED there", Command::kCheck));
-  buttons->addWidget(addButton("Take this place", Command::kMeasurePlace));
+  buttons->addWidget(addButton("Check the LED there", "check"));
+  buttons->addWidget(addButton("Take this place", "measure_place"));
   row->addLayout(buttons, 1, 0, 1, 4);
   layout->addLayout(row);
 }
@@ -230,21 +230,15 @@ void CalibratePage::addTape(QVBoxLayout* layout) {
   row->addWidget(taped_ = lengthBox("taped", "drop it", this), 1);
   taped_->setMaximum(M_SQRT2 * kLongestSide);
   taped_->setDecimals(4);
-  row->addWidget(addButton("Take length", Command::kMeasureLength));
+  row->addWidget(addButton("Take length", "measure_length"));
   layout->addLayout(row);
-}
-
-void CalibratePage::sendCommand(Command command) {
-  Request request;
-  request.command = command;
-  sendFilled(request);
 }
 
 /// Adds what was typed.
 void CalibratePage::sendFilled(Request request) {
   request.side = side();
-  request.without_square = request.command == Command::kStart && without_square_->isChecked();
-  if (request.command == Command::kStartWave || request.without_square)
+  request.without_square = request.service == "start" && without_square_->isChecked();
+  if (request.service == "start_wave" || request.without_square)
     request.wand_length = wandLength();
   request.path = path().toStdString();
   for (std::size_t i = 0; i < 3; ++i)
@@ -281,7 +275,7 @@ void CalibratePage::show(const Guide& guide, double now) {
   next_->setEnabled(is_free);
   for (QPushButton* button : buttons_)
     button->setEnabled(is_free && !guide.isBusy());
-  cancel_->setEnabled(is_there && (guide.isBusy() || guide.running() != Command::kNone));
+  cancel_->setEnabled(is_there && (guide.isBusy() || !guide.running().empty()));
   hands_free_->setEnabled(is_free);
   if (guide.status()) {
     const std::uint8_t step = guide.status()->step;

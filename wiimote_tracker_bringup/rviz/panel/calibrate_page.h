@@ -38,7 +38,7 @@ class CalibratePage : public QWidget {
   void restore(double side, double wand_length, const QString& path);
 
  private:
-  QPushButton* addButton(const QString& text, Command command);
+  QPushButton* addButton(const QString& text, const std::string& service);
   void addAdvice();
   void addTable(QVBoxLayout* layout);
   void addLengths(QVBoxLayout* layout);
@@ -46,7 +46,6 @@ class CalibratePage : public QWidget {
   void addFile(QVBoxLayout* layout);
   void addPlace(QVBoxLayout* layout);
   void addTape(QVBoxLayout* layout);
-  void sendCommand(Command command);
   void sendFilled(Request request);
   void showWords(const Guide& guide, const Advice& advice);
   void showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* verdict);

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <map>
+#include <set>
 
 namespace wiimote_tracker::panel {
 namespace {
 
-// By CalibrationStatus.next_request.
-const std::map<std::string, Command> kCommands = {
-    {"learn_masks", Command::kMasks},    {"check_connection", Command::kConnection},
-    {"start", Command::kStart},          {"capture_corner", Command::kCapture},
-    {"start_wave", Command::kStartWave}, {"stop_wave", Command::kStopWave},
-    {"solve", Command::kSolve},          {"save", Command::kSave}};
+// Values of CalibrationStatus.next_request; another one is of a newer node.
+const std::set<std::string> kServices = {
+    "learn_masks", "check_connection", "start", "capture_corner",
+    "start_wave",  "stop_wave",        "solve", "save"};
 
 }  // namespace
 
@@ -27,9 +25,9 @@ void Guide::onStatus(const Status& status, double now) {
   is_known_ = true;
 }
 
-void Guide::onRequest(Command command) {
-  if (command != Command::kCancel)  // What is cancelled still runs.
-    running_ = command;
+void Guide::onRequest(const std::string& service) {
+  if (service != "cancel")  // What is cancelled still runs.
+    running_ = service;
   answer_.clear();
   progress_text_.clear();
   progress_ = 0.0;
@@ -40,9 +38,9 @@ void Guide::onProgress(const std::string& text, double share) {
   progress_ = share;
 }
 
-void Guide::onAnswer(Command command, const std::string& text) {
-  if (command != Command::kCancel)
-    running_ = Command::kNone;
+void Guide::onAnswer(const std::string& service, const std::string& text) {
+  if (service != "cancel")
+    running_.clear();
   is_known_ = false;
   answer_ = text;
 }
@@ -50,15 +48,13 @@ void Guide::onAnswer(Command command, const std::string& text) {
 // --- What it means
 
 std::string Guide::answer() const {
-  if (running_ != Command::kNone)
+  if (!running_.empty())
     return progress_text_;
   return answer_.empty() && status_ ? status_->message : answer_;
 }
 
 double Guide::progress() const {
-  const double share = running_ == Command::kCapture ? progress_
-                       : status_                     ? status_->progress
-                                                     : 0.0;
+  const double share = running_ == "capture_corner" ? progress_ : status_ ? status_->progress : 0.0;
   return std::isfinite(share) ? std::clamp(share, 0.0, 1.0) : 0.0;
 }
 
@@ -105,12 +101,11 @@ Advice Guide::advice(double now) const {
             "",
             {}};
   Advice advice = {status_->next_title, status_->next_sentence, "", {}};
-  const auto command = kCommands.find(status_->next_request);
-  if (command == kCommands.end() || status_->next_label.empty())
+  if (kServices.count(status_->next_request) == 0 || status_->next_label.empty())
     return advice;
   advice.button = status_->next_label;
   advice.button[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(advice.button[0])));
-  advice.request.command = command->second;
+  advice.request.service = status_->next_request;
   advice.request.corner = status_->next_corner;
   return advice;
 }

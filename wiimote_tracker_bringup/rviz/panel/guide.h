@@ -11,35 +11,16 @@
 
 namespace wiimote_tracker::panel {
 
-/// What a person can ask of the calibration node.
-enum class Command {
-  kNone,
-  kMasks,
-  kConnection,
-  kStart,
-  kCapture,
-  kUndo,
-  kHandsFree,
-  kStartWave,
-  kStopWave,
-  kSolve,
-  kMeasureLength,
-  kMeasurePlace,
-  kSave,
-  kLoad,
-  kCheck,
-  kCancel
-};
-
-/// A command and its arguments; unused ones keep their defaults, which stand for the node's own.
+/// What a person asks of the calibration node. Unused arguments keep their defaults, which stand
+/// for the node's own.
 struct Request {
-  Command command = Command::kNone;
+  std::string service;                      ///< Or action, below calibration/.
   double side = 0.0;                        ///< Of the square [m].
-  bool without_square = false;              ///< For kStart: the wand, if any, is on the floor.
+  bool without_square = false;              ///< For start: the wand, if any, is on the floor.
   double wand_length = 0.0;                 ///< 0: one LED is waved [m].
   int corner = -1;                          ///< To take again, 0..3; -1: the next one.
-  bool on = false;                          ///< For kHandsFree.
-  std::string path;                         ///< To save to or to load from.
+  bool on = false;                          ///< For hands_free.
+  std::string path = {};                    ///< To save to or to load from.
   std::array<double, 3> known = {0, 0, 0};  ///< Where the LED is, in the world [m].
   std::array<int, 2> ends = {0, 0};         ///< Corners between which length was taped, 0..3.
   double length = 0.0;                      ///< 0: drops that between these corners [m].
@@ -61,9 +42,9 @@ class Guide {
 
   void onStatus(const wiimote_tracker_msgs::CalibrationStatus& status, double now);
   void onVerdict(const wiimote_tracker_msgs::CalibrationVerdict& verdict) { verdict_ = verdict; }
-  void onRequest(Command command);
+  void onRequest(const std::string& service);
   void onProgress(const std::string& text, double share);
-  void onAnswer(Command command, const std::string& text);
+  void onAnswer(const std::string& service, const std::string& text);
 
   Advice advice(double now) const;
 
@@ -76,9 +57,9 @@ class Guide {
 
   bool isSilent(double now) const { return !status_ || now - status_at_ > kSilentAfter; }
   /// Whether a request has not been answered, or its effect is not known yet.
-  bool isWaiting() const { return running_ != Command::kNone || !is_known_; }
-  Command running() const { return running_; }
-  /// Whether something goes on that kCancel would end.
+  bool isWaiting() const { return !running_.empty() || !is_known_; }
+  const std::string& running() const { return running_; }  ///< Service; empty: none.
+  /// Whether something goes on that cancel would end.
   bool isBusy() const;
   const std::optional<wiimote_tracker_msgs::CalibrationStatus>& status() const { return status_; }
   /// Of the current rig; null when there is none.
@@ -91,8 +72,7 @@ class Guide {
   std::optional<wiimote_tracker_msgs::CalibrationVerdict> verdict_;
   double status_at_ = 0.0;
   bool is_known_ = true;
-  Command running_ = Command::kNone;
-  std::string answer_, progress_text_;
+  std::string running_, answer_, progress_text_;
   double progress_ = 0.0;
 };
 

@@ -40,16 +40,15 @@ Requests::~Requests() {
 }
 
 void Requests::send(const Request& request) {
-  const Command running = guide_->running();
-  if (running == Command::kCapture && request.command == Command::kCancel) {
+  if (guide_->running() == "capture_corner" && request.service == "cancel") {
     is_called_off_ = true;
     return;
   }
-  if (running != Command::kNone && request.command != Command::kCancel)
+  if (!guide_->running().empty() && request.service != "cancel")
     return;
   is_called_off_ = false;
-  guide_->onRequest(request.command);
-  sent_.push_front({request.command, std::async(std::launch::async, [this, request] {
+  guide_->onRequest(request.service);
+  sent_.push_front({request.service, std::async(std::launch::async, [this, request] {
                       try {
                         return perform(request);
                       } catch (const std::exception& error) {
@@ -72,7 +71,7 @@ void Requests::poll() {
       ++sent;
       continue;
     }
-    guide_->onAnswer(sent->command, sent->answer.get());
+    guide_->onAnswer(sent->service, sent->answer.get());
     sent = sent_.erase(sent);
   }
 }
@@ -108,58 +107,46 @@ std::string Requests::call(const std::string& name,
 
 std::string Requests::perform(const Request& request) {
   namespace msgs = wiimote_tracker_msgs;
-  const auto fillPlace = [&](msgs::CheckPlace::Request& place) {
-    place.known.x = request.known[0];
-    place.known.y = request.known[1];
-    place.known.z = request.known[2];
-  };
+  const std::string& service = request.service;
   const auto fillPath = [&](auto& file) { file.path = request.path; };
-  switch (request.command) {
-    case Command::kMasks:
-      return call<msgs::LearnMasks>("learn_masks");
-    case Command::kConnection:
-      return call<msgs::CheckConnection>("check_connection");
-    case Command::kStart:
-      return call<msgs::StartCalibration>("start", [&](auto& start) {
-        start.side_x = request.side;
-        start.without_square = static_cast<std::uint8_t>(request.without_square);
-        start.wand_length = request.wand_length;
-      });
-    case Command::kCapture:
-      return captureCorner(request);
-    case Command::kUndo:
-      return call<std_srvs::Trigger>("undo");
-    case Command::kHandsFree:
-      return call<std_srvs::SetBool>("hands_free", [&](auto& hands_free) {
-        hands_free.data = static_cast<std::uint8_t>(request.on);
-      });
-    case Command::kStartWave:
-      return call<msgs::StartWave>("start_wave",
-                                   [&](auto& wave) { wave.wand_length = request.wand_length; });
-    case Command::kStopWave:
-      return call<std_srvs::Trigger>("stop_wave");
-    case Command::kSolve:
-      return call<msgs::SolveCalibration>("solve");
-    case Command::kMeasurePlace:
-      return call<msgs::CheckPlace>("measure_place", fillPlace);
-    case Command::kMeasureLength:
-      return call<msgs::MeasureLength>("measure_length", [&](auto& taped) {
-        taped.from_corner = static_cast<std::uint32_t>(request.ends[0]);
-        taped.to_corner = static_cast<std::uint32_t>(request.ends[1]);
-        taped.length = request.length;
-      });
-    case Command::kSave:
-      return call<msgs::SaveRig>("save", fillPath);
-    case Command::kLoad:
-      return call<msgs::LoadRig>("load", fillPath);
-    case Command::kCheck:
-      return call<msgs::CheckPlace>("check", fillPlace);
-    case Command::kCancel:
-      return call<std_srvs::Trigger>("cancel");
-    case Command::kNone:
-      break;
-  }
-  return "";
+  if (service == "learn_masks")
+    return call<msgs::LearnMasks>(service);
+  if (service == "check_connection")
+    return call<msgs::CheckConnection>(service);
+  if (service == "start")
+    return call<msgs::StartCalibration>(service, [&](auto& start) {
+      start.side_x = request.side;
+      start.without_square = static_cast<std::uint8_t>(request.without_square);
+      start.wand_length = request.wand_length;
+    });
+  if (service == "capture_corner")
+    return captureCorner(request);
+  if (service == "hands_free")
+    return call<std_srvs::SetBool>(service, [&](auto& hands_free) {
+      hands_free.data = static_cast<std::uint8_t>(request.on);
+    });
+  if (service == "start_wave")
+    return call<msgs::StartWave>(service,
+                                 [&](auto& wave) { wave.wand_length = request.wand_length; });
+  if (service == "solve")
+    return call<msgs::SolveCalibration>(service);
+  if (service == "measure_length")
+    return call<msgs::MeasureLength>(service, [&](auto& taped) {
+      taped.from_corner = static_cast<std::uint32_t>(request.ends[0]);
+      taped.to_corner = static_cast<std::uint32_t>(request.ends[1]);
+      taped.length = request.length;
+    });
+  if (service == "check" || service == "measure_place")
+    return call<msgs::CheckPlace>(service, [&](auto& place) {
+      place.known.x = request.known[0];
+      place.known.y = request.known[1];
+      place.known.z = request.known[2];
+    });
+  if (service == "save")
+    return call<msgs::SaveRig>(service, fillPath);
+  if (service == "load")
+    return call<msgs::LoadRig>(service, fillPath);
+  return call<std_srvs::Trigger>(service);  // undo, stop_wave, cancel
 }
 
 std::string Requests::captureCorner(const Request& request) {

@@ -25,13 +25,13 @@ class Requests {
   Requests(const Requests&) = delete;
   Requests& operator=(const Requests&) = delete;
 
-  /// One at a time; while one runs, only kCancel is accepted.
+  /// One at a time; while one runs, only cancel is accepted.
   void send(const Request& request);
   void poll();
 
  private:
   struct Sent {
-    Command command;
+    std::string service;
     std::future<std::string> answer;
   };
   struct Progress {

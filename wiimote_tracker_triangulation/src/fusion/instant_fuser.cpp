@@ -11,7 +11,6 @@
 
 namespace wiimote_tracker::fusion {
 
-using tracking::CameraView;
 using tracking::Snapshot;
 using tracking::SpotUse;
 using tracking::TrackedLed;
@@ -49,7 +48,6 @@ void InstantFuser::setRig(const geometry::Rig& rig) {
   parts_->synchronizer.setRig(rig);
   parts_->locator = std::make_unique<Locator>(rig, parts_->options);
   parts_->uncertainty.emplace(rig);
-  parts_->snapshot.views.assign(rig.cameras.size(), CameraView());
 }
 
 void InstantFuser::add(std::size_t camera, const tracking::CameraImage& image) {
@@ -72,17 +70,7 @@ void InstantFuser::Parts::report() {
   snapshot.time = synchronizer.time();
   snapshot.latest_arrival = synchronizer.latestArrival();
   snapshot.skew = synchronizer.skew();
-  for (std::size_t v = 0; v < cameras.size(); ++v) {
-    const InstantView& view = synchronizer.views()[v];
-    CameraView& reported = snapshot.views[v];
-    reported.time = view.exposure;
-    reported.full = view.is_full;
-    reported.spots.clear();
-    for (const Eigen::Vector2d& pixel : view.spots)
-      reported.spots.push_back({pixel, SpotUse::kUnassigned, 0});
-    for (const Eigen::Vector2d& pixel : view.masked)
-      reported.spots.push_back({pixel, SpotUse::kMasked, 0});
-  }
+  snapshot.views.assign(synchronizer.views().begin(), synchronizer.views().end());
   snapshot.leds.clear();
   for (const LedMemory::Led& led : memory.leds()) {
     if (led.point != LedMemory::kNone || led.state == TrackState::kLost)

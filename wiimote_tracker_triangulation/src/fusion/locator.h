@@ -51,7 +51,7 @@ class Locator {
         const association::SpotReference& sight = association_->spots[associated.first_spot + i];
         const std::size_t spot = spot_of_sight_[sight.view][sight.spot];
         rays_.push_back({sight.view, spot});
-        observations_.push_back({&ray_cameras_[sight.view], views[sight.view].spots[spot]});
+        observations_.push_back({&ray_cameras_[sight.view], views[sight.view].spots[spot].pixel});
       }
       auto located = geometry::triangulate(observations_, options_.triangulation);
       if (!fits(located))
@@ -60,7 +60,7 @@ class Locator {
         continue;
       double observed = -std::numeric_limits<double>::infinity();
       for (const association::SpotReference& ray : rays_)
-        observed = std::max(observed, *views[ray.view].exposure);
+        observed = std::max(observed, *views[ray.view].time);
       points_.push_back({*located, observed, spots_.size(), rays_.size()});
       spots_.insert(spots_.end(), rays_.begin(), rays_.end());
     }
@@ -91,13 +91,16 @@ class Locator {
       sights_[v].clear();
       spot_of_sight_[v].clear();
       for (std::size_t i = 0; i < views[v].spots.size(); ++i) {
-        const auto sight = geometry::sightFromPixel(ray_cameras_[v], views[v].spots[i]);
+        const tracking::SeenSpot& spot = views[v].spots[i];
+        const auto sight = spot.use == tracking::SpotUse::kMasked
+                               ? std::nullopt
+                               : geometry::sightFromPixel(ray_cameras_[v], spot.pixel);
         if (!sight)
           continue;
         sights_[v].push_back(*sight);
         spot_of_sight_[v].push_back(i);
       }
-      views_[v] = {sights_[v].data(), sights_[v].size(), views[v].is_watching, views[v].is_full};
+      views_[v] = {sights_[v].data(), sights_[v].size(), views[v].is_watching, views[v].full};
     }
     association_ = &associator_.associate(views_);
   }

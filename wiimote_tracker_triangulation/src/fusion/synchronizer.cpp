@@ -159,33 +159,32 @@ double Synchronizer::reachedByAll() const {
 
 void Synchronizer::interpolate(const CameraState& camera, InstantView* view) {
   view->spots.clear();
-  view->masked.clear();
-  view->exposure.reset();
-  view->is_full = false;
-  if (const Frame* newest = camera.frames.lastUpTo(time_)) {
-    view->exposure = newest->time;
-    view->masked = newest->masked;
-  }
+  view->time.reset();
+  view->full = false;
   const auto bracket = camera.frames.bracket(time_);
   view->is_watching = bracket && bracket->gap() <= options_.maximum_gap;
-  if (!view->is_watching)
-    return;
-  const Frame& before = *bracket->before;
-  const Frame& after = *bracket->after;
-  view->is_full = before.is_full || after.is_full;
-  latest_arrival_ = std::max({latest_arrival_, before.arrival, after.arrival});
-  skew_ = std::max({skew_, time_ - before.time, after.time - time_});
-  if (bracket->before == bracket->after) {
-    for (const FrameSpot& spot : before.spots)
-      view->spots.push_back(spot.pixel);
-    return;
+  if (view->is_watching) {
+    const Frame& before = *bracket->before;
+    const Frame& after = *bracket->after;
+    view->full = before.is_full || after.is_full;
+    latest_arrival_ = std::max({latest_arrival_, before.arrival, after.arrival});
+    skew_ = std::max({skew_, time_ - before.time, after.time - time_});
+    const double share = bracket->shareAt(time_);
+    for (const FrameSpot& spot : after.spots) {
+      Eigen::Vector2d pixel = spot.pixel;
+      if (&before != &after) {
+        if (spot.before == kNoSpot)
+          continue;
+        const Eigen::Vector2d& start = before.spots[static_cast<std::size_t>(spot.before)].pixel;
+        pixel = start + share * (spot.pixel - start);
+      }
+      view->spots.push_back({pixel, tracking::SpotUse::kUnassigned, 0});
+    }
   }
-  const double share = bracket->shareAt(time_);
-  for (const FrameSpot& spot : after.spots) {
-    if (spot.before == kNoSpot)
-      continue;
-    const Eigen::Vector2d& start = before.spots[static_cast<std::size_t>(spot.before)].pixel;
-    view->spots.push_back(start + share * (spot.pixel - start));
+  if (const Frame* newest = camera.frames.lastUpTo(time_)) {
+    view->time = newest->time;
+    for (const Eigen::Vector2d& pixel : newest->masked)
+      view->spots.push_back({pixel, tracking::SpotUse::kMasked, 0});
   }
 }
 

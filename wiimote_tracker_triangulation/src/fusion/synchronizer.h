@@ -6,6 +6,7 @@
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <Eigen/Core>
 
@@ -39,13 +40,10 @@ struct Frame {
 /// beyond are not followed.
 void followSpots(const Frame& before, double maximum_speed, Frame* frame);
 
-/// One camera's view, interpolated to an instant.
-struct InstantView {
-  std::optional<double> exposure;       ///< Newest image not after the instant [s].
-  bool is_watching = false;             ///< There are images on both sides of the instant.
-  bool is_full = false;                 ///< As many spots as the camera can report.
-  std::vector<Eigen::Vector2d> spots;   ///< Distorted [px].
-  std::vector<Eigen::Vector2d> masked;  ///< [px]
+/// One camera's view at an instant: interpolated spots, then the masked ones of its newest image
+/// not after the instant, whose time is the view's.
+struct InstantView : tracking::CameraView {
+  bool is_watching = false;  ///< There are images on both sides of the instant.
 };
 
 /// Chooses the instants and interpolates the images of unsynchronised cameras to them (see

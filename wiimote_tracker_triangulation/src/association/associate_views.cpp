@@ -66,35 +66,29 @@ AssociationOptions typicalCosts(const geometry::Rig& rig,
 }
 
 struct ViewAssociator::Workspace {
-  /// One spot: a node of the union-find of the components of possible pairs.
-  struct Node {
-    std::size_t view;
-    std::size_t index;  // in its view
-    std::size_t root;   // towards the first spot of its component
-  };
-
   Workspace(const geometry::Rig& rig,
             std::vector<std::vector<std::size_t>> partners,
             const AssociationOptions& association_options)
       : options(association_options), search(rig, std::move(partners), association_options) {
     constexpr std::size_t kUsual = 64;  // spots of all views; more allocate
     component.spots.reserve(kUsual);
+    connected.reserve(kUsual);
     pair_chi_squared.reserve(kUsual * kUsual);
   }
 
   void collectSpots(const std::vector<View>& views);
   void findPairs(const std::vector<View>& views, std::size_t a, std::size_t b);
-  std::size_t rootOf(std::size_t spot);
   void solveComponents(const std::vector<View>& views);
   void solveComponent(const std::vector<View>& views);
 
   AssociationOptions options;
   PointSearch search;
-  std::vector<std::size_t> first_spot;    // of each view, and one past the last of all
-  std::vector<Node> nodes;                // of all spots
-  std::vector<EpipolarSpot> epipolar;     // of all spots
-  std::vector<double> pair_chi_squared;   // see Component
-  std::vector<std::size_t> by_component;  // numbers of all spots
+  std::vector<std::size_t> first_spot;   // of each view, and one past the last of all
+  std::vector<Component::Spot> spots;    // of all views
+  std::vector<EpipolarSpot> epipolar;    // of all spots
+  std::vector<double> pair_chi_squared;  // see Component
+  std::vector<bool> is_solved;           // per spot
+  std::vector<std::size_t> connected;    // numbers of the spots of a component
   std::vector<Eigen::Vector3d> normals;
   Component component;
   Association result;
@@ -129,18 +123,17 @@ const Association& ViewAssociator::associate(const std::vector<View>& views) {
 
 void ViewAssociator::Workspace::collectSpots(const std::vector<View>& views) {
   first_spot.clear();
-  nodes.clear();
+  spots.clear();
   epipolar.clear();
   for (std::size_t view = 0; view < views.size(); ++view) {
-    first_spot.push_back(nodes.size());
+    first_spot.push_back(spots.size());
     for (std::size_t i = 0; i < views[view].count; ++i) {
-      const std::size_t spot = nodes.size();
-      nodes.push_back({view, i, spot});
+      spots.push_back({view, i, spots.size(), &views[view].sights[i]});
       epipolar.emplace_back(views[view].sights[i], options.pixel_stddev);
     }
   }
-  first_spot.push_back(nodes.size());
-  pair_chi_squared.assign(nodes.size() * nodes.size(), std::numeric_limits<double>::infinity());
+  first_spot.push_back(spots.size());
+  pair_chi_squared.assign(spots.size() * spots.size(), std::numeric_limits<double>::infinity());
 }
 
 /// Finds the pairs of spots of two views that can be one point.
@@ -165,42 +158,34 @@ void ViewAssociator::Workspace::findPairs(const std::vector<View>& views,
           epipolarChiSquared(one, normal, other, normals[spot_b - first_spot[b]], f);
       if (!(chi_squared <= options.maximum_pair_chi_squared))
         continue;
-      pair_chi_squared[spot_a * nodes.size() + spot_b] = chi_squared;
-      pair_chi_squared[spot_b * nodes.size() + spot_a] = chi_squared;
-      const std::size_t root_a = rootOf(spot_a);
-      const std::size_t root_b = rootOf(spot_b);
-      nodes[std::max(root_a, root_b)].root = std::min(root_a, root_b);
+      pair_chi_squared[spot_a * spots.size() + spot_b] = chi_squared;
+      pair_chi_squared[spot_b * spots.size() + spot_a] = chi_squared;
     }
   }
 }
 
-std::size_t ViewAssociator::Workspace::rootOf(std::size_t spot) {
-  while (nodes[spot].root != spot) {
-    nodes[spot].root = nodes[nodes[spot].root].root;
-    spot = nodes[spot].root;
-  }
-  return spot;
-}
-
+/// Solves each connected component of the graph of possible pairs.
 void ViewAssociator::Workspace::solveComponents(const std::vector<View>& views) {
-  by_component.resize(nodes.size());
-  for (std::size_t spot = 0; spot < nodes.size(); ++spot) {
-    by_component[spot] = spot;
-    nodes[spot].root = rootOf(spot);
-  }
-  std::sort(by_component.begin(), by_component.end(), [&](std::size_t a, std::size_t b) {
-    return nodes[a].root != nodes[b].root ? nodes[a].root < nodes[b].root : a < b;
-  });
   component.pair_chi_squared = pair_chi_squared.data();
-  component.spots_of_all_views = nodes.size();
-  for (auto spot = by_component.begin(); spot != by_component.end();) {
-    component.spots.clear();
-    const std::size_t root = nodes[*spot].root;
-    for (; spot != by_component.end() && nodes[*spot].root == root; ++spot) {
-      const Node& node = nodes[*spot];
-      component.spots.push_back(
-          {node.view, node.index, *spot, &views[node.view].sights[node.index]});
+  component.spots_of_all_views = spots.size();
+  is_solved.assign(spots.size(), false);
+  for (std::size_t first = 0; first < spots.size(); ++first) {
+    if (is_solved[first])
+      continue;
+    connected.assign(1, first);
+    is_solved[first] = true;
+    for (std::size_t i = 0; i < connected.size(); ++i) {
+      for (std::size_t other = first + 1; other < spots.size(); ++other) {
+        if (is_solved[other] || std::isinf(pair_chi_squared[connected[i] * spots.size() + other]))
+          continue;
+        connected.push_back(other);
+        is_solved[other] = true;
+      }
     }
+    std::sort(connected.begin(), connected.end());
+    component.spots.clear();
+    for (const std::size_t spot : connected)
+      component.spots.push_back(spots[spot]);
     solveComponent(views);
   }
 }

@@ -1,5 +1,7 @@
 #include "events/zone_watch.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <optional>
 #include <utility>
@@ -39,30 +41,21 @@ std::optional<Overlap> overlapOf(const Eigen::Vector3d& from,
   return overlap;
 }
 
-double distanceOutside(const Eigen::Vector3d& position, const Zone& zone) {
-  return (position - position.cwiseMax(zone.minimum).cwiseMin(zone.maximum)).norm();
-}
-
 }  // namespace
 
 void ZoneWatch::setZones(const std::vector<Zone>& zones) {
-  const auto indexOf = [](const std::vector<Zone>& list, const std::string& name) {
-    return std::find_if(list.begin(), list.end(), [&](const Zone& z) { return z.name == name; }) -
-           list.begin();
+  const auto stays = [&](const Zone& zone) {
+    return std::any_of(zones.begin(), zones.end(),
+                       [&](const Zone& z) { return z.name == zone.name; });
   };
-  const auto old_count = static_cast<std::ptrdiff_t>(zones_.size());
   for (Led& led : leds_) {
-    for (std::size_t i = 0; i < zones_.size(); ++i) {
-      const bool stays = indexOf(zones, zones_[i].name) < static_cast<std::ptrdiff_t>(zones.size());
-      if (led.presences[i].inside && !stays)
-        gone_.push_back({zones_[i].name, led.id, false, 0.0, led.position});
+    for (const Zone& zone : zones_) {
+      if (stays(zone))
+        continue;
+      if (led.presences[zone.name].inside)
+        gone_.push_back({zone.name, led.id, false, 0.0, led.position});
+      led.presences.erase(zone.name);
     }
-    std::vector<Presence> presences;
-    for (const Zone& zone : zones) {
-      const std::ptrdiff_t i = indexOf(zones_, zone.name);
-      presences.push_back(i < old_count ? led.presences[static_cast<std::size_t>(i)] : Presence());
-    }
-    led.presences = std::move(presences);
   }
   zones_ = zones;
 }
@@ -75,10 +68,10 @@ const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& sna
 
   const bool time_went_back = snapshot.time < newest_;
   newest_ = snapshot.time;
-  const auto isGone = [&](const Led& led) {
+  const auto isGone = [&](Led& led) {
     if (!time_went_back && snapshot.time - led.time <= options_.timeout)
       return false;
-    lose(led);
+    lose(&led);
     return true;
   };
   leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isGone), leds_.end());
@@ -93,15 +86,12 @@ const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& sna
         break;
       case tracking::TrackState::kTracked:
       case tracking::TrackState::kPredicted:
-        if (known)
-          step(seen.position, &*place);
-        else
-          step(seen.position, &*leds_.insert(place, {seen.id, newest_, seen.position,
-                                                     std::vector<Presence>(zones_.size())}));
+        step(seen.position,
+             known ? &*place : &*leds_.insert(place, {seen.id, newest_, seen.position, {}}));
         break;
       case tracking::TrackState::kLost:
         if (known) {
-          lose(*place);
+          lose(&*place);
           leds_.erase(place);
         }
         break;
@@ -115,21 +105,22 @@ void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
   const Eigen::Vector3d from = led->position;
   const double began = led->time;
   const double duration = newest_ - began;
-  for (std::size_t i = 0; i < zones_.size(); ++i) {
-    Presence& presence = led->presences[i];
-    const std::optional<Overlap> overlap = overlapOf(from, to, zones_[i]);
+  for (const Zone& zone : zones_) {
+    Presence& presence = led->presences[zone.name];
+    const std::optional<Overlap> overlap = overlapOf(from, to, zone);
     if (overlap && !presence.inside) {
       presence.inside = true;
-      crossings_.push_back({zones_[i].name, led->id, true, began + overlap->begin * duration,
+      crossings_.push_back({zone.name, led->id, true, began + overlap->begin * duration,
                             from + overlap->begin * (to - from)});
     }
     if (overlap) {
       presence.crossed = began + overlap->end * duration;
       presence.crossed_at = from + overlap->end * (to - from);
     }
-    if (presence.inside && distanceOutside(to, zones_[i]) > options_.hysteresis) {
+    const Eigen::AlignedBox3d box(zone.minimum, zone.maximum);
+    if (presence.inside && box.exteriorDistance(to) > options_.hysteresis) {
       presence.inside = false;
-      crossings_.push_back({zones_[i].name, led->id, false, presence.crossed, presence.crossed_at});
+      crossings_.push_back({zone.name, led->id, false, presence.crossed, presence.crossed_at});
     }
   }
   led->position = to;
@@ -138,10 +129,10 @@ void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
                    [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
-void ZoneWatch::lose(const Led& led) {
-  for (std::size_t i = 0; i < zones_.size(); ++i) {
-    if (led.presences[i].inside)
-      crossings_.push_back({zones_[i].name, led.id, false, newest_, led.position});
+void ZoneWatch::lose(Led* led) {
+  for (const Zone& zone : zones_) {
+    if (led->presences[zone.name].inside)
+      crossings_.push_back({zone.name, led->id, false, newest_, led->position});
   }
 }
 

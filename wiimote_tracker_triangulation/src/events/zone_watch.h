@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -57,11 +58,11 @@ class ZoneWatch {
     std::uint32_t id = 0;
     double time = 0.0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    std::vector<Presence> presences;  // one per zone
+    std::map<std::string, Presence> presences;  // by the zone's name
   };
 
   void step(const Eigen::Vector3d& to, Led* led);
-  void lose(const Led& led);
+  void lose(Led* led);
 
   ZoneWatchOptions options_;
   std::vector<geometry::Zone> zones_;

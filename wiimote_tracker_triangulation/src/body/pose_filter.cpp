@@ -1,5 +1,7 @@
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 
+#include "pixel_update.h"
+
 #include <cmath>
 
 namespace wiimote_tracker::body {
@@ -82,7 +84,10 @@ void PoseFilter::update(const LedPrediction& prediction,
     // The prediction is that of the mean.
     const Eigen::Matrix<double, 6, 1> offset = states_[i].minus(mean_).head<6>();
     const Eigen::Vector2d innovation = pixel - prediction.pixel - prediction.jacobian * offset;
-    costs[i] = states_[i].update(prediction.jacobian, innovation, pixel_stddev);
+    MotionVector step;
+    costs[i] =
+        updateByPixel(prediction.jacobian, innovation, pixel_stddev, &states_[i].covariance, &step);
+    states_[i].move(step);
   }
   probabilities_.array() *= (-0.5 * (costs.array() - costs.minCoeff())).exp();
   probabilities_ /= probabilities_.sum();

@@ -1,6 +1,5 @@
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
-#include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
 namespace wiimote_tracker::body {
@@ -59,15 +58,6 @@ void PoseState::predict(double acceleration_density,
   covariance.middleCols<3>(3) = columns;
   addWhiteAcceleration(acceleration_density, duration, 0, &covariance);
   addWhiteAcceleration(angular_acceleration_density, duration, 3, &covariance);
-}
-
-double PoseState::update(const Eigen::Matrix<double, 2, 6>& jacobian,
-                         const Eigen::Vector2d& innovation,
-                         double pixel_stddev) {
-  MotionVector step;
-  const double cost = updateByPixel(jacobian, innovation, pixel_stddev, &covariance, &step);
-  move(step);
-  return cost;
 }
 
 Eigen::Isometry3d PoseState::worldFromBody() const {

@@ -35,13 +35,6 @@ struct PoseState {
   /// @param angular_acceleration_density [rad/s^2 / sqrt(Hz)]
   void predict(double acceleration_density, double angular_acceleration_density, double duration);
 
-  /// Kalman update by a pixel. @param jacobian d pixel / d (position, rotation) [px/m, px/rad]
-  /// @param innovation [px]
-  /// @returns -2 log likelihood of the innovation, without its constant
-  double update(const Eigen::Matrix<double, 2, 6>& jacobian,
-                const Eigen::Vector2d& innovation,
-                double pixel_stddev);
-
   Eigen::Isometry3d worldFromBody() const;
   PoseCovariance poseCovariance() const { return covariance.topLeftCorner<6, 6>(); }
 };

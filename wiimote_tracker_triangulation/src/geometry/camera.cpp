@@ -57,6 +57,11 @@ std::optional<Vector2> Intrinsics::normalizedFromPixel(const Vector2& pixel) con
              : plumb_bob::undistort(distortion, target);
 }
 
+bool Intrinsics::isInImage(const Vector2& pixel, double margin) const {
+  return pixel.x() >= -margin && pixel.x() <= width - 1 + margin && pixel.y() >= -margin &&
+         pixel.y() <= height - 1 + margin;
+}
+
 void Intrinsics::check() const {
   require(width > 0, "width must be above 0 px", width);
   require(height > 0, "height must be above 0 px", height);
@@ -101,8 +106,7 @@ std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,
 
 bool Camera::sees(const Eigen::Vector3d& point) const {
   const std::optional<Vector2> pixel = project(point);
-  return pixel && pixel->x() >= 0.0 && pixel->x() <= intrinsics.width - 1 && pixel->y() >= 0.0 &&
-         pixel->y() <= intrinsics.height - 1;
+  return pixel && intrinsics.isInImage(*pixel);
 }
 
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& position,

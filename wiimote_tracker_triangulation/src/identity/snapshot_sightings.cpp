@@ -43,10 +43,8 @@ std::optional<bool> SnapshotSightings::isSeen(const geometry::RigCamera& camera,
   if (view.full)
     return std::nullopt;
   const std::optional<Eigen::Vector2d>& pixel = pixels_[led];
-  const geometry::Intrinsics& image = camera.camera.intrinsics;
   const double border = options_.merging_distance;
-  if (!pixel || pixel->x() < border || pixel->x() > image.width - 1 - border ||
-      pixel->y() < border || pixel->y() > image.height - 1 - border ||
+  if (!pixel || !camera.camera.intrinsics.isInImage(*pixel, -border) ||
       geometry::isMasked(camera.masks, *pixel))
     return std::nullopt;
   for (const tracking::SeenSpot& spot : view.spots) {

@@ -42,12 +42,6 @@ ImageFault faultOf(const IrBlobArray& message, const geometry::Camera& calibrate
   return ImageFault::kNone;
 }
 
-/// False for NaN.
-bool isPossible(const IrBlob& blob, const geometry::Intrinsics& intrinsics) {
-  return blob.x >= -0.5 && blob.x <= intrinsics.width - 0.5 && blob.y >= -0.5 &&
-         blob.y <= intrinsics.height - 0.5;
-}
-
 }  // namespace
 
 ImageFault readImage(const IrBlobArray& message,
@@ -66,7 +60,7 @@ ImageFault readImage(const IrBlobArray& message,
       message.max_blobs > 0 ? message.max_blobs : std::numeric_limits<std::size_t>::max();
   image->spots.clear();
   for (const IrBlob& blob : message.blobs) {
-    if (!isPossible(blob, calibrated.intrinsics)) {
+    if (!calibrated.intrinsics.isInImage({blob.x, blob.y}, 0.5)) {  // or NaN
       fault = ImageFault::kImpossibleSpots;
       continue;
     }

@@ -55,10 +55,4 @@ RayOffset GroupCamera::rayOffset(const Eigen::Vector3d& led,
   return result;
 }
 
-bool GroupCamera::isInImage(const Eigen::Vector2d& pixel, double margin) const {
-  const geometry::Intrinsics& lens = for_rays_.intrinsics;
-  return pixel.x() >= -margin && pixel.x() <= lens.width - 1 + margin && pixel.y() >= -margin &&
-         pixel.y() <= lens.height - 1 + margin;
-}
-
 }  // namespace wiimote_tracker::tracking

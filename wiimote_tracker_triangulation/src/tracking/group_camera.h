@@ -33,7 +33,9 @@ class GroupCamera {
   RayOffset rayOffset(const Eigen::Vector3d& led, const Eigen::Vector2d& residual) const;
 
   /// Whether the pixel is at most `margin` [px] outside the image.
-  bool isInImage(const Eigen::Vector2d& pixel, double margin) const;
+  bool isInImage(const Eigen::Vector2d& pixel, double margin) const {
+    return for_rays_.intrinsics.isInImage(pixel, margin);
+  }
   bool isMasked(const Eigen::Vector2d& pixel) const { return geometry::isMasked(masks_, pixel); }
 
  private:

@@ -48,6 +48,10 @@ struct Intrinsics {
   /// 1.55 rad off the axis.
   std::optional<Eigen::Vector2d> normalizedFromPixel(const Eigen::Vector2d& pixel) const;
 
+  /// Whether a pixel is in the image, or at most `margin` [px] beyond its outermost pixels'
+  /// centres.
+  bool isInImage(const Eigen::Vector2d& pixel, double margin = 0.0) const;
+
   /// @throws InvalidRigError naming the value that is out of range or not finite.
   void check() const;
 };

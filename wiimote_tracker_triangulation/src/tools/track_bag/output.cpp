@@ -92,7 +92,7 @@ void Output::writeRig(const RigCalibration& rig, const ros::Time& time) {
 
 void Output::onRig(const geometry::Rig& rig) {
   if (smoothed_)
-    smoothed_->setRig(rig);
+    smoothed_->onRig(rig);
 }
 
 const tracking::Snapshot& Output::onSnapshot(const tracking::Snapshot& snapshot) {

@@ -17,6 +17,7 @@ void SmoothedTracks::onRig(const geometry::Rig& rig) {
     cameras_.back().push_back(rig.rayCamera(camera));
     noises_.push_back(geometry::pixelNoise(camera, options_.learnt_noise, options_.pixel_stddev));
   }
+  uncertainty_.emplace(rig);
   newest_.resize(rig.cameras.size(), -std::numeric_limits<double>::infinity());
 }
 
@@ -75,10 +76,6 @@ void SmoothedTracks::smooth() {
     track.states = motion::smooth(options_.motion, track.observations, track.places);
     track.observations = {};
   }
-}
-
-void SmoothedTracks::setRig(const geometry::Rig& rig) {
-  uncertainty_.emplace(rig);
 }
 
 const Snapshot& SmoothedTracks::apply(const Snapshot& snapshot) {

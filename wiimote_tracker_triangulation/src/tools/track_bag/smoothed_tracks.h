@@ -21,7 +21,7 @@ class SmoothedTracks : public MessageSink {
  public:
   explicit SmoothedTracks(const tracking::TrackerOptions& options) : options_(options) {}
 
-  // The first time.
+  // The first time; onRig() both times.
   void onRig(const geometry::Rig& rig) override;
   const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) override;
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr&,
@@ -33,11 +33,8 @@ class SmoothedTracks : public MessageSink {
   /// Between the two.
   void smooth();
 
-  /// The rig of the snapshots that follow.
-  void setRig(const geometry::Rig& rig);
-
   /// The snapshot with smoothed positions, velocities and their covariances; all else stays. Valid
-  /// until the next call. Needs smooth() and setRig().
+  /// until the next call. Needs smooth().
   const tracking::Snapshot& apply(const tracking::Snapshot& snapshot);
 
  private:

@@ -23,25 +23,21 @@ bool VolumeCorrection::take(const geometry::Rig& rig) {
 }
 
 void VolumeCorrection::apply(tracking::Snapshot* snapshot) const {
-  for (tracking::TrackedLed& led : snapshot->leds)
-    led.remapped = correct(&led);
-}
-
-/// @returns whether the LED is inside the measured volume.
-bool VolumeCorrection::correct(tracking::TrackedLed* led) const {
-  if (!correction_)
-    return false;
-  const auto corrected = correction_->apply(led->position, led->position_covariance);
-  if (!corrected)
-    return false;
-  led->position = corrected->position;
-  led->position_covariance = corrected->covariance;
-  if (led->velocity) {
-    const Eigen::Matrix3d& J = corrected->jacobian;
-    led->velocity = Eigen::Vector3d(J * *led->velocity);
-    led->velocity_covariance = J * led->velocity_covariance.eval() * J.transpose();
+  for (tracking::TrackedLed& led : snapshot->leds) {
+    led.remapped = false;
+    const auto corrected =
+        correction_ ? correction_->apply(led.position, led.position_covariance) : std::nullopt;
+    if (!corrected)
+      continue;
+    led.remapped = corrected->inside;
+    led.position = corrected->position;
+    led.position_covariance = corrected->covariance;
+    if (led.velocity) {
+      const Eigen::Matrix3d& J = corrected->jacobian;
+      led.velocity = Eigen::Vector3d(J * *led.velocity);
+      led.velocity_covariance = J * led.velocity_covariance.eval() * J.transpose();
+    }
   }
-  return corrected->inside;
 }
 
 std::string VolumeCorrection::state() const {

@@ -27,8 +27,6 @@ class VolumeCorrection {
   const std::string& problem() const { return problem_; }
 
  private:
-  bool correct(tracking::TrackedLed* led) const;
-
   std::string rig_id_;
   std::optional<remap::Remap> remap_;
   std::optional<remap::Correction> correction_;

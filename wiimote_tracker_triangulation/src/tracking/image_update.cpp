@@ -214,12 +214,8 @@ void ImageUpdate::updateTrack(const Candidate& candidate, const Candidate* other
   if (!track.filter.update(camera_->forRays(), candidate.prediction, pixel))
     return;
   const Eigen::Vector2d residual = pixel - candidate.prediction.pixel();
-  track.hit(image_->camera, residual, true);
+  track.hit(image_->camera, residual, other ? other->track : nullptr, true);
   track.noteRay(image_->camera, camera_->rayOffset(track.filter.position(), residual));
-  if (other)
-    track.noteSharedSpot(other->track->id, true);
-  else
-    track.noteOwnSpot();
 }
 
 void ImageUpdate::assignSpot(std::size_t spot, Candidate* candidate) {

@@ -161,8 +161,7 @@ void ImageUpdate::updateMergedPairs(std::vector<MergedPair>* pairs) {
       both[i]->updated = true;
       Track& track = *both[i]->track;
       track.filter = pair.likeliest()[i];
-      track.hit(image_->camera, image_->pixels[spot] - both[i]->prediction.pixel(), true);
-      track.noteOwnSpot();
+      track.hit(image_->camera, image_->pixels[spot] - both[i]->prediction.pixel(), nullptr, true);
     }
   }
 }
@@ -186,8 +185,7 @@ void ImageUpdate::updateMerged(const Candidate& candidate, const Candidate& othe
   }
   if (!track.filter.update(camera_->forRays(), *prediction, pixel))
     return;
-  track.hit(image_->camera, pixel - prediction->pixel(), is_own);
-  track.noteSharedSpot(other.track->id, is_own);
+  track.hit(image_->camera, pixel - prediction->pixel(), other.track, is_own);
 }
 
 }  // namespace wiimote_tracker::tracking

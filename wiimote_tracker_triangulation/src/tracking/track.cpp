@@ -61,7 +61,10 @@ void Track::crowdOut(std::size_t camera, double time) {
   recordOf(camera).full = time;
 }
 
-void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own) {
+void Track::hit(std::size_t camera,
+                const Eigen::Vector2d& residual,
+                const Track* other,
+                bool is_own) {
   const double time = filter.time();
   CameraRecord& record = recordOf(camera);
   if (!record.recent)
@@ -77,23 +80,20 @@ void Track::hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own
   position_ = filter.position();
   velocity_ = filter.velocity();
   position_time_ = time;
-}
-
-void Track::noteRay(std::size_t camera, const RayOffset& ray) {
-  recordOf(camera).ray.add(ray);
-}
-
-void Track::noteOwnSpot() {
-  ++hits_;
-  unmerged_share_ += (1.0 - unmerged_share_) / kShortMemory;
-}
-
-void Track::noteSharedSpot(std::uint32_t other, bool is_own) {
+  if (!other) {
+    ++hits_;
+    unmerged_share_ += (1.0 - unmerged_share_) / kShortMemory;
+    return;
+  }
   const double memory =
       std::min(std::max(0.5 * static_cast<double>(hits_), kShortMemory), kLongMemory);
   unmerged_share_ -= unmerged_share_ / memory;
   own_share_ += ((is_own ? 1.0 : 0.0) - own_share_) / kShortMemory;
-  shared_with_ = other;
+  shared_with_ = other->id;
+}
+
+void Track::noteRay(std::size_t camera, const RayOffset& ray) {
+  recordOf(camera).ray.add(ray);
 }
 
 /// Whether another track that shares nearly all spots follows the same LED and is the better one:

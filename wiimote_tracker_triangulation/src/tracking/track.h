@@ -41,17 +41,12 @@ class Track {
   void crowdOut(std::size_t camera, double time);
 
   /// The filter was updated with a camera's spot, at its present time. @param residual [px]
-  /// @param is_own false: a merged spot that is assigned to another LED.
-  void hit(std::size_t camera, const Eigen::Vector2d& residual, bool is_own);
-
-  /// The last spot belongs to this LED alone.
-  void noteOwnSpot();
+  /// @param other with which it may be merged; null: the spot is of this LED alone.
+  /// @param is_own false: a merged spot that is assigned to the other LED.
+  void hit(std::size_t camera, const Eigen::Vector2d& residual, const Track* other, bool is_own);
 
   /// How far the ray of a camera's last spot was from the prediction.
   void noteRay(std::size_t camera, const RayOffset& ray);
-
-  /// The last spot may be merged with another LED's.
-  void noteSharedSpot(std::uint32_t other, bool is_own);
 
   /// The filter was initialised with a camera's spot, among others.
   /// @param time of its image [s] @param residual [px]

@@ -20,23 +20,13 @@ auto sortKey(const std::string& name) {
   return std::make_tuple(name.substr(0, digits), name.size(), name);
 }
 
-const char* count(CameraState state) {
-  switch (state) {
-    case CameraState::kFrozen:
-      return "without images";
-    case CameraState::kKnocked:
-      return "changed since the calibration";
-    case CameraState::kLate:
-      return "late";
-    case CameraState::kNotCalibrated:
-      return "not calibrated";
-    case CameraState::kBlind:
-      return "without spots";
-    case CameraState::kFine:
-      break;
-  }
-  return "fine";
-}
+const std::map<CameraState, const char*> kCounts = {
+    {CameraState::kFrozen, "without images"},
+    {CameraState::kKnocked, "changed since the calibration"},
+    {CameraState::kLate, "late"},
+    {CameraState::kNotCalibrated, "not calibrated"},
+    {CameraState::kBlind, "without spots"},
+    {CameraState::kFine, "fine"}};
 
 }  // namespace
 
@@ -102,7 +92,7 @@ std::string TrackerView::summary(double now) const {
     groups[stateOf(camera, now)].push_back(camera.name);
   std::string text;
   for (const auto& [state, names] : groups) {
-    text += (text.empty() ? "" : ", ") + std::to_string(names.size()) + " " + count(state);
+    text += (text.empty() ? "" : ", ") + std::to_string(names.size()) + " " + kCounts.at(state);
     // Among many tiles nobody finds the one.
     if (names.size() <= kMostNamed && names.size() < cameras_.size() &&
         state != CameraState::kFine && state != CameraState::kNotCalibrated)

@@ -215,10 +215,6 @@ class MatlabWriter : public Writer {
 
 }  // namespace
 
-bool hasMatlab() {
-  return true;
-}
-
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path) {
   return std::make_unique<MatlabWriter>(path);
 }

@@ -4,10 +4,6 @@
 
 namespace wiimote_tracker::measurements {
 
-bool hasMatlab() {
-  return false;
-}
-
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path) {
   throw Error("cannot write " + path +
               ": this was built without matio; install it (libmatio-dev) and build again, or "

@@ -76,9 +76,6 @@ std::unique_ptr<Writer> makeC3dWriter(const std::string& path, double rate);
 /// The same as TRC text for OpenSim, as its guide describes it; coordinates in gaps are empty.
 std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate);
 
-/// Whether this program was built with matio.
-bool hasMatlab();
-
 /// A compressed MAT-file of version 5: one variable per field of TrackedPoint, with one row per
 /// measurement; the variable `readme` describes them. Strings are 1-based line numbers of tables
 /// (`label` of `labels`, ...). Data stay in memory until finish(), 0.3 kB per measurement.

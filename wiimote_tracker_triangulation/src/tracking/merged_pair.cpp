@@ -90,17 +90,18 @@ MergedPair::SpotIndices MergedPair::branch(const Predictions& predictions,
     SpotIndices spots;
     double log_likelihood;
   };
-  boost::container::static_vector<Branch, 2 * kMaximumHypotheses> branches;
+  std::array<Branch, 2 * kMaximumHypotheses> branches;
+  std::size_t count = 0;
   for (std::size_t parent = 0; parent < hypotheses_.size(); ++parent) {
     const auto& likelihoods = predictions[parent].log_likelihoods;
     for (const SpotIndices& assigned : {spots, SpotIndices{spots[1], spots[0]}})
-      branches.push_back({parent, assigned,
-                          hypotheses_[parent].log_likelihood + likelihoods[0][assigned[0]] +
-                              likelihoods[1][assigned[1]]});
+      branches[count++] = {parent, assigned,
+                           hypotheses_[parent].log_likelihood + likelihoods[0][assigned[0]] +
+                               likelihoods[1][assigned[1]]};
   }
-  const std::size_t most = std::min(branches.size(), kMaximumHypotheses);
+  const std::size_t most = std::min(count, kMaximumHypotheses);
   std::partial_sort(
-      branches.begin(), branches.begin() + most, branches.end(),
+      branches.begin(), branches.begin() + most, branches.begin() + count,
       [](const Branch& a, const Branch& b) { return a.log_likelihood > b.log_likelihood; });
   const double greatest = branches[0].log_likelihood;
   const auto parents = hypotheses_;

@@ -18,7 +18,7 @@ std::optional<std::string> Refusals::next(double now) {
       continue;
     const std::string triggers =
         reason.count == 1 ? "the trigger" : format("%zu triggers, the last", reason.count);
-    const char* cause = reason.count > 1 && reason.repeats
+    const char* cause = result != TriggerResult::kNoTime && reason.count > 1 && reason.repeats
                             ? "; all had one stamp, as rostopic pub -r gives without -s"
                             : "";
     reason.said = now;

@@ -36,6 +36,8 @@ std::string describe(TriggerResult result, const TriggerOptions& options) {
       return format(
           "no images were used within %g s around it: check that the cameras' drivers run",
           options.maximum_gap);
+    case TriggerResult::kNoTime:
+      return "it carries no time: set the stamp of its header, with rostopic pub by '{stamp: now}'";
     case TriggerResult::kTooOld:
       return format(
           "it is older than the stored snapshots, at most %g s: ask sooner, and set all computers "
@@ -129,7 +131,7 @@ bool Trigger::answer(const Request& request) {
     answer_.result = TriggerResult::kGap;
     return finished_;
   } else if (request.time < kept_.front().time) {
-    answer_.result = TriggerResult::kTooOld;
+    answer_.result = request.time == 0.0 ? TriggerResult::kNoTime : TriggerResult::kTooOld;
   } else {
     std::uint64_t number = kept_.begin();
     while (kept_.at(number).time < request.time)

@@ -22,6 +22,7 @@ struct TriggerOptions {
 enum class TriggerResult {
   kAnswered,
   kGap,       ///< The snapshots around that time are too far apart.
+  kNoTime,    ///< At 0, before the oldest snapshot: the stamp was not set.
   kTooOld,    ///< Before the oldest snapshot.
   kTooEarly,  ///< Too far ahead of the newest snapshot.
   kTooMany,   ///< Trigger::kMaximumPending requests were waiting.

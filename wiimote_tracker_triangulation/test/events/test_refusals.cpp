@@ -62,6 +62,11 @@ TEST(Refusals, ARepeatedStampIsNamedAsTheCause) {
   const std::string sentence = *refusals.next(111.0);
   EXPECT_TRUE(holds(sentence, "3 triggers, the last at 5 s")) << sentence;
   EXPECT_TRUE(holds(sentence, "all had one stamp")) << sentence;
+  for (int i = 0; i < 3; ++i)
+    refusals.add(TriggerResult::kNoTime, "0");
+  const std::string without = *refusals.next(112.0);
+  EXPECT_TRUE(holds(without, "3 triggers, the last at 0 s: it carries no time"));
+  EXPECT_FALSE(holds(without, "one stamp")) << without;
 }
 
 TEST(Refusals, AreSaidOnceWhileTimeIsNotKnown) {

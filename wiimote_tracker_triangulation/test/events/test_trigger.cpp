@@ -286,6 +286,8 @@ TEST(Trigger, RefusesTimesBeforeItsHistory) {
   EXPECT_EQ(TriggerResult::kAnswered, only(&trigger).result);
   trigger.ask(kStart + 1.4, 2);
   EXPECT_EQ(TriggerResult::kTooOld, only(&trigger).result);
+  trigger.ask(0.0, 3);
+  EXPECT_EQ(TriggerResult::kNoTime, only(&trigger).result) << "its stamp was not set";
 }
 
 TEST(Trigger, KeepsTheSnapshotJustBeforeItsHistory) {
@@ -361,8 +363,9 @@ TEST(Trigger, ClearsItsHistoryWhenTimeJumpsBack) {
 }
 
 TEST(Trigger, EveryRefusalHasAText) {
-  for (const TriggerResult result : {TriggerResult::kGap, TriggerResult::kTooOld,
-                                     TriggerResult::kTooEarly, TriggerResult::kTooMany})
+  for (const TriggerResult result :
+       {TriggerResult::kGap, TriggerResult::kNoTime, TriggerResult::kTooOld,
+        TriggerResult::kTooEarly, TriggerResult::kTooMany})
     EXPECT_NE(std::string::npos, describe(result, TriggerOptions()).find(": "));
 }
 

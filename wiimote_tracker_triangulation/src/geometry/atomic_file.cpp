@@ -24,6 +24,11 @@ namespace {
                   "); check its permissions and free space, or choose another path");
 }
 
+[[noreturn]] void failToRead(const std::string& path, int error) {
+  throw FileError("cannot read " + path + " (" + std::strerror(error) +
+                  "); check its name and permissions");
+}
+
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 void writeAndSync(const std::string& path, const std::string& content) {
@@ -82,7 +87,7 @@ std::string readFile(const std::string& path, std::size_t largest) {
   const File file(descriptor < 0 ? nullptr : ::fdopen(descriptor, "r"), std::fclose);
   struct stat status {};
   if (!file || ::fstat(descriptor, &status) != 0)
-    fail("read", path, errno);
+    failToRead(path, errno);
   if (!S_ISREG(status.st_mode))
     throw FileError("cannot read " + path + ", it is " +
                     (S_ISDIR(status.st_mode) ? "a folder" : "a device or a pipe") +
@@ -96,7 +101,7 @@ std::string readFile(const std::string& path, std::size_t largest) {
   std::string content(size, '\0');
   content.resize(std::fread(content.data(), 1, size, file.get()));  // it may be shorter now
   if (std::ferror(file.get()) != 0)
-    fail("read", path, errno);
+    failToRead(path, errno);
   return content;
 }
 

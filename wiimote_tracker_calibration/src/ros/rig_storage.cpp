@@ -33,8 +33,8 @@ std::string callDriver(const std::string& name,
   call.request.camera_info = info;
   if (!ros::service::exists(service, false))
     return name +
-           " offers no set_camera_info, so its driver does not know its lens: start the driver, "
-           "then save again";
+           " offers no set_camera_info, so its driver does not know its lens: if it does not run, "
+           "start it, then save again";
   if (!ros::service::call(service, call))
     return "calling " + service +
            " failed, so the driver does not know its lens: see its log, then save again";

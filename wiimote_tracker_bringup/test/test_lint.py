@@ -1,5 +1,6 @@
 """The lint, in a small tree for each test."""
 
+import argparse
 import subprocess
 
 import program_module
@@ -68,6 +69,16 @@ def test_changed_files_are_those_since_the_branch_left_its_base_and_new_ones(pac
                                           'wiimote_tracker_x/new.cpp']
     with pytest.raises(lint.Skip, match='git does not know nowhere'):
         lint.changed_since('nowhere')
+
+
+def test_tidy_names_a_changed_file_that_the_build_does_not_compile(package, monkeypatch, capsys):
+    (package / 'compile_commands.json').write_text('[]')
+    monkeypatch.setattr(lint, 'tool', lambda name: '/bin/true')
+    monkeypatch.setattr(lint, 'changed_since', lambda base: ['x/new.cpp', 'x/new.h', 'README.md'])
+    assert not lint.check_tidy(argparse.Namespace(build=str(package), all=False, base='main',
+                                                  limit=None))
+    said = capsys.readouterr().out
+    assert 'does not compile it: x/new.cpp; build first' in said
 
 
 def test_results_hold_passed_failed_and_skipped_checks(tmp_path):

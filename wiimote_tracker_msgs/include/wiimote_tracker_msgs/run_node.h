@@ -19,6 +19,7 @@
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -61,26 +62,34 @@ inline std::optional<XmlRpc::XmlRpcValue> answerOf(const std::string& host,
   return answer[2];
 }
 
-/// The process of a node that runs, such as "process 4711 on lab"; empty: it does not run, or does
-/// not answer within a second. The master alone cannot tell: it remembers those that were killed.
-/// @param node its full name
-inline std::string runningProcess(const std::string& node) {
-  using XmlRpc::XmlRpcValue;
-  XmlRpcValue request;
+/// Where the master says that a node answers: host and port. Nothing when it knows no such node, or
+/// does not answer within a second.
+inline std::optional<std::pair<std::string, std::uint32_t>> serverOf(const std::string& node) {
+  XmlRpc::XmlRpcValue request;
   request[0] = ros::this_node::getName();
   request[1] = node;
   std::string host;
   std::uint32_t port = 0;
   auto uri = answerOf(ros::master::getHost(), ros::master::getPort(), "lookupNode", request);
-  if (!uri || uri->getType() != XmlRpcValue::TypeString ||
+  if (!uri || uri->getType() != XmlRpc::XmlRpcValue::TypeString ||
       !ros::network::splitURI(*uri, host, port))
+    return std::nullopt;
+  return std::make_pair(host, port);
+}
+
+/// The process of a node that runs, such as "process 4711 on lab"; empty: it does not run, or does
+/// not answer within a second. The master alone cannot tell: it remembers those that were killed.
+/// @param node its full name
+inline std::string runningProcess(const std::string& node) {
+  const auto server = serverOf(node);
+  if (!server)
     return "";
-  XmlRpcValue caller;
+  XmlRpc::XmlRpcValue caller;
   caller[0] = node;
-  auto process = answerOf(host, port, "getPid", caller);
-  if (!process || process->getType() != XmlRpcValue::TypeInt)
+  auto process = answerOf(server->first, server->second, "getPid", caller);
+  if (!process || process->getType() != XmlRpc::XmlRpcValue::TypeInt)
     return "";
-  return "process " + std::to_string(static_cast<int>(*process)) + " on " + host;
+  return "process " + std::to_string(static_cast<int>(*process)) + " on " + server->first;
 }
 
 /// Handles callbacks until the node ends, as ros::spin() does, but logs what they throw. Ours catch

@@ -83,6 +83,11 @@ void LedLabels::update(double time,
     place.speed = led.velocity ? led.velocity->norm() : 0.0;
     place.age = 0.0;
     place.tracked_with = tracked_;
+    LedLabel& label = given->second;
+    if (led.same_led < label.same_led) {
+      setConfidence(place.confidence * led.same_led / label.same_led, &label);
+      label.same_led = led.same_led;
+    }
   }
 }
 
@@ -142,6 +147,7 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     return;
   LedLabel& given = given_[led.id];
   given.name = *best;
+  given.same_led = led.same_led;
   const auto found = places_.find(*best);
   if (found == places_.end())
     return;
@@ -153,13 +159,18 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
   former_[*best] = place;
   // Right if it was right and goes to the same LED, or was that of this one of the others.
   const double same = sum > 0.0 ? greatest / sum : 0.0;
-  const bool was_doubtful = place.confidence < kDoubtful;
-  place.confidence = place.confidence * same +
-                     (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1);
-  given.confidence = place.confidence;
+  setConfidence(place.confidence * same +
+                    (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1),
+                &given);
   given.since = time;
-  if (given.confidence < kDoubtful && !was_doubtful)
-    doubtful_.push_back(*best);
+}
+
+void LedLabels::setConfidence(double confidence, LedLabel* given) {
+  Place& place = places_.at(given->name);
+  if (confidence < kDoubtful && place.confidence >= kDoubtful)
+    doubtful_.push_back(given->name);
+  place.confidence = confidence;
+  given->confidence = confidence;
 }
 
 const LedLabel* LedLabels::holderOf(const std::string& label) const {

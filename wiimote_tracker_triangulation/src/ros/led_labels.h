@@ -19,11 +19,11 @@ namespace wiimote_tracker {
 struct LedLabel {
   std::string name;
 
-  /// For a label found by blinking, or given again: its probability [0..1] and the time since when
-  /// it is given [s]. NaN and 0 for other labels.
+  /// For a label found by blinking, given again, or of an LED that met another one: its probability
+  /// [0..1]. NaN for other labels.
   double confidence = std::numeric_limits<double>::quiet_NaN();
-  double since = 0.0;
-
+  double since = 0.0;       ///< When it was found by blinking, or given again [s]; 0 for others.
+  double same_led = 1.0;    ///< As in TrackedLed, when the confidence was set.
   bool identified = false;  ///< By blinking.
 };
 
@@ -80,6 +80,7 @@ class LedLabels {
   void takeIdentity(std::uint32_t id, const identity::Identifier& identifier);
   void agePlaces(double time);
   void giveFreeLabel(double time, const tracking::TrackedLed& led);
+  void setConfidence(double confidence, LedLabel* given);
   const LedLabel* holderOf(const std::string& label) const;
 
   std::vector<std::string> listed_;

@@ -278,8 +278,9 @@ void MessageTracker::reportDoubtfulLabels() {
     labels += format("%s%s (%.2f)", labels.empty() ? "" : ", ", label.c_str(),
                      labels_.places().at(label).confidence);
   if (!labels.empty())
-    sink_->onProblem("labels were given again and may be wrong (probability of being right): " +
-                     labels + "; check which LED has which, or let LEDs blink by codes");
+    sink_->onProblem(
+        "labels may be wrong after LEDs were out of sight or met (probability of being right): " +
+        labels + "; check which LED has which, or let LEDs blink by codes");
 }
 
 void MessageTracker::publishZoneEvents(const tracking::Snapshot& snapshot) {

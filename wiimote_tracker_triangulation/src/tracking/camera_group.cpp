@@ -168,16 +168,27 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
 /// Removes pairs that are decided, and those whose tracks ended or were reacquired since.
 void CameraGroup::removeMergedPairs(double time) {
   std::vector<MergedPair>& pairs = state_.pairs;
-  const auto continues = [&](std::uint32_t id, double since) {
-    return std::any_of(state_.tracks.begin(), state_.tracks.end(), [&](const Track& track) {
-      return track.id == id && track.startedAt() <= since;
-    });
-  };
-  const auto is_finished = [&](const MergedPair& pair) {
-    return !continues(pair.ids()[0], pair.openedAt()) ||
-           !continues(pair.ids()[1], pair.openedAt()) || pair.isDecided(time, options_.doubt_time);
-  };
-  pairs.erase(std::remove_if(pairs.begin(), pairs.end(), is_finished), pairs.end());
+  for (auto pair = pairs.begin(); pair != pairs.end();) {
+    Track* const first = continuing(pair->ids()[0], pair->openedAt());
+    Track* const second = continuing(pair->ids()[1], pair->openedAt());
+    if (first && second && !pair->isDecided(time, options_.doubt_time)) {
+      ++pair;
+      continue;
+    }
+    if (first && second) {
+      first->noteMeeting(pair->probability());
+      second->noteMeeting(pair->probability());
+    }
+    pair = pairs.erase(pair);
+  }
+}
+
+/// The track of that id, unless it was reacquired later than this [s].
+Track* CameraGroup::continuing(std::uint32_t id, double since) {
+  const auto track = std::find_if(
+      state_.tracks.begin(), state_.tracks.end(),
+      [&](const Track& candidate) { return candidate.id == id && candidate.startedAt() <= since; });
+  return track == state_.tracks.end() ? nullptr : &*track;
 }
 
 /// None of an image that does not fit, unless there are only two cameras.

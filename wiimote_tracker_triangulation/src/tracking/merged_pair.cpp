@@ -1,6 +1,7 @@
 #include "merged_pair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker::tracking {
@@ -118,6 +119,13 @@ MergedPair::SpotIndices MergedPair::branch(const Predictions& predictions,
     }
   }
   return branches[0].spots;
+}
+
+double MergedPair::probability() const {
+  double sum = 0.0;  // that of the most likely hypothesis is 1
+  for (const Hypothesis& hypothesis : hypotheses_)
+    sum += std::exp(hypothesis.log_likelihood);
+  return 1.0 / sum;
 }
 
 bool MergedPair::areSeparate(double time) const {

@@ -52,6 +52,9 @@ class MergedPair {
   /// The filters of the most likely hypothesis, at the last view that updated them.
   const Filters& likeliest() const { return hypotheses_.front().filters; }
 
+  /// Probability of the most likely hypothesis among those that are left [0..1].
+  double probability() const;
+
   /// Whether some view showed two spots just before a time [s].
   bool areSeparate(double time) const;
 

@@ -115,8 +115,10 @@ void Track::addInitialSpot(std::size_t camera, double time, double residual) {
 void Track::continueAs(const Track& found) {
   const std::uint32_t own_id = id;
   const double initiated = initiated_;
+  const double same_led = same_led_;
   *this = found;
   id = own_id;
+  same_led_ = same_led;
   confirmed_ = true;
   initiated_ = initiated;
   agreement_.reacquire();
@@ -258,6 +260,7 @@ void Track::report(double time,
   led->id = id;
   led->first_seen = initiated_;
   led->last_observed = last_observed_;
+  led->same_led = same_led_;
   led->cameras.clear();
   led->rays_possible = 0;
   double squares = 0.0;

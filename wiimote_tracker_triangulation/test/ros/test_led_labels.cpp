@@ -318,6 +318,24 @@ void see(identity::Identifier* identifier, std::uint32_t id, double start, bool 
   }
 }
 
+TEST(LedLabels, AreDoubtfulAfterTheLedsMayHaveChangedPlaces) {
+  LedLabels labels({"left", "right"});
+  std::vector<TrackedLed> leds = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
+  leds[0].same_led = 0.9;  // before it had a label
+  labels.update(kTime, leds);
+  EXPECT_TRUE(std::isnan(labels.of(0).confidence));
+  leds[0].same_led = 0.45;
+  leds[1].same_led = 0.5;
+  labels.update(kTime, leds);
+  EXPECT_NEAR(0.5, labels.of(0).confidence, 1e-9);
+  EXPECT_NEAR(0.5, labels.of(1).confidence, 1e-9);
+  EXPECT_EQ((std::vector<std::string>{"left", "right"}), labels.doubtful());
+  EXPECT_NEAR(0.5, labels.places().at("left").confidence, 1e-9) << "kept for a restart";
+  labels.update(kTime, leds);
+  EXPECT_NEAR(0.5, labels.of(0).confidence, 1e-9);
+  EXPECT_TRUE(labels.doubtful().empty()) << "said once";
+}
+
 TEST(LedLabels, ComeFromBlinking) {
   identity::Identifier identifier(
       identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});

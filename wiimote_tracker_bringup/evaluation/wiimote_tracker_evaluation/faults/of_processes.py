@@ -38,7 +38,7 @@ FAULTS = (
     # The tracker then says that time jumped back, and tracks begin anew. Each LED waves nearer to
     # its former place than to another's, so names stay, but after 5 s they are doubtful. This comes
     # before the tracker (or its manager) is killed, after which they may be doubtful already.
-    halted('tracker', 'the tracker', TRACKER, quick=True, named='labels were given again'),
+    halted('tracker', 'the tracker', TRACKER, quick=True, named='labels may be wrong'),
     killed('tracker', 'the tracker', TRACKER, quick=True),
     killed('calibration', 'the calibration node', CALIBRATION),
     halted('calibration', 'the calibration node', CALIBRATION),
@@ -47,6 +47,6 @@ FAULTS = (
     killed('master_watch', 'the node that watches the master', WATCH, 3.0),
     halted('master_watch', 'the node that watches the master', WATCH),
     halted('manager', 'the nodelet manager with tracker and drivers', MANAGER, quick=True,
-           room=IN_ONE, named='labels were given again'),
+           room=IN_ONE, named='labels may be wrong'),
     killed('manager', 'the nodelet manager with tracker and drivers', MANAGER, quick=True,
            room=IN_ONE))

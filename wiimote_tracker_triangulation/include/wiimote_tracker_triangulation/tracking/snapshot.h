@@ -34,6 +34,9 @@ struct TrackedLed {
   double residual = std::numeric_limits<double>::quiet_NaN();
   double first_seen = 0.0;     ///< [s]
   double last_observed = 0.0;  ///< [s]
+  /// Probability that the track did not change places with another one since it was first seen,
+  /// when two LEDs met [0..1].
+  double same_led = 1.0;
   bool remapped = false;       ///< Corrected where the correction of the volume was measured.
 };
 

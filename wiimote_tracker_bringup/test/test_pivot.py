@@ -120,6 +120,9 @@ def test_a_hidden_probe_tells_no_point(tmp_path):
     with pytest.raises(ExperimentError, match='last seen 3.0 s ago'):
         measuring.save_point()
     assert not file.exists()
+    now[0] += 10.0
+    with pytest.raises(ExperimentError, match='last seen 13.0 s ago'):
+        measuring.pivot()  # not of what was before
 
 
 def test_points_are_taken_at_rest_once_a_place(tmp_path):

@@ -75,12 +75,16 @@ class Probe:
         while message.header.stamp - self.messages[0].header.stamp > rospy.Duration(self.duration):
             self.messages.popleft()
 
-    def newest(self, duration):
-        """The messages of the last duration [s]."""
+    def newest(self, duration, hidden=HIDDEN):
+        """The messages of the last duration [s]. Throws ExperimentError if the newest is older than
+        hidden [s]."""
         messages = list(self.messages)
         if not messages:
             raise ExperimentError('the probe was never seen: check that the tracker runs and knows '
                                   'the body, and turn it towards the cameras')
+        if self.now() - self.seen > hidden:
+            raise ExperimentError(f'the probe was last seen {self.now() - self.seen:.1f} s ago: '
+                                  'turn it towards the cameras')
         start = messages[-1].header.stamp - rospy.Duration(duration)
         return [message for message in messages if message.header.stamp >= start]
 
@@ -108,7 +112,7 @@ class Probe:
 
     def pivot(self):
         """Solves for the tip. @returns a sentence."""
-        messages = self.newest(self.duration)
+        messages = self.newest(self.duration, self.duration)
         times, positions, rotations, covariances = arrays(messages)
         which = np.unique(np.floor(times / INTERVAL), return_index=True)[1]
         found = pivot.solve(positions[which], rotations[which], covariances[which])
@@ -120,9 +124,6 @@ class Probe:
     def save_point(self):
         """Appends where the tip is to the file. @returns a sentence."""
         messages = self.newest(REST)
-        if self.now() - self.seen > HIDDEN:
-            raise ExperimentError(f'the probe was last seen {self.now() - self.seen:.1f} s ago: '
-                                  'turn it towards the cameras')
         points, covariances = self.points(messages)
         spread = np.sqrt(points.var(axis=0).sum())
         stddevs = np.sqrt(np.diagonal(covariances.mean(axis=0)))

@@ -136,7 +136,7 @@ def test_an_interval_that_no_two_poses_have():
             comparison.compare(around(), around(), interval=interval)
 
 
-def write(bag, topic, poses):
+def write(bag, topic, poses, delay=0.0):
     for time, position, turn in zip(poses.times, poses.positions, poses.rotations.as_quat()):
         message = Odometry()
         message.header.stamp = rospy.Time.from_sec(time)
@@ -145,7 +145,7 @@ def write(bag, topic, poses):
             setattr(message.pose.pose.position, name, value)
         for name, value in zip('xyzw', turn):
             setattr(message.pose.pose.orientation, name, value)
-        bag.write(topic, message, message.header.stamp)
+        bag.write(topic, message, rospy.Time.from_sec(time + delay))
 
 
 def test_a_bag_with_a_mount(tmp_path, capsys):
@@ -173,6 +173,15 @@ def test_bags_that_cannot_be_read(tmp_path, monkeypatch):
     with rosbag.Bag(str(path), 'w') as bag:
         write(bag, '/odom', around(duration=1.0))
     arguments = ['--estimate', '/odom', '--truth', '/odom']
+def test_a_clock_that_was_set_back_mixes_no_times(tmp_path):
+    path = str(tmp_path / 'run.bag')
+    with rosbag.Bag(path, 'w') as bag:
+        for start, recorded in ((1000.0, 1000.0), (1002.0, 1004.0)):
+            write(bag, '/odom', around(duration=4.0, start=start), recorded - start)
+    with pytest.raises(SystemExit, match=r'go back by 2\.0 s'):
+        evaluate_trajectory.main([path, '--estimate', '/odom', '--truth', '/odom'])
+
+
     broken = tmp_path / 'broken.bag'
     for content in (path.read_bytes()[:-4000], b'no bag', b''):
         broken.write_bytes(content)
@@ -181,3 +190,5 @@ def test_bags_that_cannot_be_read(tmp_path, monkeypatch):
     monkeypatch.setattr(rosbag.Bag, 'read_messages', lambda *_, **__: iter(()))
     with pytest.raises(SystemExit, match='fewer than two poses'):
         evaluate_trajectory.main([str(path), *arguments])
+    with pytest.raises(SystemExit, match='missing.bag cannot be read .*; name a bag'):
+        evaluate_trajectory.main([str(tmp_path / 'missing.bag'), *arguments])

@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 
+BACK = 1.0  # by which stamps go back only where a clock was set, or a replay began again [s]
 
 
 def numbers(pose):
@@ -117,8 +118,15 @@ def read_rows(path, topic, numbers_of, what):
     except rosbag.ROSBagException as error:
         raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair it '
                               'with rosbag reindex') from error
+    except OSError as error:
+        raise ExperimentError(f'{path} cannot be read ({error.strerror}); name a bag') from error
     if not rows:
         raise ExperimentError(f'{topic} in {path} has fewer than two {what}; record it again')
     rows = np.array(rows)
+    back = np.maximum.accumulate(rows[:, 0]) - rows[:, 0]
+    if back.max() > BACK:
+        raise ExperimentError(f'stamps of {topic} in {path} go back by {back.max():.1f} s, so that '
+                              'two times would be mixed: record again without setting the clock, '
+                              'or keep one part with rosbag filter')
     rows = rows[np.isfinite(rows).all(axis=1)]
     return rows[np.unique(rows[:, 0], return_index=True)[1]], message

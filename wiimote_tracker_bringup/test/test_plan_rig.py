@@ -60,6 +60,8 @@ def test_one_camera_alone_and_none_leave_a_point_unknown():
 def test_what_the_cameras_see_is_told_with_rays_that_cross_and_with_parallel_ones():
     crossing = '\n'.join(plan_rig.describe_sight(ROOM, 'ab', POSITIONS[:2], TARGETS[:2]))
     assert re.search(r'pixels alone: [0-9.]+ mm \(RMS\), [0-9.]+ mm \(largest\)', crossing)
+    away = plan_rig.describe_sight(ROOM, 'ab', POSITIONS[:2], 100.0 * POSITIONS[:2])
+    assert 'no place is seen by two cameras: check that the plan is in metres' in away[-1]
     beside = POSITIONS[:1] + [[0.0, 0.0, 0.0], [0.001, 0.0, 0.0]]
     parallel = '\n'.join(plan_rig.describe_sight(ROOM, 'ab', beside, TARGETS[[0, 0]]))
     assert re.search(r'alone: [0-9.]+ mm \(RMS\), [0-9.]+ mm \(largest; 500 or more: ', parallel)

@@ -176,5 +176,5 @@ def test_files_and_words(tmp_path):
     assert 'static_transform_publisher' in open(path).read()
     assert 'clock offset      37.30 ms' in '\n'.join(body_to_base.describe(found))
     (tmp_path / 'other.yaml').write_text('a: 1\n')
-    with pytest.raises(ExperimentError, match='is no result of body_to_base'):
+    with pytest.raises(ExperimentError, match="no result of body_to_base: 'format' is missing"):
         mount.read(str(tmp_path / 'other.yaml'))

@@ -61,5 +61,7 @@ def read(path):
                      np.array(content['translation'], dtype=float), float(content['clock_offset']),
                      np.array(content['covariance'], dtype=float).reshape(7, 7),
                      content['body'], content['base'])
-    except (KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+    except KeyError as error:
+        raise ExperimentError(f'{path} is no result of body_to_base: {error} is missing') from error
+    except (TypeError, ValueError, yaml.YAMLError) as error:
         raise ExperimentError(f'{path} is no result of body_to_base: {error}') from error

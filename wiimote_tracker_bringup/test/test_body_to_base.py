@@ -134,6 +134,8 @@ def test_a_bag(tmp_path):
     found = mount.read(output)
     assert np.abs(error_of(found)).max() < 0.002
     assert (found.body, found.base) == ('robot', 'base_link')
+    with pytest.raises(SystemExit, match='run.bag: write to another file'):
+        body_to_base.main([path, '--body', '/robot/odometry', '--odom', '/odom', '--output', path])
 
 
 def test_a_bag_with_an_imu(tmp_path, capsys):

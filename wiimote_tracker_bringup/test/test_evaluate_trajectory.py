@@ -164,15 +164,15 @@ def test_a_bag_with_a_mount(tmp_path, capsys):
     assert 'ATE [m]' in capsys.readouterr().out
     assert json.loads(result.read_text())['ATE [m]']['max'] < 1e-4
     assert '<svg' in picture.read_text()
+    before = open(path, 'rb').read()
+    for option in ('--json', '--plot'):
+        with pytest.raises(SystemExit, match='run.bag: write to another file'):
+            evaluate_trajectory.main([path, *topics, option, path])
+    assert open(path, 'rb').read() == before
     with pytest.raises(SystemExit, match='Topics with poses: /odom, /wand/odometry'):
         evaluate_trajectory.main([path, '--estimate', '/imu', '--truth', '/wand/odometry'])
 
 
-def test_bags_that_cannot_be_read(tmp_path, monkeypatch):
-    path = tmp_path / 'run.bag'
-    with rosbag.Bag(str(path), 'w') as bag:
-        write(bag, '/odom', around(duration=1.0))
-    arguments = ['--estimate', '/odom', '--truth', '/odom']
 def test_a_clock_that_was_set_back_mixes_no_times(tmp_path):
     path = str(tmp_path / 'run.bag')
     with rosbag.Bag(path, 'w') as bag:
@@ -182,13 +182,18 @@ def test_a_clock_that_was_set_back_mixes_no_times(tmp_path):
         evaluate_trajectory.main([path, '--estimate', '/odom', '--truth', '/odom'])
 
 
+def test_bags_that_cannot_be_read(tmp_path, monkeypatch):
+    path = tmp_path / 'run.bag'
+    with rosbag.Bag(str(path), 'w') as bag:
+        write(bag, '/odom', around(duration=1.0))
+    arguments = ['--estimate', '/odom', '--truth', '/odom']
     broken = tmp_path / 'broken.bag'
     for content in (path.read_bytes()[:-4000], b'no bag', b''):
         broken.write_bytes(content)
         with pytest.raises(SystemExit, match='broken.bag cannot be read'):
             evaluate_trajectory.main([str(broken), *arguments])
+    with pytest.raises(SystemExit, match='missing.bag cannot be read .*; name a bag'):
+        evaluate_trajectory.main([str(tmp_path / 'missing.bag'), *arguments])
     monkeypatch.setattr(rosbag.Bag, 'read_messages', lambda *_, **__: iter(()))
     with pytest.raises(SystemExit, match='fewer than two poses'):
         evaluate_trajectory.main([str(path), *arguments])
-    with pytest.raises(SystemExit, match='missing.bag cannot be read .*; name a bag'):
-        evaluate_trajectory.main([str(tmp_path / 'missing.bag'), *arguments])

@@ -140,6 +140,15 @@ def test_a_missing_folder_is_told_before_the_search(option, tmp_path, monkeypatc
     plan_rig.check_folder('/dev/null')
 
 
+@pytest.mark.parametrize('option', ['--output', '--plot'])
+def test_the_plan_is_not_overwritten(option, tmp_path):
+    path = tmp_path / 'plan.yaml'
+    path.write_text(ROOM_TEXT)
+    with pytest.raises(SystemExit, match='plan.yaml: write to another file'):
+        plan_rig.main([str(path), option, str(path)])
+    assert path.read_text() == ROOM_TEXT
+
+
 def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
     room = tmp_path / 'room'
     room.mkdir()

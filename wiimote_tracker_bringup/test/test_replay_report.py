@@ -8,6 +8,16 @@ from wiimote_tracker_evaluation import reprojection
 replay_report = program_module.load('import/replay_report')
 
 
+def test_the_bag_is_not_overwritten(tmp_path, monkeypatch):
+    (tmp_path / 'in.bag').write_text('recorded')
+    (tmp_path / 'link').symlink_to(tmp_path / 'in.bag')
+    monkeypatch.setattr('sys.argv', ['replay_report', str(tmp_path / 'in.bag'), '--json',
+                                     str(tmp_path / 'link')])
+    with pytest.raises(SystemExit, match='link: write to another file'):
+        replay_report.main()
+    assert (tmp_path / 'in.bag').read_text() == 'recorded'
+
+
 @pytest.mark.parametrize('points, by_two, observed, words', [
     (50, 50, [1.0], ''), (50, 0, [1.0], 'not synchronised'), (50, 0, [], 'exactly one spot'),
     (0, 50, [], 'check that the rig')])

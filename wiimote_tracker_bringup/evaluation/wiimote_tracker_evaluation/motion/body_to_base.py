@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import ranges
+from wiimote_tracker_evaluation import files, ranges
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import hand_eye, inertial, mount, poses
 
@@ -42,6 +42,7 @@ def main(argv=None):
                         help='default: mount.yaml')
     arguments = parser.parse_args(argv)
     try:
+        files.check_distinct([arguments.output], [arguments.bag])
         solver, source, topic = ((hand_eye, poses, arguments.odom) if arguments.odom else
                                  (inertial, inertial, arguments.imu))
         report(f'reads {arguments.bag}')

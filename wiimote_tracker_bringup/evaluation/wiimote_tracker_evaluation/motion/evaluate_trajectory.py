@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment, ranges
+from wiimote_tracker_evaluation import alignment, files, ranges
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import comparison, mount, poses
 
@@ -42,6 +42,7 @@ def draw(compared, file):
 
 
 def run(arguments):
+    files.check_distinct([arguments.json, arguments.plot], [arguments.bag, arguments.mount])
     truth = poses.read(arguments.bag, arguments.truth)
     estimate = poses.read(arguments.bag, arguments.estimate)
     offset = arguments.offset

@@ -20,7 +20,7 @@ from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Trigger, TriggerResponse
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
-from wiimote_tracker_evaluation import rigs
+from wiimote_tracker_evaluation import files, rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.planning import (
     cells, handles, plan, plan_rig, prediction, search)
@@ -120,12 +120,14 @@ def main():
     rospy.init_node('place_cameras')
     try:
         chosen = plan.read(rospy.get_param('~plan'))
+        output = rospy.get_param('~output')
+        files.check_distinct([output], [rospy.get_param('~plan')])
         description = rospy.get_param('~description', '')
         if not description:
             rospy.loginfo('looking for places to begin with; rviz shows them then')
         rig = (plan_rig.read_rig(description) if description
                else plan_rig.description(chosen, *search.proposal(chosen)))
-        PlaceCameras(chosen, rig, rospy.get_param('~output'))
+        PlaceCameras(chosen, rig, output)
     except KeyError as error:
         rospy.logfatal('the parameter %s is missing: use plan.launch', error)
         return 1

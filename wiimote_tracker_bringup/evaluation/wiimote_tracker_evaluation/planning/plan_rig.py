@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import yaml
 
-from wiimote_tracker_evaluation import bound, ranges, rigs, scene
+from wiimote_tracker_evaluation import bound, files, ranges, rigs, scene
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
 from wiimote_tracker_evaluation.planning import picture, plan, prediction, search
@@ -137,6 +137,7 @@ def check_folder(path):
 
 
 def run(arguments):
+    files.check_distinct([arguments.output, arguments.plot], [arguments.plan])
     chosen = plan.read(arguments.plan)
     for path in filter(None, (arguments.output, arguments.plot)):
         check_folder(path)

@@ -20,8 +20,10 @@ namespace wiimote_tracker::geometry {
 namespace {
 
 [[noreturn]] void fail(const std::string& what, const std::string& path, int error) {
-  throw FileError("cannot " + what + " " + path + " (" + std::strerror(error) +
-                  "); check its permissions and free space, or choose another path");
+  throw FileError("cannot " + what + " " + path + " (" + std::strerror(error) + "); " +
+                  (error == ENOENT
+                       ? "check its name"
+                       : "check its permissions and free space, or choose another path"));
 }
 
 [[noreturn]] void failToRead(const std::string& path, int error) {

@@ -98,6 +98,11 @@ def test_an_unusable_rig(tmp_path):
     assert 'no rig can be used' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
 
 
+def test_a_rig_file_that_does_not_exist(bag, tmp_path):
+    assert 'No such file or directory); check its name' in refused(
+        tmp_path, bag, tmp_path / 'out.bag', '--rig', tmp_path / 'missing.yaml')
+
+
 def test_a_rig_of_other_cameras(tmp_path):
     write(tmp_path / 'in.bag', [(t.replace('camera', 'foreign'), m, s) for t, m, s in recorded()])
     assert 'no image is of a camera of the rig' in refused(tmp_path, tmp_path / 'in.bag',

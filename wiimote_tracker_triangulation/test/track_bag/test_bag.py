@@ -1,5 +1,6 @@
 """The bag that track_bag writes: of the same bytes for equal input, and as rosbag writes it."""
 
+import re
 import struct
 
 import genpy
@@ -10,7 +11,7 @@ from std_msgs.msg import String
 from tf2_msgs.msg import TFMessage
 
 import recording
-from program import all_bytes, arrays, bytes_of, position, read, recorded, track, write
+from program import all_bytes, arrays, bytes_of, position, read, recorded, run, track, write
 from recording import seconds_of, time_of, trigger
 
 
@@ -148,6 +149,19 @@ def test_images_before_the_first_rig_are_counted(bag, tmp_path):
         in track(tmp_path / 'in.bag', tmp_path / 'out.bag')
     assert 'before the first rig' not in track(bag, tmp_path / 'whole.bag')
     assert len(arrays(tmp_path / 'out.bag')) < len(arrays(tmp_path / 'whole.bag'))
+
+
+def test_a_clock_that_was_set_back_is_told(tmp_path):
+    entries = recorded()
+    for _, image, seconds in entries[1:]:
+        if seconds > 0.8 and image.camera == 'camera_2':
+            image.header.stamp -= genpy.Duration(0, 300000000)
+            image.arrival -= genpy.Duration(0, 300000000)
+    write(tmp_path / 'in.bag', entries)
+    status, _, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag')
+    assert status == 0
+    assert re.search(r'from 1600000000\.5\d+ s on, images of two times are mixed on /camera_2/ir_blobs',
+                     errors)
 
 
 def test_only_arrivals_decide_the_order(bag, tmp_path):

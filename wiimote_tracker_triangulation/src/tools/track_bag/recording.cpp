@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
+#include <map>
 
 namespace wiimote_tracker {
 namespace {
@@ -16,6 +17,9 @@ namespace {
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::RigCalibration;
 using wiimote_tracker_msgs::TrackedPointArray;
+
+/// A driver needs longer to start again and count its images from 0 [ns].
+constexpr std::uint64_t kShortestRestart = 100'000'000;
 
 /// When an image arrived [ns], as the tracker reads it.
 std::uint64_t arrivalOf(const IrBlobArray& image) {
@@ -52,6 +56,7 @@ void Recording::sort() {
     std::uint64_t arrival;
     bool is_image;
     std::size_t message;
+    std::uint64_t frame;
   };
   std::vector<Place> places;
   places.reserve(messages_.size());
@@ -59,7 +64,8 @@ void Recording::sort() {
     const auto image = read<IrBlobArray>(messages_[i]);
     if (read<RigCalibration>(messages_[i]) && endsWith(messages_[i].getTopic(), "/calibration/rig"))
       rig_topics_.insert(messages_[i].getTopic());
-    places.push_back({image ? arrivalOf(*image) : UINT64_MAX, image != nullptr, i});
+    places.push_back(
+        {image ? arrivalOf(*image) : UINT64_MAX, image != nullptr, i, image ? image->frame : 0});
     images_ += image != nullptr;
   }
   std::uint64_t earliest = UINT64_MAX;
@@ -76,8 +82,21 @@ void Recording::sort() {
     return a.is_image && messages_[a.message].getTopic() < messages_[b.message].getTopic();
   });
   order_.reserve(places.size());
-  for (const Place& place : places)
+  std::map<std::string, const Place*> last_images;  // by topic
+  for (const Place& place : places) {
     order_.push_back(place.message);
+    if (!place.is_image)
+      continue;
+    const std::string& topic = messages_[place.message].getTopic();
+    const Place*& last = last_images[topic];
+    if (mixed_times_.empty() && last && place.frame < last->frame &&
+        place.arrival - last->arrival < kShortestRestart)
+      mixed_times_ = format(
+          "from %.6f s on, images of two times are mixed on %s, because its clock was set "
+          "back, and points are wrong: keep those of one time with rosbag filter",
+          1e-9 * static_cast<double>(place.arrival), topic.c_str());
+    last = &place;
+  }
 }
 
 ros::Time Recording::justBefore() const {

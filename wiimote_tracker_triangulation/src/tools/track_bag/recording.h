@@ -68,6 +68,10 @@ class Recording {
   std::size_t images() const { return images_; }
   bool holdsRig() const { return !rig_topics_.empty(); }
 
+  /// A sentence if a camera's clock was set back, so that images of two times are mixed; else
+  /// empty.
+  const std::string& mixedTimes() const { return mixed_times_; }
+
   /// A time before the first recorded one, if there is one. Needs a message.
   ros::Time justBefore() const;
 
@@ -91,6 +95,7 @@ class Recording {
   std::vector<std::size_t> order_;
   std::size_t images_ = 0;
   std::set<std::string> rig_topics_;
+  std::string mixed_times_;
 };
 
 }  // namespace wiimote_tracker

@@ -228,6 +228,8 @@ void run(const Arguments& arguments) {
   const Recording recording(arguments.input);
   if (recording.images() == 0)
     throw BagError(arguments.input + " holds no images: record the cameras' ir_blobs");
+  if (!recording.mixedTimes().empty())
+    std::fprintf(stderr, "track_bag: %s\n", recording.mixedTimes().c_str());
   const Topics topics =
       arguments.name_space.empty() ? recording.topics() : Topics(arguments.name_space);
   const bool has_own_rig = !arguments.rig.empty();

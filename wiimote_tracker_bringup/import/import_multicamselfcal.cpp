@@ -17,6 +17,7 @@
 #include <boost/make_shared.hpp>
 
 #include <cstdio>
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -104,9 +105,14 @@ wiimote_tracker_msgs::TrackedPointArray pointsOf(const std::optional<Eigen::Vect
   return points;
 }
 
-/// Writes a solution as a bag like that of a live tracker (topics: README.md). Equal solutions give
-/// equal files. @throws ImportError: the bag cannot be written.
+/// Writes a solution as a bag like that of a live tracker (topics: README.md); a previous file
+/// becomes .bak. Equal solutions give equal files. @throws ImportError: the bag cannot be written.
 void writeBag(const Solution& solution, const std::string& path) {
+  std::error_code failed;
+  if (std::filesystem::is_regular_file(path))
+    std::filesystem::rename(path, path + ".bak", failed);
+  if (failed)
+    throw ImportError(path + " cannot be kept as " + path + ".bak: " + failed.message());
   try {
     rosbag::Bag bag(path, rosbag::bagmode::Write);
     writeLatched("/calibration/rig", rigMessage(solution.rig), &bag);

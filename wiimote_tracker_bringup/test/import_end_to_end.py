@@ -20,9 +20,9 @@ PACKAGE = 'wiimote_tracker_bringup'
 FLYDRA = os.path.join(os.path.dirname(os.path.realpath(__file__)), 'data', 'flydra_excerpt')
 
 
-def run(program, *arguments):
+def run(program, *arguments, package=PACKAGE):
     """(exit status, standard output, standard error) of a program of the package."""
-    found = roslib.packages.find_node(PACKAGE, program)
+    found = roslib.packages.find_node(package, program)
     if not found:
         raise AssertionError(f'{program} is not built')
     process = subprocess.run([found[0]] + list(arguments), stdout=subprocess.PIPE,
@@ -180,13 +180,15 @@ class ImportEndToEnd(unittest.TestCase):
 
     def test_the_same_folder_gives_the_same_bag(self):
         contents = []
-        for name in ('first.bag', 'second.bag'):
+        for name in ('first.bag', 'second.bag', 'first.bag'):
             path = os.path.join(self.folder, name)
             status, _, errors = run('import_multicamselfcal', FLYDRA, path)
             self.assertEqual(status, 0, errors)
             with open(path, 'rb') as stream:
                 contents.append(stream.read())
         self.assertTrue(contents[0] == contents[1])
+        with open(os.path.join(self.folder, 'first.bag.bak'), 'rb') as stream:
+            self.assertTrue(stream.read() == contents[0])
 
     def test_bad_input_gets_one_error_line(self):
         missing = os.path.join(self.folder, 'missing')

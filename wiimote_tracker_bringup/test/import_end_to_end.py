@@ -190,6 +190,23 @@ class ImportEndToEnd(unittest.TestCase):
         with open(os.path.join(self.folder, 'first.bag.bak'), 'rb') as stream:
             self.assertTrue(stream.read() == contents[0])
 
+    def test_self_calibrate_refuses_two_trackers_and_keeps_the_bag(self):
+        one, two = (os.path.join(self.folder, name) for name in ('one.bag', 'two.bag'))
+        self.assertEqual(run('import_multicamselfcal', FLYDRA, one)[0], 0)
+        with rosbag.Bag(one) as bag, rosbag.Bag(two, 'w') as both:
+            for topic, message, time in bag.read_messages():
+                for room in ('/a', '/b'):
+                    both.write(room + topic, message, time)
+        for arguments, status, words in (((two,), 1, 'keep those of one tracker'),
+                                         ((one, '--json', one), 2, 'write to another file'),
+                                         ((one, '--rig', one), 2, 'write to another file')):
+            before = os.path.getsize(one)
+            found, _, errors = run('self_calibrate', *arguments,
+                                   package='wiimote_tracker_calibration')
+            self.assertEqual(found, status)
+            self.assertIn(words, errors)
+            self.assertEqual(os.path.getsize(one), before)
+
     def test_bad_input_gets_one_error_line(self):
         missing = os.path.join(self.folder, 'missing')
         out = os.path.join(self.folder, 'out.bag')

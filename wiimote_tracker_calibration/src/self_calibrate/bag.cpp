@@ -22,6 +22,7 @@ struct Image {
 };
 
 struct CameraImages {
+  std::string topic;
   RecordedCamera camera;
   std::vector<Image> images;
 };
@@ -58,6 +59,9 @@ std::optional<Eigen::Vector2d> pixelAt(const std::vector<Image>& images, double 
 
 std::map<std::string, CameraImages> readImages(const std::string& path) {
   std::map<std::string, CameraImages> cameras;
+  if (!fileExists(path))
+    throw ImportError("there is neither a bag " + path + " nor a file " + path +
+                      "/Res.dat: name a bag or a folder");
   try {
     rosbag::Bag bag(path);
     rosbag::View view(bag, rosbag::TypeQuery("wiimote_tracker_msgs/IrBlobArray"));
@@ -66,13 +70,20 @@ std::map<std::string, CameraImages> readImages(const std::string& path) {
       if (!blobs)
         continue;
       CameraImages& images = cameras[blobs->camera];
+      if (images.topic.empty())
+        images.topic = message.getTopic();
+      if (images.topic != message.getTopic())
+        throw ImportError(path + " holds images of " + blobs->camera + " on " + images.topic +
+                          " and " + message.getTopic() +
+                          ": keep those of one tracker with rosbag filter");
       images.camera.name = blobs->camera;
       images.camera.has_intrinsics = false;
       add(*blobs, &images);
     }
   } catch (const rosbag::BagException& error) {
-    throw ImportError(
-        path + " is neither a folder with Res.dat nor a bag that can be read: " + error.what());
+    throw ImportError(path + " is neither a folder with Res.dat nor a bag that can be read (" +
+                      error.what() +
+                      "): if its recording was cut off, repair it with rosbag reindex");
   }
   return cameras;
 }

@@ -14,6 +14,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -47,6 +48,13 @@ std::vector<std::string> split(const std::string& text) {
 void check(const Arguments& arguments) {
   if (!arguments.intrinsics.empty() && (arguments.estimate || arguments.one_lens))
     throw BadArguments("--fix-intrinsics excludes --estimate-intrinsics and --one-lens");
+  for (const std::string& output : {arguments.json, arguments.rig}) {
+    for (const std::string& input : {arguments.source, arguments.intrinsics}) {
+      std::error_code missing;
+      if (std::filesystem::equivalent(output, input, missing))
+        throw BadArguments("two arguments are " + output + ": write to another file");
+    }
+  }
 }
 
 /// Prints the progress to the standard error output, at most once a second.

@@ -1,5 +1,6 @@
 """What track_bag refuses: in one sentence, with status 1, and without an output bag."""
 
+import fcntl
 import os
 import resource
 import signal
@@ -137,6 +138,20 @@ def test_a_disk_that_is_full(bag, tmp_path):
 def test_a_folder_that_cannot_be_created(bag, tmp_path):
     (tmp_path / 'file').write_text('')
     assert 'choose another place' in refused(tmp_path, bag, tmp_path / 'file' / 'out.bag')
+
+
+def test_two_programs_do_not_write_one_bag(bag, tmp_path):
+    out, part = tmp_path / 'out.bag', tmp_path / 'out.bag.part'
+    with open(str(part), 'w') as file:
+        file.write('of the other program')
+        file.flush()
+        fcntl.flock(file, fcntl.LOCK_EX)
+        status, _, errors = run(bag, out, '--csv', tmp_path / 'out.csv')
+        assert status == 1 and 'another program writes' in errors and not out.exists()
+        assert part.read_text() == 'of the other program'
+        assert not (tmp_path / 'out.csv.part').exists()
+    track(bag, out)  # over what it left
+    assert not part.exists() and len(arrays(out)) > 300
 
 
 def test_a_pipe_is_not_replaced(bag, tmp_path):

@@ -4,11 +4,15 @@
 #include "ros/measurements/part_file.h"
 #include "ros/point_message.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
 #include <unistd.h>
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 
 namespace wiimote_tracker {
@@ -20,6 +24,34 @@ using wiimote_tracker_msgs::TrackedPointArray;
 
 constexpr char kTransforms[] = "/tf";
 
+LockedPart::LockedPart(const std::string& path) : part_(measurements::partOf(path)) {
+  lock(path);
+  if (file_ >= 0 && ::ftruncate(file_, 0) != 0)  // of an earlier run: can be computed again
+    measurements::failToWrite(path, errno);
+  measurements::createPart(path);
+  if (file_ < 0)
+    lock(path);
+}
+
+LockedPart::~LockedPart() {
+  struct stat mine {};
+  struct stat present {};
+  if (::fstat(file_, &mine) == 0 && ::stat(part_.c_str(), &present) == 0 &&
+      mine.st_ino == present.st_ino)
+    ::unlink(part_.c_str());
+  ::close(file_);
+}
+
+/// Does nothing if there is no part.
+void LockedPart::lock(const std::string& path) {
+  file_ = ::open(part_.c_str(), O_RDWR | O_CLOEXEC);
+  if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+    ::close(file_);
+    throw BagError("another program writes " + path +
+                   ": wait until it has ended, or name another file");
+  }
+}
+
 Output::Output(const OutputFiles& files,
                const Topics& topics,
                const OutputOptions& options,
@@ -28,23 +60,18 @@ Output::Output(const OutputFiles& files,
       topics_(topics),
       options_(options),
       smoothed_(smoothed),
+      part_(path_),
       bag_(std::make_unique<rosbag::Bag>()),
       tables_(measurements::makeWriters(files.tables)),
       trajectories_(files.trajectories) {
-  ::unlink(measurements::partOf(path_).c_str());  // of an earlier run: can be computed again
-  measurements::createPart(path_);
   try {
     bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
   } catch (const rosbag::BagException& e) {
-    ::unlink(measurements::partOf(path_).c_str());
     fail(e.what());
   }
 }
 
 Output::~Output() {
-  if (!bag_)
-    return;
-  ::unlink(measurements::partOf(path_).c_str());
   // rosbag::Bag's destructor writes the index, and ends the process where that fails, as on a full
   // disk. The bag is not needed: leave it to the end of the process.
   static_cast<void>(bag_.release());

@@ -25,6 +25,22 @@ struct OutputFiles {
   std::string trajectories;  ///< Folder of the bodies' trajectories; empty: none.
 };
 
+/// The part of a bag, locked against other programs, removed unless it was finished.
+class LockedPart {
+ public:
+  /// @throws Error: another program writes the file, or it cannot be written.
+  explicit LockedPart(const std::string& path);
+  ~LockedPart();
+  LockedPart(const LockedPart&) = delete;
+  LockedPart& operator=(const LockedPart&) = delete;
+
+ private:
+  void lock(const std::string& path);
+
+  std::string part_;
+  int file_ = -1;
+};
+
 /// Writes the tracker's results and recorded messages to a new bag, and results to tables. The
 /// files get their names in finish(); existing files are kept as path + ".bak". All member
 /// functions throw BagError or Error.
@@ -82,7 +98,8 @@ class Output : public MessageSink {
   std::string path_;
   Topics topics_;
   OutputOptions options_;
-  SmoothedTracks* smoothed_;          // null: points are not smoothed
+  SmoothedTracks* smoothed_;  // null: points are not smoothed
+  LockedPart part_;
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
   TrajectoryFiles trajectories_;

@@ -37,7 +37,7 @@ struct TrackedLed {
   /// Probability that the track did not change places with another one since it was first seen,
   /// when two LEDs met [0..1].
   double same_led = 1.0;
-  bool remapped = false;       ///< Corrected where the correction of the volume was measured.
+  bool remapped = false;  ///< Corrected where the correction of the volume was measured.
 };
 
 /// How one spot was used. kStart: it began an LED's track, together with spots of other cameras.

@@ -103,6 +103,23 @@ TEST_F(NextStep, ARefusalStaysUntilTheNodeSaysSomethingNew) {
   EXPECT_EQ(guide_.answer(), "corner 1 captured");
 }
 
+TEST_F(NextStep, ANodeThatWasStartedAgainAmidACalibrationHasLostIt) {
+  status_.header.seq = 50;
+  at(CalibrationStatus::WAVING);
+  status_.header.seq = 0;
+  status_.message = "the old rig is in use";
+  at(CalibrationStatus::SAVED);
+  EXPECT_NE(guide_.answer().find("is lost. Start again."), std::string::npos);
+  answered("start", "started");
+  EXPECT_EQ(guide_.answer(), "started");
+  status_.header.seq = 50;
+  at(CalibrationStatus::SAVED);
+  status_.header.seq = 0;
+  status_.message = "the same rig is in use";
+  at(CalibrationStatus::SAVED);
+  EXPECT_EQ(guide_.answer(), "the same rig is in use");
+}
+
 TEST_F(NextStep, AVerdictIsThatOfTheRigInUse) {
   CalibrationVerdict verdict;
   verdict.rig_id = status_.rig_id = "rig";

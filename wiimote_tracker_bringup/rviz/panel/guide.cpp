@@ -12,6 +12,9 @@ namespace {
 const std::set<std::string> kServices = {
     "learn_masks", "check_connection", "start", "capture_corner",
     "start_wave",  "stop_wave",        "solve", "save"};
+constexpr const char* kLost =
+    "The calibration node was started again: what was captured, or solved and not saved, is lost. "
+    "Start again.";
 
 }  // namespace
 
@@ -20,6 +23,9 @@ const std::set<std::string> kServices = {
 void Guide::onStatus(const Status& status, double now) {
   if (status_ && status.message != status_->message)
     answer_.clear();  // the node's message is newer
+  if (status_ && status.header.seq < status_->header.seq && status_->step >= Status::READY &&
+      status_->step <= Status::SOLVED)
+    is_lost_ = true;  // Another publisher counts anew.
   status_ = status;
   status_at_ = now;
   is_known_ = true;
@@ -28,6 +34,7 @@ void Guide::onStatus(const Status& status, double now) {
 void Guide::onRequest(const std::string& service) {
   if (service != "cancel")  // What is cancelled still runs.
     running_ = service;
+  is_lost_ = false;
   answer_.clear();
   progress_text_.clear();
   progress_ = 0.0;
@@ -50,6 +57,8 @@ void Guide::onAnswer(const std::string& service, const std::string& text) {
 std::string Guide::answer() const {
   if (!running_.empty())
     return progress_text_;
+  if (answer_.empty() && is_lost_)
+    return kLost;
   return answer_.empty() && status_ ? status_->message : answer_;
 }
 

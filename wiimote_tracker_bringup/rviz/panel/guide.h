@@ -72,6 +72,7 @@ class Guide {
   std::optional<wiimote_tracker_msgs::CalibrationVerdict> verdict_;
   double status_at_ = 0.0;
   bool is_known_ = true;
+  bool is_lost_ = false;  // Since the last request the node was started again, amid a calibration.
   std::string running_, answer_, progress_text_;
   double progress_ = 0.0;
 };

@@ -8,6 +8,8 @@ from typing import Dict, List, Optional, Sequence
 
 SILENT_AFTER = 3.0  # [s] The node publishes its status twice a second.
 FOUND_WITHIN = 3.0  # [s] Longest search for a node that runs.
+LOST = ('The calibration node was started again: what was captured, or solved and not saved, is '
+        'lost. Start again.')
 # The command for each CalibrationStatus.next_request.
 WORDS = {'learn_masks': 'masks', 'check_connection': 'connection', 'start': 'start',
          'capture_corner': 'capture', 'start_wave': 'wave', 'stop_wave': 'wave', 'solve': 'solve',
@@ -48,6 +50,7 @@ class Guide:
         self.answer = ''
         self.answers = []       # (good, text) of all answers
         self.measured = ''      # the answer to the last length or known place
+        self.lost = ''          # LOST from then on until the next request
         self.running = []       # words of the commands that have not been answered
         self.feedback = ''
         self.progress = 0.0
@@ -63,6 +66,9 @@ class Guide:
         self.status = status
         if before is not None and status.message != before.message:
             self.answer = ''  # the node's message is newer
+        if before is not None and status.header.seq < before.header.seq and (
+                status.READY <= before.step <= status.SOLVED):
+            self.lost = LOST  # Another publisher counts anew.
         self.status_at = now
         self.statuses_since_answer += 1
         self._keep_time(before, status, now)
@@ -75,6 +81,7 @@ class Guide:
 
     def on_request(self, word: str) -> None:
         self.running.append(word)
+        self.lost = ''
         self.feedback = ''
         self.progress = 0.0
 
@@ -100,6 +107,10 @@ class Guide:
         self.answer = text
 
     # --- What it means
+
+    def said(self) -> str:
+        """The newest answer or message."""
+        return self.answer or self.lost or (self.status.message if self.status else '')
 
     def silent(self, now: float) -> str:
         """Why there is nothing to see; empty when all is well."""

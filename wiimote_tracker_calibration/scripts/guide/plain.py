@@ -117,6 +117,9 @@ class Plain:
         for good, text in guide.answers[answers:]:
             self.failures += 0 if good else 1
             self._tell(('' if good else 'refused: ') + text)
+        if guide.lost and not self._told.get('lost'):
+            self._fail(guide.lost)
+        self._told['lost'] = guide.lost
         silent = guide.silent(time.monotonic())
         # Print the sentence once, though it counts the seconds.
         self._tell_new('silent', bool(silent), silent)

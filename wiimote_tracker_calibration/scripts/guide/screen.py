@@ -85,7 +85,7 @@ def saying(guide: Guide, columns: int, shown: str = '') -> List[str]:
         if guide.progress > 0.0:
             text = f'{bar(guide.progress, 20)} {text}'
         return wrapped(text, columns, 3)
-    text = guide.answer or (guide.status.message if guide.status else '')
+    text = guide.said()
     return wrapped(text, columns, 3) if text != shown else []
 
 

@@ -99,3 +99,15 @@ def test_plain_waits_until_nothing_is_missing():
     face.run()
     assert face.failures == 0
     assert said.index('missing: 1 s') < said.index('  0 %  enough') < said.index('solve done')
+
+
+def test_plain_fails_when_the_node_was_started_again_amid_a_calibration():
+    node = FakeNode({})
+    before = status(CalibrationStatus.WAVING, message='recording', missing=['1 s'])
+    before.header.seq = 50
+    said = []
+    face = Plain(dialogue_with(node, before), said.append, io.StringIO('undo\n'))
+    node.events.put(('status', status(CalibrationStatus.SAVED, message='the old rig is in use')))
+    face.run()
+    assert face.failures == 1
+    assert sum('is lost. Start again.' in line for line in said) == 1

@@ -119,6 +119,22 @@ def test_a_newer_message_of_the_node_takes_the_place_of_an_answer():
     assert screen.render(guide, 3.0)[21] == 'new'
 
 
+def test_a_node_that_was_started_again_amid_a_calibration_has_lost_it():
+    def numbered(seq, step, **fields):
+        message = status(step, **fields)
+        message.header.seq = seq
+        return message
+    guide = guide_at(numbered(50, CalibrationStatus.WAVING),
+                     numbered(0, CalibrationStatus.IDLE),
+                     numbered(1, CalibrationStatus.SAVED, message='the old rig is in use'))
+    assert 'is lost. Start again.' in screen.render(guide, 3.0)[21]
+    guide.on_request('start')
+    guide.on_answer('start', True, 'started', 4.0)
+    assert screen.render(guide, 4.0)[21] == 'started'
+    saved = guide_at(numbered(50, CalibrationStatus.SAVED), numbered(0, CalibrationStatus.IDLE))
+    assert not saved.lost
+
+
 def test_a_verdict_stands_on_its_page_once():
     guide = guide_at(status(CalibrationStatus.SOLVED))
     guide.verdict = CalibrationVerdict(text='Good: known to 3 mm.')

@@ -225,6 +225,21 @@ class Rooms : public Node {
   }
 };
 
+TEST_F(Rooms, OfAnotherFileAreNotLoadedAtTheNextStart) {
+  use(room({0, 1}, Eigen::Isometry3d::Identity()));
+  const std::string note = "; the next start loads " + folder_ + "/rig.yaml: save without a name";
+  LoadRig::Request load;
+  load.path = "second.yaml";
+  EXPECT_SAYS(call<LoadRig>("calibration/load", load).message, note);
+  SaveRig::Request save;
+  save.path = "third.yaml";
+  EXPECT_SAYS(call<SaveRig>("calibration/save", save).message, note);
+  save.path = load.path = "rig.yaml";
+  EXPECT_EQ(call<SaveRig>("calibration/save", save).message.find(note), std::string::npos);
+  EXPECT_EQ(call<LoadRig>("calibration/load", load).message.find(note), std::string::npos);
+  EXPECT_EQ(std::remove((folder_ + "/rig.yaml").c_str()), 0);
+}
+
 TEST_F(Rooms, AreJoinedOverTheCamerasThatTheyShare) {
   use(room({2, 3}, secondWorld()));
   geometry::writeRigFile(room({0, 1, 2}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");

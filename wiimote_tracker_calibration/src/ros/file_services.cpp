@@ -26,6 +26,13 @@ using workflow::Reply;
 
 namespace {
 
+/// What to do so that a rig of this file is used after the next start, too.
+std::string nextStart(const std::string& path, const Parameters& parameters) {
+  if (std::filesystem::absolute(path) == std::filesystem::absolute(parameters.rig_file))
+    return "";
+  return "; the next start loads " + parameters.rig_file + ": save without a name to replace that";
+}
+
 class FileServices {
  public:
   /// Loads and publishes the last saved rig, if there is one.
@@ -67,7 +74,8 @@ class FileServices {
         all.push_back(warning);
       return all;
     });
-    const std::string message = "saved to " + path + appendix(warnings);
+    const std::string message =
+        "saved to " + path + nextStart(path, context_.parameters(lock)) + appendix(warnings);
     if (!warnings.empty())
       ROS_WARN_STREAM(message);
     // A correction of the volume, which may have come meanwhile, leaves the id.
@@ -79,11 +87,16 @@ class FileServices {
   }
 
   Reply load(const LoadRig::Request& request, LoadRig::Response* response) {
+    std::string note;
     {
       const Lock lock(context_.mutex());
       response->path = rigPath(request.path, context_.parameters(lock));
+      note = nextStart(response->path, context_.parameters(lock));
     }
-    return loadRig(response->path);
+    Reply reply = loadRig(response->path);
+    if (reply.success)
+      reply.message += note;
+    return reply;
   }
 
   Reply saveSamples(const SaveSamples::Request& request, SaveSamples::Response* response) {

@@ -127,6 +127,9 @@ TEST(ParameterReaderOfAFile, ErrorsNameFileAndKey) {
                        "file.yaml/group has the wrong type: expected a number, but it is a group"));
   EXPECT_TRUE(contains(errorOf([&] { reader.required<double>("absent", "the side [m]"); }),
                        "set file.yaml/absent: the side [m]"));
+  // What YAML makes of off.
+  EXPECT_TRUE(contains(errorOf([&] { reader.choice("flag", "on", {"on", "off"}); }),
+                       "expected a text (in quotes), but it is true"));
 }
 
 TEST(ParameterReaderOfAFile, ErrorsShowAText) {

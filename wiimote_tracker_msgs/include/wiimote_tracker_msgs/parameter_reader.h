@@ -139,7 +139,7 @@ class ParameterReader {
   static std::string typeName(double) { return "a number"; }
   static std::string typeName(int) { return "a whole number"; }
   static std::string typeName(bool) { return "true or false"; }
-  static std::string typeName(const std::string&) { return "a text"; }
+  static std::string typeName(const std::string&) { return "a text (in quotes)"; }
   template <typename T>
   static std::string typeName(const std::vector<T>&) {
     return "a list, each entry " + typeName(T());

@@ -46,8 +46,11 @@ std::unique_ptr<SimulatedRig> makeRig(const ros::NodeHandle& nh,
       if (!passes || !ros::ok() || std::chrono::steady_clock::now() > deadline)
         throw;
       if (in_use)
-        ROS_WARN_ONCE("The sockets in %s are in use: waiting for another simulation to end.",
-                      directory.c_str());
+        ROS_WARN_ONCE(
+            "The sockets in %s are in use: waiting for another simulation to end. To have both, "
+            "give "
+            "this one a socket_directory of its own.",
+            directory.c_str());
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
   }

@@ -51,6 +51,8 @@ def test_a_description_is_where_the_user_says(load, given, found):
     parameters = load('simulated_rig.launch', 'description:=' + given, 'hand:=true')[1]
     assert {parameters[key] for key in (
         '/simulated_rig/description', '/simulated_hand/description', '/drivers/file')} == {found}
+    parameters = load('simulated_rig.launch', 'cameras:=' + given, 'hand:=true')[1]
+    assert parameters['/simulated_hand/cameras'] == parameters['/drivers/file'] == found
 
 
 @pytest.mark.parametrize('name, given', [

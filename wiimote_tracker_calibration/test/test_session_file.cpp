@@ -370,7 +370,7 @@ TEST_F(SessionFile, SaysWhatIsWrongWithIt) {
     text.replace(text.find(from), from.size(), to);
     return text;
   };
-  EXPECT_SAYS(refusal(), "cannot read");
+  EXPECT_SAYS(refusal(), "(No such file or directory); check its name");
   write("wiimote_tracker_rig: 1\n");
   EXPECT_SAYS(refusal(), "holds no samples");
   write(with("version: 1", "version: 2"));

@@ -225,7 +225,8 @@ class ContinuousServices {
       approach_.emplace(rig, proposal.places);
     return {true, (at_once ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
                       keepVersion(rig, lock) +
-                      "; calibration/continuous/revert goes back, and save keeps it"};
+                      "; calibration/continuous/revert goes back, and save keeps it" +
+                      (at_once ? "" : " once it is reached")};
   }
 
   /// A rig with one camera that was knocked. Of a rig that is approached only that camera is used.

@@ -4,9 +4,11 @@
 #include "recalibrate/recalibrate_camera.h"
 
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -46,8 +48,12 @@ class RecalibrateServices {
       throw Refusal("the duration must be within 0 and 300 s: correct it");
     Lock lock(context_.mutex());
     const geometry::Rig rig = context_.existingRig("with this camera", lock);
-    if (rig.find(camera) == nullptr)
-      throw Refusal("the rig has no camera '" + camera + "': name one of its own");
+    if (rig.find(camera) == nullptr) {
+      std::vector<std::string> names;
+      for (const geometry::RigCamera& each : rig.cameras)
+        names.push_back(each.camera.name);
+      throw Refusal("the rig has no camera '" + camera + "': name one of " + joined(names));
+    }
     const Job job = {Step::kMeasuring,
                      "wave the LED where " + camera + " and two other cameras or more see it",
                      "the rig is as it was", true};

@@ -24,7 +24,7 @@ constexpr double kStaleAge = 0.030;
 
 struct ModelPrior {
   DelayModel model;
-  double prior;
+  double prior;  // only the ratios count: weights are normalised at each report
 };
 constexpr double kPriorSteady = 0.14, kPriorWanders = 0.09, kPriorWandersMuch = 0.10,
                  kPriorWandersAsRecorded = 0.10;
@@ -77,8 +77,6 @@ constexpr double kStepBack = 1e-3;
 // Weight below which a model is reinitialised from the best one.
 constexpr double kMinWeight = 1.5e-4;
 constexpr double kNegligible = 1e-6;
-// Shortest time between two exposures, where a frame number was corrected downwards [s].
-constexpr double kMinStep = 1e-6;
 }  // namespace
 
 /// Densities of an arrival [1/s]: the report was on time, or waited for the one before, or was held
@@ -179,7 +177,7 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
   log_evidence_ = std::log(kUnexplained);
   // Exposures follow a clock that stepped back; otherwise they increase.
   const double exposure =
-      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kMinStep);
+      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kShortestStep);
   last_arrival_ = arrival;
   last_exposure_ = exposure;
   e.exposure = origin_ + exposure;
@@ -192,21 +190,20 @@ ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter&
                                                               double offset) const {
   const double late = arrival.time - filter.time() - offset * filter.period();
   const ClockFilter::Prediction frame = filter.predict(offset);
-  ArrivalDensity ways;
-  ways.on_time = (1.0 - stall_probability_) * filter.likelihood(frame, arrival.time);
-  ways.queued = filter.readyBefore(frame, arrival.before) * arrival.served;
-  ways.stalled =
+  ArrivalDensity density;
+  density.on_time = (1.0 - stall_probability_) * filter.likelihood(frame, arrival.time);
+  density.queued = filter.readyBefore(frame, arrival.before) * arrival.served;
+  density.stalled =
       late > 0.0 ? stall_probability_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
-  return ways;
+  return density;
 }
 
 // Bayes' rule for the frame number, the models, and each model's clock.
 void ClockEstimator::updateModels(double arrival) {
   const Arrival now = arrivalAfter(last_arrival_, arrival);
-  const ClockFilter& leader = best();
-  counter_.predict(
-      frame_ + 1 +
-      static_cast<std::int64_t>(std::floor((arrival - leader.time()) / leader.period())));
+  const ClockFilter& likeliest = best();
+  const double periods = (arrival - likeliest.time()) / likeliest.period();
+  counter_.predict(frame_ + 1 + static_cast<std::int64_t>(std::floor(periods)));
   std::array<double, FrameCounter::kCapacity> on_time, number;
   std::fill_n(number.begin(), counter_.size(), 0.0);
   double sum = 0.0, on_steady_edge = 0.0;
@@ -216,10 +213,10 @@ void ClockEstimator::updateModels(double arrival) {
     for (int i = 0; i < counter_.size(); ++i) {
       const auto at = static_cast<std::size_t>(i);
       const double offset = static_cast<double>(counter_.frame(i) - frame_);
-      const ArrivalDensity ways = arrivalDensity(filter, now, offset);
+      const ArrivalDensity density = arrivalDensity(filter, now, offset);
       // Only reports that were on time are measurements of the clock.
-      on_time[at] = counter_[i] * ways.on_time;
-      const double all = counter_[i] * (ways.sum() + kUnexplained);
+      on_time[at] = counter_[i] * density.on_time;
+      const double all = counter_[i] * (density.sum() + kUnexplained);
       evidence += all;
       number[at] += weights_[m] * all;
     }
@@ -271,9 +268,9 @@ void ClockEstimator::learnFromHistory(double arrival, double on_time) {
 }
 
 /// A step of expectation maximisation.
-void ClockEstimator::learnStallProbability(const ArrivalDensity& ways) {
+void ClockEstimator::learnStallProbability(const ArrivalDensity& density) {
   sample_count_ = std::min(sample_count_ + 1.0, kStallMemory);
-  const double stalled = ways.stalled / (ways.sum() + kUnexplained);
+  const double stalled = density.stalled / (density.sum() + kUnexplained);
   stall_probability_ += (stalled - stall_probability_) / (sample_count_ + kStallPriorCount);
   stall_probability_ = std::max(stall_probability_, kMinStallProbability);
 }
@@ -292,14 +289,14 @@ void ClockEstimator::applySteadyEdge() {
 }
 
 void ClockEstimator::reinitialiseUnlikelyModels() {
-  const ClockFilter& leader = best();
+  const ClockFilter& likeliest = best();
   double sum = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     if (weights_[m] < kMinWeight) {
       weights_[m] = kMinWeight;
       if (m != kSteadyEdge || !edge_.ready())
-        filters_[m].copyStateFrom(leader);
-      else if (std::abs(filters_[m].time() - leader.time()) > kMaxEdgeError)
+        filters_[m].copyStateFrom(likeliest);
+      else if (std::abs(filters_[m].time() - likeliest.time()) > kMaxEdgeError)
         edge_.clear();
     }
     sum += weights_[m];
@@ -321,9 +318,9 @@ Estimate ClockEstimator::estimate(double arrival) {
   for (std::size_t m = 0; m < kModels; ++m)
     variance += weights_[m] * (filters_[m].timeVariance() + std::pow(filters_[m].time() - time, 2));
 
-  // An exposure is not after its arrival, nor before that of the previous report.
-  const double exposure =
-      std::max(std::min(time, arrival + std::min(3.0 * spread, period)), last_exposure_ + kMinStep);
+  // With the constant part of its delay it may be a little after its arrival; exposures increase.
+  const double exposure = std::max(std::min(time, arrival + std::min(3.0 * spread, period)),
+                                   last_exposure_ + kShortestStep);
   double number_variance = 0.0;
   for (int i = 0; i < counter_.size(); ++i)
     number_variance +=

@@ -12,6 +12,9 @@
 
 namespace wiimote_tracker::exposure_clock {
 
+/// Between two exposures, where a frame number was corrected downwards [s].
+constexpr double kShortestStep = 1e-6;
+
 /// One attempt at the exposure times of a camera: if it begins with wrong frame numbers, it may
 /// keep a wrong period. ExposureClock leaves such an attempt.
 ///
@@ -56,7 +59,7 @@ class ClockEstimator {
                                 double offset) const;
   void updateModels(double arrival);
   void learnFromHistory(double arrival, double on_time);
-  void learnStallProbability(const ArrivalDensity& ways);
+  void learnStallProbability(const ArrivalDensity& density);
   void applySteadyEdge();
   void reinitialiseUnlikelyModels();
   Estimate estimate(double arrival);

@@ -69,6 +69,7 @@ double ClockFilter::time() const {
 }
 
 ClockFilter::Prediction ClockFilter::predict(double offset) const {
+  // Covariances of z with the state's time and period.
   const double c0 = state_.p00 + offset * state_.p01;
   const double c1 = state_.p01 + offset * state_.p11;
   Prediction z;
@@ -88,7 +89,7 @@ double ClockFilter::likelihood(const Prediction& z, double arrival) const {
   const double late = arrival - z.mean;
   if (!hasExponential(z))
     return normalDensity(late / z.stddev) / z.stddev;
-  // Normal plus exponential; the second form is equal and does not over- or underflow.
+  // Exponentially modified Gaussian; the second form is equal and does not over- or underflow.
   const double b = late / z.stddev - z.stddev / spread_;
   if (b > -6.0)
     return std::exp(0.5 * z.variance / square(spread_) - late / spread_) * normalCdf(b) / spread_;
@@ -108,22 +109,23 @@ void ClockFilter::addHypothesis(const Prediction& z,
                                 double weight,
                                 Hypotheses* sums) const {
   double innovation = arrival - z.mean;
-  double left = 0.0;  // variance of z, given the arrival
+  double variance = 0.0;  // of z, given the arrival
   if (hasExponential(z)) {
+    // A normal of mean z.mean + z.variance / spread_, truncated above at the arrival.
     const double b = innovation / z.stddev - z.stddev / spread_;
     const double mills = inverseMills(b);
     innovation = z.variance / spread_ - z.stddev * mills;
-    left = z.variance * std::max(kMinVarianceRatio, 1.0 - mills * (b + mills));
+    variance = z.variance * std::max(kMinVarianceRatio, 1.0 - mills * (b + mills));
   }
   const double time_shift = z.time_gain * innovation;
   const double period_shift = z.period_gain * innovation;
-  const double gone = z.variance - left;
+  const double reduction = z.variance - variance;
   sums->weight += weight;
   sums->time += weight * time_shift;
   sums->period += weight * period_shift;
-  sums->p00 += weight * (square(time_shift) - square(z.time_gain) * gone);
-  sums->p01 += weight * (time_shift * period_shift - z.time_gain * z.period_gain * gone);
-  sums->p11 += weight * (square(period_shift) - square(z.period_gain) * gone);
+  sums->p00 += weight * (square(time_shift) - square(z.time_gain) * reduction);
+  sums->p01 += weight * (time_shift * period_shift - z.time_gain * z.period_gain * reduction);
+  sums->p11 += weight * (square(period_shift) - square(z.period_gain) * reduction);
 
   // Expectation maximisation of the spread, given the new state.
   if (model_.hard_edge) {

@@ -56,7 +56,7 @@ class ClockFilter {
   Prediction predict(double offset) const;
   /// Density [1/s] of an arrival of this frame at `arrival`.
   double likelihood(const Prediction& frame, double arrival) const;
-  /// Probability that this frame was ready to arrive before `time`.
+  /// Probability that this frame was ready to arrive before `time`: the integral of likelihood().
   double readyBefore(const Prediction& frame, double time) const;
 
   /// Sums over the hypotheses of one arrival.

@@ -18,8 +18,6 @@ const double kProgress = std::log(2.0);
 constexpr double kBetter = 6.9;
 // Time over which the errors of replaced leaders are averaged [s].
 constexpr double kErrorMemory = 30.0;
-// Shortest time between two exposures [s].
-constexpr double kShortestStep = 1e-6;
 // In sniff mode a remote sends once in 16 slots of 0.625 ms [s]. The clocks of adapter and computer
 // differ by less than this share.
 constexpr double kSniffInterval = 0.010;
@@ -37,9 +35,9 @@ bool isOfPolls(double period) {
 ExposureClock::ExposureClock(double period)
     : leader_(std::make_unique<ClockEstimator>(period)),
       challenger_(std::make_unique<ClockEstimator>(period)),
-      progress_(-std::numeric_limits<double>::infinity()),
+      progressed_at_(-std::numeric_limits<double>::infinity()),
       leader_begin_(std::numeric_limits<double>::infinity()),
-      last_arrival_(progress_),
+      last_arrival_(progressed_at_),
       last_exposure_(last_arrival_) {}
 
 ExposureClock::~ExposureClock() = default;
@@ -96,15 +94,15 @@ void ExposureClock::learnError(double error, double arrival) {
 }
 
 void ExposureClock::endTrial() {
-  progress_ = -std::numeric_limits<double>::infinity();
+  progressed_at_ = -std::numeric_limits<double>::infinity();
   advantage_ = 0.0;
 }
 
 Estimate ExposureClock::challenge(double arrival) {
-  if (arrival < last_arrival_ || arrival > progress_ + kTrial) {
+  if (arrival < last_arrival_ || arrival > progressed_at_ + kTrial) {
     challenger_->reset();
     challenger_->copyLinkFrom(*leader_);
-    trial_begin_ = progress_ = arrival;
+    trial_begin_ = progressed_at_ = arrival;
     advantage_ = best_advantage_ = 0.0;
   }
   const Estimate estimate = challenger_->update(arrival);
@@ -112,7 +110,7 @@ Estimate ExposureClock::challenge(double arrival) {
     advantage_ += challenger_->logEvidence() - leader_->logEvidence();
   if (advantage_ > best_advantage_ + kProgress) {
     best_advantage_ = advantage_;
-    progress_ = arrival;
+    progressed_at_ = arrival;
   }
   return estimate;
 }

@@ -6,8 +6,8 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-constexpr double kCertainToDrop = 0.9999;
-constexpr int kNumbersBelow = 4;  // of those kept, below the most probable one
+constexpr double kDecided = 0.9999;  // probability of a number that later reports leave
+constexpr int kNumbersBelow = 4;     // of those kept, below the most probable one
 }  // namespace
 
 void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_time) {
@@ -24,7 +24,7 @@ void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_ti
 }
 
 bool FrameHistory::complete() const {
-  return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kCertainToDrop);
+  return size_ == kCapacity || (size_ > 0 && report(size_ - 1).probability > kDecided);
 }
 
 int FrameHistory::smooth(const FrameCounter& counter) {
@@ -38,6 +38,7 @@ int FrameHistory::smooth(const FrameCounter& counter) {
   return size;
 }
 
+// p(from | all) = p(from | so far) * sum over `to` of p(to | from) p(to | all) / p(to | so far)
 void FrameHistory::smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry) {
   std::array<double, kNumbers> factor{}, transition{};
   for (std::size_t to = 0; to < kNumbers; ++to) {

@@ -10,8 +10,8 @@
 namespace wiimote_tracker::exposure_clock {
 
 /// Smoothed frame numbers of the latest reports, because later reports often decide which frame a
-/// report was. The backward recursion to FrameCounter's forward one (Rabiner, Proc. IEEE 77, 1989,
-/// eq. 25 and 27).
+/// report was. From FrameCounter's probabilities alone (Kitagawa, J. Am. Stat. Assoc. 82, 1987);
+/// Rabiner's backward recursion would need the likelihoods again.
 class FrameHistory {
  public:
   struct Report {

@@ -11,8 +11,8 @@ constexpr int kMinBlocks = 8;
 // Number of first reports that are skipped, because their frame numbers are overconfident.
 constexpr int kSkippedReports = 25;
 
-/// Of the density exp(slope * x) on an interval: logarithm of its integral less the value at the
-/// higher end, mean and variance of x.
+/// Of the density exp(slope * x) on an interval: logarithm of its integral relative to its greatest
+/// value, mean and variance of x.
 struct Piece {
   double log_integral, mean, variance;
 };
@@ -21,7 +21,7 @@ Piece exponentialPiece(double begin, double end, double slope) {
   const double rise = slope * length;
   // The mean and mean square of u = (x - begin) / length.
   double log_integral, u, uu;
-  if (std::abs(rise) < 1e-3) {
+  if (std::abs(rise) < 1e-3) {  // series
     log_integral = -0.5 * std::abs(rise);
     u = 0.5 + rise / 12.0;
     uu = 1.0 / 3.0 + rise / 12.0;
@@ -89,18 +89,18 @@ SteadyEdge::Hull SteadyEdge::lowerHull() const {
 }
 
 ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
-  double weight = 0.0, center = 0.0;
+  double weight = 0.0, mean_frame = 0.0;
   for (const Block& block : blocks_) {
     weight += block.weight;
-    center += block.weighted_frames;
+    mean_frame += block.weighted_frames;
   }
-  center /= weight;
+  mean_frame /= weight;
   const double rate = weight / spread;
 
   const Hull hull = lowerHull();
   // Relative to the latest corner, for precision after days.
   const Point origin = hull.back();
-  center -= origin.frame;
+  mean_frame -= origin.frame;
   const auto n = static_cast<double>(frame - first_frame_);
   // Drift is the period less the nominal one. Each corner bounds the phase where the slopes of the
   // hull beside it say; sums are of (time, drift) over these pieces, weighed by their probability.
@@ -119,7 +119,7 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
     }
     if (end <= begin)
       continue;
-    const double slope = rate * (center - corner.frame);
+    const double slope = rate * (mean_frame - corner.frame);
     const Piece piece = exponentialPiece(begin, end, slope);
     const double log_mass =
         piece.log_integral + rate * corner.time + slope * (slope > 0.0 ? end : begin);
@@ -143,13 +143,13 @@ ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
   time /= sum;
   drift /= sum;
   const double below = 1.0 / rate;  // mean and standard deviation of the phase below its bound
-  ClockState m;
-  m.time = first_arrival_ + n * nominal_period_ + origin.time + time - below;
-  m.period = nominal_period_ + drift;
-  m.p00 = std::max(0.0, tt / sum - time * time) + below * below;
-  m.p01 = td / sum - time * drift;
-  m.p11 = std::max(0.0, dd / sum - drift * drift);
-  return m;
+  ClockState result;
+  result.time = first_arrival_ + n * nominal_period_ + origin.time + time - below;
+  result.period = nominal_period_ + drift;
+  result.p00 = std::max(0.0, tt / sum - time * time) + below * below;
+  result.p01 = td / sum - time * drift;
+  result.p11 = std::max(0.0, dd / sum - drift * drift);
+  return result;
 }
 
 }  // namespace wiimote_tracker::exposure_clock

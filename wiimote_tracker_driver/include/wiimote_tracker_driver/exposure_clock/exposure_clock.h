@@ -72,8 +72,8 @@ class ExposureClock {
   std::unique_ptr<ClockEstimator> leader_, challenger_;
   double trial_begin_ = 0.0;     ///< Of the challenger [s].
   double advantage_ = 0.0;       ///< Of the challenger: logarithm of a ratio of likelihoods,
-  double best_advantage_ = 0.0;  ///< its greatest value, in steps,
-  double progress_;              ///< and when it reached that [s].
+  double best_advantage_ = 0.0;  ///< its greatest value, in steps of kProgress,
+  double progressed_at_;         ///< and when it reached that [s].
   double leader_begin_;          ///< Arrival when it became the leader [s].
   double error_variance_ = 0.0;  ///< Average over replaced leaders and time since [s^2].
   double last_arrival_, last_exposure_;

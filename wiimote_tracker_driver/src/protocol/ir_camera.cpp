@@ -10,6 +10,7 @@
 namespace wiimote_tracker::protocol {
 namespace {
 
+// From wiibrew.org/wiki/Wiimote.
 const std::vector<std::pair<std::string, IrSensitivity>>& allSensitivities() {
   static const std::vector<std::pair<std::string, IrSensitivity>> sensitivities{
       {"wii_1", {{{0x02, 0x00, 0x00, 0x71, 0x01, 0x00, 0x64, 0x00, 0xfe}}, {{0xfd, 0x05}}}},

@@ -19,7 +19,7 @@ constexpr std::uint32_t kFormat = kRegisters << 24 | protocol::kIrModeRegister;
 
 /// The flags without the state of the motor, which every report carries.
 std::uint8_t flags(const Report& report) {
-  return report.bytes[1] & 0xfe;
+  return report.bytes[1] & ~protocol::kRumbleBit;
 }
 
 /// Address of a request to read or write memory.

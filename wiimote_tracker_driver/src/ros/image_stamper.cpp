@@ -11,7 +11,7 @@ namespace {
 constexpr double kStep = 0.005;
 // Readings less certain than this do not correct the drift [s].
 constexpr double kMaxClockUncertainty = 1e-4;
-// Share of a deviation that is corrected at each image: a time constant of one second.
+// Share of a deviation that is corrected at each image: a time constant of 100 images, one second.
 constexpr double kDriftGain = 0.01;
 // Shortest time between two stamps.
 const ros::Duration kLeastStep(1e-6);

@@ -5,7 +5,7 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Bits of protocol::decodeButtons().
+// Bits of protocol::decodeButtons(), in the order of joyButtons().
 constexpr std::uint16_t kBits[] = {0x0002, 0x0001, 0x0008, 0x0004, 0x1000, 0x0010,
                                    0x0100, 0x0200, 0x0800, 0x0400, 0x0080};
 

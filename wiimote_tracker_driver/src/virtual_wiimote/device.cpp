@@ -42,6 +42,7 @@ constexpr std::uint8_t kErrorAddress = 8;
 
 constexpr std::uint8_t kBatteryLow = 0x20;
 
+/// Addresses that begin with b0 or b1.
 bool isCamera(std::uint32_t address) {
   return address >> 17 == 0xb0 >> 1;
 }

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <optional>
 
-/// Reports of the remote. Each decoder returns nothing for a report of another id or one that is
-/// too short; longer ones are accepted, because some stacks pad reports.
+/// Reports of the remote (wiibrew.org/wiki/Wiimote). Each decoder returns nothing for a report of
+/// another id or one that is too short; longer ones are accepted, because some stacks pad reports.
 namespace wiimote_tracker::protocol {
 
 /// Sensor size in the units of IrSpot.
@@ -36,7 +36,7 @@ struct Status {
 };
 std::optional<Status> decodeStatus(const Report& report);
 
-/// Charge [0..1] of a raw battery level: an empirical line that reaches 1 at about 0x69.
+/// Charge [0..1] of a raw battery level: a line that Dolphin's authors fitted; 1 at about 0x69.
 double batteryCharge(std::uint8_t raw);
 
 /// 0x21: up to 16 bytes of memory.

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
-/// Reports of the host. Each asks for an acknowledgement (0x22) where the remote does not send one
-/// anyway, and carries the state of the motor: here it is off, see kRumbleBit.
+/// Reports of the host (wiibrew.org/wiki/Wiimote). Each asks for an acknowledgement (0x22) where
+/// the remote does not send one anyway, and carries the motor's state: here off, see kRumbleBit.
 namespace wiimote_tracker::protocol {
 
 constexpr std::uint8_t kRumbleId = 0x10;

@@ -11,9 +11,9 @@
 namespace wiimote_tracker::panel {
 namespace {
 
-constexpr int kMargin = 6;                         // [px of the screen]
-constexpr int kCellColumns = 8, kCellRows = 6;     // as CalibrationCameraStatus.image_cells
-constexpr double kWiimoteAspect = 1024.0 / 768.0;  // until the first image tells its size
+constexpr int kMargin = 6;                        // [px of the screen]
+constexpr int kCellColumns = 8, kCellRows = 6;    // as CalibrationCameraStatus.image_cells
+constexpr double kWiimoteRatio = 768.0 / 1024.0;  // height by width, until an image tells them
 const QColor kGround(30, 33, 40), kPicture(12, 13, 17), kText(232, 235, 240), kFaint(150, 156, 168);
 const QColor kSpot(255, 244, 214), kMask(90, 94, 104), kCell(60, 130, 200, 70);
 
@@ -46,10 +46,10 @@ int CameraTile::lineHeight() const {
 
 int CameraTile::heightForWidth(int width) const {
   const bool has_size = camera_ && camera_->image && camera_->image->width > 0;
-  const double aspect = has_size
-                            ? static_cast<double>(camera_->image->height) / camera_->image->width
-                            : 1.0 / kWiimoteAspect;
-  return static_cast<int>((width - 2 * kMargin) * aspect) + 2 * lineHeight() + 2 * kMargin;
+  const double ratio = has_size
+                           ? static_cast<double>(camera_->image->height) / camera_->image->width
+                           : kWiimoteRatio;
+  return static_cast<int>((width - 2 * kMargin) * ratio) + 2 * lineHeight() + 2 * kMargin;
 }
 
 QRectF CameraTile::pictureArea() const {
@@ -129,10 +129,9 @@ void CameraTile::paintCells(QPainter* painter, const QRectF& area) const {
     return;
   const double width = area.width() / kCellColumns;
   const double height = area.height() / kCellRows;
-  for (std::size_t i = 0; i < cells.size(); ++i) {
-    const auto column = static_cast<double>(i % kCellColumns);
-    const auto row = static_cast<double>(i - i % kCellColumns) / kCellColumns;
-    if (cells[i])
+  for (int i = 0; i < kCellColumns * kCellRows; ++i) {
+    const int column = i % kCellColumns, row = i / kCellColumns;
+    if (cells[static_cast<std::size_t>(i)])
       painter->fillRect(QRectF(area.left() + column * width, area.top() + row * height, width - 1.0,
                                height - 1.0),
                         kCell);

@@ -29,7 +29,8 @@ double greatestSpeed(const LedLabels::Places& places) {
   return greatest;
 }
 
-/// Of an LED that moved since it was seen at a place, at random after a while [1/m^3].
+/// Of an LED that moved since it was seen at a place [1/m^3]. The variance grows with the square of
+/// the age at first, and in proportion to it later, as that of a random walk.
 double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place, double speed) {
   const double age = std::max(0.0, place.age);
   if (age > kPlaceMemory)

@@ -75,9 +75,9 @@ geometry_msgs::TwistWithCovariance inBody(const geometry_msgs::PoseWithCovarianc
   Matrix6 by_twist = Matrix6::Zero();
   by_twist.topLeftCorner<3, 3>() = body_from_world;
   by_twist.bottomRightCorner<3, 3>() = body_from_world;
-  const Eigen::Matrix3d rotation = matrixOf<6>(pose.covariance).bottomRightCorner<3, 3>();
+  const Eigen::Matrix3d of_rotation = matrixOf<6>(pose.covariance).bottomRightCorner<3, 3>();
   const Matrix6 covariance = by_twist * matrixOf<6>(in_world.covariance) * by_twist.transpose() +
-                             by_rotation * rotation * by_rotation.transpose();
+                             by_rotation * of_rotation * by_rotation.transpose();
   geometry_msgs::TwistWithCovariance twist;
   setVector(body_from_world * linear, &twist.twist.linear);
   setVector(body_from_world * angular, &twist.twist.angular);

@@ -106,6 +106,7 @@ sensor_msgs::PointCloud2 coverageCloud(const std::string& world_frame,
                                 PointField::FLOAT32, "rgb", 1, PointField::FLOAT32, "cameras", 1,
                                 PointField::FLOAT32, "stddev", 1, PointField::FLOAT32);
   modifier.resize(cells.size());
+  // Fields lie side by side: after x come y and z, after cameras stddev; rgb has blue first.
   sensor_msgs::PointCloud2Iterator<float> x(cloud, "x"), cameras(cloud, "cameras");
   sensor_msgs::PointCloud2Iterator<std::uint8_t> blue(cloud, "rgb");
   for (const CoverageCell& cell : cells) {

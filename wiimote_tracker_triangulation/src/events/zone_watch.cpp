@@ -68,10 +68,10 @@ const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& sna
 
   const bool time_went_back = snapshot.time < newest_;
   newest_ = snapshot.time;
-  const auto isGone = [&](Led& led) {
+  const auto isGone = [&](const Led& led) {
     if (!time_went_back && snapshot.time - led.time <= options_.timeout)
       return false;
-    lose(&led);
+    lose(led);
     return true;
   };
   leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isGone), leds_.end());
@@ -91,7 +91,7 @@ const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& sna
         break;
       case tracking::TrackState::kLost:
         if (known) {
-          lose(&*place);
+          lose(*place);
           leds_.erase(place);
         }
         break;
@@ -129,10 +129,11 @@ void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
                    [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
-void ZoneWatch::lose(Led* led) {
+void ZoneWatch::lose(const Led& led) {
   for (const Zone& zone : zones_) {
-    if (led->presences[zone.name].inside)
-      crossings_.push_back({zone.name, led->id, false, newest_, led->position});
+    const auto presence = led.presences.find(zone.name);
+    if (presence != led.presences.end() && presence->second.inside)
+      crossings_.push_back({zone.name, led.id, false, newest_, led.position});
   }
 }
 

@@ -58,11 +58,11 @@ class ZoneWatch {
     std::uint32_t id = 0;
     double time = 0.0;
     Eigen::Vector3d position = Eigen::Vector3d::Zero();
-    std::map<std::string, Presence> presences;  // by the zone's name
+    std::map<std::string, Presence> presences;  // by the zone's name; none: never inside
   };
 
   void step(const Eigen::Vector3d& to, Led* led);
-  void lose(Led* led);
+  void lose(const Led& led);
 
   ZoneWatchOptions options_;
   std::vector<geometry::Zone> zones_;

@@ -141,8 +141,9 @@ def test_bound_of_a_stereo_pair_is_the_textbook_formula():
 
 def test_a_point_needs_two_cameras():
     pair = scene.Scene([a_camera((0, 0, 1), (5, 0, 1)), a_camera((0, 0, 1), (-5, 0, 1))], 0.3)
-    with pytest.raises(ValueError, match='fewer than two cameras see the point'):
-        bound.point_sensitivity(pair, np.zeros((22, 22)), np.array([5.0, 0.0, 1.0]), 1)
+    for point in (5.0, 0.0, 1.0), (0.0, 5.0, 1.0):  # seen by one camera, and by none
+        with pytest.raises(ValueError, match='fewer than two cameras see the point'):
+            bound.point_sensitivity(pair, np.zeros((22, 22)), np.array(point), 1)
 
 
 def test_pose_bound_agrees_with_many_least_squares_solutions():

@@ -71,7 +71,7 @@ def seen_derivatives(scene, point):
     for row, c in enumerate(seeing):
         by_point[row] = point_derivative(scene.cameras[c], point)
         by_camera[row, :, c] = camera_derivative(scene.cameras[c], point)
-    return by_point.reshape(-1, 3), by_camera.reshape(2 * len(seeing), -1)
+    return by_point.reshape(-1, 3), by_camera.reshape(-1, PER_CAMERA * len(scene.cameras))
 
 
 def lens_prior(camera, knowledge):

@@ -6,6 +6,7 @@
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
+#include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>

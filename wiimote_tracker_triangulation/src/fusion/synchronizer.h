@@ -12,7 +12,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::fusion {

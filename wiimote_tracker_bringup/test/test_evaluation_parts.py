@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from wiimote_tracker_evaluation import (load, processes, programs, progress, results_table,
-                                        rigs, scene, statistics)
+from wiimote_tracker_evaluation import (load, output, processes, programs, progress,
+                                        results_table, rigs, scene, statistics)
 from wiimote_tracker_evaluation.errors import ExperimentError
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -216,6 +216,18 @@ def test_the_scaled_rig_sees_its_space_about_the_origin(tmp_path):
 
 
 # --- Programs and load
+
+def test_earlier_results_are_removed_but_not_what_they_link_to(tmp_path):
+    kept, folder = tmp_path / 'elsewhere' / 'kept', tmp_path / 'results'
+    kept.parent.mkdir()
+    kept.touch()
+    (folder / 'old').mkdir(parents=True)
+    (folder / 'other').touch()
+    (folder / 'linked').symlink_to(kept.parent)
+    (folder / 'broken').symlink_to('nowhere')
+    output.prepare(str(folder), ['old', 'linked', 'broken', 'absent'])
+    assert os.listdir(folder) == ['other'] and kept.exists()
+
 
 def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path):
     monkeypatch.setattr(programs, 'find_program', lambda name: name)

@@ -14,9 +14,9 @@ def prepare(folder: str, names: Iterable[str]) -> None:
         os.makedirs(folder, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
         for path in (os.path.join(folder, name) for name in names):
-            if os.path.isdir(path):
+            if os.path.isdir(path) and not os.path.islink(path):
                 shutil.rmtree(path)
-            elif os.path.exists(path):
+            elif os.path.lexists(path):
                 os.remove(path)
     except OSError as error:
         raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '

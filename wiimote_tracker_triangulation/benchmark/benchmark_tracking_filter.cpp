@@ -3,6 +3,7 @@
 #include "geometry/accuracy.h"
 #include "motion/filter_scene.h"
 #include "motion/known_mode.h"
+#include "motion/transition.h"
 #include "single_model_filter.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"

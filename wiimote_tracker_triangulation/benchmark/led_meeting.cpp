@@ -1,6 +1,7 @@
 #include "led_meeting.h"
 
 #include "motion/motion_filter.h"
+#include "motion/transition.h"
 #include "single_model_filter.h"
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_SINGLE_MODEL_FILTER_H
 
 #include "motion/kinematic_state.h"
+#include "motion/transition.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
 #include <functional>

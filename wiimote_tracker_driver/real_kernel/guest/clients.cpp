@@ -1,6 +1,8 @@
 #include "scenarios.h"
 
 #include "air/air.h"
+#include "air/bytes.h"
+#include "air/l2cap.h"
 #include "bluez.h"
 #include "clock.h"
 #include "file_descriptor.h"

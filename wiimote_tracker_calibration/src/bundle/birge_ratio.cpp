@@ -66,7 +66,8 @@ class Moves {
   Moves(const Reconstruction& all, const Options& options)
       : options_(options), all_(all, options, false) {}
 
-  /// A part's estimate and that of all differ by the difference of their covariances.
+  /// The difference of a part's estimate and that of all has the difference of their covariances
+  /// (Hausman 1978: the estimate from all is efficient).
   void add(const Reconstruction& part, std::size_t left_out) {
     const Certainty certainty(part, options_, false);
     for (std::size_t i = 0; i < part.cameras.size(); ++i) {

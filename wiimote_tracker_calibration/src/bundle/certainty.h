@@ -33,8 +33,9 @@ class Certainty {
   /// zero for those that were adjusted, and for others a Gauss-Newton step.
   Eigen::VectorXd lensStep(std::size_t camera) const;
 
-  /// Expected RMS distance of the points from the truth after the best similarity [m], from the
-  /// errors of cameras, lenses and pixels together. Nothing when some parameter is open.
+  /// Expected RMS distance of the points from the truth after the best similarity [unit of the
+  /// points], from the errors of cameras, lenses and pixels together. Nothing when some parameter is
+  /// open.
   std::optional<double> expectedShapeError() const;
 
  private:

@@ -15,7 +15,7 @@ namespace wiimote_tracker::bundle {
 struct SelfCalibrationOptions {
   Options bundle = [] {
     Options options;
-    options.lens.focal_length = 0.7;  // weak: a field of view of 20 to 65 degrees
+    options.lens.focal_length = 0.7;  // weak: a field of view of 20 to 71 degrees
     options.lens.focal_about = 1.4;
     return options;
   }();

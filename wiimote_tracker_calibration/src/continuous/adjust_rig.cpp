@@ -205,6 +205,7 @@ class Adjustment {
     }
     for (int i = 0; i < kFinalRounds; ++i) {
       const double stddev = rmsResidual(source_.keyframes(rig_, kWideGates[2]));
+      // The gate is for both axes together.
       if (!round(std::sqrt(2.0) * kGate * stddev, stddev, std::numeric_limits<double>::infinity()))
         return std::nullopt;
     }

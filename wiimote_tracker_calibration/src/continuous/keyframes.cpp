@@ -119,7 +119,8 @@ std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) con
   const double time = stamp - before->stamp;
   const Eigen::Vector2d velocity = (after->pixel - before->pixel) / gap;
   View view{camera, before->pixel + time * velocity, velocity};
-  // A chord cuts the curve short, which would move the cameras.
+  // A chord cuts the curve short, which would move the cameras: add half the second derivative,
+  // which the slopes before and after tell, times time * (time - gap).
   if (before != spots.begin() && after + 1 != spots.end()) {
     const Spot& first = *(before - 1);
     const Spot& last = *(after + 1);

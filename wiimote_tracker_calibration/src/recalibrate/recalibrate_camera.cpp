@@ -155,7 +155,8 @@ void checkFit(const Fit& fit) {
 
 /// How the camera's estimate changes with each parameter of the rig: inverse of the information
 /// times the change of the normal equations' right-hand side. The distortion beyond k1 keeps the
-/// rig's value, and its error enters the other parameters (a "consider" parameter).
+/// rig's value, and its error enters the other parameters (a consider parameter: Tapley, Schutz and
+/// Born, Statistical Orbit Determination, 2004).
 Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
                                  std::size_t index,
                                  const Prior& prior,

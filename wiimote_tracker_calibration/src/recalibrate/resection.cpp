@@ -210,9 +210,9 @@ class ResectionProblem {
   double misfit() {
     ceres::Problem::EvaluateOptions options;
     options.residual_blocks = matches_;
-    double cost = 0.0;
-    problem_.Evaluate(options, &cost, nullptr, nullptr, nullptr);
-    return std::sqrt(cost / static_cast<double>(matches_.size()));
+    double half_sum = 0.0;
+    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
+    return std::sqrt(half_sum / static_cast<double>(matches_.size()));  // two residuals each
   }
 
   std::optional<Eigen::MatrixXd> covariance() {

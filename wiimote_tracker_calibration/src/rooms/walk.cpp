@@ -10,7 +10,7 @@ namespace wiimote_tracker::rooms {
 
 namespace {
 
-/// Integral over both times from 0 of the correlation exp(-|a - b| / decay) [s^2].
+/// Correlation exp(-|s - t| / decay) integrated over s from 0 to a and t from 0 to b [s^2].
 double integratedTwice(double a, double b, double decay) {
   const auto left = [decay](double time) { return std::exp(-std::abs(time) / decay); };
   if (a * b < 0.0)
@@ -95,8 +95,8 @@ std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
   const Eigen::Matrix2d covariance = later_less_earlier * lines * later_less_earlier.transpose();
   const Eigen::Matrix<double, 2, Eigen::Dynamic> difference =
       later_less_earlier * lines * weighed.transpose();
-  // The position's error is independent of the velocity's at one time, and those at equal distances
-  // before and after it of each other where the distance is the ratio of both.
+  // With c11 for the velocity's, the variance of the difference at a time t is variance + c11 (t -
+  // shift)^2. Those at shift -+ distance have the covariance variance - c11 distance^2 = 0.
   const double shift = -covariance(0, 1) / covariance(1, 1);
   const double variance = covariance(0, 0) + shift * covariance(0, 1);
   const double distance = std::sqrt(variance / covariance(1, 1));

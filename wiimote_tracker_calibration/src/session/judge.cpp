@@ -132,7 +132,7 @@ Accuracy accuracyOf(const Session& session,
   for (std::size_t i = 0; i < verdict.predicted_at.size(); ++i) {
     const double stddev = verdict.predicted_stddev[i];
     double& largest = i < 4 ? below : above;
-    largest = std::fmax(largest, stddev);
+    largest = std::fmax(largest, stddev);  // ignores NaN
     accuracy.share = std::fmax(accuracy.share, stddev / meanDistance(rig, verdict.predicted_at[i]));
   }
   if (std::isfinite(below))

@@ -32,7 +32,7 @@ constexpr double kStickStddev = 0.0002;
 constexpr double kExact = 1e-5;
 constexpr double kUnknown = 10.0;
 
-// Least share of the residuals beyond the number of parameters that tells the noise.
+// With less redundancy (degrees of freedom per residual) the residuals do not tell the noise.
 constexpr double kLeastRedundancy = 0.1;
 
 constexpr double kNoLoss = std::numeric_limits<double>::infinity();

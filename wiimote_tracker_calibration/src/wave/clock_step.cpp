@@ -58,7 +58,7 @@ std::vector<ClockStep> clockSteps(const State& state, const std::vector<Match>& 
       const double after = all.information - before.information;
       const double size = (all.score - before.score) / after - before.score / before.information;
       const double explained = size * size * before.information * after / all.information;
-      if (explained > best.explained)
+      if (explained > best.explained)  // false for the NaN after the last spot
         best = {lag.stamp, size, explained, all.squared};
     }
     result.push_back(best);

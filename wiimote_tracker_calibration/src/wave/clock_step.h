@@ -15,8 +15,9 @@ struct ClockStep {
   double squared = 0.0;    ///< Sum of the camera's squared residuals [px^2].
 };
 
-/// For each camera the jump that explains the residuals along the motion of its spots best. The
-/// path follows a jump in part, so that the size is too small.
+/// For each camera the jump that explains the residuals along the motion of its spots best (the
+/// change point of a mean, Hinkley 1970). The path follows a jump in part, so that the size is too
+/// small.
 std::vector<ClockStep> clockSteps(const State& state, const std::vector<Match>& matches);
 
 }  // namespace wiimote_tracker::wave

@@ -22,8 +22,8 @@ namespace {
 /// variance of the mean of an exponentially correlated error. The first camera's error enters all
 /// offsets.
 void addWander(const WaveOptions& options, double seconds, Eigen::MatrixXd* covariance) {
-  const double kSettling = 2.0;  // [s]
-  const double share = std::min(1.0, 2.0 * kSettling / seconds);
+  const double kCorrelationTime = 2.0;  // [s]
+  const double share = std::min(1.0, 2.0 * kCorrelationTime / seconds);
   const double variance = options.wander * options.wander * share;
   constexpr Eigen::Index kStep = geometry::kParameters;
   constexpr Eigen::Index kSecond = kStep + geometry::kTimeOffset;

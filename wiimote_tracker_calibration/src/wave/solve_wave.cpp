@@ -172,8 +172,8 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   };
   Matching matching;
   Refinement refinement{};
-  // One round; returns the misfit.
-  const auto turn = [&](const Gate& gate, double loss_scale) {
+  // Returns the misfit.
+  const auto matchAndRefine = [&](const Gate& gate, double loss_scale) {
     matching = matchSpots(task.recording, state, gate);
     checkMatching(task.recording, matching);
     refinement = refine(task, matching.matches, loss_scale, keep_going, &state);
@@ -182,12 +182,12 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   };
   const double stamp = std::hypot(options.stamp, options.wander);
   for (std::size_t round = 0; round < std::size(kWideGates); ++round)
-    turn({options.pixel, stamp, kWideGates[round] / options.pixel},
-         kWideLosses[round] / options.pixel);
+    matchAndRefine({options.pixel, stamp, kWideGates[round] / options.pixel},
+                   kWideLosses[round] / options.pixel);
   double pixel_stddev = options.pixel;
   for (int round = 0; round < kFinalRounds; ++round) {
     const std::vector<Match> before = std::move(matching.matches);
-    const double misfit = turn({pixel_stddev, stamp, kGate}, kInfinity);
+    const double misfit = matchAndRefine({pixel_stddev, stamp, kGate}, kInfinity);
     if (round > 0 && sameSpots(matching.matches, before) && std::abs(misfit - 1.0) < kNoiseSettled)
       break;
     pixel_stddev *= misfit;
@@ -200,7 +200,7 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   }
   WaveSolution solution = solutionOf(task, state, matching);
   solution.pixel_stddev = pixel_stddev;
-  // What is fitted to noise lessens the residuals, which are to tell it.
+  // The fit follows the noise in part: divided by the redundancy, the residuals tell all of it.
   for (geometry::RigCamera& camera : solution.rig.cameras) {
     camera.residual_px /= std::sqrt(refinement.redundancy.value_or(1.0));
     camera.residual_m /= std::sqrt(refinement.redundancy.value_or(1.0));

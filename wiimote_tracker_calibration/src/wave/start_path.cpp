@@ -257,9 +257,10 @@ Eigen::MatrixX3d controlsThrough(const std::vector<Trajectory::Place>& places,
   return solver.solve(right);
 }
 
-/// Spline through places with outliers: each is reweighted by its distance from the last spline.
+/// Spline through points with outliers: least squares, reweighted for the loss of Geman and McClure
+/// (1985), whose scale shrinks from round to round.
 void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
-  // Errors of the places, round by round [m].
+  // Scale of the loss, round by round [m].
   const double kErrors[] = {1.0, 0.3, 0.1, 0.05, 0.05};
   const double bend = trajectory->spacing() * trajectory->spacing() * acceleration;
   std::vector<Trajectory::Place> places;

@@ -30,10 +30,10 @@ constexpr double kTolerances[] = {6.0, 12.0};
 constexpr double kShift = 0.29;
 // Times that two cameras must share for a relative pose.
 constexpr std::size_t kLeastCommon = 20;
-// From one to the next, where a camera shares too few of kInstants [s]; and how long it must share
-// them with one other. Less than a wave that is enough has (coverage.cpp), since an image with a
-// stray spot does not count here.
+// Interval of the instants for a camera that shares too few of kInstants [s].
 constexpr double kSharedStep = 0.05;
+// Time that it must share with one other camera [s]: less than coverage.cpp asks of a wave, since
+// an image with a stray spot does not count here.
 constexpr double kLeastShared = 1.5;
 
 /// One point per frame: the LED's spot, or the middle between the wand's.

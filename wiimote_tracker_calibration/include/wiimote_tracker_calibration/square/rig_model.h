@@ -26,7 +26,7 @@ struct Uncertainty {
   /// lenses and for lenses that scatter about the default by 15 px (doc/session.md).
   double shared_principal_point = 14.0;
   double k1 = 0.02;         ///< Of the first distortion coefficient [1].
-  double gravity = 0.0524;  ///< Of the accelerometer's up against the floor's normal [rad].
+  double gravity = 0.0524;  ///< Of the accelerometer's up against the floor's normal [rad]: 3 deg.
 
   /// A corner that may lie up to a metre from its place [0..3]: to test whether it does.
   std::optional<std::size_t> unknown_corner;

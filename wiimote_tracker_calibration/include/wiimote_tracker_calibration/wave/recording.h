@@ -32,8 +32,8 @@ struct CameraRecording {
 struct Wand {
   double length = 0.0;     ///< Between the LEDs [m, > 0].
   double stddev = 0.0002;  ///< Of the length as it was measured [m, > 0].
-  /// Of its LEDs above the floor, on which it lies still when the recording begins [m, >= 0];
-  /// nothing: it does not.
+  /// Height of its LEDs above the floor, if it lies there still when the recording begins
+  /// [m, >= 0].
   std::optional<double> led_height = {};
 
   /// Why one on the floor is refused, if no accelerometer is there or may be used.

@@ -12,6 +12,7 @@
 
 namespace wiimote_tracker::wave {
 
+/// Standard deviations, unless stated otherwise.
 struct WaveOptions {
   /// Of starting intrinsics and corners. Its `pixel` is that of a corner.
   square::Uncertainty uncertainty;

@@ -18,7 +18,9 @@ constexpr std::size_t kLeastCommon = 100;  // steps
 
 /// Logarithm of the spot's speed, less its mean, in steps of time; NaN where unknown or where the
 /// spot jumps, as a false detection does.
-std::vector<double> speeds(const wave::CameraRecording& camera, double start, std::size_t steps) {
+std::vector<double> logSpeeds(const wave::CameraRecording& camera,
+                              double start,
+                              std::size_t steps) {
   std::vector<double> result(steps, std::numeric_limits<double>::quiet_NaN());
   double sum = 0.0;
   double count = 0.0;
@@ -74,11 +76,11 @@ std::optional<double> clockLag(const wave::Recording& recording, std::size_t cam
     return std::nullopt;
   const auto [start, end] = recording.span();
   const auto steps = static_cast<std::size_t>((end - start) / kStep) + 1;
-  const std::vector<double> own = speeds(recording.cameras[camera], start, steps);
+  const std::vector<double> own = logSpeeds(recording.cameras[camera], start, steps);
   std::vector<std::vector<double>> others;
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     if (i != camera && !recording.cameras[i].frames.empty())
-      others.push_back(speeds(recording.cameras[i], start, steps));
+      others.push_back(logSpeeds(recording.cameras[i], start, steps));
   }
   double best = kLeastCorrelation * static_cast<double>(others.size());
   std::optional<double> result;

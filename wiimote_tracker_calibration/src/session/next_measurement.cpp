@@ -24,10 +24,11 @@ Eigen::MatrixXd placesByParameters(const geometry::Rig& rig,
       Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(places.size()), parameters);
   Eigen::Index rows = 0;
   for (const Eigen::Vector3d& place : places) {
-    const auto slope = geometry::pointByParameters(rig, place, geometry::camerasSeeing(rig, place));
-    if (!slope)
+    const auto by_rig =
+        geometry::pointByParameters(rig, place, geometry::camerasSeeing(rig, place));
+    if (!by_rig)
       continue;
-    result.block(rows, 0, 3, slope->cols()) = *slope;
+    result.block(rows, 0, 3, by_rig->cols()) = *by_rig;
     rows += 3;
   }
   return result.topRows(rows);
@@ -35,7 +36,7 @@ Eigen::MatrixXd placesByParameters(const geometry::Rig& rig,
 
 /// An observation: derivatives by the parameters, one row each, and covariance.
 struct Observation {
-  Eigen::MatrixXd slopes;
+  Eigen::MatrixXd by_parameters;
   Eigen::MatrixXd covariance;
 };
 
@@ -50,8 +51,8 @@ Observation lengthBetween(const square::Corners& corners,
   };
   Observation length{Eigen::MatrixXd::Zero(1, parameters),
                      Eigen::MatrixXd::Constant(1, 1, std::pow(square::TapedLength().stddev, 2))};
-  length.slopes.block<1, 2>(0, at(from)) = -direction;
-  length.slopes.block<1, 2>(0, at(to)) = direction;
+  length.by_parameters.block<1, 2>(0, at(from)) = -direction;
+  length.by_parameters.block<1, 2>(0, at(to)) = direction;
   return length;
 }
 
@@ -69,8 +70,8 @@ Observation pixelsOf(const geometry::Rig& rig,
     const auto row = 2 * static_cast<Eigen::Index>(i);
     const auto projection = geometry::rayProjection(rig, cameras[i], place);
     by_place.middleRows<2>(row) = projection->by_point;
-    pixels.slopes.block<2, geometry::kParameters>(row, geometry::firstParameter(cameras[i])) =
-        projection->by_parameters;
+    pixels.by_parameters.block<2, geometry::kParameters>(
+        row, geometry::firstParameter(cameras[i])) = projection->by_parameters;
   }
   pixels.covariance += std::pow(square::KnownPlace().stddev, 2) * by_place * by_place.transpose();
   return pixels;
@@ -108,16 +109,16 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
   const geometry::Rig& rig = found.rig;
   const Eigen::MatrixXd& covariance = found.joint_covariance;
   const Eigen::Index parameters = covariance.rows();
-  const Eigen::MatrixXd slopes = placesByParameters(rig, places, parameters);
-  const double count = static_cast<double>(slopes.rows()) / 3.0;
-  const double now = (slopes * covariance).cwiseProduct(slopes).sum() / count;
+  const Eigen::MatrixXd by_parameters = placesByParameters(rig, places, parameters);
+  const double count = static_cast<double>(by_parameters.rows()) / 3.0;
+  const double now = (by_parameters * covariance).cwiseProduct(by_parameters).sum() / count;
   NextMeasurement best;
   double least = now;
   // By a Kalman update.
   const auto consider = [&](const NextMeasurement& next, const Observation& observation) {
-    const Eigen::MatrixXd gain = covariance * observation.slopes.transpose();
-    const Eigen::MatrixXd innovation = observation.slopes * gain + observation.covariance;
-    const Eigen::MatrixXd moved = slopes * gain;
+    const Eigen::MatrixXd gain = covariance * observation.by_parameters.transpose();
+    const Eigen::MatrixXd innovation = observation.by_parameters * gain + observation.covariance;
+    const Eigen::MatrixXd moved = by_parameters * gain;
     const double squared = now - geometry::solveSymmetric(innovation, moved.transpose())
                                          .cwiseProduct(moved.transpose())
                                          .sum() /

@@ -180,7 +180,8 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   constexpr Eigen::Index kShared = 2;
   constexpr Eigen::Index kPixels = 8;
   // Estimated parameters as a linear function of independent unit errors: of all corners, of the
-  // principal points' shared offset, then of the lens and the pixels camera by camera.
+  // principal points' shared offset, then of the lens and the pixels camera by camera. The sign of
+  // an error does not matter where it enters nothing but poses: of corners and pixels.
   const Eigen::Index errors = kCornerParameters + kShared + (kLens + kPixels) * cameras;
   Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras, errors);
   for (std::size_t i = 0; i < sightings_.size(); ++i) {

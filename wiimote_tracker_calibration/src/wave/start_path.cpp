@@ -39,8 +39,8 @@ struct Spot {
   Eigen::Vector2d pixel;
 };
 
-/// A place in space that two or more spots of different cameras agree on.
-struct Place {
+/// A point in space that two or more spots of different cameras agree on.
+struct Point {
   Eigen::Vector3d position;
   std::vector<std::size_t> spots;  // indices
   double error;                    // [px]
@@ -64,8 +64,8 @@ std::optional<geometry::TriangulatedPoint> triangulate(const std::vector<geometr
   return point;
 }
 
-/// Extends two spots by those of other cameras that lie where their place is seen.
-std::optional<Place> placeOf(const std::vector<geometry::Camera>& cameras,
+/// Extends two spots by those of other cameras that lie where their point is seen.
+std::optional<Point> pointOf(const std::vector<geometry::Camera>& cameras,
                              const std::vector<Spot>& spots,
                              std::size_t first,
                              std::size_t second) {
@@ -96,13 +96,13 @@ std::optional<Place> placeOf(const std::vector<geometry::Camera>& cameras,
     else
       chosen.resize(2);
   }
-  return Place{point->position, chosen, point->reprojection_error};
+  return Point{point->position, chosen, point->reprojection_error};
 }
 
-/// All places that explain spots of two cameras or more, those that explain most first.
-std::vector<Place> placesOf(const std::vector<geometry::Camera>& cameras,
+/// All points that explain spots of two cameras or more, those that explain most first.
+std::vector<Point> pointsOf(const std::vector<geometry::Camera>& cameras,
                             const std::vector<Spot>& spots) {
-  std::vector<Place> places;
+  std::vector<Point> points;
   std::size_t limit = 0;
   std::size_t seen = 0;
   for (; limit < spots.size(); ++limit) {
@@ -114,55 +114,55 @@ std::vector<Place> placesOf(const std::vector<geometry::Camera>& cameras,
     for (std::size_t j = i + 1; j < limit; ++j) {
       if (spots[i].camera == spots[j].camera)
         continue;
-      if (auto place = placeOf(cameras, spots, i, j))
-        places.push_back(std::move(*place));
+      if (auto point = pointOf(cameras, spots, i, j))
+        points.push_back(std::move(*point));
     }
   }
-  std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+  std::stable_sort(points.begin(), points.end(), [](const Point& a, const Point& b) {
     return a.spots.size() != b.spots.size() ? a.spots.size() > b.spots.size() : a.error < b.error;
   });
-  return places;
+  return points;
 }
 
-bool disjoint(const Place& a, const Place& b) {
+bool disjoint(const Point& a, const Point& b) {
   return std::none_of(a.spots.begin(), a.spots.end(), [&](std::size_t spot) {
     return std::find(b.spots.begin(), b.spots.end(), spot) != b.spots.end();
   });
 }
 
-/// The two ends of the wand: the two places that explain most. Nothing when another assignment of
+/// The two ends of the wand: the two points that explain most. Nothing when another assignment of
 /// the spots is as good. @param length NaN: not known yet.
 std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> wandEnds(
-    const std::vector<Place>& places,
+    const std::vector<Point>& points,
     double length) {
-  const Place* best[2] = {nullptr, nullptr};
+  const Point* best[2] = {nullptr, nullptr};
   std::size_t best_support = 0;
   double best_error = 0.0;
   bool ambiguous = false;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    for (std::size_t j = i + 1; j < places.size(); ++j) {
-      if (!disjoint(places[i], places[j]))
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      if (!disjoint(points[i], points[j]))
         continue;
-      const double distance = (places[i].position - places[j].position).norm();
+      const double distance = (points[i].position - points[j].position).norm();
       if (distance == 0.0 || std::abs(distance - length) > kLengthTolerance * length)
         continue;
-      const std::size_t support = places[i].spots.size() + places[j].spots.size();
-      const double error = places[i].error + places[j].error;
+      const std::size_t support = points[i].spots.size() + points[j].spots.size();
+      const double error = points[i].error + points[j].error;
       const bool better =
           !best[0] || support > best_support || (support == best_support && error < best_error);
-      // The same two places found from other spots are the same assignment.
+      // The same two points found from other spots are the same assignment.
       const bool same =
-          best[0] && std::min((places[i].position - best[0]->position).norm() +
-                                  (places[j].position - best[1]->position).norm(),
-                              (places[i].position - best[1]->position).norm() +
-                                  (places[j].position - best[0]->position).norm()) < 0.2 * distance;
+          best[0] && std::min((points[i].position - best[0]->position).norm() +
+                                  (points[j].position - best[1]->position).norm(),
+                              (points[i].position - best[1]->position).norm() +
+                                  (points[j].position - best[0]->position).norm()) < 0.2 * distance;
       if (!same && best[0] && support == best_support)
         ambiguous = std::abs(error - best_error) < kTellApart || (!better && ambiguous);
       else if (better && !same)
         ambiguous = false;
       if (better) {
-        best[0] = &places[i];
-        best[1] = &places[j];
+        best[0] = &points[i];
+        best[1] = &points[j];
         best_support = support;
         best_error = error;
       }
@@ -293,12 +293,12 @@ Trajectory startPath(const Recording& recording, const WaveOptions& options, Sta
   Instants views(recording);
   std::vector<Instant> instants;
   for (double time = start; time <= end; time += 0.5 * options.knot_spacing) {
-    const std::vector<Place> places = placesOf(poses->cameras, views.at(time));
+    const std::vector<Point> points = pointsOf(poses->cameras, views.at(time));
     if (wand) {
-      if (const auto ends = wandEnds(places, length))
+      if (const auto ends = wandEnds(points, length))
         instants.push_back({time, {ends->first, ends->second}});
-    } else if (!places.empty()) {
-      instants.push_back({time, {places.front().position}});
+    } else if (!points.empty()) {
+      instants.push_back({time, {points.front().position}});
     }
   }
   refuseFew(instants.size());

@@ -6,17 +6,20 @@ namespace wiimote_tracker::square {
 
 namespace {
 
+// Nearer than this in an image, points are one point or one line [px].
+constexpr double kTolerance = 3.0;
+
 double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
 }  // namespace
 
-CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels, double tolerance) {
+CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels) {
   const std::size_t count = pixels.size();
   for (std::size_t i = 0; i < count; ++i) {
     for (std::size_t j = i + 1; j < count; ++j) {
-      if ((pixels[i] - pixels[j]).norm() < tolerance)
+      if ((pixels[i] - pixels[j]).norm() < kTolerance)
         return CornerOrder::kCoincident;
     }
   }
@@ -29,7 +32,7 @@ CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels, double toler
     const double area = cross(pixels[i] - before, after - pixels[i]);
     const double longest = std::max(
         {(pixels[i] - before).norm(), (after - pixels[i]).norm(), (after - before).norm()});
-    if (std::abs(area) / longest < tolerance)
+    if (std::abs(area) / longest < kTolerance)
       return CornerOrder::kCollinear;
     clockwise += area > 0.0;
   }

@@ -18,8 +18,7 @@ enum class CornerOrder {
 };
 
 /// @param pixels three or four places without lens distortion, v down [px].
-/// @param tolerance distances below this are taken for zero [px, > 0].
-CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels, double tolerance);
+CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels);
 
 }  // namespace wiimote_tracker::square
 

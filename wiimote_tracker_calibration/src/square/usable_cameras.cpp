@@ -12,9 +12,6 @@ namespace wiimote_tracker::square {
 
 namespace {
 
-// Nearer than this in an image, points are one point or one line.
-constexpr double kTolerance = 3.0;  // [px]
-
 std::vector<std::string> missingCorners(const CameraSightings& camera) {
   std::vector<std::string> missing;
   for (std::size_t c = 0; c < camera.corners.size(); ++c) {
@@ -38,7 +35,7 @@ CornerOrder orderSeenBy(const CameraSightings& camera) {
                         "starting intrinsics");
     pixels.emplace_back(lens.fx * normalized->x() + lens.cx, lens.fy * normalized->y() + lens.cy);
   }
-  return cornerOrder(pixels, kTolerance);
+  return cornerOrder(pixels);
 }
 
 std::string refusal(CornerOrder order, const std::string& cameras) {

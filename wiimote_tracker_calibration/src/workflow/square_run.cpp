@@ -89,7 +89,6 @@ std::string SquareRun::next() const {
 }
 
 bool SquareRun::isClockwise() const {
-  constexpr double kTolerance = 3.0;  // [px]
   for (const std::string& camera : cameras_) {
     std::vector<Eigen::Vector2d> pixels;
     for (const capture::CapturedCorner& corner : corners_) {
@@ -97,8 +96,7 @@ bool SquareRun::isClockwise() const {
       if (view != corner.end())
         pixels.push_back(view->second.pixel);
     }
-    if (pixels.size() == kCorners &&
-        square::cornerOrder(pixels, kTolerance) == square::CornerOrder::kClockwise)
+    if (pixels.size() == kCorners && square::cornerOrder(pixels) == square::CornerOrder::kClockwise)
       return true;
   }
   return false;

@@ -88,7 +88,7 @@ std::string adviceFor(const PassageProblem& problem,
       format("%.0f cm and %.1f degrees", 100.0 * kWantedPosition, kWantedRotation / kDegree);
   const std::size_t passages = fit.used.size();
   for (std::size_t total = passages; total <= kMostAdvised; total += 1 + total / 10) {
-    // As many passages as accurate as these: each counts for several.
+    // n times as many passages have the weight of these with a scatter smaller by sqrt(n).
     const double share = static_cast<double>(total) / static_cast<double>(passages);
     const Accuracy accuracy = accuracyOf(
         problem.fit(fit.used, fit.motion.first_from_second, fit.scatter / std::sqrt(share)), point);

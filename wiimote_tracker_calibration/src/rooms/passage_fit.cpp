@@ -96,7 +96,7 @@ Scatter PassageProblem::scatter(const PassageIndices& used, const RigMotion& mot
   for (const std::size_t i : used) {
     for (const Shared& place : passages_[i]) {
       squared += misfitOf(place, motion.first_from_second).array().square();
-      // A misfit is less than the error by what the motion follows of it.
+      // The motion follows an error in part: its redundancy number (Foerstner 1979) is left.
       Eigen::Matrix<double, 3, 6> by_motion;
       by_motion << -geometry::so3::skew(motion.first_from_second.linear() *
                                         place.in_second.translation()),

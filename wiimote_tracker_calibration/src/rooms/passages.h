@@ -23,8 +23,8 @@ struct Passage {
 
 struct Passages {
   std::vector<Passage> passages;  ///< In the order of time.
-  std::size_t crowded =
-      0;  ///< Left out: several LEDs may have gone through the door at the same time.
+  /// Left out: several LEDs may have gone through the door at the same time.
+  std::size_t crowded = 0;
   std::size_t crooked = 0;  ///< Left out: not straight.
 };
 

@@ -69,7 +69,7 @@ std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
   const auto places = hiddenPlaces(before.path, after.path, model);
   const Eigen::Vector3d velocity = velocityOf(passage.from_first ? before.path : after.path, model);
   const Eigen::Matrix3d axes = walkersAxes(velocity);
-  // Whoever slows down is farther back after the door, which is in the one room or in the other.
+  // Whoever slows down is farther back after the door: in_second against in_first, or the reverse.
   const double hidden = after.path.front().time - before.path.back().time;
   const Eigen::Vector3d back = (passage.from_first ? -hidden : hidden) * model.slowing * velocity;
   SharedPlaces result;

@@ -20,8 +20,8 @@ struct Gate {
 /// Which spots are LEDs.
 struct Matching {
   std::vector<Match> matches;
-  std::vector<std::size_t>
-      expected;                    ///< Per camera: LEDs it could have seen, in frames with spots.
+  /// Per camera: LEDs it could have seen, in frames with spots.
+  std::vector<std::size_t> expected;
   std::vector<std::size_t> found;  ///< Per camera: matches.
 };
 

@@ -39,11 +39,11 @@ struct Solution {
   Eigen::MatrixXd joint_covariance;
   /// The corner that contradicts the rest most; nothing when the data cannot tell.
   std::optional<SuspectCorner> suspect;
-  /// Expected RMS error of points in the box over the square, of a wave on its path, as far as it
-  /// comes from the calibration [m]. NaN when no two cameras look there.
+  /// RMS error of points that the calibration causes, in the box over the square or, of a wave, on
+  /// its path [m]. NaN when no two cameras look there.
   double expected_error = 0.0;
-  /// Ratio of the residuals to those expected, and whether that is significant (99.9 %). Of a wave
-  /// it is that of corners, places, lengths and priors.
+  /// Root of chi-squared over its degrees of freedom, and whether it is significant (99.9 %). Of a
+  /// wave it is that of corners, places, lengths and priors.
   double misfit = 0.0;
   bool contradicts = false;
   /// One sentence each. They are part of rig.verdict too.

@@ -52,8 +52,8 @@ struct SquareLayout {
   double side_x = 0.0;      ///< First to second corner [m, > 0].
   double side_y = 0.0;      ///< Second to third corner [m, > 0].
   double led_height = 0.0;  ///< Of the LED above the floor (the plane z = 0) [m, >= 0].
-  Eigen::Vector2d origin =
-      Eigen::Vector2d::Zero();  ///< World's origin in the rectangle's axes [m].
+  /// World's origin in the rectangle's axes [m].
+  Eigen::Vector2d origin = Eigen::Vector2d::Zero();
   double yaw = 0.0;  ///< From the rectangle's x axis to the world's x axis, about z [rad].
   std::vector<TapedLength> lengths = {};
   std::vector<KnownPlace> places = {};

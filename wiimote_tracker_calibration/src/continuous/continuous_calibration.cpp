@@ -150,11 +150,11 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
   std::optional<Proposal> proposal;
   // A camera that only reconnected keeps its place.
   if (suspect && suspect->new_clock)
-    proposal = adjusted(suspect->images);
+    proposal = adjustedTogether(suspect->images);
   if (suspect && !proposal)
-    proposal = moved(*suspect);
+    proposal = solvedAlone(*suspect);
   if (has_moved && !proposal) {
-    proposal = adjusted(motion_.images());
+    proposal = adjustedTogether(motion_.images());
     has_drifted_ = proposal.has_value();
   }
   return proposal;
@@ -165,7 +165,7 @@ void ContinuousCalibration::addAcceleration(const std::string& camera,
   knock_.addAcceleration(camera, specific_force);
 }
 
-std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) const {
+std::optional<Proposal> ContinuousCalibration::solvedAlone(const Evidence& evidence) const {
   const std::vector<capture::Image>& check = evidence.images.to_check;
   const std::size_t index = evidence.camera;
   recalibrate::Request request;
@@ -202,7 +202,7 @@ std::optional<Proposal> ContinuousCalibration::moved(const Evidence& evidence) c
                     result.rig, message, check);
 }
 
-std::optional<Proposal> ContinuousCalibration::adjusted(const MotionImages& images) const {
+std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImages& images) const {
   // Four corners tell little of the lenses: other poses explain the images above the square better,
   // though no camera has turned, and do not make points more accurate.
   if (lacksClock(rig_))

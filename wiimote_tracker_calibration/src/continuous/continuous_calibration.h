@@ -63,9 +63,9 @@ class ContinuousCalibration {
 
  private:
   /// One camera solved against the others.
-  std::optional<Proposal> moved(const Evidence& evidence) const;
+  std::optional<Proposal> solvedAlone(const Evidence& evidence) const;
   /// All cameras adjusted together.
-  std::optional<Proposal> adjusted(const MotionImages& images) const;
+  std::optional<Proposal> adjustedTogether(const MotionImages& images) const;
 
   geometry::Rig rig_;
   Options options_;

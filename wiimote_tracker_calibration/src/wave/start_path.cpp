@@ -224,6 +224,30 @@ void refuseFew(std::size_t places) {
         "nobody moved a camera, and wave it where two cameras see it");
 }
 
+/// Scales cameras and LEDs by the wand. Leaves out instants at which its length is another.
+void scaleByWand(double wand_length, std::vector<Instant>* instants, StartPoses* poses) {
+  const auto lengthAt = [](const Instant& instant) {
+    return (instant.leds[0] - instant.leds[1]).norm();
+  };
+  std::vector<double> lengths;
+  for (const Instant& instant : *instants)
+    lengths.push_back(lengthAt(instant));
+  const double length = medianOf(&lengths);
+  const auto differs = [&](const Instant& instant) {
+    return std::abs(lengthAt(instant) - length) > kLengthTolerance * length;
+  };
+  instants->erase(std::remove_if(instants->begin(), instants->end(), differs), instants->end());
+  refuseFew(instants->size());
+  const double scale = wand_length / length;
+  for (Instant& instant : *instants) {
+    for (Eigen::Vector3d& led : instant.leds)
+      led *= scale;
+  }
+  for (geometry::Camera& camera : poses->cameras)
+    camera.world_from_camera.translation() *= scale;
+  poses->metric = true;
+}
+
 /// Control points of one LED's path, one per row: least squares over places of it and the prior of
 /// its acceleration.
 /// @param errors of the positions [m]. @param bend error of a second difference of the controls
@@ -288,7 +312,7 @@ void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* 
 Trajectory startPath(const Recording& recording, const WaveOptions& options, StartPoses* poses) {
   const auto [start, end] = recording.span();
   const bool wand = recording.wand.has_value();
-  double length =
+  const double length =
       wand && poses->metric ? recording.wand->length : std::numeric_limits<double>::quiet_NaN();
   Instants views(recording);
   std::vector<Instant> instants;
@@ -305,27 +329,8 @@ Trajectory startPath(const Recording& recording, const WaveOptions& options, Sta
 
   if (wand) {
     keepLabels(&instants);
-    if (!poses->metric) {
-      std::vector<double> lengths;
-      for (const Instant& instant : instants)
-        lengths.push_back((instant.leds[0] - instant.leds[1]).norm());
-      length = medianOf(&lengths);
-      const double scale = recording.wand->length / length;
-      instants.erase(std::remove_if(instants.begin(), instants.end(),
-                                    [&](const Instant& instant) {
-                                      const double own = (instant.leds[0] - instant.leds[1]).norm();
-                                      return std::abs(own - length) > kLengthTolerance * length;
-                                    }),
-                     instants.end());
-      refuseFew(instants.size());
-      for (Instant& instant : instants) {
-        for (Eigen::Vector3d& led : instant.leds)
-          led *= scale;
-      }
-      for (geometry::Camera& camera : poses->cameras)
-        camera.world_from_camera.translation() *= scale;
-      poses->metric = true;
-    }
+    if (!poses->metric)
+      scaleByWand(recording.wand->length, &instants, poses);
   }
   Trajectory trajectory(start - kMargin, end + kMargin, options.knot_spacing, wand ? 2 : 1);
   fit(instants, options.acceleration, &trajectory);

@@ -126,7 +126,7 @@ std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
     const auto point = sights.size() == 2 ? triangulated(sights) : std::nullopt;
     if (!point)
       continue;
-    // An error of one camera alone has 1 / sqrt(2) of its size along the unit vector.
+    // An error of one camera alone has about 1 / sqrt(2) of its size along the unit vector.
     const Eigen::Vector4d across = std::sqrt(2.0) * acrossEpipolarLines(sights, *point);
     const double distance = across.head<2>().dot(sights[0].residual(*point)) +
                             across.tail<2>().dot(sights[1].residual(*point));

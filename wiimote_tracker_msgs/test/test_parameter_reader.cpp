@@ -128,7 +128,9 @@ TEST(ParameterReaderOfAFile, ErrorsNameFileAndKey) {
   EXPECT_TRUE(contains(errorOf([&] { reader.required<double>("absent", "the side [m]"); }),
                        "set file.yaml/absent: the side [m]"));
   // What YAML makes of off.
-  EXPECT_TRUE(contains(errorOf([&] { reader.choice("flag", "on", {"on", "off"}); }),
+  EXPECT_TRUE(contains(errorOf([&] {
+                         reader.choice("flag", "on", {"on", "off"});
+                       }),
                        "expected a text (in quotes), but it is true"));
 }
 

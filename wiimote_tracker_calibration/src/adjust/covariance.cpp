@@ -14,8 +14,8 @@ namespace wiimote_tracker::adjust {
 
 namespace {
 
-// Smallest share of a parameter's information that may be left when those that are eliminated before
-// it are unknown (a pivot of the scaled matrix); below, it is rounding error.
+// Smallest share of a parameter's information that may be left when those that are eliminated
+// before it are unknown (a pivot of the scaled matrix); below, it is rounding error.
 constexpr double kOpen = 1e-13;
 
 /// The whitened residuals' derivatives, with the rows and columns that the options ask for; empty

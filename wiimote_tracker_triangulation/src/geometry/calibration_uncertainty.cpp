@@ -39,7 +39,7 @@ std::optional<Matrix3> CalibrationUncertainty::covarianceNear(const Vector3& poi
   if (!hasCovariance(rig_) || count < 2 || !(point.cwiseAbs().maxCoeff() < kFarthest))
     return std::nullopt;
   std::array<std::int32_t, 3> place;
-  std::uint64_t hash = 1469598103934665603u;  // Fowler, Noll and Vo
+  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, over words
   const auto take = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
   for (int i = 0; i < 3; ++i) {
     place[i] = static_cast<std::int32_t>(std::floor(point[i] / kCellSize));

@@ -31,14 +31,14 @@ Eigen::MatrixXd orthonormalBasis(const AnyMatrix& columns) {
 }
 
 std::optional<Eigen::MatrixXd> inverseOfInformation(const AnyMatrix& information) {
-  const double kOpen = 1e-13;
+  constexpr double kSingular = 1e-13;
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   if (!scale.allFinite())
     return std::nullopt;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(scale.asDiagonal() * information *
                                                              scale.asDiagonal());
   if (eigen.info() != Eigen::Success ||
-      !(eigen.eigenvalues().minCoeff() > kOpen * eigen.eigenvalues().maxCoeff()))
+      !(eigen.eigenvalues().minCoeff() > kSingular * eigen.eigenvalues().maxCoeff()))
     return std::nullopt;
   const Eigen::MatrixXd root = scale.asDiagonal() * eigen.eigenvectors() *
                                eigen.eigenvalues().cwiseSqrt().cwiseInverse().asDiagonal();

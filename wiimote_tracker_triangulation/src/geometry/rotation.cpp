@@ -20,7 +20,8 @@ Wxyz withPositiveSign(Wxyz q) {
   return q;
 }
 
-// Shepperd's method: the largest component first, so that nothing cancels.
+// First a component of at least 1/2, so that nothing cancels (Shepperd 1978, in the form of
+// Shoemake 1987, which takes w whenever the trace is positive).
 Wxyz wxyzFromMatrix(const Eigen::Matrix3d& m) {
   const double trace = m(0, 0) + m(1, 1) + m(2, 2);
   if (trace > 0.0) {

@@ -163,9 +163,9 @@ bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
     point->covariance = normal.inverse();
     step = point->covariance * gradient;
     position -= step;
-    // Estimate of the next step as a share of this one: the derivatives change along the step, and
-    // their curvature (one over the depth) counts with the residuals, most where the point is badly
-    // determined.
+    // Estimate of what the next step gains as a share of what this one gains, which is the square
+    // of the ratio of their lengths: the derivatives change along the step, and their curvature
+    // (one over the depth) counts with the residuals, most where the point is badly determined.
     const double n = static_cast<double>(sights.count);
     const double badly_determined = point->covariance.trace() * normal.trace() / (n * n);
     const double next_share =

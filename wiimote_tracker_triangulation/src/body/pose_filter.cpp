@@ -36,7 +36,7 @@ void PoseFilter::predict(double time) {
     const PoseMode& mode = options_->modes[i];
     states_[i].predict(mode.acceleration_density, mode.angular_acceleration_density, duration);
   }
-  // After the prediction: the mode is taken to change at its end, as in motion::MotionFilter.
+  // After the prediction, not before as in the textbook: the mode changes at the end.
   mix(duration);
   mean_ = mixture(probabilities_);
 }

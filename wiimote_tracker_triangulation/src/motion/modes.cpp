@@ -32,7 +32,7 @@ const SingerMode* singerMode(const MotionOptions& options, int mode) {
 using ModeTransitions = Eigen::Matrix<double, kModes, kModes>;
 
 /// Probabilities over a duration h from rates r [1/s]: r h / (1 + sum(r) h) for each change, the
-/// rest for none.
+/// rest for none. This is exp(R h) to first order, but never outside of [0, 1].
 ModeTransitions probabilities(const ModeTransitions& rates, double duration) {
   ModeTransitions result;
   for (int i = 0; i < kModes; ++i) {
@@ -97,6 +97,7 @@ Modes initialModes(const MotionOptions& options,
                    const Eigen::Vector3d& position,
                    const Eigen::Matrix3d& covariance) {
   const int moving = endOf(options) - kRestModes;
+  // The modes at rest together are as likely as one moving mode.
   const double at_rest = options.stop_rate > 0.0 ? 1.0 / (moving + 1) : 0.0;
   Modes modes;
   for (int i = 0; i < kModes; ++i) {

@@ -21,7 +21,7 @@ inline bool isAtRest(int mode) {
 
 /// One mode's probability, and the state of the LED if it is in this mode.
 struct Mode {
-  double probability;  // [0..1]; of 0: the state has no meaning
+  double probability;  // [0..1]; where it is 0, the state has no meaning
   KinematicState state;
 };
 

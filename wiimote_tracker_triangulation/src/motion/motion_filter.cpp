@@ -54,6 +54,7 @@ void MotionFilter::predict(double time) {
       motion::predict(*options_, i, time - time_, &modes_[i].state);
   }
   time_ = time;
+  // Mixed after the prediction, not before as in the textbook: the mode changes at the end.
   if (time - last_stop_ >= kStopInterval) {
     mixStops(*options_, time - last_stop_, &modes_);
     last_stop_ = time;

@@ -43,7 +43,7 @@ class PixelPrediction {
 
   /// The normal distribution of one mode.
   struct ModePixel {
-    double probability;         // [0..1]; of 0: the rest has no meaning
+    double probability;         // [0..1]; where it is 0, the rest has no meaning
     Eigen::Vector2d offset;     // mean, from pixel_ [px]
     Eigen::Matrix2d whitening;  // L^-1 of the innovation covariance L L^T, lower triangular [1/px]
   };

@@ -25,8 +25,9 @@ struct Transition {
 Transition singerTransition(double stddev, double time, double duration);
 
 /// The interacting multiple model filter as the textbook has it (Bar-Shalom, Li, Kirubarajan 2001,
-/// section 11.6.6) over the modes of MotionOptions, with dynamic matrices of nine rows and Van
-/// Loan's method instead of closed forms. Linearised at the mean of the mixture, once.
+/// section 11.6.6; but mixed after the prediction) over the modes of MotionOptions, with dynamic
+/// matrices of nine rows and Van Loan's method instead of closed forms. Linearised at the mean of
+/// the mixture, once.
 class TextbookImm {
  public:
   struct Model {

@@ -16,7 +16,7 @@ struct SingerMode {
 };
 
 /// The modes of the filter and the rates at which an LED changes between them. The moving modes are
-/// in the order of their agility: smooth, gentle, brisk, hard, sudden.
+/// in the order of their agility: smooth, gentle, brisk, hard, sudden. Tuned: see doc/motion.md.
 struct MotionOptions {
   RestMode fixed{5e-5, 0.2};        ///< An LED that lies or stands on something.
   RestMode swaying{4e-3, 1.2};      ///< An LED that a person holds still, or on a foot that stands.

@@ -84,7 +84,8 @@ KinematicState combine(const MotionOptions& options,
     const KinematicState& a = forwards[i].state;
     const KinematicState b = reversed(backwards[i].state);
     const double variance = accelerationVariance(options, i);
-    // What came from a more agile mode may know less of the acceleration than the mode's prior.
+    // What came from a more agile mode may know less of the acceleration than the mode's prior:
+    // then less is divided out, so that the product stays normal.
     const double known = b.covariance.diagonal().tail<3>().maxCoeff();
     const double prior = known < 1.01 * variance ? variance : 2.0 * known;
     KinematicState* product = &products[i].state;
@@ -141,7 +142,7 @@ class Smoother {
   enum Direction : Number { kBackwards = -1, kForwards = 1 };
 
   /// A filter, in its own direction of time, and the numbers of its first and next observation.
-  struct Run {
+  struct Pass {
     MotionFilter filter;
     Number first;
     Number next;
@@ -150,7 +151,7 @@ class Smoother {
   };
   struct Chunk {
     std::size_t first;             // place
-    Run forwards;                  // before that place
+    Pass forwards;                 // before that place
     std::optional<Number> misfit;  // the observation at which it started anew
   };
 
@@ -178,7 +179,7 @@ class Smoother {
             kStartStddev * kStartStddev * Eigen::Matrix3d::Identity()};
   }
 
-  Run start(Number number, Direction direction) const {
+  Pass start(Number number, Direction direction) const {
     number = located(number, direction);
     const Place& end = direction == kForwards ? places_.back() : places_.front();
     const double time = exists(number) ? observations_[number].time : end.time;
@@ -188,38 +189,38 @@ class Smoother {
   }
 
   /// Filters up to a time. False at an observation that does not fit, which is then the next one.
-  bool advance(double time, Run* run) const {
-    for (; run->next < static_cast<Number>(observations_.size()); ++run->next) {
-      const Observation& observation = observations_[run->next];
+  bool advance(double time, Pass* pass) const {
+    for (; pass->next < static_cast<Number>(observations_.size()); ++pass->next) {
+      const Observation& observation = observations_[pass->next];
       if (observation.time > time)
         break;
-      if (!update(observation, observation.time, &run->filter))
+      if (!update(observation, observation.time, &pass->filter))
         return false;
     }
-    run->filter.predict(time);
+    pass->filter.predict(time);
     return true;
   }
 
   void filterForwards() {
-    Run run = start(0, kForwards);
-    chunks_.push_back({0, run, std::nullopt});
+    Pass pass = start(0, kForwards);
+    chunks_.push_back({0, pass, std::nullopt});
     for (std::size_t i = 0; i < places_.size(); ++i) {
       if (i == chunks_.back().first + kChunk)
-        chunks_.push_back({i, run, std::nullopt});
-      while (!advance(places_[i].time, &run)) {
-        const Number misfit = run.next;
-        run = start(misfit + 1, kForwards);
-        chunks_.push_back({i, run, misfit});
+        chunks_.push_back({i, pass, std::nullopt});
+      while (!advance(places_[i].time, &pass)) {
+        const Number misfit = pass.next;
+        pass = start(misfit + 1, kForwards);
+        chunks_.push_back({i, pass, misfit});
       }
     }
   }
 
   void smooth(const Chunk& chunk, std::size_t end, std::vector<KinematicState>* states) {
-    Run run = chunk.forwards;
-    std::vector<Run> forwards;
+    Pass pass = chunk.forwards;
+    std::vector<Pass> forwards;
     for (std::size_t i = chunk.first; i < end; ++i) {
-      advance(places_[i].time, &run);
-      forwards.push_back(run);
+      advance(places_[i].time, &pass);
+      forwards.push_back(pass);
     }
     for (std::size_t i = end; i-- > chunk.first;) {
       const double time = places_[i].time;
@@ -234,7 +235,7 @@ class Smoother {
     }
   }
 
-  KinematicState stateAt(const Place& place, const Run& forwards) const {
+  KinematicState stateAt(const Place& place, const Pass& forwards) const {
     const Modes& before = forwards.filter.modes();
     const Modes& after = backwards_.filter.modes();
     if (forwards.hasSeen() && backwards_.hasSeen())
@@ -248,7 +249,7 @@ class Smoother {
   const std::vector<Observation>& observations_;
   const std::vector<Place>& places_;
   std::vector<Chunk> chunks_;
-  Run backwards_;
+  Pass backwards_;
 };
 
 }  // namespace

@@ -33,8 +33,10 @@ struct Place {
 /// switching systems", IEEE Trans. Information Theory 41(6), 1995): a MotionFilter runs forwards,
 /// another backwards in time, and the states of the same mode are combined (Fraser and Potter
 /// 1969). The modes at rest and the random walks are the same backwards, and so is the Singer
-/// model, which is stationary and reversible. Where an observation does not fit what was before,
-/// as after the LED was reacquired elsewhere, smoothing starts anew.
+/// model, which is stationary and reversible. The rates between the modes are taken as the same,
+/// too: an approximation, as by Bayes' theorem those backwards depend on the modes' probabilities.
+/// Where an observation does not fit what was before, as after the LED was reacquired elsewhere,
+/// smoothing starts anew.
 /// @param observations, places in the order of time
 /// @returns one state for each place
 std::vector<KinematicState> smooth(const MotionOptions& options,

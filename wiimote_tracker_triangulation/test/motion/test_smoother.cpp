@@ -134,7 +134,7 @@ TEST(Smoother, WithOneModeIsTheBatchSolution) {
   }
 }
 
-TEST(Smoother, IsBetterThanTheFilterAndHonest) {
+TEST(Smoother, IsBetterThanTheFilterAndConsistent) {
   struct Motion {
     double speed, acceleration;
   };
@@ -196,7 +196,7 @@ TEST(Smoother, StartsAnewWhereTheLedWasFoundElsewhere) {
     EXPECT_LT((states[i].position() - path(places[i].time)).norm(), 0.01) << places[i].time;
 }
 
-TEST(Smoother, IsHonestWhereOneCameraSawTheLedLast) {
+TEST(Smoother, IsConsistentWhereOneCameraSawTheLedLast) {
   const std::vector<Camera> cameras = test::ring();
   constexpr double kInterval = 0.033, kAlone = 1.0, kNoise = 0.08;
   Random random(25);

@@ -19,9 +19,9 @@ struct Alignment {
   double cost;  ///< Sum of weight times squared distance.
 };
 
-/// The rigid transform that fits pairs of points best (weighted least squares; Horn 1987, in the
-/// form of Umeyama 1991), never a reflection. Fewer than three pairs, or pairs on a line, leave a
-/// rotation free; then one of the best transforms is returned. Never allocates.
+/// The rigid transform that fits pairs of points best (weighted least squares by an SVD; Arun et
+/// al. 1987, with the sign of Umeyama 1991), never a reflection. Fewer than three pairs, or pairs
+/// on a line, leave a rotation free; then one of the best transforms is returned. Never allocates.
 Alignment align(const PointPair* pairs, std::size_t count);
 
 }  // namespace wiimote_tracker::body

@@ -123,8 +123,8 @@ bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::
   return true;
 }
 
-/// Undoes the images than which a sample of an IMU came later, before an image that is not done. If
-/// they are many, waits for more new images. @returns the first one not done
+/// Undoes the images before `next` for which a sample of an IMU came too late. If they are many,
+/// waits for more new images. @returns the first image to process (again)
 std::list<BodyTracker::Entry>::iterator BodyTracker::undoOutdated(std::list<Entry>::iterator next) {
   auto first = next;
   std::size_t count = 0;

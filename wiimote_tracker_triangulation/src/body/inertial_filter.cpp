@@ -28,6 +28,7 @@ InertialFilter::InertialFilter(const InertialOptions& options,
   const Eigen::Vector3d arm = rotation_ * imu_;
   position_ = start.position + arm;
   velocity_ = start.velocity + start.angular_velocity.cross(arm);
+  // Columns as in MotionVector: the angular velocity starts at 9.
   Eigen::Matrix<double, 9, 12> by_start = Eigen::Matrix<double, 9, 12>::Identity();
   by_start.block<3, 3>(kPosition, kRotation) = -so3::skew(arm);
   by_start.block<3, 3>(kVelocity, kRotation) = -so3::skew(start.angular_velocity) * so3::skew(arm);
@@ -119,6 +120,7 @@ void InertialFilter::setState() {
   state_.velocity = velocity_ - rate.cross(arm);
   state_.angular_velocity = rate;
 
+  // Rows as in MotionVector: velocity from 6, angular velocity from 9.
   Eigen::Matrix<double, 12, 15> by_filter = Eigen::Matrix<double, 12, 15>::Zero();
   by_filter.topLeftCorner<9, 9>().setIdentity();
   by_filter.block<3, 3>(0, kRotation) = so3::skew(arm);

@@ -21,23 +21,23 @@ double updateByPixel(const Eigen::Matrix<double, 2, 6>& jacobian,
   using Columns = Eigen::Matrix<double, kSize, 2>;
   using Square = Eigen::Matrix<double, kSize, kSize>;
   const double variance = pixel_stddev * pixel_stddev;
-  const Columns to_pixel = covariance->template leftCols<6>() * jacobian.transpose();
-  Eigen::Matrix2d of_pixel = jacobian * to_pixel.template topRows<6>();
-  of_pixel.diagonal().array() += variance;
-  const Eigen::Matrix2d information = of_pixel.inverse();
-  const Columns gain = to_pixel * information;
-  *step = gain * innovation;
+  const Columns PHt = covariance->template leftCols<6>() * jacobian.transpose();
+  Eigen::Matrix2d S = jacobian * PHt.template topRows<6>();  // innovation covariance
+  S.diagonal().array() += variance;
+  const Eigen::Matrix2d inverse = S.inverse();
+  const Columns K = PHt * inverse;  // gain
+  *step = K * innovation;
 
   // Joseph's form keeps the covariance positive definite: (I - K H) P (I - K H)' + K R K'.
-  Square reduced = *covariance;
-  reduced.noalias() -= gain * to_pixel.transpose();
+  Square reduced = *covariance;  // (I - K H) P
+  reduced.noalias() -= K * PHt.transpose();
   const Columns left = reduced.template leftCols<6>() * jacobian.transpose();
   *covariance = reduced;
-  covariance->noalias() -= left * gain.transpose();
-  covariance->noalias() += variance * gain * gain.transpose();
+  covariance->noalias() -= left * K.transpose();
+  covariance->noalias() += variance * K * K.transpose();
   const Square symmetric = 0.5 * (*covariance + covariance->transpose());
   *covariance = symmetric;
-  return innovation.dot(information * innovation) + std::log(of_pixel.determinant());
+  return innovation.dot(inverse * innovation) + std::log(S.determinant());
 }
 
 }  // namespace wiimote_tracker::body

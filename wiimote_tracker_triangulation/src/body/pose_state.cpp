@@ -44,7 +44,8 @@ void PoseState::predict(double acceleration_density,
   const Eigen::Quaterniond turned(so3::exp(duration * angular_velocity));
   rotation = (turned * rotation).normalized();
 
-  // F = [1 0 dt 0; 0 T 0 dt (half the turn); 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'.
+  // F = [1 0 dt 0; 0 T 0 dt J; 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'. J is the left Jacobian
+  // of SO(3), about half of the turn T.
   const Eigen::Matrix3d turn = turned.toRotationMatrix();
   const Eigen::Matrix3d by_turning =
       duration * so3::exp(0.5 * duration * angular_velocity).toRotationMatrix();

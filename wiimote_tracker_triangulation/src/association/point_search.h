@@ -99,7 +99,7 @@ class PointSearch {
   const std::vector<View>* views_ = nullptr;
   std::vector<std::size_t> view_ends_;  // per spot: one past the last spot of its view
   std::vector<Mask> partner_spots_;     // per spot: spots that can share a point with it
-  std::vector<double> least_costs_;     // per spot: its least share of a point's cost
+  std::vector<double> least_costs_;     // per spot: as a false detection, or its share of a point
   std::size_t steps_ = 0;
   std::size_t maximum_steps_ = 0;
   std::vector<Draft> drafts_;  // the first draft_count_ are in use; the others keep their buffers

@@ -13,8 +13,9 @@
 namespace wiimote_tracker::tracking {
 
 /// By how much the times of the images of a group's cameras are too late. Each offset is a Kalman
-/// filter of what the motion shows after the correction so far: so a clock that drifts is followed,
-/// and what a camera's pull on the tracks hides of its offset shows in the next step.
+/// filter of what the motion shows after the correction so far: so a clock that drifts is followed.
+/// A camera pulls the tracks to its wrong times, which hides a part of its offset until the next
+/// correction.
 ///
 /// Motion tells differences of clocks only: the median of the known ones is 0.
 class CameraClocks {

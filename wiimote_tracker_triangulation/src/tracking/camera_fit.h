@@ -23,10 +23,10 @@ class CameraFit {
   /// @param ghost_rate expected false detections per image.
   CameraFit(double ghost_rate, const Limits& limits) : limits_(limits), usual_(ghost_rate) {}
 
-  /// @param shown LEDs that have a spot in the image. @param missing LEDs that have none although
-  /// others see them: two, or the only other one.
+  /// @param shown LEDs that have a spot in the image.
+  /// @param missing LEDs that have none although two other cameras see them, or the only other one.
   /// @param unassigned spots of no LED.
-  /// @param explained missing ones whose spots errors of the calibration may have moved.
+  /// @param explained how many of the missing errors of the calibration explain.
   void add(std::size_t shown, std::size_t missing, std::size_t unassigned, std::size_t explained) {
     constexpr double kMemoryOfUsual = 150.0;  // images
     constexpr double kRatio = 1.5;            // misfits per fit of a camera that does not fit

@@ -43,17 +43,18 @@ std::optional<ClockOffset::Estimate> ClockOffset::estimate(double turn_stddev) c
     return std::nullopt;
   // residual = -offset * velocity + c + a p + b conj(p) + noise, since a time that is too late
   // predicts the LED too far along its motion. c is eliminated by means, then a and b, the general
-  // linear map of the plane, whose prior is 0 +- turn_stddev where the noise is 1 px.
+  // linear map of the plane, whose prior is 0 +- turn_stddev where the noise is 1 px: what is left
+  // of residuals and velocities after a regression on p gives the offset (Frisch-Waugh theorem).
   const Products by_pixel = pixel_pixel_ - products(pixel_, pixel_) / count_;
   const Products by_velocity = pixel_velocity_ - products(pixel_, velocity_) / count_;
   const Products by_residual = pixel_residual_ - products(pixel_, residual_) / count_;
   const double squared_turn = turn_stddev * turn_stddev;
   Eigen::Matrix2cd normal;
   normal << by_pixel[0], std::conj(by_pixel[1]), by_pixel[1], by_pixel[0];
-  const Eigen::Matrix2cd explained =
+  const Eigen::Matrix2cd covariance =  // of a and b
       squared_turn * (Eigen::Matrix2cd::Identity() + squared_turn * normal).inverse();
-  const Eigen::Vector2cd of_velocity = explained * by_velocity;
-  const Eigen::Vector2cd of_residual = explained * by_residual;
+  const Eigen::Vector2cd of_velocity = covariance * by_velocity;
+  const Eigen::Vector2cd of_residual = covariance * by_residual;
 
   const double velocity_scatter =
       squared_velocity_ - std::norm(velocity_) / count_ - std::real(by_velocity.dot(of_velocity));
@@ -65,9 +66,10 @@ std::optional<ClockOffset::Estimate> ClockOffset::estimate(double turn_stddev) c
   const double unexplained = squared_residual_ - std::norm(residual_) / count_ -
                              std::real(by_residual.dot(of_residual)) -
                              covariation * covariation / velocity_scatter;
-  const double noise = (std::max(unexplained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
+  const double variance =
+      (std::max(unexplained, 0.0) + 2.0 * kAssumed) / (2.0 * (count_ + kAssumed));
   const double not_linear = kNotLinear * kNotLinear * squared_turn * std::real(by_pixel[0]);
-  return Estimate{-covariation / velocity_scatter, noise / velocity_scatter,
+  return Estimate{-covariation / velocity_scatter, variance / velocity_scatter,
                   not_linear / velocity_scatter};
 }
 

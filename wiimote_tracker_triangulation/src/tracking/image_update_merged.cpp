@@ -12,7 +12,7 @@ namespace {
 
 /// Probability [0..1] that a spot is that of two merged LEDs, rather than of one while the other is
 /// hidden. A merged spot is between both predictions, a single one at its own. The distance below
-/// which two LEDs merge is uniform up to a limit, as far as we know.
+/// which two LEDs merge is uniform up to merging_distance, as far as we know.
 /// @param visible, absent predictions of the LED that the spot was assigned to, and of the other
 /// @param hidden prior probability that the absent one is hidden [0..1, exclusive]
 double mergedProbability(const Eigen::Vector2d& spot,
@@ -23,10 +23,11 @@ double mergedProbability(const Eigen::Vector2d& spot,
                          double merging_distance) {
   constexpr double kSpread = 0.15;  // of the place between two LEDs, by their brightness [1]
   const Eigen::Vector2d between = absent.pixel() - visible.pixel();
-  const double too_close = 1.0 - between.norm() / merging_distance;
-  if (too_close <= 0.0)
+  const double merging = 1.0 - between.norm() / merging_distance;  // prior probability
+  if (merging <= 0.0)
     return 0.0;
   const Eigen::Vector2d residual = spot - visible.pixel() - 0.5 * between;
+  // Of the spot about the middle. Half of the pixel noise comes with the two predictions.
   const Eigen::Matrix2d covariance =
       0.25 * (visible.covariance() + absent.covariance()) +
       0.5 * pixel_stddev * pixel_stddev * Eigen::Matrix2d::Identity() +
@@ -34,7 +35,7 @@ double mergedProbability(const Eigen::Vector2d& spot,
   const double merged = -0.5 * residual.dot(covariance.inverse() * residual) -
                         std::log(2.0 * M_PI * std::sqrt(covariance.determinant()));
   const double log_odds =
-      merged - visible.logLikelihood(spot) + std::log((1.0 - hidden) * too_close / hidden);
+      merged - visible.logLikelihood(spot) + std::log((1.0 - hidden) * merging / hidden);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 

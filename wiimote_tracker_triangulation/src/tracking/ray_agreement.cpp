@@ -10,7 +10,8 @@ namespace {
 
 constexpr double kMemory = 3.0;  // spots of one camera
 
-// Distances of two lights are uniform over what the gate of track initiation allows [px].
+// Distances of two lights are uniform over what the gate of track initiation allows [px]: from
+// -sqrt(30) to sqrt(30) times 4 px (maximum_pair_chi_squared, birth_pixel_stddev).
 constexpr double kRange = 44.0;
 
 constexpr double kCorrelationTime = 0.2;  // of distances [s]

@@ -24,7 +24,7 @@ constexpr std::size_t kReacquisitionSpots = 4;
 
 }  // namespace
 
-/// That of a camera: a new one if it has none, in place of the oldest if there are too many.
+/// The record of a camera. Adds one if it has none, in place of the oldest if there are too many.
 CameraRecord& Track::recordOf(std::size_t camera) {
   const auto record = std::find_if(records_.begin(), records_.end(),
                                    [&](auto& known) { return known.camera == camera; });

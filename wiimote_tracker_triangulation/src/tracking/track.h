@@ -112,8 +112,8 @@ class Track {
   void weighRays(double time, const TrackerOptions& options);
   std::size_t supportingCameras(double time, const TrackerOptions& options) const;
 
-  double initiated_;             // [s]
-  double started_;               // [s]
+  double initiated_;             // TrackedLed::first_seen; stays with continueAs() [s]
+  double started_;               // see startedAt() [s]
   double last_observed_;         // by any camera [s]
   double last_located_;          // by two cameras within tracked_time [s]
   double unmerged_share_ = 1.0;  // share of recent spots that are this LED's alone

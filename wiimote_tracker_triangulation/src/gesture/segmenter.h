@@ -46,9 +46,8 @@ class Segmenter {
   /// Advances to `time` [s] without a position (the LED is hidden or off).
   std::optional<Path> advance(double time);
 
-  /// With Boundary::kButton: the button was pressed or released. Positions may be added earlier or
-  /// later than their time order requires, by less than kButtonDelay, without effect on the
-  /// gesture.
+  /// With Boundary::kButton: the button was pressed or released. The call may come before or after
+  /// the positions of its time, by less than kButtonDelay.
   /// @returns a gesture that this event ends.
   std::optional<Path> button(double time, bool pressed);
   static constexpr double kButtonDelay = 0.5;  // [s]

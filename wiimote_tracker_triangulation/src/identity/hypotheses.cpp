@@ -83,7 +83,7 @@ void Hypotheses::fillRow(std::size_t blur, bool seen, std::size_t step, std::siz
     }
     const double probability =
         seeing_.seen_when_off + (seeing_.seen_when_on - seeing_.seen_when_off) * light;
-    // Divided by the probability of not seeing an LED that is hidden, or off.
+    // Not seen: relative to an LED that is hidden, as Evidence::addLimited needs it.
     row[i] =
         static_cast<float>(seen ? std::log(probability)
                                 : std::log((1.0 - probability) / (1.0 - seeing_.seen_when_off)));

@@ -130,6 +130,10 @@ bool MotionFilter::update(const geometry::Camera& camera,
   constexpr double kFarthest = 1e9;  // [px]
   if (!((pixel - prediction.pixel_).squaredNorm() < kFarthest * kFarthest))
     return false;
+  if (camera.center() != last_viewpoint_) {
+    last_viewpoint_ = camera.center();
+    last_change_of_camera_ = time_;
+  }
   const std::optional<Vector3d> ray = rayIfAlone(camera);
   if (isLinear(camera, prediction, pixel)) {
     apply(prediction, pixel, ray);
@@ -154,12 +158,8 @@ bool MotionFilter::update(const geometry::Camera& camera,
 /// The direction from the camera to the LED if for a while no other camera has seen it. Pixels of
 /// one camera do not tell the distance. A filter would still take it from the motion, since a near
 /// LED needs less speed and acceleration for the same pixels: so it would come to the camera.
-std::optional<Vector3d> MotionFilter::rayIfAlone(const geometry::Camera& camera) {
+std::optional<Vector3d> MotionFilter::rayIfAlone(const geometry::Camera& camera) const {
   constexpr double kDelay = 0.05;  // [s]
-  if (camera.center() != last_viewpoint_) {
-    last_viewpoint_ = camera.center();
-    last_change_of_camera_ = time_;
-  }
   if (!(time_ - last_change_of_camera_ > kDelay))
     return std::nullopt;
   return (position() - camera.center()).normalized();

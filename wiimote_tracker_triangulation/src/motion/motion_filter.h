@@ -65,7 +65,7 @@ class MotionFilter {
   bool isLinear(const geometry::Camera& camera,
                 const PixelPrediction& prediction,
                 const Eigen::Vector2d& pixel) const;
-  std::optional<Eigen::Vector3d> rayIfAlone(const geometry::Camera& camera);
+  std::optional<Eigen::Vector3d> rayIfAlone(const geometry::Camera& camera) const;
   void apply(const PixelPrediction& prediction,
              const Eigen::Vector2d& pixel,
              const std::optional<Eigen::Vector3d>& ray);

@@ -45,9 +45,9 @@ std::optional<Shape> shapeOf(const Path& path, const ShapeOptions& options);
 /// point).
 Shape turnedTowards(const Shape& shape, const Shape& other);
 
-/// Distance of two shapes [1, >= 0]: mean square difference of positions and directions along the
-/// best alignment in time (dynamic time warping; Sakoe and Chiba 1978, band of kBand points).
-/// Infinity once it must exceed `limit`.
+/// Distance of two shapes [1, >= 0]: sum of squared differences of positions and directions along
+/// the best alignment in time, over kPoints (dynamic time warping; Sakoe and Chiba 1978, but all
+/// steps of weight 1; band of kBand points). Infinity once it must exceed `limit`.
 double distance(const Shape& a,
                 const Shape& b,
                 double limit = std::numeric_limits<double>::infinity());

@@ -48,8 +48,8 @@ class Hypotheses {
   /// * phases().
   std::size_t cells() const { return frequencies_.size() * labels() * phases_; }
 
-  /// Log likelihoods of a sighting at one frequency, relative to those of a hidden LED: a row of
-  /// phases() for each label, every 2 * phases() values.
+  /// Log likelihoods of a sighting at one frequency, relative to a hidden LED where none is seen: a
+  /// row of phases() for each label, every 2 * phases() values.
   /// @param frequency [Hz]. @param periods periods since phase 0, any number. The phase of a
   /// hypothesis is minus that of the waveform at periods = 0.
   const float* rowsOf(const Sighting& sighting, double frequency, double periods) const;

@@ -38,7 +38,7 @@ void BodyTracker::leaveToSearch(double time) {
 
 /// Whether an image shows the body. The newest images of all cameras must fit its prediction: other
 /// lights have another shape. One spot alone could be any light, unless those images show three of
-/// the body's LEDs, at different places (compared as if all were taken now: the body moves).
+/// the body's LEDs, with rays that do not all meet in one light (moved with the body to now).
 bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
   constexpr double kGreatestMiss = 0.02;   // of a light's rays [m]
   constexpr double kGreatestShare = 0.25;  // of the distance to the nearest LED

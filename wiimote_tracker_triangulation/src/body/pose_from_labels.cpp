@@ -11,10 +11,9 @@
 namespace wiimote_tracker::body {
 namespace {
 
-// Greatest mean squared residual per coordinate [variances], which refuses wrong labels and poorly
-// seen LEDs; and the LEDs' motion between the images of the points [m].
+// Greatest mean squared residual per coordinate [variances]: refuses wrong labels.
 constexpr double kWorst = 9.0;
-constexpr double kMotion = 0.002;
+constexpr double kMotion = 0.002;  // of the LEDs between the images of the points [m]
 
 /// The pose of a body from labelled points. Nothing when fewer than three of its LEDs are among
 /// them, or they lie on a line or do not agree with the constellation.

@@ -92,9 +92,9 @@ Track::Cameras ImageUpdate::othersSeeing(const Track& track) const {
   return track.othersSeeing(image_->camera, image_->time - options_.birth_window);
 }
 
-/// Compares the image with the LEDs that other cameras see. Two cameras that did not fit each other
-/// have to show that the rays of each LED meet; of spots that both have and that form no LED, there
-/// ought to be none.
+/// Compares the image with the LEDs that other cameras see. While two cameras do not fit each
+/// other, an LED counts as shown only if its rays meet, and unassigned spots that both have count
+/// as missing LEDs.
 void ImageUpdate::measureFit(std::vector<CameraFit>* fits) const {
   const bool is_pair = fits->size() == 2;
   CameraFit& fit = (*fits)[image_->camera];

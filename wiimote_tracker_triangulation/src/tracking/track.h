@@ -18,7 +18,7 @@ namespace wiimote_tracker::tracking {
 struct CameraRecord {
   std::size_t camera = 0;         // in its group
   double time = 0.0;              // last image that should show the LED [s]
-  double full = 0.0;              // last image of its place in which no further spot fits [s]
+  double full = 0.0;              // last image that should show it but is full, see crowdOut() [s]
   double hit = 0.0;               // last image with a spot of the LED [s]
   double own = 0.0;               // last image with a spot that was not assigned to another LED [s]
   double squared_residual = 0.0;  // of the last spot [px^2]

@@ -29,7 +29,7 @@ class GroupCamera {
   /// A cheap test: whether a point [m] is within the cone that encloses the view.
   bool mayShow(const Eigen::Vector3d& point) const;
 
-  /// The ray of a spot. @param led [m] @param residual of its spot [px]
+  /// The ray of a spot, as of a pinhole. @param led [m] @param residual of its spot [px]
   RayOffset rayOffset(const Eigen::Vector3d& led, const Eigen::Vector2d& residual) const;
 
   /// Whether the pixel is at most `margin` [px] outside the image.

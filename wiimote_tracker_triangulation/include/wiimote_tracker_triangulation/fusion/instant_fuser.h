@@ -63,7 +63,8 @@ struct InstantFuserOptions {
 class InstantFuser : public tracking::Estimator {
  public:
   /// All state is forgotten when a camera's image arrives this much earlier than its last one, as
-  /// when a bag restarts [s]; or, after setRig(), when all images do so than those before.
+  /// when a bag restarts [s]; or, after setRig(), when all images are this much earlier than
+  /// before.
   static constexpr double kJump = 1.0;
 
   /// @throws geometry::InvalidRigError (see Rig::check).

@@ -39,12 +39,11 @@ struct TriangulatedPoint {
   double reprojection_error;   ///< sqrt(mean(du^2 + dv^2)) over the observations [px].
 };
 
-/// Point from two or more observations of exact cameras. Does not allocate for up
-/// to 16 observations.
+/// Point from two or more observations of exact cameras, whose pixel noise is Gaussian, independent
+/// and equal in both axes. Does not allocate for up to 16 observations.
 /// @returns nothing when it is not determined: fewer than two observations, all rays (nearly)
-/// parallel, a pixel without a ray, the point behind any of the cameras, not finite.
-/// kMaximumLikelihood: for pixel noise that is Gaussian, independent and equal in both axes.
-/// The covariance of the other methods is propagated to first order from the same noise.
+/// parallel, a pixel without a ray, the point behind any of the cameras, not finite. The covariance
+/// is propagated from that noise to first order, whatever the method.
 std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& observations,
                                              const TriangulationOptions& options);
 

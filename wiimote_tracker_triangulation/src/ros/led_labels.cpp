@@ -86,6 +86,7 @@ void LedLabels::update(double time,
     place.tracked_with = tracked_;
     LedLabel& label = given->second;
     if (led.same_led < label.same_led) {
+      former_[label.name] = place;
       setConfidence(place.confidence * led.same_led / label.same_led, &label);
       label.same_led = led.same_led;
     }

@@ -89,7 +89,7 @@ class LedLabels {
   std::vector<std::uint32_t> lost_;          // since the last update began
   std::vector<std::uint32_t> forgotten_;     // lost before that; their labels are free
   Places places_;
-  Places former_;                 // of labels that were given again: where they were before
+  Places former_;                 // of doubtful labels: where the LED was, before this one had it
   std::optional<double> newest_;  // snapshot [s]
   bool is_updated_ = false;       // since the places were kept
   std::vector<std::string> doubtful_;

@@ -153,6 +153,8 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   for (Track& track : tracks) {
     const bool was_confirmed = track.isConfirmed();
     track.updateStatus(image.time, options_);
+    if (track.isFinished() && track.isDuplicate())
+      doubtPartnerOf(track.id);
     if (was_confirmed || !track.mayContinue())
       continue;
     if (Track* former = initiation_.formerTrackOf(track, state_.pairs, &tracks)) {
@@ -180,6 +182,17 @@ void CameraGroup::removeMergedPairs(double time) {
       second->noteMeeting(pair->probability());
     }
     pair = pairs.erase(pair);
+  }
+}
+
+/// Nothing tells which LED of a merged pair the other track follows, once one of both has ended.
+void CameraGroup::doubtPartnerOf(std::uint32_t ended) {
+  for (const MergedPair& pair : state_.pairs) {
+    if (!pair.has(ended))
+      continue;
+    const std::uint32_t partner = pair.ids()[0] == ended ? pair.ids()[1] : pair.ids()[0];
+    if (Track* track = continuing(partner, pair.openedAt()))
+      track->noteMeeting(0.5);
   }
 }
 

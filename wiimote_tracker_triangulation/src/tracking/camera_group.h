@@ -82,6 +82,7 @@ class CameraGroup {
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
   void removeMergedPairs(double time);
+  void doubtPartnerOf(std::uint32_t ended);
   Track* continuing(std::uint32_t id, double since);
   void collectUnassigned(const StoredImage& image);
   void show(const StoredImage& image, std::vector<CameraView>* views) const;

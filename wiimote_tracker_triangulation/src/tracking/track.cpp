@@ -96,8 +96,6 @@ void Track::noteRay(std::size_t camera, const RayOffset& ray) {
   recordOf(camera).ray.add(ray);
 }
 
-/// Whether another track that shares nearly all spots follows the same LED and is the better one:
-/// most spots were assigned to it, or about half and it is the older one.
 bool Track::isDuplicate() const {
   return unmerged_share_ < kLeastUnmerged &&
          (own_share_ < 1.0 - kMostlyOwn || (own_share_ < kMostlyOwn && shared_with_ < id));

@@ -83,6 +83,11 @@ class Track {
   std::size_t camerasShowing(double since) const;
 
   bool isFinished() const { return finished_; }
+
+  /// Whether another track that shares nearly all spots follows the same LED and is the better one:
+  /// most spots were assigned to it, or about half and it is the older one.
+  bool isDuplicate() const;
+
   bool isConfirmed() const { return confirmed_; }
 
   /// Whether a tentative track may continue that of a lost LED. This takes less than to confirm a
@@ -106,7 +111,6 @@ class Track {
 
  private:
   CameraRecord& recordOf(std::size_t camera);
-  bool isDuplicate() const;
   std::size_t camerasInView(double time, const TrackerOptions& options) const;
   bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
   void weighRays(double time, const TrackerOptions& options);

@@ -325,15 +325,15 @@ TEST(LedLabels, AreDoubtfulAfterTheLedsMayHaveChangedPlaces) {
   labels.update(kTime, leds);
   EXPECT_TRUE(std::isnan(labels.of(0).confidence));
   leds[0].same_led = 0.45;
-  leds[1].same_led = 0.5;
   labels.update(kTime, leds);
   EXPECT_NEAR(0.5, labels.of(0).confidence, 1e-9);
-  EXPECT_NEAR(0.5, labels.of(1).confidence, 1e-9);
-  EXPECT_EQ((std::vector<std::string>{"left", "right"}), labels.doubtful());
   EXPECT_NEAR(0.5, labels.places().at("left").confidence, 1e-9) << "kept for a restart";
-  labels.update(kTime, leds);
-  EXPECT_NEAR(0.5, labels.of(0).confidence, 1e-9);
+  EXPECT_EQ(std::vector<std::string>{"left"}, labels.doubtful());
+  labels.update(kTime, {leds[0], led(1, TrackState::kLost)});
   EXPECT_TRUE(labels.doubtful().empty()) << "said once";
+  labels.update(kTime, {leds[0], led(2, TrackState::kTracked)});
+  EXPECT_EQ("right", labels.of(2).name) << "or the left one";
+  EXPECT_NEAR(0.67, labels.of(2).confidence, 0.01);
 }
 
 TEST(LedLabels, ComeFromBlinking) {

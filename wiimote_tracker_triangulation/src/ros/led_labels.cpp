@@ -109,7 +109,7 @@ void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& ident
   const auto given = given_.find(id);
   if (identity && identity->label)
     given_[id] = {identifier.codes().codes[*identity->label].label, identity->confidence,
-                  identity->since, true};
+                  identity->since, true, 1.0};
   else if (given != given_.end() && given->second.identified)
     given_.erase(given);
 }

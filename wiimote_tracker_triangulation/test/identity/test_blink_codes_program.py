@@ -24,6 +24,13 @@ def test_refuses_numbers_beyond_those_of_a_file():
         assert run('choose', 'left', 'right', *option) == (2, '')
 
 
+def test_refuses_options_of_other_commands():
+    assert run('choose', 'left', 'right', '--period', '1') == (2, '')
+    for command in ('check', 'table', 'sketch'):
+        assert run(command, 'codes.yaml', '--chip', '0.02') == (2, '')
+    assert run('check', 'codes.yaml', '--period', '1') == (2, '')
+
+
 def test_help_says_the_ranges():
     _, text = run('--help')
     for words in ('(0.02 to 5)', '(0.001 to 1, default 0.023)', '(0 to 0.05, default 0.01)'):

@@ -33,7 +33,19 @@ double periodOf(const identity::BlinkCodes& codes, double wanted) {
   return wanted;
 }
 
+/// @throws BadArguments: an option that the command does not use.
+void refuseUnused(const Arguments& arguments) {
+  const Arguments defaults;
+  const bool chooses = arguments.command == "choose";
+  const bool drives = arguments.command == "table" || arguments.command == "sketch";
+  if (!drives && arguments.period != defaults.period)
+    throw BadArguments("--period is for table and sketch: leave it out");
+  if (!chooses && (arguments.chip != defaults.chip || arguments.tolerance != defaults.tolerance))
+    throw BadArguments("--chip and --tolerance are for choose: leave them out");
+}
+
 std::string run(const Arguments& arguments) {
+  refuseUnused(arguments);
   if (arguments.command == "choose")
     return blink_codes_tool::cyclicFile(arguments.words, arguments.chip, arguments.tolerance);
   if (arguments.command != "table" && arguments.command != "sketch" && arguments.command != "check")

@@ -90,6 +90,10 @@ def test_rigs_of_two_trackers(tmp_path):
     track(tmp_path / 'in.bag', tmp_path / 'out.bag', '--namespace', 'b')
     assert len(arrays(tmp_path / 'out.bag', '/b/points')) > 300
     assert len(arrays(tmp_path / 'out.bag', '/a/points')) == 0
+    (tmp_path / 'out.bag').unlink()
+    assert 'no rig is on /c/calibration/rig' in refused(
+        tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag', '--namespace', 'c', '--csv',
+        tmp_path / 'out.csv', '--trc', tmp_path / 'out.trc')
 
 
 def test_an_unusable_rig(tmp_path):
@@ -106,8 +110,8 @@ def test_a_rig_file_that_does_not_exist(bag, tmp_path):
 
 def test_a_rig_of_other_cameras(tmp_path):
     write(tmp_path / 'in.bag', [(t.replace('camera', 'foreign'), m, s) for t, m, s in recorded()])
-    assert 'no image is of a camera of the rig' in refused(tmp_path, tmp_path / 'in.bag',
-                                                           tmp_path / 'out.bag')
+    assert 'no image is of a camera of the rig' in refused(
+        tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag', '--csv', tmp_path / 'out.csv')
 
 
 def test_a_rig_after_all_images(tmp_path):

@@ -69,12 +69,19 @@ Output::Output(const OutputFiles& files,
   } catch (const rosbag::BagException& e) {
     fail(e.what());
   }
+  for (const std::string& table : files.tables.names()) {
+    if (!table.empty())
+      table_parts_.push_back(measurements::partOf(table));
+  }
 }
 
 Output::~Output() {
   // rosbag::Bag's destructor writes the index, and ends the process where that fails, as on a full
   // disk. The bag is not needed: leave it to the end of the process.
-  static_cast<void>(bag_.release());
+  if (bag_.release()) {
+    for (const std::string& part : table_parts_)
+      ::unlink(part.c_str());
+  }
 }
 
 void Output::leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies) {

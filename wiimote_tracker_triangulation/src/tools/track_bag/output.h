@@ -42,8 +42,8 @@ class LockedPart {
 };
 
 /// Writes the tracker's results and recorded messages to a new bag, and results to tables. The
-/// files get their names in finish(); existing files are kept as path + ".bak". All member
-/// functions throw BagError or Error.
+/// files get their names in finish(); existing files are kept as path + ".bak". Without it, the
+/// parts of bag and tables are removed. All member functions throw BagError or Error.
 class Output : public MessageSink {
  public:
   /// @param options which topics of single LEDs and bodies to write.
@@ -102,6 +102,7 @@ class Output : public MessageSink {
   LockedPart part_;
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
+  std::vector<std::string> table_parts_;
   TrajectoryFiles trajectories_;
   std::set<std::string> earlier_topics_;
   std::set<std::string> earlier_frames_;

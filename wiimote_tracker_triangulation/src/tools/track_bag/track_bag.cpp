@@ -70,7 +70,10 @@ class Player {
 
   const tracking::Counters& counters() const { return tracker_.counters(); }
 
-  /// Images of the first rig's cameras that came before it: they give no points.
+  /// Of the rigs' cameras.
+  std::size_t images() const { return images_used_ + before_rig_; }
+
+  /// Those of them that came before the first rig: they give no points.
   std::size_t imagesBeforeRig() const { return before_rig_; }
 
  private:
@@ -193,22 +196,19 @@ void checkForSmoothing(const TrackingParameters& parameters) {
     throw BagError("--smooth cannot predict: set output/predict_to_now to false");
 }
 
-void printSummary(const Recording& recording,
-                  const Output& output,
-                  const Player& player,
-                  double seconds) {
+void printSummary(const Output& output, const Player& player, double seconds) {
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
-  const auto images = static_cast<double>(recording.images());
+  const auto images = static_cast<double>(player.images());
   std::printf(
       "%zu images (%.0f per second), %llu outputs, %llu LEDs, %llu triggers answered, "
       "%llu zone events.\n",
-      recording.images(), images / seconds, count(output.points()), count(output.leds()),
+      player.images(), images / seconds, count(output.points()), count(output.leds()),
       count(output.triggersAnswered()), count(output.zoneEvents()));
   std::printf("Images that were late: %llu, too late to be used: %llu, repeated: %llu.\n",
               count(player.counters().late), count(player.counters().dropped),
               count(player.counters().repeated));
   if (player.imagesBeforeRig() > 0)
-    std::printf("%zu images came before the first rig and gave no points: name a rig with --rig.\n",
+    std::printf("Images before the first rig, without points: %zu; name a rig with --rig.\n",
                 player.imagesBeforeRig());
 }
 
@@ -225,6 +225,9 @@ void run(const Arguments& arguments) {
     std::fprintf(stderr, "%s.\n", missing_bodies.c_str());
   if (!arguments.output.trajectories.empty() && parameters.bodies.known.empty())
     std::fprintf(stderr, "--tum writes nothing without bodies: name their file with --bodies.\n");
+  const measurements::TableFiles& tables = arguments.output.tables;
+  if (tables.rate != measurements::TableFiles().rate && tables.c3d.empty() && tables.trc.empty())
+    std::fprintf(stderr, "--rate changes nothing without --c3d or --trc.\n");
   const Recording recording(arguments.input);
   if (recording.images() == 0)
     throw BagError(arguments.input + " holds no images: record the cameras' ir_blobs");
@@ -263,7 +266,7 @@ void run(const Arguments& arguments) {
   player.play(recording, own_rig, copy);
   output.finish();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;
-  printSummary(recording, output, player, duration.count());
+  printSummary(output, player, duration.count());
 }
 
 }  // namespace

@@ -190,6 +190,20 @@ def test_a_document_without_marks_is_left_as_it_is(tmp_path, capsys):
     assert readme.read_text(encoding='utf-8') == 'no marks'
 
 
+@pytest.mark.parametrize('figures, words', [
+    (None, 'figures.json: No such file or directory; check its name'),
+    ('no JSON', 'figures.json is no figures.json: name one that evaluate wrote'),
+    ('{}', 'figures.json is no figures.json: name one that evaluate wrote')])
+def test_a_table_needs_figures(figures, words, tmp_path, capsys):
+    readme, figures_file = tmp_path / 'README.md', tmp_path / 'figures.json'
+    readme.write_text(README, encoding='utf-8')
+    if figures is not None:
+        figures_file.write_text(figures, encoding='utf-8')
+    assert results_table.main([str(figures_file), str(readme)]) == 1
+    assert words in capsys.readouterr().err
+    assert readme.read_text(encoding='utf-8') == README
+
+
 # --- Rigs made from another one
 
 def test_more_cameras_see_the_same_space(tmp_path):

@@ -203,12 +203,14 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
     calibrated.write_text('format: 1\ncameras: {}\n')
     for option, value, words in (
             ('--sections', 'nothing', "there is no section 'nothing'; choose from bad, good"),
+            ('--sections', '', "there is no section ''; choose from bad, good"),
             ('--rig', '/nowhere.yaml', 'there is no rig description /nowhere.yaml'),
             ('--rig', str(calibrated), 'describes no simulated rig'),
             ('--seed', '-1', 'argument --seed: -1 is not within 0 and 2147483647'),
             ('--led', '/nowhere', 'there is no description of an LED /nowhere'),
             ('--gestures', '/nowhere', '/nowhere needs folders of at least two people'),
-            ('--gestures', str(tmp_path / 'people'), 'needs folders of at least two people')):
+            ('--gestures', str(tmp_path / 'people'), 'needs folders of at least two people'),
+            ('--sections=good', '--faults=f', '--faults is for the section faults, which is not')):
         with pytest.raises(SystemExit) as raised:
             evaluate(modules, option, value)
         assert raised.value.code == 2

@@ -18,6 +18,12 @@ def test_the_bag_is_not_overwritten(tmp_path, monkeypatch):
     assert (tmp_path / 'in.bag').read_text() == 'recorded'
 
 
+def test_a_bag_that_does_not_exist(tmp_path, monkeypatch):
+    monkeypatch.setattr('sys.argv', ['replay_report', str(tmp_path / 'in.bag')])
+    with pytest.raises(SystemExit, match='in.bag: No such file or directory; check its name'):
+        replay_report.main()
+
+
 @pytest.mark.parametrize('points, by_two, observed, words', [
     (50, 50, [1.0], ''), (50, 0, [1.0], 'not synchronised'), (50, 0, [], 'exactly one spot'),
     (0, 50, [], 'check that the rig')])

@@ -17,6 +17,7 @@ from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.section import Run
 
+USED_BY = {'led': 'distance', 'gestures': 'ours', 'recordings': 'recordings', 'faults': 'faults'}
 REPORT_FILES = ('report.html', 'report.md', 'figures.json')
 
 
@@ -49,12 +50,16 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                         help='of all random numbers (default: 1)')
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
-    chosen = options.sections.split(',') if options.sections else [
+    chosen = options.sections.split(',') if options.sections is not None else [
         name for name in names
         if name not in ('recordings', 'faults') or getattr(options, name)]
     for name in chosen:
         if name not in names:
             parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")
+    for option, section in USED_BY.items():
+        if options.sections is not None and getattr(options, option) and section not in chosen:
+            parser.error(f'--{option} is for the section {section}, which is not chosen: leave it '
+                         'out, or choose that section, too')
     options.sections = [name for name in names if name in chosen]
     if options.live:
         measured = [name for name in names if hasattr(sections.load(name), 'live')]

@@ -9,7 +9,7 @@ from typing import Dict, List, Optional, Tuple
 import numpy as np
 
 from wiimote_tracker_evaluation import statistics
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.page import words
 
 Measurement = Tuple[float, Tuple[float, float]]  # value, its 95 % interval
@@ -107,6 +107,18 @@ def disagreements(text: str, content: Dict) -> Tuple[List[str], List[str]]:
     return in_process, full_stack
 
 
+def read(path: str) -> Dict:
+    """What an evaluation wrote."""
+    with open(path, encoding='utf-8') as file:
+        try:
+            content = json.load(file)
+        except ValueError:
+            content = None
+    if not isinstance(content, dict) or 'figures' not in content:
+        raise ExperimentError(f'{path} is no figures.json: name one that evaluate wrote')
+    return content
+
+
 def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(prog='results_table', description=__doc__)
     parser.add_argument('figures', help='figures.json of an evaluation')
@@ -116,8 +128,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
                              'and the figures of a fresh run')
     options = parser.parse_args(arguments)
     try:
-        with open(options.figures, encoding='utf-8') as file:
-            content = json.load(file)
+        content = read(options.figures)
         with open(options.document, encoding='utf-8') as file:
             text = file.read()
         if options.check:
@@ -132,6 +143,6 @@ def main(arguments: Optional[List[str]] = None) -> int:
         with open(options.document, 'w', encoding='utf-8') as file:
             file.write(text)
     except (OSError, ValueError, ExperimentError) as error:
-        print(error, file=sys.stderr)
+        print(sentence_of(error), file=sys.stderr)
         return 1
     return 0

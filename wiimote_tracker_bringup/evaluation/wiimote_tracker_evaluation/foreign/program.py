@@ -7,7 +7,7 @@ import json
 import os
 import sys
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.foreign import formats
 
 
@@ -64,4 +64,4 @@ def main():
         sys.exit(f'evaluate_recording: {error}; a report needs matplotlib: apt install '
                  'python3-matplotlib')
     except (ExperimentError, OSError) as error:
-        sys.exit(f'evaluate_recording: {error}')
+        sys.exit(f'evaluate_recording: {sentence_of(error)}')

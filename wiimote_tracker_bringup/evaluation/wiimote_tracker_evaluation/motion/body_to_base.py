@@ -6,7 +6,7 @@ import sys
 import numpy as np
 
 from wiimote_tracker_evaluation import files, ranges
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.motion import hand_eye, inertial, mount, poses
 
 
@@ -54,4 +54,4 @@ def main(argv=None):
         sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
                  'two axes')
     except (ExperimentError, OSError) as error:
-        sys.exit(f'body_to_base: {error}')
+        sys.exit(f'body_to_base: {sentence_of(error)}')

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 from wiimote_tracker_evaluation import alignment, files, ranges
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.motion import comparison, mount, poses
 
 
@@ -89,4 +89,4 @@ def main(argv=None):
         sys.exit(f'evaluate_trajectory: {error}; a plot needs matplotlib: apt install '
                  'python3-matplotlib')
     except (ExperimentError, OSError, ValueError, np.linalg.LinAlgError) as error:
-        sys.exit(f'evaluate_trajectory: {error}')
+        sys.exit(f'evaluate_trajectory: {sentence_of(error)}')

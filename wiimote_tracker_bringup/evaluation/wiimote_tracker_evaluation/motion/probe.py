@@ -33,7 +33,7 @@ from scipy.spatial.transform import Rotation
 from std_srvs.srv import Trigger, TriggerResponse
 
 from wiimote_tracker_evaluation import ranges
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.motion import pivot
 from wiimote_tracker_evaluation.ros_master import require_master
 
@@ -231,7 +231,7 @@ class Node:
             return TriggerResponse(success=False, message='the poses of the probe cannot be used '
                                    f'({error}); turn it to other sides and try again')
         except (ExperimentError, OSError) as error:
-            return TriggerResponse(success=False, message=str(error))
+            return TriggerResponse(success=False, message=sentence_of(error))
 
 
 def main():

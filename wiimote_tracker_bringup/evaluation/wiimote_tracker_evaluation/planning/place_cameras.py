@@ -21,7 +21,7 @@ from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Trigger, TriggerResponse
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
 from wiimote_tracker_evaluation import files, rigs
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.planning import (
     cells, handles, plan, plan_rig, prediction, search)
 from wiimote_tracker_evaluation.ros_master import require_master
@@ -106,7 +106,7 @@ class PlaceCameras:
         try:
             rigs.write(self._output, description)
         except OSError as error:
-            return TriggerResponse(False, f'not saved: {error}')
+            return TriggerResponse(False, f'not saved: {sentence_of(error)}')
         return TriggerResponse(True, f'saved to {self._output}; the plan file is unchanged, the volume '
                                f'here is {volume}')
 
@@ -132,7 +132,7 @@ def main():
         rospy.logfatal('the parameter %s is missing: use plan.launch', error)
         return 1
     except (ExperimentError, OSError, ValueError) as error:
-        rospy.logfatal('%s', error)
+        rospy.logfatal('%s', sentence_of(error))
         return 1
     rospy.spin()
     return 0

@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 from wiimote_tracker_evaluation import bound, files, ranges, rigs, scene
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
 from wiimote_tracker_evaluation.planning import picture, plan, prediction, search
 from wiimote_tracker_evaluation.programs import package_file
@@ -176,4 +176,4 @@ def main(argv=None):
     except ImportError as error:
         sys.exit(f'plan_rig: {error}; a picture needs matplotlib: apt install python3-matplotlib')
     except (ExperimentError, OSError, ValueError) as error:
-        sys.exit(f'plan_rig: {error}')
+        sys.exit(f'plan_rig: {sentence_of(error)}')

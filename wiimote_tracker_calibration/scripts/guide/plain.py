@@ -4,7 +4,7 @@ import queue
 import sys
 import threading
 import time
-from typing import Any, Callable, Iterable, List, Optional
+from typing import Any, Callable, Iterable, List, Optional, Sequence
 
 from .commands import UsageError, number
 from .dialogue import Dialogue
@@ -23,9 +23,11 @@ class Plain:
     """Words, one per line, each sent when the one before was answered."""
 
     def __init__(self, dialogue: Dialogue, say: Callable[[str], Any] = print,
-                 lines: Optional[Iterable[str]] = None):
+                 lines: Optional[Iterable[str]] = None, board: str = ''):
+        """board: the camera whose lens is calibrated; empty: the rig is."""
         self._dialogue = dialogue
         self._say = say
+        self._board = board
         self._lines = queue.Queue()
         self._told = {}
         self._last = ''
@@ -95,14 +97,26 @@ class Plain:
             self._fail(f'wait needs a number of seconds, not "{arguments[0]}"')
             return
         end = time.monotonic() + longest
-        while guide.statuses_since_answer < 2 or guide.status.missing:
+        while guide.statuses_since_answer < 2 or self._missing():
             if time.monotonic() > end:
-                missing = guide.status.missing if guide.status else ()
+                missing = self._missing() if guide.status else ()
                 why = missing[0] if missing else 'the calibration node is silent'
                 self._fail(f'waited for {longest:g} s; {why}')
                 return
             self._look()
             time.sleep(PERIOD)
+
+    def _missing(self) -> Sequence[str]:
+        guide = self._dialogue.guide
+        if not self._board:
+            return guide.status.missing
+        board = self._board_status()
+        return [self._dialogue.advice().sentence] if board is None else board.missing
+
+    def _board_status(self):
+        """None: nothing was started."""
+        board = self._dialogue.guide.board
+        return board if board is not None and board.camera == self._board else None
 
     def _fail(self, text: str) -> None:
         self.failures += 1
@@ -125,6 +139,26 @@ class Plain:
         self._tell_new('silent', bool(silent), silent)
         if silent:
             return
+        if self._board:
+            self._look_at_board()
+        else:
+            self._look_at_rig()
+        if guide.running:
+            return  # the advice changes with the answer
+        advice = self._dialogue.advice()
+        self._tell_new('advice', advice.sentence,
+                       ('next: ' if advice.word else '') + advice.sentence)
+
+    def _look_at_board(self) -> None:
+        board = self._board_status()
+        if board is None:
+            return
+        self._tell_new('views', board.views, f'{board.views} of {board.views_needed} views')
+        self._tell_new('missing', tuple(board.missing[:1]),
+                       f'missing: {board.missing[0]}' if board.missing else '')
+
+    def _look_at_rig(self) -> None:
+        guide = self._dialogue.guide
         status = guide.status
         share = int(status.progress / PROGRESS_STEP) if status.progress >= 0.0 else -1  # NaN: -1
         self._tell_new('step', (status.step, status.message, share),
@@ -143,9 +177,6 @@ class Plain:
                 text = getattr(camera, kind)
                 self._tell_new((kind, camera.name), text,
                                f'{camera.name}: {text}' if text else '')
-        advice = self._dialogue.advice()
-        self._tell_new('advice', advice.sentence,
-                       ('next: ' if advice.word else '') + advice.sentence)
 
     def _tell_new(self, kind: Any, value: Any, text: str) -> None:
         if self._told.get(kind) != value:

@@ -1,13 +1,14 @@
 """The words of a script, carried out one after the other."""
 
+import functools
 import io
 import sys
 import time
 
-from wiimote_tracker_msgs.msg import CalibrationStatus
+from wiimote_tracker_msgs.msg import BoardStatus, CalibrationStatus
 
 from fakes import FakeNode, dialogue_with, status
-from guide import commands
+from guide import board_screen, commands
 from guide.dialogue import Dialogue
 from guide.guide import Guide
 from guide.plain import Plain
@@ -74,6 +75,40 @@ def test_plain_reads_on_after_bytes_of_another_encoding(monkeypatch):
     face = Plain(dialogue_with(FakeNode()), print)
     lines = [face._lines.get(timeout=10.0) for _ in range(3)]
     assert lines == ['# gr\ufffd\ufffde\n', 'undo\n', None]
+
+
+def test_plain_waits_for_the_views_of_a_board():
+    """What the rig's calibration lacks, and what it says of the cameras, does not count."""
+    node, guide, said = FakeNode({}), Guide(time.monotonic()), []
+    rig = status(CalibrationStatus.READY, missing=['corner 3'], message='put the LED on corner 3')
+
+    def say(text):
+        said.append(text)
+        if text == 'missing: tilt it':
+            node.events.put(('board', BoardStatus(camera='wiimote_1', views=12, views_needed=12)))
+
+    dialogue = Dialogue(guide, node, commands.board_commands('wiimote_1'),
+                        functools.partial(board_screen.advice, guide, 'wiimote_1'))
+    for event in (('status', rig), ('status', rig), ('board', BoardStatus(
+            camera='wiimote_1', views=5, views_needed=12, missing=['tilt it']))):
+        node.events.put(event)
+    face = Plain(dialogue, say, io.StringIO('wait 60\n'), 'wiimote_1')
+    face.run()
+    assert face.failures == 0
+    assert said.index('5 of 12 views') < said.index('12 of 12 views')
+    assert not any('corner 3' in line for line in said)
+
+
+def test_plain_does_not_wait_for_a_board_that_was_not_started():
+    guide = Guide(time.monotonic())
+    guide.on_status(status(CalibrationStatus.READY), time.monotonic())
+    said = []
+    face = Plain(Dialogue(guide, FakeNode({}), commands.board_commands('wiimote_1'),
+                          functools.partial(board_screen.advice, guide, 'wiimote_1')),
+                 said.append, io.StringIO('wait 0\n'), 'wiimote_1')
+    face.run()
+    assert face.failures == 1
+    assert 'waited for 0 s; Hold the 16-LED board in front of wiimote_1. SPACE starts.' in said
 
 
 def test_plain_waits_until_nothing_is_missing():

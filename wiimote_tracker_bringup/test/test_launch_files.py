@@ -78,6 +78,7 @@ def test_a_file_of_parameters_wins(load, tmp_path, name, given):
     ('tracker.launch', ['one_manager:=true'], {'/calibration/', '/drivers/', '/triangulation/'}),
     ('replay.launch', ['bag:=x'], {'/triangulation/'}),
     ('../../wiimote_tracker_triangulation/launch/gestures.launch', [], {'/gestures/'}),
+    ('../../wiimote_tracker_triangulation/launch/record_points.launch', [], {'/record_points/'}),
     ('../../wiimote_tracker_driver/launch/driver.launch', [], {'/wiimote_1/driver/'})])
 def test_a_parameter_that_was_taken_out_of_a_file_is_not_kept_by_the_master(name, arguments, cleared):
     config = roslaunch.config.load_config_default(

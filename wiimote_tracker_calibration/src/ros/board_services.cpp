@@ -23,7 +23,7 @@ using workflow::Reply;
 namespace {
 
 const char kNothingStarted[] =
-    "no lens is being calibrated: call calibration/board/start with a camera first";
+    "no lens is being calibrated: start one (service calibration/board/start)";
 
 /// @throws Error: unknown number.
 std::optional<intrinsics::LensModel> lensModel(std::uint8_t model) {

@@ -51,7 +51,7 @@ std::string orNone(const std::string& text) {
 }
 
 std::string describeConnection(std::size_t number, const Connection& connection) {
-  std::string end = "cut off with the recording";
+  std::string end = "with the recording";
   if (connection.ended)
     end = connection.end_reason.empty() ? "the driver released it" : connection.end_reason;
   return format("connection %zu   %.3f to %.3f s\n", number, connection.begin, connection.end) +

@@ -108,13 +108,12 @@ wiimote_tracker_msgs::TrackedPointArray pointsOf(const std::optional<Eigen::Vect
 /// Writes a solution as a bag like that of a live tracker (topics: README.md); a previous file
 /// becomes .bak. Equal solutions give equal files. @throws ImportError: the bag cannot be written.
 void writeBag(const Solution& solution, const std::string& path) {
-  std::error_code failed;
-  if (std::filesystem::is_regular_file(path))
-    std::filesystem::rename(path, path + ".bak", failed);
-  if (failed)
-    throw ImportError(path + " cannot be kept as " + path + ".bak: " + failed.message());
+  const bool has_previous = std::filesystem::exists(path);
+  if (has_previous && !std::filesystem::is_regular_file(path))
+    throw ImportError(path + " is not a file: name another one");
+  const std::string part = path + ".part";
   try {
-    rosbag::Bag bag(path, rosbag::bagmode::Write);
+    rosbag::Bag bag(part, rosbag::bagmode::Write);
     writeLatched("/calibration/rig", rigMessage(solution.rig), &bag);
     tf2_msgs::TFMessage transforms;
     transforms.transforms = staticTransforms(solution.rig);
@@ -145,6 +144,13 @@ void writeBag(const Solution& solution, const std::string& path) {
   } catch (const rosbag::BagException& error) {
     throw ImportError(path + " cannot be written: " + error.what());
   }
+  std::error_code failed;
+  if (has_previous)
+    std::filesystem::rename(path, path + ".bak", failed);
+  if (!failed)
+    std::filesystem::rename(part, path, failed);
+  if (failed)
+    throw ImportError(part + " cannot get the name " + path + ": " + failed.message());
 }
 
 int convert(const std::string& folder, const std::string& bag) {

@@ -48,8 +48,7 @@ std::unique_ptr<SimulatedRig> makeRig(const ros::NodeHandle& nh,
       if (in_use)
         ROS_WARN_ONCE(
             "The sockets in %s are in use: waiting for another simulation to end. To have both, "
-            "give "
-            "this one a socket_directory of its own.",
+            "give this one a socket_directory of its own.",
             directory.c_str());
     }
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

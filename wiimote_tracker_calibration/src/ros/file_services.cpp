@@ -28,7 +28,8 @@ namespace {
 
 /// What to do so that a rig of this file is used after the next start, too.
 std::string nextStart(const std::string& path, const Parameters& parameters) {
-  if (std::filesystem::absolute(path) == std::filesystem::absolute(parameters.rig_file))
+  std::error_code missing;
+  if (std::filesystem::equivalent(path, parameters.rig_file, missing))
     return "";
   return "; the next start loads " + parameters.rig_file + ": save without a name to replace that";
 }

@@ -7,8 +7,10 @@
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <optional>
+#include <system_error>
 
 namespace wiimote_tracker::import {
 
@@ -59,7 +61,8 @@ std::optional<Eigen::Vector2d> pixelAt(const std::vector<Image>& images, double 
 
 std::map<std::string, CameraImages> readImages(const std::string& path) {
   std::map<std::string, CameraImages> cameras;
-  if (!fileExists(path))
+  std::error_code unknown;
+  if (!std::filesystem::exists(path, unknown) && !unknown)
     throw ImportError("there is neither a bag " + path + " nor a file " + path +
                       "/Res.dat: name a bag or a folder");
   try {

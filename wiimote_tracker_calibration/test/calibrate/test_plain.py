@@ -99,7 +99,7 @@ def test_plain_waits_for_the_views_of_a_board():
     assert not any('corner 3' in line for line in said)
 
 
-def test_plain_does_not_wait_for_a_board_that_was_not_started():
+def test_plain_says_that_no_board_was_started():
     guide = Guide(time.monotonic())
     guide.on_status(status(CalibrationStatus.READY), time.monotonic())
     said = []

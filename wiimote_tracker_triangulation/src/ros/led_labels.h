@@ -20,7 +20,7 @@ struct LedLabel {
   std::string name;
 
   /// For a label found by blinking, given again, or of an LED that met another one: its probability
-  /// [0..1]. NaN for other labels.
+  /// [0..1], a lower bound after several meetings. NaN for other labels.
   double confidence = std::numeric_limits<double>::quiet_NaN();
   double since = 0.0;       ///< When it was found by blinking, or given again [s]; 0 for others.
   bool identified = false;  ///< By blinking.

@@ -91,7 +91,7 @@ MergedPair::SpotIndices MergedPair::branch(const Predictions& predictions,
     SpotIndices spots;
     double log_likelihood;
   };
-  std::array<Branch, 2 * kMaximumHypotheses> branches;
+  std::array<Branch, 2 * kMaximumHypotheses> branches{};
   std::size_t count = 0;
   for (std::size_t parent = 0; parent < hypotheses_.size(); ++parent) {
     const auto& likelihoods = predictions[parent].log_likelihoods;

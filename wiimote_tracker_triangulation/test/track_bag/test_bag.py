@@ -147,7 +147,8 @@ def test_images_before_the_first_rig_are_counted(bag, tmp_path):
     early = sum(t.endswith('ir_blobs') and s < 0.805 for t, _, s in recorded())
     output = track(tmp_path / 'in.bag', tmp_path / 'out.bag')
     assert output.startswith('%d images (' % (len(entries) - 2))  # without rig and stranger
-    assert 'Images before the first rig, without points: %d; name a rig with --rig' % early in output
+    assert ('Images before the first rig, without points: %d; name a rig with --rig' % early
+            in output)
     assert 'before the first rig' not in track(bag, tmp_path / 'whole.bag')
     assert len(arrays(tmp_path / 'out.bag')) < len(arrays(tmp_path / 'whole.bag'))
 
@@ -161,8 +162,8 @@ def test_a_clock_that_was_set_back_is_told(tmp_path):
     write(tmp_path / 'in.bag', entries)
     status, _, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag')
     assert status == 0
-    assert re.search(r'from 1600000000\.5\d+ s on, images of two times are mixed on /camera_2/ir_blobs',
-                     errors)
+    assert re.search(r'from 1600000000\.5\d+ s on, images of two times are mixed on '
+                     r'/camera_2/ir_blobs', errors)
 
 
 def test_only_arrivals_decide_the_order(bag, tmp_path):

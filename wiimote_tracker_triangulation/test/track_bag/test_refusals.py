@@ -163,6 +163,8 @@ def test_a_pipe_is_not_replaced(bag, tmp_path):
     errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--csv', tmp_path / 'pipe')
     assert 'it is a device or a pipe: name a file' in errors
     assert 'name a file' in refused(tmp_path, bag, tmp_path / 'pipe')
+    assert 'name a file' in refused(tmp_path, bag, tmp_path / 'out.bag', '--csv',
+                                    tmp_path / 'made.csv', '--trc', tmp_path / 'pipe')
     assert (tmp_path / 'pipe').is_fifo()
 
 

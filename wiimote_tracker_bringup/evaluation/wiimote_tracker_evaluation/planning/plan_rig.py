@@ -38,8 +38,8 @@ def describe_sight(chosen, names, positions, targets):
     lines = ['  seen by two cameras or more: %.1f %%; by three: %.1f %%'
              % (100 * known.mean(), 100 * (seen.sees.sum(axis=0) >= 3).mean())]
     if not known.any():
-        return lines + ['  no place is seen by two cameras: check that the plan is in metres, and that the '
-                        'stands are near the volume']
+        return lines + ['  no place is seen by two cameras: check that the plan is in metres, and '
+                        'that the stands are near the volume']
     angles = prediction.widest_angles(seen.sees, positions, points)[known]
     return lines + [
         '  angle between rays: %.0f degrees (median), %.0f (smallest)'

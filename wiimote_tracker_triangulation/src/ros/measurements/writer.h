@@ -6,7 +6,9 @@
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/text.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <memory>
@@ -93,18 +95,31 @@ struct TableFiles {
   std::vector<std::string> names() const { return {csv, matlab, c3d, trc}; }
 };
 
-/// One for each file. @throws Error: one cannot be created, or two are the same.
+/// One for each file. @throws Error: one cannot be created, or two are the same; then no part is
+/// left of those that were created.
 inline std::vector<std::unique_ptr<Writer>> makeWriters(const TableFiles& files) {
   checkDistinct(files.names());
   std::vector<std::unique_ptr<Writer>> writers;
-  if (!files.csv.empty())
-    writers.push_back(makeCsvWriter(files.csv));
-  if (!files.matlab.empty())
-    writers.push_back(makeMatlabWriter(files.matlab));
-  if (!files.c3d.empty())
-    writers.push_back(makeC3dWriter(files.c3d, files.rate));
-  if (!files.trc.empty())
-    writers.push_back(makeTrcWriter(files.trc, files.rate));
+  try {
+    if (!files.csv.empty())
+      writers.push_back(makeCsvWriter(files.csv));
+    if (!files.matlab.empty())
+      writers.push_back(makeMatlabWriter(files.matlab));
+    if (!files.c3d.empty())
+      writers.push_back(makeC3dWriter(files.c3d, files.rate));
+    if (!files.trc.empty())
+      writers.push_back(makeTrcWriter(files.trc, files.rate));
+  } catch (...) {
+    std::size_t made = writers.size();  // in the order of the names
+    writers.clear();
+    for (const std::string& name : files.names()) {
+      if (!name.empty() && made-- == 0)
+        break;
+      if (!name.empty())
+        std::remove(partOf(name).c_str());
+    }
+    throw;
+  }
   return writers;
 }
 

@@ -45,11 +45,13 @@ void refuseUnused(const Arguments& arguments) {
 }
 
 std::string run(const Arguments& arguments) {
-  refuseUnused(arguments);
-  if (arguments.command == "choose")
+  if (arguments.command == "choose") {
+    refuseUnused(arguments);
     return blink_codes_tool::cyclicFile(arguments.words, arguments.chip, arguments.tolerance);
+  }
   if (arguments.command != "table" && arguments.command != "sketch" && arguments.command != "check")
     throw BadArguments("the command must be table, sketch, check or choose");
+  refuseUnused(arguments);
   if (arguments.words.size() != 1)
     throw BadArguments("name one file");
   const identity::BlinkCodes codes = identity::readBlinkCodes(arguments.words[0]);

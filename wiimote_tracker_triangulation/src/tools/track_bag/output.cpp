@@ -34,12 +34,17 @@ LockedPart::LockedPart(const std::string& path) : part_(measurements::partOf(pat
 }
 
 LockedPart::~LockedPart() {
-  struct stat mine {};
-  struct stat present {};
-  if (::fstat(file_, &mine) == 0 && ::stat(part_.c_str(), &present) == 0 &&
-      mine.st_ino == present.st_ino)
+  if (isThere())
     ::unlink(part_.c_str());
   ::close(file_);
+}
+
+/// Whether the locked file has the part's name.
+bool LockedPart::isThere() const {
+  struct stat mine {};
+  struct stat present {};
+  return ::fstat(file_, &mine) == 0 && ::stat(part_.c_str(), &present) == 0 &&
+         mine.st_ino == present.st_ino;
 }
 
 /// Does nothing if there is no part.
@@ -49,6 +54,10 @@ void LockedPart::lock(const std::string& path) {
     ::close(file_);
     throw BagError("another program writes " + path +
                    ": wait until it has ended, or name another file");
+  }
+  if (file_ >= 0 && !isThere()) {  // the other program has just finished it
+    ::close(file_);
+    file_ = -1;
   }
 }
 

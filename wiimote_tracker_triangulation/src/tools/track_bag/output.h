@@ -35,6 +35,7 @@ class LockedPart {
   LockedPart& operator=(const LockedPart&) = delete;
 
  private:
+  bool isThere() const;
   void lock(const std::string& path);
 
   std::string part_;

@@ -166,7 +166,7 @@ TEST(Board, RequestsBeforeStartAreRefusedWithAdvice) {
   for (const std::string service : {"undo", "cancel", "commit"}) {
     const auto response = g_bench->trigger(service);
     EXPECT_FALSE(response.success);
-    EXPECT_SAYS(response.message, "start with a camera first");
+    EXPECT_SAYS(response.message, "start one (service calibration/board/start)");
   }
   EXPECT_FALSE(g_bench->solve(SolveBoard::Request::AUTOMATIC).success);
   EXPECT_SAYS(g_bench->start("wiimote_9").message, "no image of a camera 'wiimote_9' has come");

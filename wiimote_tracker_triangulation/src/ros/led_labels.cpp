@@ -85,10 +85,11 @@ void LedLabels::update(double time,
     place.age = 0.0;
     place.tracked_with = tracked_;
     LedLabel& label = given->second;
-    if (led.same_led < label.same_led) {
+    if (led.same_led_probability < label.same_led_probability) {
       former_[label.name] = place;
-      setConfidence(place.confidence * led.same_led / label.same_led, &label);
-      label.same_led = led.same_led;
+      setConfidence(place.confidence * led.same_led_probability / label.same_led_probability,
+                    &label);
+      label.same_led_probability = led.same_led_probability;
     }
   }
 }
@@ -149,7 +150,7 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     return;
   LedLabel& given = given_[led.id];
   given.name = *best;
-  given.same_led = led.same_led;
+  given.same_led_probability = led.same_led_probability;
   const auto found = places_.find(*best);
   if (found == places_.end())
     return;

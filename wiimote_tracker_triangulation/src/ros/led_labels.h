@@ -24,7 +24,7 @@ struct LedLabel {
   double confidence = std::numeric_limits<double>::quiet_NaN();
   double since = 0.0;       ///< When it was found by blinking, or given again [s]; 0 for others.
   bool identified = false;  ///< By blinking.
-  double same_led = 1.0;    ///< As in TrackedLed, when the confidence was set.
+  double same_led_probability = 1.0;  ///< As in TrackedLed, when the confidence was set.
 };
 
 /// Gives labels to tracks. A track that blinks gets the label of its code once it is identified.

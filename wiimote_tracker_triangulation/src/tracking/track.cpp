@@ -113,10 +113,10 @@ void Track::addInitialSpot(std::size_t camera, double time, double residual) {
 void Track::continueAs(const Track& found) {
   const std::uint32_t own_id = id;
   const double initiated = initiated_;
-  const double same_led = same_led_;
+  const double same_led_probability = same_led_probability_;
   *this = found;
   id = own_id;
-  same_led_ = same_led;
+  same_led_probability_ = same_led_probability;
   confirmed_ = true;
   initiated_ = initiated;
   agreement_.reacquire();
@@ -258,7 +258,7 @@ void Track::report(double time,
   led->id = id;
   led->first_seen = initiated_;
   led->last_observed = last_observed_;
-  led->same_led = same_led_;
+  led->same_led_probability = same_led_probability_;
   led->cameras.clear();
   led->rays_possible = 0;
   double squares = 0.0;

@@ -53,7 +53,7 @@ class Track {
   void addInitialSpot(std::size_t camera, double time, double residual);
 
   /// The track may have changed places with another one. @param probability that it did not [0..1]
-  void noteMeeting(double probability) { same_led_ *= probability; }
+  void noteMeeting(double probability) { same_led_probability_ *= probability; }
 
   /// Continues as a track that turned out to be of the same LED, under this track's id.
   void continueAs(const Track& found);
@@ -123,7 +123,7 @@ class Track {
   double unmerged_share_ = 1.0;  // share of recent spots that are this LED's alone
   double own_share_ = 0.5;       // share of recent merged spots assigned to this LED
   std::uint32_t shared_with_ = 0;
-  double same_led_ = 1.0;  // as in TrackedLed
+  double same_led_probability_ = 1.0;  // as in TrackedLed
   std::size_t initial_spots_ = 0;
   std::size_t hits_ = 0;  // further spots of this LED alone
   std::size_t misses_in_a_row_ = 0;

@@ -321,10 +321,10 @@ void see(identity::Identifier* identifier, std::uint32_t id, double start, bool 
 TEST(LedLabels, AreDoubtfulAfterTheLedsMayHaveChangedPlaces) {
   LedLabels labels({"left", "right"});
   std::vector<TrackedLed> leds = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
-  leds[0].same_led = 0.9;  // before it had a label
+  leds[0].same_led_probability = 0.9;  // before it had a label
   labels.update(kTime, leds);
   EXPECT_TRUE(std::isnan(labels.of(0).confidence));
-  leds[0].same_led = 0.45;
+  leds[0].same_led_probability = 0.45;
   labels.update(kTime, leds);
   EXPECT_NEAR(0.5, labels.of(0).confidence, 1e-9);
   EXPECT_NEAR(0.5, labels.places().at("left").confidence, 1e-9) << "kept for a restart";

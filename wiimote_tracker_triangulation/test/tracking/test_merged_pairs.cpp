@@ -54,7 +54,7 @@ std::vector<Path> resting(geometry::test::Random& random) {
 /// What the last snapshot before a time [s] shows.
 struct Followed {
   std::vector<std::int64_t> ids = {-1, -1};
-  double same_led = 1.0;  // the least of both
+  double same_led_probability = 1.0;  // the least of both
 };
 
 Followed follow(Tracker* tracker,
@@ -71,9 +71,9 @@ Followed follow(Tracker* tracker,
     tracker->add(image.camera, image.image);
     while (const Snapshot* snapshot = tracker->next()) {
       last.ids = idsAt(*snapshot, scene->leds(), 0.05);
-      last.same_led = 1.0;
+      last.same_led_probability = 1.0;
       for (const TrackedLed& led : snapshot->leds)
-        last.same_led = std::min(last.same_led, led.same_led);
+        last.same_led_probability = std::min(last.same_led_probability, led.same_led_probability);
     }
   }
 }
@@ -91,7 +91,7 @@ TEST(MergedPairs, KeepTheirIdsByTheirMotion) {
     EXPECT_NE(-1, before[1]);
     const Followed after = follow(&tracker, &scene, kMeeting + 0.5, &merged);
     EXPECT_EQ(before, after.ids) << i;
-    EXPECT_GT(after.same_led, 0.99) << i;
+    EXPECT_GT(after.same_led_probability, 0.99) << i;
     EXPECT_EQ(4u, merged.size());
   }
 }
@@ -105,8 +105,8 @@ TEST(MergedPairs, AreDoubtfulWhenNothingTellsThem) {
     const Followed apart = follow(&tracker, &scene, kMeeting - 1.0);
     EXPECT_NE(-1, apart.ids[0]);
     EXPECT_NE(-1, apart.ids[1]);
-    EXPECT_EQ(1.0, apart.same_led);
-    EXPECT_NEAR(0.5, follow(&tracker, &scene, kMeeting + 1.5).same_led, 0.05) << i;
+    EXPECT_EQ(1.0, apart.same_led_probability);
+    EXPECT_NEAR(0.5, follow(&tracker, &scene, kMeeting + 1.5).same_led_probability, 0.05) << i;
   }
 }
 

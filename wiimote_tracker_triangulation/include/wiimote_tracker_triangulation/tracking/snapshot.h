@@ -36,7 +36,7 @@ struct TrackedLed {
   double last_observed = 0.0;  ///< [s]
   /// Probability that the track did not change places with another one since it was first seen,
   /// when two LEDs met [0..1].
-  double same_led = 1.0;
+  double same_led_probability = 1.0;
   bool remapped = false;  ///< Corrected where the correction of the volume was measured.
 };
 

@@ -14,12 +14,13 @@ namespace wiimote_tracker::continuous {
 
 namespace {
 
-constexpr double kPeriod = 0.05;      // [s]
-constexpr double kLongestGap = 0.05;  // that is interpolated [s]
+constexpr double kPeriod = 0.05;      // Between keyframes, as in MotionOptions [s].
+constexpr double kLongestGap = 0.05;  // Between images that are interpolated [s].
 // A resting LED repeats the same rounding.
-constexpr double kLeastStep = 0.01;  // [m]
-constexpr std::size_t kLeastViews = 3;
-// A spot farther from the middle between those before and after is another light [px].
+constexpr double kLeastStep = 0.01;     // [m]
+constexpr std::size_t kLeastViews = 3;  // With two none can be found to be the outlier.
+// A spot farther from the middle between those before and after is another light. An LED 3 m away
+// that accelerates by 10 m/s^2 bends by 5 px between images kLongestGap apart [px].
 constexpr double kLargestBend = 8.0;
 
 /// Triangulates the views. @returns whether they agree within the gate [px].
@@ -74,7 +75,7 @@ KeyframeSource::KeyframeSource(const geometry::Rig& rig, const std::vector<captu
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
     for (const capture::Image& image :
-         recalibrate::movingLights(images, rig.cameras[i].camera.name)) {
+         recalibrate::withoutLamps(images, rig.cameras[i].camera.name)) {
       if (track.epoch != image.clock_epoch)
         track.spots.clear();
       track.epoch = image.clock_epoch;

@@ -29,12 +29,14 @@ using geometry::kRotation;
 using geometry::kTimeOffset;
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
-// Standard deviation of the time offset of another camera whose offset is unknown [s].
+// Standard deviation of the time offset of another camera whose offset is unknown, as in
+// health/drift_watch.cpp [s].
 constexpr double kUnknownOffset = 0.005;
-// Limits of the result and of the wave, as in wave::solveWave().
+// Share of the images that fit, and the path's thinnest over its widest standard deviation: as in
+// wave/checks.cpp.
 constexpr double kMinimumInlierRatio = 0.5;
-constexpr double kLargestNoise = 3.0;  // [px]
 constexpr double kMinimumFlatness = 0.05;
+constexpr double kLargestNoise = 3.0;  // six times the usual, Options::pixel [px]
 // Standard deviation of the path along its longest axis [m].
 constexpr double kMinimumExtent = 0.1;
 // Largest standard deviation of a predicted pixel due to the camera's uncertainty, the others being
@@ -59,8 +61,8 @@ std::size_t indexOf(const geometry::Rig& rig, const std::string& name) {
 void checkInput(const geometry::Rig& rig, const Request& request, const Options& options) {
   rig.check();
   options.uncertainty.check();
-  if (!(options.pixel > 0.0) || !(options.stamp >= 0.0) || !(options.maximum_offset_stddev > 0.0))
-    throw Error("pixel and maximum_offset_stddev must be above 0, stamp at least 0: correct them");
+  if (!(options.pixel > 0.0) || !(options.wander >= 0.0) || !(options.maximum_offset_stddev > 0.0))
+    throw Error("pixel and maximum_offset_stddev must be above 0, wander at least 0: correct them");
   if (rig.ray_model != geometry::RayModel::kCalibrated)
     throw Error(
         "the rig's rays are built through the image centre, which does not fit its cameras: "
@@ -82,7 +84,7 @@ bool sameDevice(const geometry::RigCamera& calibrated, const Request& request) {
 
 /// What the camera saw since its clock runs as it does now. A time offset is that of one epoch.
 std::vector<capture::Image> latestImages(const Request& request) {
-  std::vector<capture::Image> images = movingLights(request.images, request.camera);
+  std::vector<capture::Image> images = withoutLamps(request.images, request.camera);
   const auto other = std::find_if(images.rbegin(), images.rend(), [&](const capture::Image& image) {
     return image.clock_epoch != images.back().clock_epoch;
   });
@@ -192,11 +194,11 @@ Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
   return by_rig;
 }
 
-/// Variance of the mean of the stamps' errors over the wave, which are correlated over seconds
-/// [s^2].
+/// Variance of the mean of the stamps' slow errors over a wave much longer than their correlation
+/// time, of a first-order Gauss-Markov process [s^2].
 double meanStampVariance(const Fit& fit, const Options& options) {
   const double kCorrelationTime = 2.0;  // [s]
-  return options.stamp * options.stamp * std::min(1.0, 2.0 * kCorrelationTime / fit.duration);
+  return options.wander * options.wander * std::min(1.0, 2.0 * kCorrelationTime / fit.duration);
 }
 
 /// Writes the camera's block and its cross covariances into the rig's covariance.
@@ -210,7 +212,7 @@ ParameterMatrix updateCovariance(const SeenPath& path,
                                  const ParameterMatrix& covariance,
                                  geometry::Rig* rig) {
   ParameterMatrix own = covariance;
-  // The rig's covariance contributes the prior of the lens below.
+  // What the prior of the lens contributes comes with the rig's covariance, below.
   if (prior.lens_covariance)
     own -= covariance.middleCols<adjust::kLensSize>(kLens) * prior.lensInformation() *
            covariance.middleRows<adjust::kLensSize>(kLens);

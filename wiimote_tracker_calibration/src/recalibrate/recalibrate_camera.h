@@ -28,8 +28,8 @@ struct Request {
 
 struct Options {
   square::Uncertainty uncertainty;        ///< Of the starting values of another device's lens.
-  double pixel = 0.5;                     ///< Of a moving spot, per axis [px, > 0]; estimated.
-  double stamp = 0.0003;                  ///< Error of a stamp, correlated over 2 s [s, >= 0].
+  double pixel = 0.5;                     ///< Of a moving spot, per axis [px, > 0]; a start value.
+  double wander = 0.0003;                 ///< Error of the stamps, correlated over 2 s [s, >= 0].
   double maximum_offset_stddev = 0.0005;  ///< A result less certain of the offset is refused [s].
 };
 

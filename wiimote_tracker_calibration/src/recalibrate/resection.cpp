@@ -25,17 +25,15 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
-// Time offsets tried first, around the prior mean [s].
-constexpr double kFarthestOffset = 0.05;
-constexpr double kOffsetStep = 0.01;
-// Prior standard deviation of the camera's time offset [s].
+// Time offsets tried first, around the prior mean: as far as its standard deviation [s].
 constexpr double kOffsetStddev = 0.05;
+constexpr double kOffsetStep = 0.01;
 // Least variance of a lens parameter: one that was held has none [px^2, 1].
 constexpr double kLeastVariance = 1e-12;
 // Number of points used in the search for a first pose.
 constexpr std::size_t kSearchPoints = 150;
 constexpr double kRoughError = 4.0;  // of an inlier, of which bundle::place() takes 4 times [px]
-constexpr std::size_t kMinimumMatches = 100;
+constexpr std::size_t kMinimumMatches = 100;  // as in wave/checks.cpp
 // Gates: first in px, then in standard deviations.
 constexpr double kWideGates[] = {30.0, 15.0};
 constexpr double kGate = 4.0;
@@ -84,7 +82,7 @@ Fit firstPose(const SeenPath& path,
               double time_offset) {
   Fit fit;
   std::size_t most = 0;
-  const int steps = static_cast<int>(std::lround(kFarthestOffset / kOffsetStep));
+  const int steps = static_cast<int>(std::lround(kOffsetStddev / kOffsetStep));
   for (int step = -steps; step <= steps; ++step) {
     geometry::Camera camera = start;
     const double offset = time_offset + kOffsetStep * step;
@@ -108,8 +106,8 @@ Fit firstPose(const SeenPath& path,
 Eigen::Matrix2d whiteningOf(const geometry::Projection& expected,
                             const PathPoint& point,
                             double pixel_stddev,
-                            double stamp_stddev) {
-  const Eigen::Vector2d by_stamp = stamp_stddev * expected.by_parameters.col(geometry::kTimeOffset);
+                            double wander) {
+  const Eigen::Vector2d by_stamp = wander * expected.by_parameters.col(geometry::kTimeOffset);
   const Eigen::Matrix2d covariance =
       pixel_stddev * pixel_stddev *
           (Eigen::Matrix2d::Identity() +
@@ -122,12 +120,12 @@ Eigen::Matrix2d whiteningOf(const geometry::Projection& expected,
 std::optional<Match> matchOf(const capture::Image& image,
                              const PathPoint& point,
                              double gate_px,
-                             double stamp_stddev,
+                             double wander,
                              const Fit& fit) {
   const auto expected = projectionOf(fit.camera, point);
   if (!expected)
     return std::nullopt;
-  const Eigen::Matrix2d whitening = whiteningOf(*expected, point, fit.pixel_stddev, stamp_stddev);
+  const Eigen::Matrix2d whitening = whiteningOf(*expected, point, fit.pixel_stddev, wander);
   std::optional<Match> best;
   double least = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector2d& spot : image.spots) {
@@ -146,7 +144,7 @@ std::optional<Match> matchOf(const capture::Image& image,
 void matchSpots(const SeenPath& path,
                 const std::vector<capture::Image>& images,
                 double gate_px,
-                double stamp_stddev,
+                double wander,
                 Fit* fit) {
   fit->matches.clear();
   fit->duration = images.empty() ? 0.0 : images.back().stamp - images.front().stamp;
@@ -161,7 +159,7 @@ void matchSpots(const SeenPath& path,
     if (sight != SeenPath::Sight::kSeen)
       continue;
     ++fit->expected;
-    if (const auto match = matchOf(image, point, gate_px, stamp_stddev, *fit))
+    if (const auto match = matchOf(image, point, gate_px, wander, *fit))
       fit->matches.push_back(*match);
   }
   if (fit->expected < kMinimumMatches)
@@ -259,12 +257,12 @@ Fit resect(const SeenPath& path,
   Fit fit = firstPose(path, images, start, prior.time_offset);
   fit.pixel_stddev = options.pixel;
   for (const double gate : kWideGates) {
-    matchSpots(path, images, gate, options.stamp, &fit);
+    matchSpots(path, images, gate, options.wander, &fit);
     ResectionProblem(fit, prior).solve(&fit);
   }
   for (int round = 0; round < kFinalRounds; ++round) {
     const double offset = fit.time_offset;
-    matchSpots(path, images, 0.0, options.stamp, &fit);
+    matchSpots(path, images, 0.0, options.wander, &fit);
     ResectionProblem problem(fit, prior);
     problem.solve(&fit);
     const double ratio = problem.misfit();

@@ -25,7 +25,7 @@ constexpr double kLargestSpread = 0.02;
 
 }  // namespace
 
-std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
+std::vector<capture::Image> withoutLamps(const std::vector<capture::Image>& images,
                                          const std::string& camera) {
   std::vector<capture::Image> own;
   std::copy_if(images.begin(), images.end(), std::back_inserter(own),
@@ -42,7 +42,7 @@ SeenPath::SeenPath(const geometry::Rig& rig,
     Track track;
     track.rays = rig.rayCamera(camera);
     if (camera.camera.name != without) {
-      for (const capture::Image& image : movingLights(images, camera.camera.name)) {
+      for (const capture::Image& image : withoutLamps(images, camera.camera.name)) {
         const auto offset = camera.timeOffsetIn(image.clock_epoch);
         track.clock_known = offset.has_value();
         const double time = image.stamp + offset.value_or(0.0);

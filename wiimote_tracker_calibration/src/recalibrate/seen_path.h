@@ -62,7 +62,7 @@ class SeenPath {
 };
 
 /// The images of one camera, without spots that stay in one place (lamps).
-std::vector<capture::Image> movingLights(const std::vector<capture::Image>& images,
+std::vector<capture::Image> withoutLamps(const std::vector<capture::Image>& images,
                                          const std::string& camera);
 
 }  // namespace wiimote_tracker::recalibrate

@@ -9,12 +9,12 @@ namespace wiimote_tracker::session {
 
 namespace {
 
-constexpr double kStep = 0.02;         // [s]
-constexpr int kLongestLag = 150;       // [kStep]
-constexpr double kLongestGap = 0.05;   // between images whose spots give a speed [s]
-constexpr double kLongestJump = 80.0;  // [px]
-constexpr double kLeastCorrelation = 0.2;
-constexpr std::size_t kLeastCommon = 100;  // steps
+constexpr double kStep = 0.02;             // [s]
+constexpr int kLongestLag = 150;           // [kStep]
+constexpr double kLongestGap = 0.05;       // between images whose spots give a speed [s]
+constexpr double kLongestJump = 80.0;      // of a spot between images; farther: another light [px]
+constexpr double kLeastCorrelation = 0.2;  // mean over the other cameras
+constexpr std::size_t kLeastCommon = 100;  // of the steps of two cameras
 
 /// Logarithm of the spot's speed, less its mean, in steps of time; NaN where unknown or where the
 /// spot jumps, as a false detection does.

@@ -99,6 +99,27 @@ double meanDistance(const geometry::Rig& rig, const Eigen::Vector3d& place) {
   return sum / static_cast<double>(rig.cameras.size());
 }
 
+/// Fills predicted_at and what follows.
+void predict(const square::SquareLayout& layout,
+             const wave::WaveSolution& found,
+             double pixel,
+             Verdict* verdict) {
+  const geometry::Rig& rig = found.rig;
+  const square::Corners corners = layout.corners(found.z_up);
+  const Eigen::Vector3d above(0.0, 0.0, found.z_up ? kAbove : -kAbove);
+  verdict->predicted_at.assign(corners.begin(), corners.end());
+  for (const Eigen::Vector3d& corner : corners)
+    verdict->predicted_at.push_back(corner + above);
+  verdict->predicted_stddev.assign(verdict->predicted_at.size(), kNan);
+  if (rig.ray_model != geometry::RayModel::kCalibrated)
+    return;
+  for (std::size_t i = 0; i < verdict->predicted_at.size(); ++i)
+    verdict->predicted_stddev[i] = square::expectedError(rig, {verdict->predicted_at[i]});
+  verdict->expected_error = square::expectedError(rig, verdict->predicted_at);
+  if (found.joint_covariance.size() > 0)  // else the corners were taken as exact
+    verdict->next = nextMeasurement(found, layout, verdict->predicted_at, pixel);
+}
+
 /// How accurate points are.
 struct Accuracy {
   double share = kNan;  ///< Largest error as a share of the distance.
@@ -217,31 +238,6 @@ Verdict verdictOf(const geometry::Rig& rig) {
   verdict.grade = begins("good") ? Grade::kGood : begins("redo") ? Grade::kRedo : Grade::kUsable;
   return verdict;
 }
-
-namespace {
-
-/// Fills predicted_at and what follows.
-void predict(const square::SquareLayout& layout,
-             const wave::WaveSolution& found,
-             double pixel,
-             Verdict* verdict) {
-  const geometry::Rig& rig = found.rig;
-  const square::Corners corners = layout.corners(found.z_up);
-  const Eigen::Vector3d above(0.0, 0.0, found.z_up ? kAbove : -kAbove);
-  verdict->predicted_at.assign(corners.begin(), corners.end());
-  for (const Eigen::Vector3d& corner : corners)
-    verdict->predicted_at.push_back(corner + above);
-  verdict->predicted_stddev.assign(verdict->predicted_at.size(), kNan);
-  if (rig.ray_model != geometry::RayModel::kCalibrated)
-    return;
-  for (std::size_t i = 0; i < verdict->predicted_at.size(); ++i)
-    verdict->predicted_stddev[i] = square::expectedError(rig, {verdict->predicted_at[i]});
-  verdict->expected_error = square::expectedError(rig, verdict->predicted_at);
-  if (found.joint_covariance.size() > 0)  // else the corners were taken as exact
-    verdict->next = nextMeasurement(found, layout, verdict->predicted_at, pixel);
-}
-
-}  // namespace
 
 Verdict judge(const Session& session, const wave::WaveSolution& found, double pixel) {
   Verdict verdict = verdictOf(found.rig);

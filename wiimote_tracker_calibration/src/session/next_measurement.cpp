@@ -34,38 +34,39 @@ Eigen::MatrixXd placesByParameters(const geometry::Rig& rig,
   return result.topRows(rows);
 }
 
-/// An observation: derivatives by the parameters, one row each, and covariance.
-struct Observation {
+/// Derivatives of what is measured by the parameters, one row each, and covariance of its noise.
+struct MeasurementModel {
   Eigen::MatrixXd by_parameters;
   Eigen::MatrixXd covariance;
 };
 
-Observation lengthBetween(const square::Corners& corners,
-                          std::size_t from,
-                          std::size_t to,
-                          Eigen::Index parameters) {
+MeasurementModel lengthBetween(const square::Corners& corners,
+                               std::size_t from,
+                               std::size_t to,
+                               Eigen::Index parameters) {
   const Eigen::RowVector2d direction =
       (corners[to] - corners[from]).normalized().head<2>().transpose();
   const auto at = [&](std::size_t corner) {
     return parameters - square::kCornerParameters + 2 * static_cast<Eigen::Index>(corner);
   };
-  Observation length{Eigen::MatrixXd::Zero(1, parameters),
-                     Eigen::MatrixXd::Constant(1, 1, std::pow(square::TapedLength().stddev, 2))};
+  MeasurementModel length{
+      Eigen::MatrixXd::Zero(1, parameters),
+      Eigen::MatrixXd::Constant(1, 1, std::pow(square::TapedLength().stddev, 2))};
   length.by_parameters.block<1, 2>(0, at(from)) = -direction;
   length.by_parameters.block<1, 2>(0, at(to)) = direction;
   return length;
 }
 
 /// The pixels of the LED on a known place, in the cameras that see it.
-Observation pixelsOf(const geometry::Rig& rig,
-                     const Eigen::Vector3d& place,
-                     double pixel,
-                     Eigen::Index parameters) {
+MeasurementModel pixelsOf(const geometry::Rig& rig,
+                          const Eigen::Vector3d& place,
+                          double pixel,
+                          Eigen::Index parameters) {
   const std::vector<std::size_t> cameras = geometry::camerasSeeing(rig, place);
   const auto rows = 2 * static_cast<Eigen::Index>(cameras.size());
   Eigen::MatrixXd by_place(rows, 3);
-  Observation pixels{Eigen::MatrixXd::Zero(rows, parameters),
-                     pixel * pixel * Eigen::MatrixXd::Identity(rows, rows)};
+  MeasurementModel pixels{Eigen::MatrixXd::Zero(rows, parameters),
+                          pixel * pixel * Eigen::MatrixXd::Identity(rows, rows)};
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const auto row = 2 * static_cast<Eigen::Index>(i);
     const auto projection = geometry::rayProjection(rig, cameras[i], place);
@@ -115,9 +116,9 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
   NextMeasurement best;
   double least = now;
   // By a Kalman update.
-  const auto consider = [&](const NextMeasurement& next, const Observation& observation) {
-    const Eigen::MatrixXd gain = covariance * observation.by_parameters.transpose();
-    const Eigen::MatrixXd innovation = observation.by_parameters * gain + observation.covariance;
+  const auto consider = [&](const NextMeasurement& next, const MeasurementModel& model) {
+    const Eigen::MatrixXd gain = covariance * model.by_parameters.transpose();
+    const Eigen::MatrixXd innovation = model.by_parameters * gain + model.covariance;
     const Eigen::MatrixXd moved = by_parameters * gain;
     const double squared = now - geometry::solveSymmetric(innovation, moved.transpose())
                                          .cwiseProduct(moved.transpose())

@@ -118,7 +118,7 @@ Points::Points(const Samples& samples) : image_size(samples.width, samples.heigh
 
 Fit firstFit(const Points& points, bool equidistant, double focal_length) {
   Fit best;
-  for (const double factor : {1.0, 0.35}) {
+  for (const double factor : {1.0, 0.35}) {  // without and with a wide-angle lens in front
     Fit start;
     start.camera_matrix =
         (cv::Mat_<double>(3, 3) << factor * focal_length, 0.0, (points.image_size.width - 1) / 2.0,

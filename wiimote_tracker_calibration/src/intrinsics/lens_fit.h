@@ -36,8 +36,8 @@ struct Fit {
   bool ok() const { return std::isfinite(error); }
 };
 
-/// Fits a lens without distortion, or an equidistant one without coefficients, from several focal
-/// lengths: a wide-angle lens in front shortens them. @throws Error: nothing fits.
+/// Fits a lens without distortion, or an equidistant one without coefficients, from this focal
+/// length and a much shorter one. @throws Error: nothing fits.
 Fit firstFit(const Points& points, bool equidistant, double focal_length);
 
 /// The model with the least reprojection error, from a fit of the same kind.

@@ -19,7 +19,6 @@ namespace {
 
 constexpr double kSmallestTilt = 10.0 * M_PI / 180.0;  // between the most different views
 constexpr double kSmallestTravel = 0.1;                // of the board, of the image's width
-constexpr double kMuchBetter = 0.7;                    // share of a reprojection error
 
 bool holdsOverImage(const geometry::Intrinsics& intrinsics) {
   for (const double u : {0.0, intrinsics.width - 1.0}) {
@@ -73,7 +72,8 @@ void checkInput(const Samples& samples, const SolverOptions& options) {
                        samples.views.size(), options.minimum_views));
 }
 
-void checkPlaces(const Samples& samples) {
+/// Checks that the board was shown at different places of the image.
+void checkTravel(const Samples& samples) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
   Eigen::Vector2d high = -low;
   for (std::size_t i = 0; i < samples.views.size(); ++i) {
@@ -140,6 +140,7 @@ Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSo
       break;
   }
   // If a model that is not one-to-one over the image fits far better, the chosen one is poor.
+  constexpr double kMuchBetter = 0.7;
   const bool is_makeshift =
       chosen.ok() && !options.model &&
       std::any_of(solution->candidates.begin(), solution->candidates.end(),
@@ -183,7 +184,7 @@ std::string nameOf(LensModel model) {
 
 IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
   checkInput(samples, options);
-  checkPlaces(samples);
+  checkTravel(samples);
   const Points points(samples);
   IntrinsicsSolution solution;
   const Fit chosen = options.model == LensModel::kEquidistant

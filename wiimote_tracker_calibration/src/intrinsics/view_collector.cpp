@@ -12,8 +12,9 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-constexpr double kPeriod = 0.25;          // between two readings [s]
-constexpr double kLeastDifference = 0.2;  // between views: sum over x, y, size, skew [0 to 4]
+constexpr double kPeriod = 0.25;  // between two readings [s]
+// Between views, sum over x, y, size, skew, as in ROS' camera_calibration [0 to 4].
+constexpr double kLeastDifference = 0.2;
 
 double unit(double value) {
   return std::clamp(value, 0.0, 1.0);
@@ -98,7 +99,7 @@ Coverage ViewCollector::coverage() const {
     low = low.min(kept);
     high = high.max(kept);
   }
-  const Parameters full(0.7, 0.7, 0.4, 0.5);  // ranges that fill a bar
+  const Parameters full(0.7, 0.7, 0.4, 0.5);  // ranges that fill a bar, as in camera_calibration
   result.x = unit((high[0] - low[0]) / full[0]);
   result.y = unit((high[1] - low[1]) / full[1]);
   result.size = unit((high[2] - low[2]) / full[2]);

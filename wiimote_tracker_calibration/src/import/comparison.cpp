@@ -30,7 +30,7 @@ Statistics distancesBetween(const Points& a, const Points& b) {
   return bundle::statisticsOf(distances);
 }
 
-/// Brings points to mean 0 and RMS distance sqrt(3), for a well-conditioned fit.
+/// Brings points to mean 0 and RMS distance sqrt(3), for a well-conditioned fit (Hartley 1997).
 Eigen::Matrix4d normalizing(const Points& points) {
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();
   for (const Eigen::Vector3d& point : points)

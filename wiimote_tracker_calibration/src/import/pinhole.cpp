@@ -17,7 +17,7 @@ Pinhole takeApart(const ProjectionMatrix& projection, const std::string& name) {
   const double determinant = left.determinant();
   if (!(std::abs(determinant) > 1e-12 * std::pow(left.norm(), 3)))
     throw ImportError("the projection matrix of " + name + " is singular");
-  // RQ decomposition: QR of the rows and columns in reverse order.
+  // RQ decomposition by QR: from (J A)' = Q R follows A = (J R' J)(J Q'), where J reverses rows.
   const Eigen::Matrix3d reversed = left.colwise().reverse().transpose();
   const Eigen::HouseholderQR<Eigen::Matrix3d> qr(reversed);
   const Eigen::Matrix3d q = qr.householderQ();

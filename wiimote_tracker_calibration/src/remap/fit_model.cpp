@@ -215,15 +215,15 @@ std::vector<double> leftOutErrors(Model model, const std::vector<KnownPoint>& po
 }  // namespace
 
 std::size_t minimumPoints(Model model) {
-  switch (model) {
+  switch (model) {  // as many as determine it, and some more to judge it
     case Model::kAffine:
-      return 6;
+      return 4 + 2;
     case Model::kProjective:
-      return 7;
+      return 5 + 2;
     case Model::kTrilinear:
-      return 10;
+      return 8 + 2;
     default:
-      return 8;
+      return 4 + 4;
   }
 }
 

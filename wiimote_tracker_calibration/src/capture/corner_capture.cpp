@@ -147,7 +147,8 @@ std::string CornerCapture::movement(const StillSpot& spot) const {
   if (spot.spread() > options_.spread_limit)
     return "the LED moved, its spot is spread over " + pixels(spot.spread()) + ", at most " +
            pixels(options_.spread_limit) + " are allowed" + advice;
-  // The means of a noisy spot differ by chance: up to four standard deviations are no motion.
+  // The means of a noisy spot differ by chance, each having a variance of spread^2 over a third of
+  // the samples: up to four standard deviations are no motion.
   const double chance = spot.spread() * std::sqrt(6.0 / static_cast<double>(spot.samples()));
   if (spot.samples() >= static_cast<std::size_t>(options_.minimum_samples) &&
       spot.drift() > std::max(options_.drift_limit, 4.0 * chance))

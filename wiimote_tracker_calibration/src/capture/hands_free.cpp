@@ -37,9 +37,9 @@ bool HandsFree::add(const Image& image, const std::vector<CapturedCorner>& captu
   if (image.spots.size() == 1 && image.spots.front().allFinite()) {
     const Eigen::Vector2d& spot = image.spots.front();
     if (!camera.seen || image.stamp > camera.latest + kDropOut ||
-        (spot - camera.place).norm() > kStill) {
+        (spot - camera.pixel).norm() > kStill) {
       camera.since = image.stamp;
-      camera.place = spot;
+      camera.pixel = spot;
     }
     camera.seen = true;
     camera.latest = image.stamp;
@@ -68,7 +68,7 @@ bool HandsFree::isNew(const CapturedCorner& corner) const {
     if (found == cameras_.end() || !found->second.seen)
       continue;
     seen_by_both = true;
-    if ((found->second.place - view.second.pixel).norm() > options_.distance)
+    if ((found->second.pixel - view.second.pixel).norm() > options_.distance)
       return true;
   }
   return !seen_by_both;

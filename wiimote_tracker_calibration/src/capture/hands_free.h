@@ -35,8 +35,8 @@ class HandsFree {
   struct Camera {
     bool seen = false;                                // exactly one spot, lately
     double latest = 0.0;                              // stamp of the latest such image [s]
-    double since = 0.0;                               // stays within kStill of `place` [s]
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();  // [px]
+    double since = 0.0;                               // stays within kStill of `pixel` [s]
+    Eigen::Vector2d pixel = Eigen::Vector2d::Zero();  // where it came to rest [px]
   };
 
   bool isNew(const CapturedCorner& corner) const;

@@ -42,11 +42,12 @@ constexpr std::size_t kCellRows = 6;
 struct ImageCells : std::bitset<kCellColumns * kCellRows> {
   /// @param width, height of the image [px, > 0]. A pixel beyond its edge counts as on the edge.
   void add(const Eigen::Vector2d& pixel, int width, int height) {
-    const auto place = [](double coordinate, int size, std::size_t cells) {
+    const auto cellAt = [](double coordinate, int size, std::size_t cells) {
       const double cell = coordinate / size * static_cast<double>(cells);
       return std::min(static_cast<std::size_t>(std::max(cell, 0.0)), cells - 1);
     };
-    set(place(pixel.y(), height, kCellRows) * kCellColumns + place(pixel.x(), width, kCellColumns));
+    set(cellAt(pixel.y(), height, kCellRows) * kCellColumns +
+        cellAt(pixel.x(), width, kCellColumns));
   }
 
   /// [0..1]

@@ -18,8 +18,8 @@ namespace wiimote_tracker::continuous {
 /// cameras see one spot that has moved.
 struct MotionOptions {
   std::size_t to_solve = 0;  ///< Samples [> 0].
-  /// Later samples, which the solution does not use [>= 40: fewer are not judged, see meanOf() in
-  /// health/drift_residuals.h].
+  /// Later samples, which the solution does not use [>= 40: fewer are not judged, see medianDrift()
+  /// in health/drift_residuals.h].
   std::size_t to_check = 0;
 };
 

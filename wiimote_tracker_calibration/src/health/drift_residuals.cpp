@@ -19,7 +19,7 @@ constexpr std::size_t kLeastResiduals = 40;
 // The derivative is computed for this many residuals; their mean is used for all.
 constexpr std::size_t kDerivatives = 40;
 // For Gaussian errors: standard deviation over median absolute deviation, and standard deviation of
-// the median over that of the mean.
+// the median over that of the mean, sqrt(pi / 2).
 constexpr double kStddevOverDeviation = 1.4826;
 constexpr double kMedianOverMean = 1.2533;
 // Least standard deviation: rounding does not scatter while the LED hardly moves [px].
@@ -148,23 +148,23 @@ std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
   return residuals;
 }
 
-std::optional<Drift> meanOf(const std::vector<Residual>& residuals,
-                            const Eigen::MatrixXd& covariance,
-                            int dimensions,
-                            double limit) {
+std::optional<Drift> medianDrift(const std::vector<Residual>& residuals,
+                                 const Eigen::MatrixXd& covariance,
+                                 int dimensions,
+                                 double limit) {
   if (residuals.size() < kLeastResiduals)
     return std::nullopt;
   Drift drift;
   Eigen::Matrix2d expected = Eigen::Matrix2d::Zero();
   std::vector<double> values(residuals.size());
   for (int axis = 0; axis < dimensions; ++axis) {
-    const auto each = [&](const auto& value) {
+    const auto medianOfEach = [&](const auto& value) {
       std::transform(residuals.begin(), residuals.end(), values.begin(),
                      [&](const Residual& residual) { return value(residual.value[axis]); });
       return medianOf(&values);
     };
-    const double median = each([](double value) { return value; });
-    const double deviation = each([&](double value) { return std::abs(value - median); });
+    const double median = medianOfEach([](double value) { return value; });
+    const double deviation = medianOfEach([&](double value) { return std::abs(value - median); });
     const double scatter = std::max(kLeastScatter, kStddevOverDeviation * deviation);
     drift.bias[axis] = median;
     expected(axis, axis) = kMedianOverMean * kMedianOverMean * scatter * scatter /

@@ -35,12 +35,12 @@ std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
 
 /// The median of the residuals, and its standard deviation from noise and calibration.
 /// @param covariance of all parameters of the rig; empty: unknown.
-/// @param dimensions 2, or 1 for x only. @param limit of the mean [px].
+/// @param dimensions 2, or 1 for x only. @param limit of the median [px].
 /// @returns nothing with fewer than 40 residuals.
-std::optional<Drift> meanOf(const std::vector<Residual>& residuals,
-                            const Eigen::MatrixXd& covariance,
-                            int dimensions,
-                            double limit);
+std::optional<Drift> medianDrift(const std::vector<Residual>& residuals,
+                                 const Eigen::MatrixXd& covariance,
+                                 int dimensions,
+                                 double limit);
 
 }  // namespace wiimote_tracker::health
 

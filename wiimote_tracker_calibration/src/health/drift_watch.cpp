@@ -18,7 +18,8 @@ constexpr double kLongestGap = 0.05;  // [s]
 constexpr double kJump = 1.0;  // [s]
 // A still LED repeats the same rounding: the next sample is at least this far away.
 constexpr double kLeastMotion = 2.0;  // [px]
-// Error of a camera's clock with and without a valid offset, and how far it may shift a spot.
+// Error of a camera's clock with and without a valid offset, and how far it may shift a spot: spots
+// faster than 1000 and 100 px/s take no part.
 constexpr double kClockKnown = 0.0005;   // [s]
 constexpr double kClockUnknown = 0.005;  // [s]
 constexpr double kLargestShift = 0.5;    // [px]
@@ -121,12 +122,12 @@ void DriftWatch::sampleAt(double time) {
 
 std::optional<Drift> DriftWatch::driftOf(std::size_t camera,
                                          const std::vector<bool>& active) const {
-  return meanOf(residualsAgainst(rig_, samples_, active, camera), rig_.covariance, 2,
-                options_.limit);
+  return medianDrift(residualsAgainst(rig_, samples_, active, camera), rig_.covariance, 2,
+                     options_.limit);
 }
 
 std::optional<Drift> DriftWatch::driftOfPair(std::size_t a, std::size_t b) const {
-  return meanOf(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, options_.limit);
+  return medianDrift(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, options_.limit);
 }
 
 double DriftWatch::worstRatio(const std::vector<bool>& active) const {

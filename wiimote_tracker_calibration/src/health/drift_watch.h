@@ -20,8 +20,8 @@
 namespace wiimote_tracker::health {
 
 struct DriftOptions {
-  double limit = 0.7;    ///< Largest mean residual of a camera that did not move [px, > 0].
-  double window = 60.0;  ///< Over which the mean is taken; judged twelve times in it [s, > 0].
+  double limit = 0.7;    ///< Largest median residual of a camera that did not move [px, > 0].
+  double window = 60.0;  ///< Over which the median is taken; judged twelve times in it [s, > 0].
 };
 
 /// Pixels of the LED in two cameras or more at one time, with the cameras' indices in the rig,
@@ -33,7 +33,7 @@ struct DriftSample {
 
 /// How far a camera's images are from what the other cameras see.
 struct Drift {
-  /// Mean residual (predicted less observed); with one other camera only, its size across the
+  /// Median residual (predicted less observed); with one other camera only, its size across the
   /// epipolar line, in x [px].
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
   double stddev = 0.0;   ///< Of the bias, from noise and from the calibration: root of trace [px].
@@ -41,8 +41,8 @@ struct Drift {
   std::string together;  ///< The other camera, if one of both drifted and it is unknown which.
 };
 
-/// Watches the mean of a rig's residuals while one LED is tracked. Images of several spots take no
-/// part. A rig with RayModel::kImageCenter is not judged: its rays differ from its calibration.
+/// Watches the median of a rig's residuals while one LED is tracked. Images of several spots take
+/// no part. A rig with RayModel::kImageCenter is not judged: its rays differ from its calibration.
 class DriftWatch {
  public:
   DriftWatch(const geometry::Rig& rig, const DriftOptions& options);

@@ -23,7 +23,8 @@ double movementOf(const geometry::Rig& from,
 /// the other one. Its covariance includes what is left of the way.
 geometry::Rig between(const geometry::Rig& from, const geometry::Rig& to, double share);
 
-/// Reaches a rig in small steps, so that points at rest do not jump.
+/// Reaches a rig in small steps, so that points at rest do not jump: an adjustment of all cameras
+/// may move them by 2.4 mm at once.
 class Approach {
  public:
   static constexpr double kLongestStep = 0.0002;  ///< Of the places [m].

@@ -17,8 +17,6 @@ namespace wiimote_tracker::continuous {
 namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
-// A change is proposed only if each camera's mean residual then is below this [px].
-constexpr double kAccepted = 0.7;
 // Drift is proposed if it explains as much of the images' misfit, root mean square [px].
 constexpr double kGain = 0.1;
 // A camera that seems farther from where it was is left alone: it was put elsewhere, or it sees a
@@ -27,10 +25,11 @@ constexpr double kFarthest = 0.2;
 
 using Drifts = std::vector<std::optional<health::Drift>>;
 
-/// How far each camera of the rig is off in these images.
+/// How far each camera of the rig is off in these images, by the health watch's default limit.
 Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
-  const double duration = images.back().stamp - images.front().stamp;
-  health::DriftWatch watch(rig, {kAccepted, duration});
+  health::DriftOptions options;
+  options.window = images.back().stamp - images.front().stamp;
+  health::DriftWatch watch(rig, options);
   for (const capture::Image& image : images)
     watch.add(image);
   watch.judge();

@@ -7,7 +7,7 @@ namespace wiimote_tracker::continuous {
 
 namespace {
 
-constexpr double kSamplePeriod = 0.05;  // [s]
+constexpr double kSamplePeriod = 0.05;  // As in MotionOptions [s].
 constexpr std::size_t kLeastCameras = 3;
 constexpr double kLeastMotion = 2.0;  // Rounding alone does not move a spot as far [px].
 // Images are kept as long as the last sample is not older than this [s].

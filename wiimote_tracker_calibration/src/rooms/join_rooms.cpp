@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 // A world whose z axis is farther from the vertical by its cameras' accelerometers is not level:
-// three standard deviations of an accelerometer [rad].
+// three standard deviations of an accelerometer, square::Uncertainty::gravity [rad].
 constexpr double kSteepest = 9.0 * kDegree;
 constexpr std::size_t kMostAdvised = 200;  // Passages.
 // How well the second room should be known.

@@ -20,7 +20,8 @@ namespace {
 using session::RigMotion;
 using session::Shared;
 
-// The size of the model's deviations counts as if that many conditions of each axis had shown it.
+// Degrees of freedom of the prior of each axis' squared scatter, a scaled inverse chi-squared
+// distribution about the model's.
 constexpr double kModelWeight = 4.0;
 // Nobody walks that many times less straight than the model.
 constexpr double kMostScatter = 3.0;
@@ -28,8 +29,8 @@ constexpr double kMostScatter = 3.0;
 constexpr double kThinnest = 0.05;
 constexpr int kReweightings = 5;
 
-/// Of both rigs about a place, over the standard deviations of the model, along the axes in the
-/// first.
+/// How far both rigs put a place apart, over the standard deviations of the model, along the axes
+/// in the first.
 Eigen::Vector3d misfitOf(const Shared& place, const Eigen::Isometry3d& motion) {
   return (place.in_first.linear().transpose() *
           (motion * place.in_second.translation() - place.in_first.translation()))

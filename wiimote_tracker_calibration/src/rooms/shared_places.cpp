@@ -10,7 +10,7 @@ namespace wiimote_tracker::rooms {
 
 namespace {
 
-constexpr std::size_t kFewestPoints = 5;
+constexpr std::size_t kFewestPoints = 5;  // In view, of a path with one in 0.1 s.
 
 /// A path in view of two cameras or more, and how its points move with the parameters of the rig.
 struct SensitivePath {

@@ -13,10 +13,8 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-// Factor on the error of an outlier while lenses and poses are inaccurate.
-constexpr double kRough = 4.0;
-
-// Prior of the focal length of a start, relative: other focal lengths have starts of their own.
+// Prior of the focal length of a start, relative: other focal lengths, a factor of 1.4 apart, have
+// starts of their own.
 constexpr double kFocalOfStart = 0.2;
 
 Options roughly(const Options& options) {
@@ -57,7 +55,7 @@ double refineAlone(const Options& options, std::size_t camera, Reconstruction* r
   const auto mark = [&] {
     alone.inliers.clear();
     double sum = 0.0;
-    const double limit = kRough * options.maximum_error;
+    const double limit = kStartTolerance * options.maximum_error;
     for (const Observation& observation : alone.observations) {
       const double error = reprojectionError(alone, observation).value_or(limit);
       alone.inliers.push_back(error < limit);
@@ -146,7 +144,7 @@ Attempt attemptPair(const Reconstruction& observed,
     return attempt;
   startFrom(*posed, &attempt.reconstruction);
   try {
-    adjustPlaced(roughly(options), kRough * options.maximum_error, &attempt);
+    adjustPlaced(roughly(options), kStartTolerance * options.maximum_error, &attempt);
   } catch (const BundleError&) {
     // The cost stays infinite.
   }
@@ -179,7 +177,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
     if (!(least < std::numeric_limits<double>::infinity()))
       throw BundleError(reason);
     reconstruction.cameras[next] = best;
-    adjustPlaced(rough, kRough * options.bundle.maximum_error, attempt);
+    adjustPlaced(rough, kStartTolerance * options.bundle.maximum_error, attempt);
   }
 }
 

@@ -51,9 +51,7 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
   placed.assign(reconstruction.cameras.size(), false);
   startFromPair(options, &reconstruction);
   while (true) {
-    // A camera that was just placed is off by more than its noise.
-    const double kTolerance = 4.0;
-    triangulatePoints(&reconstruction, kTolerance * options.maximum_error, placed);
+    triangulatePoints(&reconstruction, kStartTolerance * options.maximum_error, placed);
     const bool all_placed = std::find(placed.begin(), placed.end(), false) == placed.end();
     Options now = options;
     now.rough = options.rough || !all_placed;

@@ -17,9 +17,6 @@ namespace wiimote_tracker::bundle {
 
 namespace {
 
-// Factor on the error of an outlier before any adjustment.
-constexpr double kStartTolerance = 4.0;
-
 double focalLength(const geometry::Camera& camera) {
   return 0.5 * (camera.intrinsics.fx + camera.intrinsics.fy);
 }

@@ -14,6 +14,10 @@
 
 namespace wiimote_tracker::bundle {
 
+/// Factor on the error of an outlier while poses and lenses are start values, or a camera was just
+/// added.
+constexpr double kStartTolerance = 4.0;
+
 /// What each camera saw, on its normalised image plane (x/z, y/z), by point. Pixels without a ray
 /// are left out.
 using NormalizedViews = std::vector<std::map<std::size_t, Eigen::Vector2d>>;

@@ -104,7 +104,7 @@ void writeJson(const Report& report, const std::string& path) {
 geometry::Rig rigOf(const Report& report) {
   const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
   const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
-  // What is fitted to noise lessens the residuals, which are to tell it.
+  // The fit follows the noise in part: corrected, the residuals tell all of it.
   const double rms = bundle::statistics(reconstruction).rms;
   const double correction = rms > 0.0 ? std::sqrt(2.0) * report.solution.pixel_stddev / rms : 1.0;
   geometry::Rig rig;

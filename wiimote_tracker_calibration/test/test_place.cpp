@@ -104,9 +104,9 @@ TEST(MeasurePlace, IsExactWithoutErrors) {
   const MeasuredPlace place = measurePlace(rig, seen(rig.cameras, led, 0.0, random), kPixel);
   EXPECT_LT((place.position - led).norm(), 1e-9);
   EXPECT_TRUE(place.rays_agree);
-  ASSERT_EQ(place.views.size(), 4u);
-  EXPECT_EQ(place.views[2].camera, "camera_3");
-  EXPECT_LT(place.views[2].residual.norm(), 1e-6);
+  ASSERT_EQ(place.residuals.size(), 4u);
+  EXPECT_EQ(place.residuals[2].camera, "camera_3");
+  EXPECT_LT(place.residuals[2].residual.norm(), 1e-6);
 }
 
 TEST(MeasurePlace, CamerasThatMoveTogetherMoveThePoint) {

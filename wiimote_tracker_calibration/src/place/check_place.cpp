@@ -19,8 +19,8 @@ std::string contradiction(const MeasuredPlace& measured) {
            " contradicts the other cameras: it was moved, or sees another light; clear that up, "
            "then recalibrate this camera";
   std::vector<std::string> misses;
-  for (const PlaceView& view : measured.views)
-    misses.push_back(view.camera + format(" by %.1f px", view.residual.norm()));
+  for (const CameraResidual& each : measured.residuals)
+    misses.push_back(each.camera + format(" by %.1f px", each.residual.norm()));
   return "the rays of the cameras miss each other (" + joined(misses) +
          "): one was moved, or they see different lights; clear that up, then recalibrate it";
 }

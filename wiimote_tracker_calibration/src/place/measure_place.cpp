@@ -141,8 +141,9 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
   place.covariance = geometry::propagated(geometry::pseudoInverse(measurement->by_point),
                                           pixelCovariance(rig, *measurement, pixel_stddev));
   for (std::size_t i = 0; i < views.size(); ++i)
-    place.views.push_back({rig.cameras[views[i].camera].camera.name,
-                           measurement->residuals.segment<2>(static_cast<Eigen::Index>(2 * i))});
+    place.residuals.push_back(
+        {rig.cameras[views[i].camera].camera.name,
+         measurement->residuals.segment<2>(static_cast<Eigen::Index>(2 * i))});
   place.rays_agree = disagreement(rig, *measurement, pixel_stddev) <= 1.0;
   if (!place.rays_agree)
     place.suspects = suspectsOf(rig, views, pixel_stddev);

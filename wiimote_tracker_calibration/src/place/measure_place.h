@@ -13,7 +13,7 @@
 namespace wiimote_tracker::place {
 
 /// The residual of one camera.
-struct PlaceView {
+struct CameraResidual {
   std::string camera;
   Eigen::Vector2d residual;  ///< Pixel of the measured point less the observed one [px].
 };
@@ -23,8 +23,8 @@ struct MeasuredPlace {
   Eigen::Vector3d position;  ///< World [m].
   /// From the pixels and the calibration, whose cameras are correlated [m^2].
   Eigen::Matrix3d covariance;
-  bool calibration_known = true;  ///< If not, the covariance is that of the pixels alone.
-  std::vector<PlaceView> views;   ///< In the order of the rig.
+  bool calibration_known = true;          ///< If not, the covariance is that of the pixels alone.
+  std::vector<CameraResidual> residuals;  ///< In the order of the rig.
 
   /// Whether pixels and calibration explain how far the rays miss each other (chi-squared, 99.9 %).
   bool rays_agree = true;

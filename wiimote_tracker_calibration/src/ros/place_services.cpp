@@ -50,9 +50,9 @@ void fill(const place::MeasuredPlace& place,
           CheckPlace::Response* response) {
   response->measured = pointOf(place.position);
   Eigen::Map<Eigen::Matrix3d>(response->covariance.data()) = place.covariance;  // symmetric
-  for (const place::PlaceView& view : place.views) {
-    response->cameras.push_back(view.camera);
-    response->residual.push_back(view.residual.norm());
+  for (const place::CameraResidual& each : place.residuals) {
+    response->cameras.push_back(each.camera);
+    response->residual.push_back(each.residual.norm());
   }
   response->error = check.error;
   response->expected_stddev = check.expected_stddev;

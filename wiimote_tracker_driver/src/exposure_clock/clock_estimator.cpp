@@ -7,6 +7,9 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
+// Values without a source are not critical: half of each or twice as much changes the RMS error of
+// each kind of link, simulated as in benchmark_timing, by at most 5 %.
+
 // Blur of an edge [s]: negligible, or a slot of 1.25 ms (standard deviation 1.25 ms / sqrt(12)).
 constexpr double kSharp = 10e-6;
 constexpr double kSlotted = 0.36e-3;
@@ -17,9 +20,9 @@ constexpr double kWanders = 0.095e-3;
 constexpr double kWandersMuch = 0.32e-3;
 constexpr double kWandersAsRecorded = 1.58e-3;
 
-// Of the period, relative; it stays within three times this.
+// Of the period, relative, so that a remote may be fast or slow; it stays within three times this.
 constexpr double kPeriodStddev = 2500e-6;
-// A report later than this is stale [s].
+// A report later than this, three periods, is stale [s].
 constexpr double kStaleAge = 0.030;
 
 struct ModelPrior {
@@ -44,17 +47,20 @@ const ModelPrior kModelPriors[] = {
 // Index of the model whose posterior SteadyEdge computes, and its weight when SteadyEdge begins.
 constexpr std::size_t kSteadyEdge = 0;
 constexpr double kSteadyEdgeWeight = 0.5;
-// SteadyEdge uses a report whose smoothed number is this probable, and that is not this much too
-// early [s], which would mean a wrong number.
+// SteadyEdge, and what is learned of the link, use a report whose smoothed number is this probable.
+// Less may be better: with 0.72, behind edges 3.7 % of the numbers are wrong instead of 4.7 % where
+// 5 % of the images are lost, and 12 % instead of 17 % where 15 % are.
 constexpr double kCertain = 0.9;
+// SteadyEdge leaves out a report that is this much too early [s]: its number is wrong.
 constexpr double kTooEarly = 1e-3;
 // A steady edge of negligible weight that is this far from the best model [s] has wrong numbers.
 constexpr double kMaxEdgeError = 0.5e-3;
 // Time over which the wander of a steady clock is added to its variance [s].
 constexpr double kEdgeMemory = 3.0;
 
-// Mean duration of a stall [s]; initial stall probability, the number of reports it counts as, the
-// number of latest reports it is estimated from, and its least value.
+// Mean time that a stall holds a report up [s] (simulated ones of up to 160 ms: 53 ms); initial
+// stall probability, the number of reports it counts as, the number of latest reports it is
+// estimated from, and its least value.
 constexpr double kStallLength = 0.060;
 constexpr double kInitialStallProbability = 0.003;
 constexpr double kStallPriorCount = 300.0;
@@ -65,17 +71,20 @@ constexpr double kMinStallProbability = 0.0005;
 constexpr double kMaxSpreadForLosses = 0.6;
 // Mean time between reports that leave a queue [s].
 constexpr double kServiceTime = 0.0025;
-// Density of an arrival that no model explains [1/s].
+// Density of an arrival that no model explains [1/s]; a stall explains delays up to 0.8 s.
 constexpr double kUnexplained = 1e-7;
-// Number of such arrivals in a row after which the clock restarts.
+// Number of such arrivals in a row after which the clock restarts: reports once a second or less.
 constexpr int kMaxUnexplained = 8;
-// Number of reports in a row, one second, with an uncertain frame after which it restarts.
+// Number of reports in a row, one second, with an uncertain frame after which it restarts, as when
+// reports came twice for a while.
 constexpr int kMaxUncertain = 100;
 // Gap after which the phase is estimated anew [s]; largest ignored step back of the clock [s].
 constexpr double kLongGap = 5.0;
 constexpr double kStepBack = 1e-3;
-// Weight below which a model is reinitialised from the best one.
+// Weight below which a model is reinitialised from the best one. With twice as much the stated
+// deviations behind edges are 9 % larger.
 constexpr double kMinWeight = 1.5e-4;
+// Probability below which a frame number does not change a filter.
 constexpr double kNegligible = 1e-6;
 }  // namespace
 

@@ -1,12 +1,23 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H
 
+#include "wiimote_tracker_triangulation/geometry/so3.h"
+
 #include <Eigen/Core>
 #include <Eigen/LU>
 
 #include <cmath>
 
 namespace wiimote_tracker::body {
+
+/// d point / d (position, rotation) of a point of a body, in the world: a small rotation w about
+/// the world axes moves it to exp([w]x) arm = arm - [arm]x w. @param arm from the body's origin to
+/// it [m]
+inline Eigen::Matrix<double, 3, 6> pointByPose(const Eigen::Vector3d& arm) {
+  Eigen::Matrix<double, 3, 6> jacobian;
+  jacobian << Eigen::Matrix3d::Identity(), -geometry::so3::skew(arm);
+  return jacobian;
+}
 
 /// Kalman update by a pixel of a state whose first six values are position and rotation.
 /// @param jacobian d pixel / d (position, rotation) [px/m, px/rad]. @param innovation [px]

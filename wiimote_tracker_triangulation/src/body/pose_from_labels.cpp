@@ -1,6 +1,6 @@
 #include "body/align.h"
+#include "pixel_update.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
-#include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
 
@@ -42,10 +42,8 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
 
   PoseCovariance normal = PoseCovariance::Zero();
   for (std::size_t i = 0; i < count; ++i) {
-    Eigen::Matrix<double, 3, 6> jacobian;
-    jacobian.leftCols<3>().setIdentity();
-    jacobian.rightCols<3>() =
-        -geometry::so3::skew(alignment.world_from_body.linear() * pairs[i].in_body);
+    const Eigen::Matrix<double, 3, 6> jacobian =
+        pointByPose(alignment.world_from_body.linear() * pairs[i].in_body);
     normal += jacobian.transpose() * information[i] * jacobian;
   }
   const Eigen::LLT<PoseCovariance> factor(normal);

@@ -1,5 +1,6 @@
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
+#include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
 namespace wiimote_tracker::body {
@@ -44,8 +45,8 @@ void PoseState::predict(double acceleration_density,
   const Eigen::Quaterniond turned(so3::exp(duration * angular_velocity));
   rotation = (turned * rotation).normalized();
 
-  // F = [1 0 dt 0; 0 T 0 dt J; 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'. J is the left Jacobian
-  // of SO(3), about half of the turn T.
+  // F = [1 0 dt 0; 0 T 0 dt J; 0 0 1 0; 0 0 0 1] by blocks, and P <- F P F'. T is the turn; J, the
+  // left Jacobian of SO(3), is to second order the turn by half of T's angle.
   const Eigen::Matrix3d turn = turned.toRotationMatrix();
   const Eigen::Matrix3d by_turning =
       duration * so3::exp(0.5 * duration * angular_velocity).toRotationMatrix();
@@ -80,8 +81,7 @@ std::optional<LedPrediction> predictLed(const PoseState& state,
   if (!pixel)
     return std::nullopt;
   prediction.pixel = *pixel;
-  prediction.jacobian.leftCols<3>() = by_point;
-  prediction.jacobian.rightCols<3>() = -by_point * so3::skew(arm);
+  prediction.jacobian = by_point * pointByPose(arm);
   prediction.covariance =
       prediction.jacobian * state.poseCovariance() * prediction.jacobian.transpose();
   prediction.covariance.diagonal().array() += pixel_stddev * pixel_stddev;

@@ -1,7 +1,7 @@
 #include "body/pose_uncertainty.h"
 
+#include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
-#include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
 
@@ -52,8 +52,7 @@ Sums sumsOf(const geometry::Rig& rig,
       const Eigen::Vector3d arm = estimate.world_from_body.linear() * constellation.leds[i];
       projection->by_parameters.col(geometry::kTimeOffset).noalias() =
           projection->by_point * (estimate.velocity + estimate.angular_velocity.cross(arm));
-      Eigen::Matrix<double, 2, 6> by_pose;
-      by_pose << projection->by_point, -projection->by_point * geometry::so3::skew(arm);
+      const Eigen::Matrix<double, 2, 6> by_pose = projection->by_point * pointByPose(arm);
       sums.information.noalias() += by_pose.transpose() * by_pose;
       by_parameters.noalias() += by_pose.transpose() * projection->by_parameters;
     }

@@ -2,6 +2,7 @@
 // allocate, unlike the solvers of Eigen and Ceres.
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
 
+#include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
@@ -14,16 +15,17 @@ namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 
-struct Normal {
-  PoseCovariance information = PoseCovariance::Zero();
-  Vector6 gradient = Vector6::Zero();
-  double cost = 0.0;  // sum of squared residuals [px^2]
+/// With the Jacobian J of the pixels and their residuals r: J^T J step = J^T r.
+struct NormalEquations {
+  PoseCovariance information = PoseCovariance::Zero();  // J^T J
+  Vector6 right = Vector6::Zero();                      // J^T r
+  double cost = 0.0;                                    // r^T r [px^2]
 };
 
-std::optional<Normal> normalAt(const LedObservation* observations,
-                               std::size_t count,
-                               const Eigen::Isometry3d& pose) {
-  Normal normal;
+std::optional<NormalEquations> normalAt(const LedObservation* observations,
+                                        std::size_t count,
+                                        const Eigen::Isometry3d& pose) {
+  NormalEquations normal;
   for (std::size_t i = 0; i < count; ++i) {
     const LedObservation& observation = observations[i];
     const Eigen::Vector3d arm = pose.linear() * observation.led;
@@ -31,12 +33,10 @@ std::optional<Normal> normalAt(const LedObservation* observations,
     const auto pixel = observation.camera->project(pose.translation() + arm, &by_point);
     if (!pixel)
       return std::nullopt;
-    Eigen::Matrix<double, 2, 6> jacobian;
-    jacobian.leftCols<3>() = by_point;
-    jacobian.rightCols<3>() = -by_point * geometry::so3::skew(arm);
+    const Eigen::Matrix<double, 2, 6> jacobian = by_point * pointByPose(arm);
     const Eigen::Vector2d residual = observation.pixel - *pixel;
     normal.information.noalias() += jacobian.transpose() * jacobian;
-    normal.gradient.noalias() += jacobian.transpose() * residual;
+    normal.right.noalias() += jacobian.transpose() * residual;
     normal.cost += residual.squaredNorm();
   }
   return normal;
@@ -59,33 +59,33 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
     return std::nullopt;
   constexpr int kMaximumSteps = 30;
   Eigen::Isometry3d pose = start;
-  std::optional<Normal> normal = normalAt(observations, count, pose);
+  std::optional<NormalEquations> normal = normalAt(observations, count, pose);
   double damping = 1e-6;
   bool converged = false;
   for (int i = 0; normal && !converged && i < kMaximumSteps; ++i) {
     PoseCovariance damped = normal->information;
     damped.diagonal() *= 1.0 + damping;
-    const Vector6 step = damped.ldlt().solve(normal->gradient);
+    const Vector6 step = damped.ldlt().solve(normal->right);
     if (!step.allFinite())
       return std::nullopt;
     const Eigen::Isometry3d next = moved(pose, step);
-    const std::optional<Normal> there = normalAt(observations, count, next);
+    const std::optional<NormalEquations> there = normalAt(observations, count, next);
     if (there && there->cost <= normal->cost) {
-      // The remaining step is below a hundredth of the standard deviation.
-      converged = step.dot(normal->gradient) < 1e-4 * pixel_stddev * pixel_stddev;
+      // The step was below a hundredth of the standard deviation.
+      converged = step.dot(normal->right) < 1e-4 * pixel_stddev * pixel_stddev;
       pose = next;
       normal = there;
       damping = std::max(0.1 * damping, 1e-9);
     } else {
       // At the minimum only rounding prevents a decrease.
-      converged = step.dot(normal->gradient) < 1e-9 * (normal->cost + 1e-12);
+      converged = step.dot(normal->right) < 1e-9 * (normal->cost + 1e-12);
       damping = std::max(10.0 * damping, 1e-3);
     }
   }
   if (!normal || !converged)
     return std::nullopt;
   const Eigen::LLT<PoseCovariance> factor(normal->information);
-  // A millimetre and a milliradian both move a spot by about a pixel: scaling is not needed.
+  // A metre moves a spot ten times as far as a radian (arm 0.1 m): scaling is not needed.
   if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
     return std::nullopt;
   SolvedPose solved;

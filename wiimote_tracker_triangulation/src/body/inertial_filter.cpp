@@ -13,10 +13,7 @@ namespace so3 = geometry::so3;
 
 enum Block { kPosition = 0, kRotation = 3, kVelocity = 6, kGyroBias = 9, kForceBias = 12 };
 
-const Eigen::Vector3d& gravity() {
-  static const Eigen::Vector3d value(0.0, 0.0, -9.80665);  // standard gravity [m/s^2]
-  return value;
-}
+constexpr double kGravity = 9.80665;  // standard gravity [m/s^2]
 
 }  // namespace
 
@@ -41,7 +38,7 @@ InertialFilter::InertialFilter(const InertialOptions& options,
   read(samples);
 }
 
-/// What the angular velocity needs.
+/// Takes the angular velocity from the samples, and sets the body's state.
 void InertialFilter::read(const InertialSamples& samples) {
   rate_ = samples.at(time_).rate;
   rate_variance_ = std::pow(options_->gyro_density, 2) * samples.frequency();
@@ -59,14 +56,16 @@ void InertialFilter::predict(double time, const InertialSamples& samples) {
   read(samples);
 }
 
-/// Constant rate and force over a duration [s].
+/// Constant rate and force over a duration [s]. Derivatives as in Sola 2017, chapter 7, but with
+/// the rotation in the middle of the step.
 void InertialFilter::step(const InertialSample& sample, double duration) {
   const double h = duration;
   const Eigen::Vector3d rate = sample.rate - gyro_bias_;
   const Eigen::Matrix3d middle = (rotation_ * so3::exp(0.5 * h * rate)).toRotationMatrix();
   const Eigen::Vector3d force = middle * (sample.force - accelerometer_bias_);
-  position_ += h * velocity_ + 0.5 * h * h * (force + gravity());
-  velocity_ += h * (force + gravity());
+  const Eigen::Vector3d acceleration = force - kGravity * Eigen::Vector3d::UnitZ();
+  position_ += h * velocity_ + 0.5 * h * h * acceleration;
+  velocity_ += h * acceleration;
   rotation_ = (rotation_ * so3::exp(h * rate)).normalized();
 
   Matrix transition = Matrix::Identity();

@@ -11,7 +11,7 @@ namespace wiimote_tracker::body {
 struct InertialSample {
   double time;            ///< By the clock of the images [s].
   Eigen::Vector3d rate;   ///< Angular velocity [rad/s].
-  Eigen::Vector3d force;  ///< Acceleration of the IMU less that of gravity [m/s^2].
+  Eigen::Vector3d force;  ///< Specific force: acceleration less that of gravity [m/s^2].
 };
 
 /// The samples of an IMU in the last seconds. Does not allocate once warm.

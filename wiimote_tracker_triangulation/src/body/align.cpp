@@ -15,11 +15,11 @@ Alignment align(const PointPair* pairs, std::size_t count) {
   }
   body_mean /= weight;
   world_mean /= weight;
-  Eigen::Matrix3d correlation = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d cross_covariance = Eigen::Matrix3d::Zero();
   for (std::size_t i = 0; i < count; ++i)
-    correlation += pairs[i].weight * (pairs[i].in_world - world_mean) *
-                   (pairs[i].in_body - body_mean).transpose();
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(correlation,
+    cross_covariance += pairs[i].weight * (pairs[i].in_world - world_mean) *
+                        (pairs[i].in_body - body_mean).transpose();
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(cross_covariance,
                                               Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Vector3d signs(1.0, 1.0, 1.0);
   if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0)

@@ -87,14 +87,14 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
     return;
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
   auto taken = tracker_->taken().begin();  // of each spot that is not masked
-  std::size_t left = 0;
+  std::size_t kept = 0;
   for (const tracking::Spot& spot : image->spots) {
     if (isMasked(spot) || !*taken++)
-      image->spots[left++] = spot;
+      image->spots[kept++] = spot;
   }
   // Spots of bodies use up places in the camera's list of spots.
-  image->maximum_spots -= std::min(image->spots.size() - left, image->maximum_spots);
-  image->spots.resize(left);
+  image->maximum_spots -= std::min(image->spots.size() - kept, image->maximum_spots);
+  image->spots.resize(kept);
 }
 
 void BodyFollower::addInertial(std::size_t body, const InertialSample& sample) {

@@ -130,7 +130,8 @@ std::list<BodyTracker::Entry>::iterator BodyTracker::undoOutdated(std::list<Entr
   std::size_t count = 0;
   for (; first != history_.begin() && std::prev(first)->time > inertial_change_; ++count)
     --first;
-  if (count > kRepeats * ++images_since_repeat_)
+  ++images_since_repeat_;
+  if (count > kRepeats * images_since_repeat_)
     return next;
   while (next != first)
     undo(--next);

@@ -84,7 +84,7 @@ void Constellation::check() const {
   if (leds.size() < 3 || leds.size() > kMaximumLeds)
     throw Error(who + " has " + std::to_string(leds.size()) + " LEDs, but must have 3 to " +
                 std::to_string(kMaximumLeds));
-  double breadth = 0.0;  // largest triangle's height over its longest side
+  double breadth = 0.0;  // greatest height of a triangle above its longest side [m]
   for (std::size_t i = 0; i < leds.size(); ++i) {
     if (!leds[i].allFinite())
       throw Error(who + " has an LED whose position is not finite; correct it");

@@ -9,10 +9,9 @@
 namespace wiimote_tracker::body {
 namespace {
 
-// An LED whose predicted pixel has a larger standard deviation could be any spot, or the spot of
-// another LED of the body: a share of the distance to the nearest one, with which gates of four
-// standard deviations just touch, within limits [px]. A body hidden for longer must be found by its
-// shape.
+// Greatest standard deviation of an LED's predicted pixel [px]: with more, the LED could be any
+// spot, also that of another LED. It is 1/8 of the distance to the nearest LED of the body, so that
+// gates of four standard deviations just touch, within limits. A body beyond it is found by shape.
 constexpr double kWidestShare = 1.0 / 8.0;
 constexpr double kLeastWidest = 2.0;
 constexpr double kWidest = 12.0;

@@ -27,7 +27,7 @@ class LedGroups;
 
 struct BodyTrackerOptions {
   double pixel_stddev = 0.5;  ///< Noise per coordinate of a spot [px, > 0].
-  bool learnt_noise = true;   ///< Updates use that of the calibration, if it tells it.
+  bool learnt_noise = true;   ///< Updates use the calibration's (geometry::pixelNoise).
   PoseFilterOptions motion;
   InertialOptions inertial;  ///< Of bodies with an IMU.
 

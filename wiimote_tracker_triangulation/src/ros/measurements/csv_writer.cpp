@@ -10,8 +10,8 @@ namespace wiimote_tracker::measurements {
 namespace {
 
 const char* const kHeader =
-    "time [s],triggered,id,label,label_confidence,label_since [s],state,x [m],y [m],z [m],vx "
-    "[m/s],vy [m/s],vz [m/s],"
+    "time [s],triggered,id,label,label_confidence,label_since [s],state,"
+    "x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],"
     "cov_xx [m^2],cov_xy [m^2],cov_xz [m^2],cov_yy [m^2],cov_yz [m^2],cov_zz [m^2],"
     "vcov_xx [m^2/s^2],vcov_xy [m^2/s^2],vcov_xz [m^2/s^2],vcov_yy [m^2/s^2],vcov_yz [m^2/s^2],"
     "vcov_zz [m^2/s^2],rays_used,rays_possible,residual [px],last_observed [s],age [s],remapped,"

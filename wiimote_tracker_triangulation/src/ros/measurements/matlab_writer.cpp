@@ -21,12 +21,11 @@ const char* const kReadme =
     "One row per LED and time. time [s since 1970]; stamp, the same exactly [ns since 1970]; "
     "triggered: interpolated for an external trigger; id of the track; label_confidence: "
     "probability that the label is right (NaN: not estimated), label_since: since when it stands "
-    "[ns since 1970] (0: not estimated); position [m], velocity "
-    "[m/s] (NaN: unknown) in the world frame; their covariances 3 x 3 x rows [m^2], [m^2/s^2]; "
-    "rays_used of rays_possible cameras; residual: reprojection error [px]; last_observed [ns "
-    "since "
-    "1970]; age of the track [s]; remapped: corrected within the measured volume. label, state, "
-    "frame, rig_id, method: numbers of lines of labels, states, frames, rig_ids, methods.";
+    "[ns since 1970] (0: not estimated); position [m], velocity [m/s] (NaN: unknown) in the "
+    "world frame; their covariances 3 x 3 x rows [m^2], [m^2/s^2]; rays_used of rays_possible "
+    "cameras; residual: reprojection error [px]; last_observed [ns since 1970]; age of the track "
+    "[s]; remapped: corrected within the measured volume. label, state, frame, rig_id, method: "
+    "numbers of lines of labels, states, frames, rig_ids, methods.";
 
 // The default header contains the date, but equal measurements must give equal files.
 const char* const kFileHeader = "MATLAB 5.0 MAT-file, written by wiimote_tracker_triangulation";

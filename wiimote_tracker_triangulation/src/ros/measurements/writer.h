@@ -100,24 +100,22 @@ struct TableFiles {
 inline std::vector<std::unique_ptr<Writer>> makeWriters(const TableFiles& files) {
   checkDistinct(files.names());
   std::vector<std::unique_ptr<Writer>> writers;
+  std::vector<std::string> made;
+  const auto add = [&](const std::string& file, const auto& make, auto... rate) {
+    if (file.empty())
+      return;
+    writers.push_back(make(file, rate...));
+    made.push_back(file);
+  };
   try {
-    if (!files.csv.empty())
-      writers.push_back(makeCsvWriter(files.csv));
-    if (!files.matlab.empty())
-      writers.push_back(makeMatlabWriter(files.matlab));
-    if (!files.c3d.empty())
-      writers.push_back(makeC3dWriter(files.c3d, files.rate));
-    if (!files.trc.empty())
-      writers.push_back(makeTrcWriter(files.trc, files.rate));
+    add(files.csv, makeCsvWriter);
+    add(files.matlab, makeMatlabWriter);
+    add(files.c3d, makeC3dWriter, files.rate);
+    add(files.trc, makeTrcWriter, files.rate);
   } catch (...) {
-    std::size_t made = writers.size();  // in the order of the names
     writers.clear();
-    for (const std::string& name : files.names()) {
-      if (!name.empty() && made-- == 0)
-        break;
-      if (!name.empty())
-        std::remove(partOf(name).c_str());
-    }
+    for (const std::string& file : made)
+      std::remove(partOf(file).c_str());
     throw;
   }
   return writers;

@@ -38,8 +38,8 @@ struct TriggerAnswer {
 };
 
 /// Interpolates an LED between two snapshots. The position is a cubic through both positions and
-/// velocities, or a line where a velocity is missing. Its covariance is the weighted mean of both,
-/// which bounds the true one for any correlation of their errors
+/// velocities, or a line where a velocity is missing; the velocity is linear. Its covariance is the
+/// weighted mean of both, which bounds the true one for any correlation of their errors
 /// ((1-s) a a' + s b b' >= ((1-s) a + s b)((1-s) a + s b)'), plus that of the velocities' errors as
 /// if independent. Rays and residual are those of the nearer snapshot; the state is the less
 /// certain one.

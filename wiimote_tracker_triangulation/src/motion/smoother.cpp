@@ -39,8 +39,8 @@ KinematicState reversed(KinematicState state) {
 /// acceleration, which both contain: normal about 0.
 /// @param size number of components: 3 (position), 6 (and velocity) or 9 (and acceleration)
 /// @param prior variance of the acceleration
-/// @returns logarithm of the overlap of the two, without factors that all modes share; nothing when
-/// the product is not normal
+/// @returns log of the integral of the product of a and b, without its powers of 2 pi and without
+/// dividing by the prior; nothing when the product is not normal
 std::optional<double> multiply(const KinematicState& a,
                                const KinematicState& b,
                                Eigen::Index size,
@@ -93,8 +93,9 @@ KinematicState combine(const MotionOptions& options,
     const auto overlap = multiply(a, b, size, prior, product);
     if (!overlap)
       continue;
-    // Divided by the densities of the priors, which both filters contain: of the mode, and of the
-    // velocity and acceleration, if it has them, at 0.
+    // Divided by the priors, which both filters contain: the probability of the mode, and the
+    // densities of velocity and acceleration, if it has them, at 0: an approximation. Powers of 2
+    // pi cancel but for a factor that all modes share.
     log_weights[i] =
         *overlap + (isAtRest(i) ? 0.0 : 3.0 * std::log(options.initial_speed)) +
         (variance > 0.0 ? 1.5 * std::log(variance) : 0.0) +

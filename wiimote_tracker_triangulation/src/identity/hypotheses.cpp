@@ -27,13 +27,10 @@ std::size_t phasesFor(const BlinkCodes& codes) {
 std::vector<double> frequenciesOf(const BlinkCodes& codes, double memory) {
   const double lowest = 1.0 / codes.longest_period;
   const double highest = 1.0 / codes.shortest_period;
-  const auto steps =
-      static_cast<std::size_t>(std::ceil((highest - lowest) * memory / kPhasePerFrequency));
+  const int steps = static_cast<int>(std::ceil((highest - lowest) * memory / kPhasePerFrequency));
   std::vector<double> frequencies;
-  for (std::size_t i = 0; i <= steps; ++i)
-    frequencies.push_back(steps == 0 ? lowest
-                                     : lowest + (highest - lowest) * static_cast<double>(i) /
-                                                    static_cast<double>(steps));
+  for (int i = 0; i <= steps; ++i)
+    frequencies.push_back(lowest + (highest - lowest) * i / std::max(steps, 1));
   return frequencies;
 }
 

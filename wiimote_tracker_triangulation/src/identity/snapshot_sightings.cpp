@@ -63,6 +63,7 @@ const std::vector<TrackSighting>& SnapshotSightings::collect(const geometry::Rig
     if (!view.time || view.time == times_[camera])
       continue;
     times_[camera] = view.time;
+    // Rig::rayCamera() copies the camera's name, which may allocate.
     if (rig.ray_model == geometry::RayModel::kCalibrated)
       expectPixels(rig.cameras[camera].camera, snapshot);
     else

@@ -48,10 +48,10 @@ class Hypotheses {
   /// * phases().
   std::size_t cells() const { return frequencies_.size() * labels() * phases_; }
 
-  /// Log likelihoods of a sighting at one frequency, relative to a hidden LED where none is seen: a
-  /// row of phases() for each label, every 2 * phases() values.
-  /// @param frequency [Hz]. @param periods periods since phase 0, any number. The phase of a
-  /// hypothesis is minus that of the waveform at periods = 0.
+  /// Log likelihoods of a sighting at one frequency; without a spot relative to those of a hidden
+  /// LED. @returns rows of phases() values, one for each label, 2 * phases() values apart. Value i
+  /// is for an LED whose waveform is at the phase `periods` - i / phases().
+  /// @param frequency [Hz]. @param periods since the origin of the phases, any number.
   const float* rowsOf(const Sighting& sighting, double frequency, double periods) const;
 
   /// Log likelihood for a light that does not blink.

@@ -94,8 +94,10 @@ KinematicState combine(const MotionOptions& options,
     if (!overlap)
       continue;
     // Divided by the priors, which both filters contain: the probability of the mode, and the
-    // densities of velocity and acceleration, if it has them, at 0: an approximation. Powers of 2
-    // pi cancel but for a factor that all modes share.
+    // densities of velocity and acceleration, if it has them, at 0. The exact integral has them
+    // over the product: that would favour modes whose prior nearly excludes the motion, since
+    // states that came from other modes do not have this prior. Powers of 2 pi are then common to
+    // all modes.
     log_weights[i] =
         *overlap + (isAtRest(i) ? 0.0 : 3.0 * std::log(options.initial_speed)) +
         (variance > 0.0 ? 1.5 * std::log(variance) : 0.0) +

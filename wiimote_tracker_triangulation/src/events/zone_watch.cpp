@@ -69,11 +69,12 @@ const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& sna
   const bool time_went_back = snapshot.time < newest_;
   newest_ = snapshot.time;
   const auto isGone = [&](const Led& led) {
-    if (!time_went_back && snapshot.time - led.time <= options_.timeout)
-      return false;
-    lose(led);
-    return true;
+    return time_went_back || !(snapshot.time - led.time <= options_.timeout);
   };
+  for (const Led& led : leds_) {
+    if (isGone(led))
+      lose(led);
+  }
   leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isGone), leds_.end());
 
   for (const tracking::TrackedLed& seen : snapshot.leds) {

@@ -19,6 +19,7 @@ constexpr std::size_t kParts = 8;          // of the recording, for the uncertai
 constexpr std::size_t kFewest = 5;         // instants in each
 constexpr double kSameLed = 0.03;          // a new track this near a missing LED continues it [m]
 constexpr double kNotRigid = 0.01;         // [m]
+constexpr double kPointStddev = 0.004;     // of an LED, to find the body by its shape [m]
 constexpr double kMatchMargin = 15.0;      // as BodyTrackerOptions::minimum_margin
 constexpr double kShareOfInstants = 0.05;  // that must show all LEDs
 constexpr int kRounds = 5;                 // of aligning and averaging; converges fast
@@ -120,7 +121,7 @@ class Learning {
   std::optional<Match> matchOf(const LedsInstant& instant) const {
     std::vector<MeasuredPoint> points;
     for (const LedsInstant::Led& led : instant.leds)
-      points.push_back({led.position, 0.004, false});
+      points.push_back({led.position, kPointStddev, false});
     const std::optional<Match> match = matchPoints(body_, points, MatchOptions());
     return match && match->margin >= kMatchMargin ? match : std::nullopt;
   }

@@ -15,7 +15,10 @@ TimeWatch::TimeWatch(std::size_t cameras, double newest_used)
       pairs_(cameras * cameras),
       votes_(cameras),
       newest_used_(newest_used),
-      awaited_(newest_used > -kInfinity ? 2 * cameras : 0) {}
+      awaited_(newest_used > -kInfinity ? 2 * cameras : 0) {
+  for (Camera& camera : cameras_)
+    camera.furthest = newest_used;
+}
 
 TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
   if (awaited_ > 0)
@@ -29,6 +32,9 @@ TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
     return Result::kWrongClock;
   cameras_[camera].used = arrival;
   const bool jumped_back = hasJumpedBack(camera);
+  for (Camera& each : cameras_)
+    each.furthest = jumped_back ? -kInfinity : each.furthest;
+  cameras_[camera].furthest = std::max(cameras_[camera].furthest, arrival);
   disordered_ = !jumped_back && arrival < newest_used_;
   if (jumped_back || arrival >= newest_used_) {
     newest_used_ = arrival;
@@ -149,11 +155,16 @@ bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
 }
 
 /// Whether all trusted cameras that are not silent are back behind the newest image that was used,
-/// or that image came from a camera that is not trusted any more.
+/// or that image came from a camera that is not trusted any more. Not for images that only waited
+/// in a network: these go on after the camera's last one, but may be so many together that the
+/// others seem silent.
 bool TimeWatch::hasJumpedBack(std::size_t camera) const {
   if (awaited_ > 0)
     return false;
-  const double jump = cameras_[newest_camera_].trusted ? kJump : kTolerance;
+  const bool is_trusted = cameras_[newest_camera_].trusted;
+  const double jump = is_trusted ? kJump : kTolerance;
+  if (is_trusted && !(*cameras_[camera].newest < cameras_[camera].furthest - kTolerance))
+    return false;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const bool counts = i == camera || (cameras_[i].trusted && activePair(camera, i));
     if (counts && !(*cameras_[i].newest < newest_used_ - jump))

@@ -67,6 +67,7 @@ class TimeWatch {
   struct Camera {
     std::optional<double> newest;  // arrival of its newest image [s]
     std::optional<double> used;    // of the last one that was used [s]
+    double furthest = 0.0;         // of the newest one that was used since the last jump [s]
     bool was_behind = false;       // its last image was older than `newest`
     bool trusted = true;
   };

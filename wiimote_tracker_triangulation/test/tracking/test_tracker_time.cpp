@@ -115,6 +115,24 @@ TEST(Tracker, ACameraWhoseImagesAreAlwaysTooOldIsNamed) {
   EXPECT_FALSE(tracker.cameraFault(0));
 }
 
+/// The network of a computer with two of four cameras is cut for 3 s.
+TEST(Tracker, GoesOnWhenManyImagesThatWaitedComeTogether) {
+  std::vector<SceneImage> images =
+      imagesOf(paperRig(), {circle({1.25, 1.25, 1.0}, 0.5, 1.5)}, {}, 3200);
+  for (SceneImage& image : images) {
+    const double arrival = image.image.arrival;
+    const bool waits = image.camera >= 2 && arrival > 1002.005 && arrival < 1005.005;
+    // Of delivery: all of camera 2, then all of camera 3.
+    image.true_time = waits ? 1005.005 + 1e-6 * static_cast<double>(image.camera) : arrival;
+  }
+  std::stable_sort(images.begin(), images.end(),
+                   [](auto& a, auto& b) { return a.true_time < b.true_time; });
+  Tracker tracker(paperRig(), exactOptions());
+  const std::vector<Snapshot> snapshots = track(&tracker, images);
+  EXPECT_EQ(0u, tracker.counters().resets);
+  EXPECT_EQ((std::set<std::uint32_t>{0}), idsIn(snapshots.back(), TrackState::kTracked));
+}
+
 TEST(Tracker, RestartsWhenABagStartsOver) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
   Tracker tracker(paperRig(), exactOptions());

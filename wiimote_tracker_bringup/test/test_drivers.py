@@ -55,6 +55,9 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {a: "00:1f:32:00:00"}', 'camera a has the device 00:1f:32:00:00:'),
     ('cameras: {"a b": "00:1f:32:00:00:01"}', "camera name 'a b'"),
     ('cameras: {1: "00:1f:32:00:00:01"}', 'camera name 1'),
+    ('cameras: {küche: "00:1f:32:00:00:01"}', "camera name 'küche'"),
+    ('cameras: {"a\\n": "00:1f:32:00:00:01"}', "camera name 'a\\n'"),
+    ('cameras: {a: "00:1f:32:00:00:01", a: "00:1f:32:00:00:02"}', 'a is there twice'),
     ('cameras: {a: "00:1F:32:00:00:01", b: "00:1f:32:00:00:01"}', 'so has another one'),
 ])
 def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
@@ -62,6 +65,19 @@ def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
         read(tmp_path, text)
     assert complaint in str(error.value)
     assert str(tmp_path) in str(error.value)
+
+
+@pytest.mark.parametrize('keys', ['drivers: {ir_sensitivity: max}', 'ir_sensitivity: max'])
+def test_parameters_of_a_camera_in_the_wrong_place_are_refused(tmp_path, keys):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text(f'cameras: {{a: {{identity: "00:1f:32:00:00:01", {keys}}}}}')
+    with pytest.raises(drivers.CamerasError, match='camera a has the unknown key .*"driver:"'):
+        drivers.read_parameters(str(path))
+
+
+def test_a_rig_description_has_keys_of_its_own():
+    assert drivers.read_parameters(os.path.join(HERE, '../simulation/paper_rig.yaml'))[
+        'wiimote_1'] == {}
 
 
 def test_a_missing_file_is_named(tmp_path):

@@ -1,6 +1,7 @@
 """check_setup, with fakes of the driver's programs and of the ROS master."""
 
 import os
+import socket
 import sys
 
 import program_module
@@ -30,8 +31,9 @@ RIG = 'cameras:\n  door:\n    identity: "%s"\ncomplete: true\n'
 
 
 class Master:
-    """A ROS master with these parameters and publishers; None: it does not run."""
-    parameters, publishers = {}, None
+    """A ROS master with these parameters and publishers; None: it does not run. All nodes have the
+    same port."""
+    parameters, publishers, port = {}, None, 0
 
     def __init__(self, name):
         pass
@@ -40,6 +42,9 @@ class Master:
         if self.publishers is None:
             raise ConnectionRefusedError()
         return self.publishers, [], []
+
+    def lookupNode(self, name):
+        return f'http://localhost:{self.port}/'
 
     def hasParam(self, name):
         return name in self.parameters
@@ -128,12 +133,22 @@ def test_a_list_that_is_not_there_is_to_be_written(tmp_path):
     assert f'there is no {path}' in advice and f'list_wiimotes --write {path}' in advice
 
 
-def test_a_running_tracker_is_named(check):
-    status, lines = check(master=[['/diagnostics', ['/door/driver', '/master_watch']]],
-                          parameters={'/use_sim_time': False}, remotes=IN_USE)
+def test_a_running_tracker_is_named(check, monkeypatch):
+    with socket.create_server(('localhost', 0)) as node:
+        monkeypatch.setattr(Master, 'port', node.getsockname()[1])
+        status, lines = check(master=[['/diagnostics', ['/door/driver', '/master_watch']]],
+                              parameters={'/use_sim_time': False}, remotes=IN_USE)
     assert status == 0
     assert any('where /door/driver run already' in line for line in lines)
     assert f'ok remote {A}: can be used' in lines
+
+
+def test_a_driver_that_cannot_be_reached_is_named(check, monkeypatch):
+    with socket.create_server(('localhost', 0)) as ended:
+        monkeypatch.setattr(Master, 'port', ended.getsockname()[1])
+    status, lines = check(master=[['/diagnostics', ['/door/driver']]])
+    assert status == 1
+    assert 'driver /door/driver: it cannot be reached at localhost' in lines[-1]
 
 
 def test_a_master_elsewhere_must_answer(check, monkeypatch):

@@ -89,9 +89,12 @@ def test_a_silent_or_absent_remote_is_an_error(tmp_path):
     status, text = list_wiimotes('--virtual', silent.path)
     assert status == 1
     assert 'take its batteries out' in text
-    status, text = list_wiimotes('--virtual', str(tmp_path / 'nowhere.sock'))
+    new_list = tmp_path / 'new.yaml'
+    status, text = list_wiimotes('--write', str(new_list), '--virtual',
+                                 str(tmp_path / 'nowhere.sock'))
     assert status == 1
     assert 'no virtual Wii Remote listens' in text
+    assert f'Nothing was written to {new_list}.' in text and not new_list.exists()
 
 
 def test_identify_flashes_each_remote_by_its_number(remotes):

@@ -206,7 +206,10 @@ void write(const std::string& path, CameraList list, const std::vector<Row>& row
   if (changed)
     writeCameraList(list, path);
   std::printf("\n%s", done.c_str());
-  std::printf(changed ? "Written to %s.\n" : "%s needed no change.\n", path.c_str());
+  std::printf(changed                  ? "Written to %s.\n"
+              : list.cameras().empty() ? "Nothing was written to %s.\n"
+                                       : "%s needed no change.\n",
+              path.c_str());
 }
 
 /// The cameras whose remotes are not connected.

@@ -148,7 +148,8 @@ remap::Remap readRemap(YamlMap map) {
 }  // namespace
 
 Rig readRigFile(const std::string& path) {
-  YamlMap map = YamlMap::load(path, "restore the file from its backup or calibrate again");
+  YamlMap map =
+      YamlMap::load(path, "correct the file, restore it from its backup, or calibrate again");
   map.checkFormat(kRigFormat, kRigFormatVersion);
   if (map.get<std::string>("complete") != "true")
     throw map.error("complete", "is not true: the file was cut off");

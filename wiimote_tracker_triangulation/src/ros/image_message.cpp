@@ -129,7 +129,8 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
     case tracking::CameraFault::Kind::kLate:
       return format(
           "the images of %s are stamped %.3g s before images of other cameras that come with "
-          "them, and are ignored: correct ~latency of its driver, or raise tracks/history",
+          "them, and are ignored: mend its network, correct ~latency of its driver, or raise "
+          "tracks/history",
           name, seconds);
     case tracking::CameraFault::Kind::kWrongClock:
       break;

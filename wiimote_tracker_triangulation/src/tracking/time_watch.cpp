@@ -146,7 +146,8 @@ bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
   int ahead_of = 0;
   int compared = 0;
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
-    if (!cameras_[other].trusted || !activePair(camera, other))
+    const Pair* pair = activePair(camera, other);
+    if (!cameras_[other].trusted || !pair || pair->unanswered[camera < other ? 0 : 1] > kRecent)
       continue;
     ++compared;
     ahead_of += arrival > *cameras_[other].newest + kTolerance;

@@ -76,6 +76,8 @@ class TimeWatch {
   static constexpr int kLeast = 8;    ///< Comparisons before they may change whether two agree.
   /// Images of one camera after which another is silent; more than come together after a pause.
   static constexpr int kSilence = 100;
+  /// Images of one camera up to which the last one of another may show that one of them is ahead.
+  static constexpr int kRecent = 10;
 
   std::size_t indexOf(std::size_t a, std::size_t b) const;
   const Pair* activePair(std::size_t a, std::size_t b) const;

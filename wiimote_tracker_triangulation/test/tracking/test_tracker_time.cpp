@@ -133,6 +133,22 @@ TEST(Tracker, GoesOnWhenManyImagesThatWaitedComeTogether) {
   EXPECT_EQ((std::set<std::uint32_t>{0}), idsIn(snapshots.back(), TrackState::kTracked));
 }
 
+/// The others' last images are too old by then to show that its clock is ahead.
+TEST(Tracker, AGapOfACameraAfterHalfOfThemEndedCostsOnlyTheGap) {
+  const std::vector<SceneImage> images =
+      imagesOf(paperRig(), {circle({1.25, 1.25, 1.0}, 0.5, 1.5)}, {}, 1600);
+  Tracker tracker(paperRig(), exactOptions());
+  for (const SceneImage& image : images) {
+    const double arrival = image.image.arrival;
+    const bool is_lost = image.camera >= 2
+                             ? arrival > 1002.0
+                             : image.camera == 0 && arrival > 1002.2 && arrival < 1002.26;
+    if (!is_lost)
+      tracker.add(image.camera, image.image);
+  }
+  EXPECT_EQ(0u, tracker.counters().dropped);
+}
+
 TEST(Tracker, RestartsWhenABagStartsOver) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
   Tracker tracker(paperRig(), exactOptions());

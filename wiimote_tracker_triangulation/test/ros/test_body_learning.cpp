@@ -1,4 +1,4 @@
-// What learn_body answers where a bag is played in a loop, and where labels are wrong.
+// What learn_body answers where a bag is played in a loop, labels are wrong, or its file changed.
 #include "ros/bodies/body_learning.h"
 
 #include <gtest/gtest.h>
@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <fstream>
 #include <future>
 #include <string>
 #include <vector>
@@ -41,9 +42,13 @@ TrackedPointArray pointsAt(double time) {
   return points;
 }
 
+std::string learnedFile() {
+  return testing::TempDir() + "learned_" + std::to_string(::getpid()) + ".yaml";
+}
+
 /// Learns 0.5 s of a bag that starts over after so many images.
 LearnBody::Response learnInLoopsOf(int images, const std::vector<std::string>& labels = {}) {
-  const std::string file = testing::TempDir() + "learned_" + std::to_string(::getpid()) + ".yaml";
+  const std::string file = learnedFile();
   BodyLearning learning(ros::NodeHandle(), file, {}, {}, {});
   auto answer = std::async(std::launch::async, [&labels] {
     LearnBody call;
@@ -92,6 +97,20 @@ TEST(BodyLearning, RefusesALabelGivenTwice) {
   EXPECT_FALSE(response.success);
   EXPECT_NE(std::string::npos, response.message.find("labels has 'led_0' twice"))
       << response.message;
+}
+
+TEST(BodyLearning, KeepsWhatWasWrittenIntoTheFileMeanwhile) {
+  const std::string file = learnedFile();
+  std::ofstream(file) << "as it was read";
+  BodyLearning learning(ros::NodeHandle(), file, {}, {}, {});
+  std::ofstream(file) << "with a body that a person measured";
+  LearnBody call;
+  call.request.name = "wand";
+  EXPECT_TRUE(ros::service::call("learn_body", call));
+  EXPECT_FALSE(call.response.success);
+  EXPECT_NE(std::string::npos, call.response.message.find("was changed after it was read"))
+      << call.response.message;
+  std::remove(file.c_str());
 }
 
 }  // namespace

@@ -59,6 +59,7 @@ class BodyLearning {
 
   bool onRequest(LearnBody::Request& request, LearnBody::Response& response);
   std::string refusal(const LearnBody::Request& request);
+  void checkFile() const;
   Collected collect(const LearnBody::Request& request);
   void learn(const LearnBody::Request& request,
              const Collected& collected,
@@ -69,6 +70,7 @@ class BodyLearning {
   std::vector<std::string> names_;
   std::set<std::string> codes_;
   std::vector<body::Constellation> bodies_;  // all known; only for the service's thread
+  std::string content_;                      // of the file, as last read or written; the same
 
   std::mutex mutex_;  // protects all below
   std::condition_variable changed_;

@@ -13,7 +13,7 @@ from std_msgs.msg import Header
 
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.motion import (
-    body_to_base, hand_eye, inertial, mount)
+    body_to_base, evaluate_trajectory, hand_eye, inertial, mount, poses)
 
 import mount_scene
 from mount_scene import ARM, OFFSET, TURN, error_of
@@ -165,6 +165,17 @@ def test_no_solution_is_said_in_words(monkeypatch):
     monkeypatch.setattr(body_to_base.poses, 'read', fail)
     with pytest.raises(SystemExit, match=r'no solution was found \(Singular matrix\)'):
         body_to_base.main(['run.bag', '--body', '/robot/odometry', '--odom', '/odom'])
+
+
+@pytest.mark.parametrize('program, options', [
+    (body_to_base, ['--body', '/b', '--odom', '/o']),
+    (evaluate_trajectory, ['--truth', '/b', '--estimate', '/o'])])
+def test_ctrl_c_is_answered_in_a_word(program, options, monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+    monkeypatch.setattr(poses, 'read', interrupt)
+    with pytest.raises(SystemExit, match=': interrupted$'):
+        program.main(['run.bag', *options])
 
 
 def test_files_and_words(tmp_path):

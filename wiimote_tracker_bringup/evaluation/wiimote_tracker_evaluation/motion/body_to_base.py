@@ -50,6 +50,8 @@ def main(argv=None):
                              source.read(arguments.bag, topic), arguments.largest_offset, report)
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
+    except KeyboardInterrupt:
+        sys.exit('body_to_base: interrupted')
     except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
         sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
                  'two axes')

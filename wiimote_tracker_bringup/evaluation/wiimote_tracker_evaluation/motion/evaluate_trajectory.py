@@ -85,6 +85,8 @@ def main(argv=None):
     parser.add_argument('--plot', metavar='FILE', help='write a picture (.png, .svg, .pdf)')
     try:
         run(parser.parse_args(argv))
+    except KeyboardInterrupt:
+        sys.exit('evaluate_trajectory: interrupted')
     except ImportError as error:
         sys.exit(f'evaluate_trajectory: {error}; a plot needs matplotlib: apt install '
                  'python3-matplotlib')

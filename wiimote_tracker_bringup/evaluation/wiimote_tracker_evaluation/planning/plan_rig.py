@@ -173,6 +173,8 @@ def main(argv=None):
                         metavar='N', help='the same gives the same result (default: 1)')
     try:
         run(parser.parse_args(argv))
+    except KeyboardInterrupt:
+        sys.exit('plan_rig: interrupted')
     except ImportError as error:
         sys.exit(f'plan_rig: {error}; a picture needs matplotlib: apt install python3-matplotlib')
     except (ExperimentError, OSError, ValueError) as error:

@@ -2,8 +2,6 @@
 
 #include "node_fixture.h"
 
-#include "../src/ros/rig_storage.h"
-
 #include <rosbag/bag.h>
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>
@@ -277,31 +275,6 @@ TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
   request.path = folder_ + "/camera_1.yaml";
   EXPECT_SAYS(call<SaveRig>("calibration/save", request).message, "save the rig by another name");
   EXPECT_EQ(geometry::readRigFile(request.path).id(), solved.rig.id);
-}
-
-TEST_F(Beyond, ALensDoesNotReplaceSamples) {
-  geometry::Rig rig;
-  rig.cameras.resize(1);
-  rig.cameras[0].camera.name = "samples";
-  const std::string folder = folder_ + "/names";
-  const std::vector<std::string> warnings = saveRig(rig, folder + "/rig.yaml");
-  ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_SAYS(warnings[0], "samples.yaml is for samples, so the lens of samples has none");
-  EXPECT_TRUE(exists(folder + "/rig.yaml"));
-  EXPECT_FALSE(exists(folder + "/samples.yaml"));
-}
-
-TEST_F(Beyond, ALensDoesNotReplaceARigThatWasSavedBefore) {
-  geometry::Rig rig;
-  rig.cameras.resize(1);
-  rig.cameras[0].camera.name = "rig";
-  const std::string folder = folder_ + "/rigs";
-  for (const char* name : {"/rig.yaml", "/other.yaml"}) {
-    const std::vector<std::string> warnings = saveRig(rig, folder + name);
-    ASSERT_EQ(warnings.size(), 1U);
-    EXPECT_SAYS(warnings[0], "rig.yaml is for rigs, so the lens of rig has none: rename");
-  }
-  EXPECT_EQ(geometry::readRigFile(folder + "/rig.yaml").id(), rig.id());
 }
 
 TEST_F(Beyond, ACaptureThatEndsWithItsServerSaysWhy) {

@@ -8,7 +8,9 @@
 
 #include <ros/service.h>
 #include <sensor_msgs/SetCameraInfo.h>
+#include <wiimote_tracker_msgs/text.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstddef>
 #include <exception>
@@ -23,6 +25,26 @@ namespace {
 
 std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
+}
+
+/// @returns a sentence on zones that a person wrote into the file but that are not in use; empty if
+/// there are none.
+std::string describeLostZones(const geometry::Rig& rig, const std::string& path) {
+  std::vector<std::string> lost;
+  try {
+    for (const geometry::Zone& old : geometry::readRigFile(path).zones) {
+      if (std::none_of(rig.zones.begin(), rig.zones.end(), [&](const geometry::Zone& zone) {
+            return zone.name == old.name && zone.minimum == old.minimum &&
+                   zone.maximum == old.maximum;
+          }))
+        lost.push_back(old.name);
+    }
+  } catch (const Error&) {  // there is no rig whose zones could be lost
+  }
+  return lost.empty()
+             ? ""
+             : "zones of the file before were not in use and are only in " + path + ".bak (" +
+                   joined(lost) + "): copy them into the file, then call calibration/load";
 }
 
 /// @returns why the driver does not know its lens now; empty when it does.
@@ -47,8 +69,11 @@ std::string callDriver(const std::string& name,
 }  // namespace
 
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path) {
+  const std::string lost_zones = describeLostZones(rig, path);
   geometry::writeRigFile(rig, path);
   std::vector<std::string> warnings;
+  if (!lost_zones.empty())
+    warnings.push_back(lost_zones);
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
     const std::string file = beside(path, geometry::withoutSlashes(camera.name) + ".yaml");

@@ -1,0 +1,64 @@
+// What saving a rig must not replace without a word.
+#include "../src/ros/rig_storage.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig_file.h>
+
+#include "expect_says.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+namespace {
+
+class RigStorage : public testing::Test {
+ protected:
+  ~RigStorage() override { std::filesystem::remove_all(folder_); }
+  const std::string folder_ = testing::TempDir() + "rig_storage_" + std::to_string(::getpid());
+};
+
+TEST_F(RigStorage, ALensDoesNotReplaceSamples) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "samples";
+  const std::string folder = folder_ + "/names";
+  const std::vector<std::string> warnings = saveRig(rig, folder + "/rig.yaml");
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_SAYS(warnings[0], "samples.yaml is for samples, so the lens of samples has none");
+  EXPECT_TRUE(std::filesystem::exists(folder + "/rig.yaml"));
+  EXPECT_FALSE(std::filesystem::exists(folder + "/samples.yaml"));
+}
+
+TEST_F(RigStorage, ALensDoesNotReplaceARigThatWasSavedBefore) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "rig";
+  const std::string folder = folder_ + "/rigs";
+  for (const char* name : {"/rig.yaml", "/other.yaml"}) {
+    const std::vector<std::string> warnings = saveRig(rig, folder + name);
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_SAYS(warnings[0], "rig.yaml is for rigs, so the lens of rig has none: rename");
+  }
+  EXPECT_EQ(geometry::readRigFile(folder + "/rig.yaml").id(), rig.id());
+}
+
+TEST_F(RigStorage, ZonesThatWereWrittenButNotLoadedAreNotLostWithoutAWord) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "camera_1";
+  const std::string path = folder_ + "/zones/rig.yaml";
+  rig.zones = {{"hall", Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  rig.zones[0].maximum.z() = 2.0;
+  const std::vector<std::string> warnings = saveRig(rig, path);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_SAYS(warnings[0], "rig.yaml.bak (hall): copy them into the file");
+}
+
+}  // namespace
+}  // namespace wiimote_tracker

@@ -54,6 +54,13 @@ class RecordPoints(unittest.TestCase):
         self.addCleanup(lambda: process.poll() is None and process.kill())
         return process
 
+    def stop(self, process, status=0):
+        """Ends it by Ctrl-C. Returns what it said."""
+        process.send_signal(signal.SIGINT)
+        output = process.communicate(timeout=60)[0]
+        self.assertEqual(process.returncode, status)
+        return output
+
     def rows(self, path):
         with open(path, newline='') as stream:
             return [(r['time [s]'], r['triggered'], r['id'], r['label_confidence'],
@@ -77,8 +84,7 @@ class RecordPoints(unittest.TestCase):
         triggered.publish(array(77, 3))
         wait_for(lambda: self.lines(part) == 101, 'the row of the trigger')
         self.assertFalse(os.path.exists(self.path))
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(60), 0)
+        self.assertIn('51 messages came', self.stop(process))
         expected = [('1600000000.%09d' % n, '0', str(i), '0.25', '1500000000.%09d' % i, n / 3.0)
                     for n in range(50) for i in (3, 7)]
         self.assertEqual(self.rows(self.path), expected + [
@@ -103,13 +109,32 @@ class RecordPoints(unittest.TestCase):
         part = os.path.join(self.folder, 'wand.tum.part')
         wait_for(lambda: os.path.exists(part) and os.path.getsize(part) > 0, 'a pose on the disk')
         wait_for(lambda: self.lines(self.path + '.part') == 20, 'the points on the disk')
-        process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(60), 0)
+        self.stop(process)
         with open(part[:-5]) as file:
             self.assertEqual(file.read(), '1600000000.000000005 0 0 0 0 0 0 1\n')
         found = c3d.read(paths['c3d'])
         self.assertEqual((found.labels, found.rate, len(found.positions)), (['led'], 50.0, 20))
         self.assertTrue(os.path.exists(paths['trc']))
+
+    def test_a_table_that_fails_at_the_end_is_named_and_spoils_no_other(self):
+        points = self.publish('/points', TrackedPointArray, 100)
+        paths = {kind: os.path.join(self.folder, 'out.' + kind) for kind in ('csv', 'c3d')}
+        process = self.start('__name:=recorder_of_weeks', '_tum:=' + self.folder,
+                             '_flush_period:=0.05', *('_%s:=%s' % item for item in paths.items()))
+        wait_for(lambda: points.get_num_connections() > 0, 'the recorder')
+        weeks = array(0, 3)
+        weeks.header.stamp.secs += 100000000
+        for message in (array(0, 3), array(20000000, 3), weeks):
+            points.publish(message)
+        wait_for(lambda: self.lines(paths['csv'] + '.part') == 3, 'rows on the disk')
+        self.assertIn('frames of C3D or TRC', self.stop(process, 1))
+        self.assertEqual(self.lines(paths['csv']), 3)
+        self.assertFalse(os.path.exists(paths['c3d']))
+
+    def test_says_that_no_points_came(self):
+        process = self.start('__name:=recorder_of_nothing', '_csv:=' + self.path, 'points:=/point')
+        wait_for(lambda: os.path.exists(self.path + '.part'), 'the file')
+        self.assertIn('none came on /point: start the tracker', self.stop(process))
 
     def test_says_what_is_missing_or_wrong(self):
         for arguments, words in [((), 'csv or'), (('_csv:=' + self.path, '_cvs:=x'), 'unknown'),

@@ -7,6 +7,9 @@
 #include <wiimote_tracker_msgs/parameter_reader.h>
 #include <wiimote_tracker_msgs/run_node.h>
 
+#include <cstddef>
+#include <cstdio>
+#include <exception>
 #include <memory>
 #include <string>
 #include <vector>
@@ -48,18 +51,35 @@ class Recorder {
       throw ParameterError("set " + reader.nameOf("csv") + " or " + reader.nameOf("matlab") +
                            ", c3d, trc or tum: the file to write");
     trajectories_ = TrajectoryFiles(tum);
+    topic_ = nh.resolveName("points");
     subscribers_ = {subscribe(&nh, "points", false), subscribe(&nh, "triggered_points", true)};
     if (!tum.empty())
       subscribers_.push_back(nh.subscribe("bodies", 10000, &TrajectoryFiles::add, &trajectories_));
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
   }
 
-  /// @throws Error.
-  void finish() {
+  /// Speaks without rosconsole, which has ended by then. @returns whether all files are whole.
+  bool finish() {
+    bool whole = true;
+    const auto finishOne = [&whole](auto* file) {
+      try {
+        file->finish();
+      } catch (const std::exception& e) {  // the data of the others are still in memory
+        std::fprintf(stderr, "record_points: %s\n", e.what());
+        whole = false;
+      }
+    };
     for (const std::unique_ptr<measurements::Writer>& table : tables_)
-      table->finish();
-    trajectories_.finish();
-    ROS_INFO("%zu messages written.", messages_);
+      finishOne(table.get());
+    finishOne(&trajectories_);
+    if (messages_ > 0)
+      std::printf("record_points: %zu messages came.\n", messages_);
+    else
+      std::fprintf(stderr,
+                   "record_points: no points are in the files, since none came on %s: start the "
+                   "tracker, or record in its namespace.\n",
+                   topic_.c_str());
+    return whole;
   }
 
  private:
@@ -75,6 +95,11 @@ class Recorder {
   }
 
   void onTimer(const ros::WallTimerEvent&) {
+    if (messages_ == 0)
+      ROS_WARN_DELAYED_THROTTLE(10.0,
+                                "No points came on %s yet: start the tracker, or record in its "
+                                "namespace.",
+                                topic_.c_str());
     for (const std::unique_ptr<measurements::Writer>& table : tables_)
       table->flush();
     trajectories_.flush();
@@ -82,6 +107,7 @@ class Recorder {
 
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
   TrajectoryFiles trajectories_{""};
+  std::string topic_;
   std::size_t messages_ = 0;
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
@@ -90,10 +116,12 @@ class Recorder {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return wiimote_tracker::runNode(argc, argv, "record_points", kPurpose,
-                                  [](const auto& nh, const auto& private_nh) {
-                                    Recorder recorder(nh, private_nh);
-                                    ros::spin();
-                                    recorder.finish();
-                                  });
+  bool whole = true;
+  const int status = wiimote_tracker::runNode(argc, argv, "record_points", kPurpose,
+                                              [&whole](const auto& nh, const auto& private_nh) {
+                                                Recorder recorder(nh, private_nh);
+                                                ros::spin();
+                                                whole = recorder.finish();
+                                              });
+  return whole ? status : 1;
 }

@@ -190,6 +190,14 @@ def test_probe_refuses_a_tip(tip, monkeypatch):
         probe.read_tip()
 
 
+def test_probe_refuses_a_misspelt_parameter(monkeypatch):
+    monkeypatch.setattr(rospy, 'get_name', lambda: '/probe')
+    monkeypatch.setattr(rospy, 'get_param', lambda name, default: {'body': 'a', 'tipp': [1, 2, 3]})
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/' + name[1:])
+    with pytest.raises(ExperimentError, match='unknown parameter /probe/tipp: .*rosparam delete'):
+        probe.Node()
+
+
 @pytest.mark.parametrize('given', [{}, {'~body': ''}, {'~body': 5}, {'~body': 'my wand'}])
 def test_probe_refuses_a_body(given, monkeypatch):
     monkeypatch.setattr(rospy, 'get_param', lambda name, *default: given.get(name, *default))

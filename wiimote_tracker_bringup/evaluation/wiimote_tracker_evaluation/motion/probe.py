@@ -42,6 +42,7 @@ REST = 0.5  # of which a saved point is the mean [s]
 HIDDEN = 0.5  # without poses, after which the last ones tell nothing of the present [s]
 BUTTON = 2  # index in joy: A of a Wii Remote
 AWAY = 0.05  # from the last point, where a tip at rest is another one [m]
+PARAMETERS = {'at_rest', 'body', 'duration', 'file', 'tip'}
 HEADER = 'time [s],x [m],y [m],z [m],stddev_x [m],stddev_y [m],stddev_z [m]\n'
 
 
@@ -152,6 +153,14 @@ class Probe:
                 and np.linalg.norm(points.mean(axis=0) - self.saved) > AWAY)
 
 
+def refuse_unknown():
+    """Throws ExperimentError if a private parameter is misspelt. It lasts as long as the master."""
+    for name in sorted(set(rospy.get_param(rospy.get_name(), {})) - PARAMETERS):
+        parameter = rospy.resolve_name('~' + name)
+        raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and: rosparam '
+                              f'delete {parameter}')
+
+
 def read_body():
     """The parameter ~body. Throws ExperimentError if it is no name."""
     body = rospy.get_param('~body', '')
@@ -179,6 +188,7 @@ class Node:
     button A of joy is pressed and, with ~at_rest, when the tip is held still elsewhere."""
 
     def __init__(self):
+        refuse_unknown()
         body = read_body()
         duration = ranges.check(rospy.resolve_name('~duration'), rospy.get_param('~duration', 10.0),
                                 0.1, 3600.0)
@@ -194,6 +204,9 @@ class Node:
             rospy.Timer(rospy.Duration(0.1), self.on_timer, reset=True)
         rospy.Service('~pivot', Trigger, self.on_pivot)
         rospy.Service('~save_point', Trigger, lambda request: self.answer(self.probe.save_point))
+        # A tip of an earlier start may still be among the parameters.
+        rospy.loginfo(f'the tip is at {self.probe.tip.tolist()} [m] in the frame of {body}; points '
+                      f'go to {self.probe.file}')
 
     def on_odometry(self, message):
         self.probe.add(message)

@@ -52,6 +52,12 @@ TEST(Tracks, AnLedThatWasGivenUpIsNotShown) {
   EXPECT_EQ(view.summary(10.0), "No LED is seen by two cameras");
 }
 
+TEST(Tracks, AStateOfANewerTrackerIsUnknown) {
+  TracksView view;
+  view.onPoints(points(1, 99), 10.0);
+  EXPECT_EQ(view.leds(10.0)[0].state, "unknown");
+}
+
 TEST(Tracks, CountMessagesThatWereNotHandedOver) {
   TracksView view;
   for (std::uint32_t i = 0; i <= 30; ++i)

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -18,10 +17,14 @@ const QColor kGround(30, 33, 40), kPicture(12, 13, 17), kText(232, 235, 240), kF
 const QColor kSpot(255, 244, 214), kMask(90, 94, 104), kCell(60, 130, 200, 70);
 
 /// For the state's border and words; legible on the tiles' dark ground.
-const std::map<CameraState, QColor> kColors = {
-    {CameraState::kFrozen, {150, 156, 168}}, {CameraState::kKnocked, {255, 92, 92}},
-    {CameraState::kLate, {255, 176, 46}},    {CameraState::kNotCalibrated, {96, 165, 250}},
-    {CameraState::kBlind, {240, 222, 90}},   {CameraState::kFine, {74, 205, 120}}};
+QColor colorOf(CameraState state) {
+  return state == CameraState::kKnocked         ? QColor(255, 92, 92)
+         : state == CameraState::kLate          ? QColor(255, 176, 46)
+         : state == CameraState::kNotCalibrated ? QColor(96, 165, 250)
+         : state == CameraState::kBlind         ? QColor(240, 222, 90)
+         : state == CameraState::kFine          ? QColor(74, 205, 120)
+                                                : kFaint;  // without images, or unknown
+}
 
 }  // namespace
 
@@ -62,7 +65,7 @@ void CameraTile::paintEvent(QPaintEvent*) {
     return;
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  painter.setPen(QPen(kColors.at(state_), 2));
+  painter.setPen(QPen(colorOf(state_), 2));
   painter.setBrush(kGround);
   painter.drawRoundedRect(rect().adjusted(1, 1, -1, -1), 5, 5);
   paintHeader(&painter);
@@ -77,7 +80,7 @@ void CameraTile::paintWords(QPainter* painter) const {
   const QRect words = painter->boundingRect(room, kLayout, words_);
   if (words.height() > lineHeight())
     painter->fillRect(QRect(words.topLeft(), room.bottomRight()), kGround);
-  painter->setPen(kColors.at(state_));
+  painter->setPen(colorOf(state_));
   painter->drawText(room, kLayout, words_);
 }
 
@@ -103,7 +106,7 @@ void CameraTile::paintHeader(QPainter* painter) const {
   const bool is_low = camera_->battery < 0.2;  // as the driver warns
   while (!numbers.isEmpty() && painter->fontMetrics().horizontalAdvance(numbers.join("   ")) > room)
     is_low ? numbers.removeFirst() : numbers.removeLast();
-  painter->setPen(is_low ? kColors.at(CameraState::kLate) : kFaint);
+  painter->setPen(is_low ? colorOf(CameraState::kLate) : kFaint);
   painter->drawText(line, Qt::AlignVCenter | Qt::AlignRight, numbers.join("   "));
 }
 
@@ -152,7 +155,7 @@ void CameraTile::paintSpots(QPainter* painter, const QRectF& area) const {
   }
   painter->setPen(Qt::NoPen);
   for (const CameraView::Trace& trace : camera_->trail) {
-    QColor color = kColors.at(state_);
+    QColor color = colorOf(state_);
     color.setAlphaF(std::clamp(0.6 * (1.0 - (now_ - trace.time) / CameraView::kTrail), 0.0, 0.6));
     painter->setBrush(color);
     painter->drawEllipse(at(trace.x, trace.y), 1.5, 1.5);

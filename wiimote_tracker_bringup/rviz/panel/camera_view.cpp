@@ -70,9 +70,9 @@ std::string CameraView::words(double now, bool others_see) const {
     case CameraState::kBlind:
       return format("sees no spot for %.0f s, others do", now - lit_at_);
     case CameraState::kFine:
-      break;
+      return "fine, sees " + plural(visible().size(), "spot");
   }
-  return "fine, sees " + plural(visible().size(), "spot");
+  return "unknown";
 }
 
 bool CameraView::isMasked(const IrBlob& spot) const {

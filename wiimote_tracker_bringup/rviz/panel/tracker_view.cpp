@@ -20,13 +20,16 @@ auto sortKey(const std::string& name) {
   return std::make_tuple(name.substr(0, digits), name.size(), name);
 }
 
-const std::map<CameraState, const char*> kCounts = {
-    {CameraState::kFrozen, "without images"},
-    {CameraState::kKnocked, "changed since the calibration"},
-    {CameraState::kLate, "late"},
-    {CameraState::kNotCalibrated, "not calibrated"},
-    {CameraState::kBlind, "without spots"},
-    {CameraState::kFine, "fine"}};
+/// What follows the number of cameras in this state.
+const char* countedAs(CameraState state) {
+  return state == CameraState::kFrozen          ? "without images"
+         : state == CameraState::kKnocked       ? "changed since the calibration"
+         : state == CameraState::kLate          ? "late"
+         : state == CameraState::kNotCalibrated ? "not calibrated"
+         : state == CameraState::kBlind         ? "without spots"
+         : state == CameraState::kFine          ? "fine"
+                                                : "unknown";
+}
 
 }  // namespace
 
@@ -92,11 +95,11 @@ std::string TrackerView::summary(double now) const {
     groups[stateOf(camera, now)].push_back(camera.name);
   std::string text;
   for (const auto& [state, names] : groups) {
-    text += (text.empty() ? "" : ", ") + std::to_string(names.size()) + " " + kCounts.at(state);
+    text += (text.empty() ? "" : ", ") + std::to_string(names.size()) + " " + countedAs(state);
     // Among many tiles nobody finds the one.
     if (names.size() <= kMostNamed && names.size() < cameras_.size() &&
         state != CameraState::kFine && state != CameraState::kNotCalibrated)
-      text += " (" + joined(names, ", ") + ")";
+      text += " (" + joined(names) + ")";
   }
   return std::to_string(cameras_.size()) + (cameras_.size() == 1 ? " camera: " : " cameras: ") +
          text + (has_rig_ ? "" : ". Open the page Calibrate.");

@@ -21,7 +21,8 @@ constexpr double kCountWindow = 2.0;  // [s]
 std::string stateOf(std::uint8_t state) {
   return state == TrackedPoint::TRACKED     ? "tracked"
          : state == TrackedPoint::PREDICTED ? "predicted"
-                                            : "tentative";
+         : state == TrackedPoint::TENTATIVE ? "tentative"
+                                            : "unknown";
 }
 
 double length(double x, double y, double z) {

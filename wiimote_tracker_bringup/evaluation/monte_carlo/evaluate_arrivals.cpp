@@ -14,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <limits>
 #include <string>
@@ -21,6 +22,8 @@
 
 namespace wiimote_tracker::monte_carlo {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr double kLearning = 10.0;     // of the clocks, before the score [s]
 constexpr double kFar = 0.5;           // points farther off are not of the LED [m]
@@ -46,13 +49,13 @@ struct Frame {
 };
 
 /// @returns [s]. @throws Error.
-std::vector<double> readArrivals(const std::string& path) {
+std::vector<double> readArrivals(const fs::path& path) {
   std::ifstream file(path);
   std::vector<double> arrivals;
   for (double milliseconds; file >> milliseconds;)
     arrivals.push_back(1e-3 * milliseconds);
   if (!file.eof() || arrivals.size() < 2 || !std::is_sorted(arrivals.begin(), arrivals.end()))
-    throw Error(path + " must hold times in ms that increase, two or more");
+    throw Error(path.string() + " must hold times in ms that increase, two or more");
   return arrivals;
 }
 
@@ -106,17 +109,8 @@ double periodOf(const std::vector<double>& exposures) {
   return (exposures.back() - exposures.front()) / frames;
 }
 
-std::string fileOf(const std::string& path) {
-  return path.substr(path.rfind('/') + 1);
-}
-
-/// "shuffle01_wm1" of "/tmp/shuffle01_wm1.txt".
-std::string nameOf(const std::string& path) {
-  const std::string file = fileOf(path);
-  return file.substr(0, file.find('.'));
-}
-
-std::vector<Frame> framesOf(std::size_t camera, const std::string& path, const RowCallback& row) {
+/// @returns the images of a recording such as shuffle01_wm1.txt.
+std::vector<Frame> framesOf(std::size_t camera, const fs::path& path, const RowCallback& row) {
   const std::vector<double> arrivals = readArrivals(path);
   const std::vector<double> exposures = recordedExposures(arrivals);
   const std::vector<GridStamp> grid = gridStamps(arrivals, periodOf(exposures));
@@ -132,7 +126,7 @@ std::vector<Frame> framesOf(std::size_t camera, const std::string& path, const R
                       {kExactStddev, estimate.stddev, grid[i].stddev, 0.0}});
   }
   for (const Stamps stamps : {kClock, kGrid, kArrivals})
-    row(settle(stamps, nameOf(path), &frames));
+    row(settle(stamps, path.stem(), &frames));
   return frames;
 }
 
@@ -186,15 +180,15 @@ Score follow(const simulation::Description& description,
   return score;
 }
 
-void run(const std::string& rig, const std::vector<std::string>& files, BenchmarkTables* tables) {
+void run(const std::string& rig, const std::vector<fs::path>& files, BenchmarkTables* tables) {
   simulation::Description description = simulation::readDescription(rig);
   if (files.size() < 2 || files.size() > description.cameras.size())
     throw BadArguments("a file for each of the first cameras of the rig is needed, two or more");
   description = withCameras(description, files.size());
   std::string command = "rosrun wiimote_tracker_bringup evaluate_arrivals " + rig;
-  for (const std::string& file : files)
-    command += " " + fileOf(file);
-  tables->begin("arrivals " + nameOf(files[0]), kExplanation, command);
+  for (const fs::path& file : files)
+    command += " " + file.filename().string();
+  tables->begin("arrivals " + files[0].stem().string(), kExplanation, command);
   const RowCallback row = [&](const BenchmarkRow& next) { tables->add(next); };
   std::vector<Frame> frames;
   double end = std::numeric_limits<double>::infinity();
@@ -241,7 +235,7 @@ int main(int argc, char** argv) {
   parser.positional("RIG", &rig);
   parser.positional("FILE...", &files);
   return parser.run(argc, argv, [&] {
-    monte_carlo::run(rig, files, &tables);
+    monte_carlo::run(rig, {files.begin(), files.end()}, &tables);
     tables.write();
     return 0;
   });

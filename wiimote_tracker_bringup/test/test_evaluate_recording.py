@@ -12,7 +12,7 @@ import pytest
 import rosbag
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import reprojection
+from wiimote_tracker_evaluation import programs, reprojection
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.foreign import (accuracy, body, disturbed,
                                                 flight as flights, lighthouse, multicamselfcal,
@@ -181,7 +181,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
     images = tmp_path / 'images.txt'  # of that track, now cut off in its last line
     images.write_text(images.read_text().rsplit(' ', 2)[0])
     with pytest.raises(ExperimentError, match='has a line that is not camera, time'):
-        ordinary.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)), images,
+        programs.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)), images,
                      tmp_path / 'body.csv')
     lights = images.read_text().splitlines()[0]
     for text, words in [('word\n', 'does not begin with a line of x, y and z'),
@@ -189,7 +189,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
                         (lights + '\n', 'has no image after the lights')]:
         images.write_text(text)
         with pytest.raises(ExperimentError, match=words):
-            ordinary.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)),
+            programs.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)),
                          images, tmp_path / 'none.csv')
     assert not (tmp_path / 'none.csv').exists()
 
@@ -305,7 +305,7 @@ def test_real_pixels_that_were_held_out(tmp_path):
 
 def test_the_motion_brings_a_disturbed_camera_back(tmp_path):
     recording = str(tmp_path / 'motion.bag')
-    ordinary.run('import_multicamselfcal', os.path.join(HERE, 'data', 'flydra_motion'), recording)
+    programs.run('import_multicamselfcal', os.path.join(HERE, 'data', 'flydra_motion'), recording)
     result = disturbed.evaluate(recording, str(tmp_path))
     for name in ('cam1_0', 'cam4_0', 'cam5_0'):
         own = result[name]

@@ -3,6 +3,7 @@
 import collections
 import os
 import signal
+import subprocess
 import time
 from typing import Dict
 
@@ -35,6 +36,14 @@ def find_program(name: str) -> str:
         raise ExperimentError(f'the program {program} of {package} is not there; build and source '
                               'the workspace')
     return found[0]
+
+
+def run(program, *arguments):
+    """Runs a program, named as for find_program. @raise ExperimentError with its own words."""
+    done = subprocess.run([find_program(program)] + [str(word) for word in arguments],
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    if done.returncode != 0:
+        raise ExperimentError(done.stderr.strip() or f'{program} failed')
 
 
 def run_programs(commands, log, progress=lambda done, of: None):

@@ -21,7 +21,7 @@ def track(views, rig, folder):
     with open(images, 'w') as file:
         file.write(words(shape.ravel()) + '\n' + ''.join(
             f'{number} {words([time, *np.ravel(pixels)])}\n' for time, number, pixels in seen))
-    ordinary.run('track_labelled_body', ordinary.lenses_of(views, rig, folder), images, table,
+    programs.run('track_labelled_body', ordinary.lenses_of(views, rig, folder), images, table,
                  '--pixel-stddev', np.hypot(rig.pixel_stddev(), own_noise(views)))
     return programs.read_csv(table)
 

@@ -16,7 +16,6 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation import alignment, programs
-from wiimote_tracker_evaluation.foreign.ordinary import run
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')
@@ -70,7 +69,7 @@ def figures(known, number, played, folder):
     corrected = os.path.join(folder, 'kept.yaml')
     for rig, path in zip((known, disturbed, None), files):
         write_bag(rig, played, path)
-    run('wiimote_tracker_calibration/keep_calibrated', files[1], corrected)
+    programs.run('wiimote_tracker_calibration/keep_calibrated', files[1], corrected)
     with open(corrected) as file:
         content = yaml.safe_load(file)
     found = content['cameras'][camera.name]
@@ -118,8 +117,9 @@ def points_of(source, folder, *options):
     with open(parameters, 'w') as file:
         yaml.safe_dump({'instant': {'maximum_leds': 1, 'maximum_speed': 1000.0,
                                     'maximum_spot_speed': 1e5}}, file)
-    run('wiimote_tracker_triangulation/track_bag', source, os.path.join(folder, 'tracked.bag'),
-        '--mode', 'instant', '--csv', table, '--params', parameters, '--results-only', *options)
+    programs.run('wiimote_tracker_triangulation/track_bag', source,
+                 os.path.join(folder, 'tracked.bag'), '--mode', 'instant', '--csv', table,
+                 '--params', parameters, '--results-only', *options)
     columns = programs.read_csv(table)
     times = columns['time [s]'] - START
     numbers = np.rint(times * RATE)

@@ -12,9 +12,8 @@ import rosbag
 import yaml
 from scipy.optimize import least_squares
 
-from wiimote_tracker_evaluation import reprojection
+from wiimote_tracker_evaluation import programs, reprojection
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign.ordinary import run
 
 METHOD = ('Lenses and poses by self_calibrate from every other ten frames; the rest are held out, '
           'both ways round; a pixel is predicted from the point that the other cameras see')
@@ -28,13 +27,13 @@ def whole(folder):
 
 def evaluate(source, folder):
     """{camera: figures()} of predictions [px], and their errors [px] by frame."""
-    run('import_multicamselfcal', source, whole(folder))
+    programs.run('import_multicamselfcal', source, whole(folder))
     errors = {}
     for half in (0, 1):
         fitted = os.path.join(folder, f'half_{half}.bag')
         held_out = split(whole(folder), fitted, half)
         rig = os.path.join(folder, f'half_{half}.yaml')
-        run('wiimote_tracker_calibration/self_calibrate', fitted, '--rig', rig)
+        programs.run('wiimote_tracker_calibration/self_calibrate', fitted, '--rig', rig)
         cameras = cameras_of(rig)
         for frame, pixels in held_out.items():
             for name in pixels:

@@ -8,7 +8,6 @@ fix what is open.
 
 import itertools
 import os
-import subprocess
 
 import numpy as np
 import rosbag
@@ -35,14 +34,6 @@ CORNER = 2.0  # of it: the first poses are good, but the square may be small [px
 BIRTH_WINDOW = 0.03  # of the tracker's default parameters [s]
 
 
-def run(program, *arguments):
-    """@raise ExperimentError with the program's own words."""
-    done = subprocess.run([programs.find_program(program)] + [str(word) for word in arguments],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
-    if done.returncode != 0:
-        raise ExperimentError(done.stderr.strip() or f'{program} failed')
-
-
 def calibrate(views, folder, parts=None):
     """The rig; files go to the folder. parts: the cameras to solve with the number of the camera
     where each stands, if they are not those of the views."""
@@ -54,7 +45,8 @@ def calibrate(views, folder, parts=None):
     write_samples(cameras, side, corners, samples)
     with open(parameters, 'w') as file:
         yaml.safe_dump(dict(HELD, pixel_stddev=CORNER), file)
-    run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters, '--rig', rig)
+    programs.run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters,
+                 '--rig', rig)
     return Rig(rig)
 
 
@@ -70,8 +62,8 @@ def first_poses(views, folder):
     source, path = os.path.join(folder, 'instants'), os.path.join(folder, 'first.yaml')
     os.makedirs(source, exist_ok=True)
     write_instants(views, [pixels[chosen] for pixels in common], source)
-    run('wiimote_tracker_calibration/self_calibrate', source, '--fix-intrinsics', source, '--rig',
-        path)
+    programs.run('wiimote_tracker_calibration/self_calibrate', source, '--fix-intrinsics', source,
+                 '--rig', path)
     rig = Rig(path)
     scale = rig.scale(views, times[chosen])
     points = rig.intersections(views, times[chosen]).mean(axis=1)
@@ -161,9 +153,9 @@ def track(views, rig, folder, smooth=False):
         yaml.safe_dump({'pixel_stddev': rig.pixel_stddev(),
                         'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
                                    'confirmation_hits': len(views.cameras)}}, file)
-    run('wiimote_tracker_triangulation/track_bag', source, target,
-        '--rig', lenses_of(views, rig, folder),
-        '--params', parameters, '--csv', table, '--results-only', *(['--smooth'] if smooth else []))
+    programs.run('wiimote_tracker_triangulation/track_bag', source, target,
+                 '--rig', lenses_of(views, rig, folder), '--params', parameters, '--csv', table,
+                 '--results-only', *(['--smooth'] if smooth else []))
     columns = programs.read_csv(table)
     if smooth:
         ids, states = columns['id'], columns['state']

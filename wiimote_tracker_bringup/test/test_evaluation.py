@@ -373,12 +373,13 @@ def test_a_process_that_ends_is_noticed_and_named(tmp_path):
     program.write_text('''
 import os, sys
 sys.path.insert(0, %r)
-from wiimote_tracker_evaluation.processes import Processes, ProcessEnded
+from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.processes import Processes
 p = Processes()
 p.start('falsifier', ['false'], os.devnull).wait()
 try:
     p.check()
-except ProcessEnded as error:
+except ExperimentError as error:
     print(error)
 ''' % os.path.join(HERE, '..', 'evaluation'))
     said = subprocess.check_output(['/usr/bin/python3', str(program)], timeout=60).decode()

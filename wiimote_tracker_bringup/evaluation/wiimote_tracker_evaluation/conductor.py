@@ -52,12 +52,14 @@ class Conductor:
     # --- Waiting
 
     def wait(self, condition, timeout, what):
-        """Waits until the condition holds. @raise ExperimentError: not within timeout [s]."""
+        """Waits until the condition holds. what: for what, or a function that tells it.
+        @raise ExperimentError: not within timeout [s]."""
         deadline = rospy.get_time() + timeout
         while not condition():
             self._check()
             if rospy.is_shutdown() or rospy.get_time() > deadline:
-                raise ExperimentError(f'waited {timeout:.0f} s in vain for {what}')
+                raise ExperimentError(f'waited {timeout:.0f} s in vain for '
+                                      f'{what() if callable(what) else what}')
             rospy.sleep(0.01)
 
     def _call(self, service, type_, *arguments, **named):
@@ -112,12 +114,8 @@ class Conductor:
             connected = {camera.name.strip('/') for camera in self._status.cameras
                          if camera.connected} if self._status else set()
             return sorted(set(names) - connected)
-        deadline = 40.0
-        try:
-            self.wait(lambda: not missing(), deadline, '')
-        except ExperimentError:
-            raise ExperimentError('no images from %s within %.0f s; see the drivers\' messages'
-                                  % (', '.join(missing()), deadline))
+        self.wait(lambda: not missing(), 40.0, lambda: (
+            f"images from {', '.join(missing())}; see the drivers' messages"))
 
     def wait_until_seen(self, names):
         def seeing():

@@ -10,7 +10,6 @@ from wiimote_tracker_evaluation import bound, experiment, scene as scene_module,
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.output import prepare
-from wiimote_tracker_evaluation.processes import ProcessEnded
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.terminal import Terminal
 
@@ -194,6 +193,6 @@ def main(arguments=None):
     except Interrupted:
         print('\nInterrupted; all started processes have ended.', file=sys.stderr)
         return 130
-    except (ExperimentError, ProcessEnded) as error:
+    except ExperimentError as error:
         print(f'\nThe demo failed: {error}', file=sys.stderr)
         return 1

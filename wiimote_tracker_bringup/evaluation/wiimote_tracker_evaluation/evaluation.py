@@ -12,7 +12,6 @@ from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.output import prepare
 from wiimote_tracker_evaluation.page import write_report
-from wiimote_tracker_evaluation.processes import ProcessEnded
 from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.section import Run
@@ -112,9 +111,8 @@ def carry_out(module, run, live):
         (module.live if live else module.run)(run)
         run.failure = ''
     except Exception as error:  # other sections continue
-        told = isinstance(error, (ExperimentError, ProcessEnded))
-        run.failure = (str(error) if told else f'{type(error).__name__}: {error}') \
-            + stack.complaint(run)
+        kind = '' if isinstance(error, ExperimentError) else f'{type(error).__name__}: '
+        run.failure = f'{kind}{error}{stack.complaint(run)}'
         with open(run.file('failure.txt'), 'w') as file:
             traceback.print_exc(file=file)
     finally:

@@ -14,10 +14,6 @@ PR_SET_PDEATHSIG = 1
 PR_SET_CHILD_SUBREAPER = 36
 
 
-class ProcessEnded(Exception):
-    """A required process has ended; the text says which, and where its output is."""
-
-
 def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(('localhost', 0))
@@ -89,11 +85,11 @@ class Processes:
         return master
 
     def check(self) -> None:
-        """@raise ProcessEnded: a started process has ended."""
+        """@raise ExperimentError: a started process has ended."""
         for name, process, output in self._started:
             if process.poll() is not None:
-                raise ProcessEnded(f'{name} ended unexpectedly (status {process.returncode}); see '
-                                   f'{output}')
+                raise ExperimentError(f'{name} ended unexpectedly (status {process.returncode}); '
+                                      f'see {output}')
 
     def stop(self, process: subprocess.Popen, patience: float = 15.0) -> None:
         """Asks a process to end and waits for it."""

@@ -97,7 +97,7 @@ def cores():
 
 
 def check():
-    """@raise ProcessEnded: a required process has ended."""
+    """@raise ExperimentError: a required process has ended."""
     _processes.check()
 
 

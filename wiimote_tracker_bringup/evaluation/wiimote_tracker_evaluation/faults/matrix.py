@@ -13,7 +13,7 @@ from wiimote_tracker_evaluation.faults import (
 from wiimote_tracker_evaluation.faults.room import Room
 from wiimote_tracker_evaluation.faults.row import Fault, Result, carry_out
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.processes import ProcessEnded, Processes
+from wiimote_tracker_evaluation.processes import Processes
 
 FAULTS = [each for module in (of_processes, of_messages, of_types, of_files, of_images, of_time,
                               of_load, of_network, of_master)
@@ -66,8 +66,7 @@ class Matrix:
                 self._kind, self._room = fault.room, Room(self._processes, **fault.room)
             self._room.wait_until_tracked()
             result = carry_out(fault, self._room)
-        except (ExperimentError, ProcessEnded, OSError, subprocess.SubprocessError,
-                EOFError) as error:
+        except (ExperimentError, OSError, subprocess.SubprocessError, EOFError) as error:
             result = Result(fault.name, fault.what, problems=[str(error) or type(error).__name__])
         if result.problems or fault.spends_room:
             self._close()

@@ -20,8 +20,8 @@ import rostest
 from std_msgs.msg import Header
 from wiimote_tracker_evaluation import experiment, scene
 from wiimote_tracker_evaluation.ours.cameras import point_bound
-from wiimote_tracker_evaluation.true_rig import true_rig
-from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
+from wiimote_tracker_evaluation.true_rig import publish, true_rig
+from wiimote_tracker_msgs.msg import IrBlobArray, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 
 EVALUATE = ['rosrun', 'wiimote_tracker_bringup', 'evaluate', '--live', '--quick', '--sections']
@@ -161,9 +161,7 @@ class LiveEvaluation(unittest.TestCase):
         self.path = rospy.get_param('~description')
         rig = true_rig(self.path)
         rig.square_sides = [experiment.SIDE, experiment.SIDE]
-        self.publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1,
-                                         latch=True)
-        self.publisher.publish(rig)
+        self.publisher = publish(rig)
         rospy.wait_for_message('points', TrackedPointArray, DEADLINE)
 
     def evaluate(self, sections, person_at):

@@ -26,3 +26,11 @@ def true_rig(path):
             camera.rotation).as_quat()
         rig.cameras.append(message)
     return rig
+
+
+def publish(rig):
+    """As the current rig, as long as the returned publisher lives."""
+    import rospy  # reads the master's address at import
+    publisher = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
+    publisher.publish(rig)
+    return publisher

@@ -10,6 +10,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation import charts, load, rigs, stack, statistics
 from wiimote_tracker_evaluation.trace import Recorder
+from wiimote_tracker_evaluation.true_rig import publish, true_rig
 
 NAME = 'cost'
 TITLE = 'Cost'
@@ -78,13 +79,7 @@ class FullStack:
         self._cameras, self._leds = list(description['cameras']), list(description['leds'])
         path, self._conductor = stack.launch_rig(run, '%d_cameras' % cameras, description,
                                                  labels=','.join(self._leds))
-
-        # Imported late: rospy reads the master's address at import.
-        import rospy
-        from wiimote_tracker_evaluation.true_rig import true_rig
-        from wiimote_tracker_msgs.msg import RigCalibration
-        self._rig = rospy.Publisher('calibration/rig', RigCalibration, queue_size=1, latch=True)
-        self._rig.publish(true_rig(path))
+        self._rig = publish(true_rig(path))
         self._processes = {node: load.process_of(node) for node in [
             '/triangulation', '/calibration'] + [f'/{camera}/driver' for camera in self._cameras]}
 

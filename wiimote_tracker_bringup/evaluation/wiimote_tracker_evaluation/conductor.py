@@ -38,7 +38,7 @@ class Conductor:
         self._recorder = recorder
         self._check = check
         self._progress = progress
-        self._status = None
+        self.status = None  # the newest CalibrationStatus
         rospy.Subscriber('calibration/status', CalibrationStatus, self._on_status)
         self._capture = actionlib.SimpleActionClient('calibration/capture_corner',
                                                      CaptureCornerAction)
@@ -47,7 +47,7 @@ class Conductor:
             lambda record: 'Got a transition callback' not in record.getMessage())
 
     def _on_status(self, message):
-        self._status = message
+        self.status = message
 
     # --- Waiting
 
@@ -111,15 +111,15 @@ class Conductor:
 
     def wait_for_cameras(self, names):
         def missing():
-            connected = {camera.name.strip('/') for camera in self._status.cameras
-                         if camera.connected} if self._status else set()
+            connected = {camera.name.strip('/') for camera in self.status.cameras
+                         if camera.connected} if self.status else set()
             return sorted(set(names) - connected)
         self.wait(lambda: not missing(), 40.0, lambda: (
             f"images from {', '.join(missing())}; see the drivers' messages"))
 
     def wait_until_seen(self, names):
         def seeing():
-            return {camera.name.strip('/') for camera in self._status.cameras if camera.sees_led}
+            return {camera.name.strip('/') for camera in self.status.cameras if camera.sees_led}
         self.wait(lambda: seeing().issuperset(names), 10.0, 'all cameras to see the LED')
 
     def wait_for_leds(self, number):

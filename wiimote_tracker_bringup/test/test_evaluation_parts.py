@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from wiimote_tracker_evaluation import (load, output, processes, programs, progress,
+from wiimote_tracker_evaluation import (files, load, processes, programs, progress,
                                         results_table, rigs, scene, statistics)
 from wiimote_tracker_evaluation.errors import ExperimentError
 
@@ -239,7 +239,7 @@ def test_earlier_results_are_removed_but_not_what_they_link_to(tmp_path):
     (folder / 'other').touch()
     (folder / 'linked').symlink_to(kept.parent)
     (folder / 'broken').symlink_to('nowhere')
-    output.prepare(str(folder), ['old', 'linked', 'broken', 'absent'])
+    files.prepare(str(folder), ['old', 'linked', 'broken', 'absent'])
     assert os.listdir(folder) == ['other'] and kept.exists()
 
 

@@ -8,8 +8,8 @@ import time
 
 from wiimote_tracker_evaluation import bound, experiment, scene as scene_module, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.files import prepare
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.output import prepare
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.terminal import Terminal
 

@@ -9,8 +9,8 @@ from typing import List, Optional
 
 from wiimote_tracker_evaluation import ranges, rigs, sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.files import prepare
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.output import prepare
 from wiimote_tracker_evaluation.page import write_report
 from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.programs import package_file

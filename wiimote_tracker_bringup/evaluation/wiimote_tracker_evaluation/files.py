@@ -1,6 +1,8 @@
-"""Files that people name."""
+"""Files and folders that people name."""
 
 import os
+import shutil
+import tempfile
 from typing import Iterable, Optional
 
 from wiimote_tracker_evaluation.errors import ExperimentError
@@ -14,3 +16,18 @@ def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional
         if os.path.realpath(path) in taken:
             raise ExperimentError(f'two arguments are {path}: write to another file')
         taken.add(os.path.realpath(path))
+
+
+def prepare(folder: str, names: Iterable[str]) -> None:
+    """Makes a folder for results, and removes files and folders of an earlier run that have these names."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+        for path in (os.path.join(folder, name) for name in names):
+            if os.path.isdir(path) and not os.path.islink(path):
+                shutil.rmtree(path)
+            elif os.path.lexists(path):
+                os.remove(path)
+    except OSError as error:
+        raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '
+                              'with --output')

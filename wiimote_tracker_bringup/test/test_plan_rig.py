@@ -27,9 +27,9 @@ TARGETS = np.array([[1.0, 1.0, 1.0], [1.0, 0.5, 0.7], [1.0, 1.0, 0.0]])  # the l
 def test_derivatives_are_those_of_the_bounds_camera_model():
     points = ROOM.grid(3)
     seen = prediction.look(ROOM, POSITIONS, TARGETS, points)
-    frames = prediction.axes(POSITIONS, TARGETS)
+    frames = scene.look_at(POSITIONS, TARGETS)
     for n, position in enumerate(POSITIONS):
-        camera = scene.Camera('', NOMINAL_LENS, frames[n].T, position, prediction.SIZE)
+        camera = scene.Camera('', NOMINAL_LENS, frames[n], position, prediction.SIZE)
         for m, point in enumerate(points):
             np.testing.assert_allclose(seen.by_point[n, m], bound.point_derivative(camera, point),
                                        rtol=1e-6, atol=1e-5)
@@ -70,8 +70,8 @@ def test_what_the_cameras_see_is_told_with_rays_that_cross_and_with_parallel_one
 def test_the_square_tells_a_camera_as_well_as_the_bound_says():
     chosen = dataclasses.replace(ROOM, square=2.0, margin=0.0)
     corners = prediction.look(chosen, POSITIONS[:1], TARGETS[:1], chosen.corners())
-    camera = scene.Camera('', NOMINAL_LENS, prediction.axes(POSITIONS, TARGETS)[0].T, POSITIONS[0],
-                          prediction.SIZE)
+    camera = scene.Camera('', NOMINAL_LENS, scene.look_at(POSITIONS[0], TARGETS[0]),
+                          POSITIONS[0], prediction.SIZE)
     rig = scene.Scene([camera], np.sqrt(chosen.pixel_stddev ** 2 - 1.0 / 12.0))
     expected = bound.Calibration(rig, chosen.corners(), prediction.IMAGES,
                                  bound.Knowledge(corner=0.0)).covariance
@@ -209,8 +209,8 @@ def test_a_bodys_covariance_is_that_of_its_pixels_by_numeric_derivatives():
     def pixels(pose):
         turn = Rotation.from_rotvec(pose[3:]).as_matrix()
         places = point + pose[:3] + levers @ turn.T
-        cameras = [scene.Camera('', NOMINAL_LENS, frame.T, position, prediction.SIZE)
-                   for frame, position in zip(prediction.axes(POSITIONS, TARGETS), POSITIONS)]
+        cameras = [scene.Camera('', NOMINAL_LENS, frame, position, prediction.SIZE)
+                   for frame, position in zip(scene.look_at(POSITIONS, TARGETS), POSITIONS)]
         return np.concatenate([camera.project(places)[seen].ravel()
                                for camera, seen in zip(cameras, sees)])
     steps = 1e-6 * np.eye(6)

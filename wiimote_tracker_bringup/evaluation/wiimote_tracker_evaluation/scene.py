@@ -43,13 +43,15 @@ def project(parameters: np.ndarray, rotation: np.ndarray, position: np.ndarray,
     return plane * [fx, fy] + [cx, cy]
 
 
-def look_at(position: np.ndarray, target: np.ndarray) -> np.ndarray:
-    """Rotation of a camera with its axis through target and a horizontal image x axis."""
-    forward = np.asarray(target, dtype=float) - position
-    forward /= np.linalg.norm(forward)
+def look_at(positions: np.ndarray, targets: np.ndarray) -> np.ndarray:
+    """... x 3 x 3: rotations of cameras at ... x 3 positions with their axes through the targets and
+    horizontal image x axes."""
+    forward = np.subtract(targets, positions, dtype=float)
+    forward /= np.maximum(np.linalg.norm(forward, axis=-1, keepdims=True), 1e-9)
     right = np.cross(forward, [0.0, 0.0, 1.0])
-    right /= np.linalg.norm(right)
-    return np.stack([right, np.cross(forward, right), forward], axis=1)
+    right[np.linalg.norm(right, axis=-1) < 1e-6] = [1.0, 0.0, 0.0]  # looks up or down
+    right /= np.linalg.norm(right, axis=-1, keepdims=True)
+    return np.stack([right, np.cross(forward, right), forward], axis=-1)
 
 
 @dataclasses.dataclass(eq=False)

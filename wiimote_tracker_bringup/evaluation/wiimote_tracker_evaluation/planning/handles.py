@@ -7,7 +7,8 @@ from std_msgs.msg import ColorRGBA
 from visualization_msgs.msg import (
     InteractiveMarker, InteractiveMarkerControl, Marker, MenuEntry)
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
-from wiimote_tracker_evaluation.planning.prediction import SIZE, axes
+from wiimote_tracker_evaluation.planning.prediction import SIZE
+from wiimote_tracker_evaluation.scene import look_at
 
 FRAME = 'world'
 FRUSTUM = 1.0  # length of the drawn field of view [m]
@@ -18,7 +19,7 @@ TO_AXIS = {'x': Quaternion(0.0, 0.0, 0.0, 1.0), 'y': Quaternion(0.0, 0.0, 0.5 **
 
 def pose_of(position, target) -> Pose:
     """Of a camera: x points to the target, y to the left and is horizontal."""
-    right, down, forward = axes(position[None], target[None])[0]
+    right, down, forward = look_at(position, target).T
     turn = Rotation.from_matrix(np.column_stack([forward, -right, -down])).as_quat()
     return Pose(Point(*position), Quaternion(*turn))
 

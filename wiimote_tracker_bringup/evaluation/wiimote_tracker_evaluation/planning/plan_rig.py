@@ -69,9 +69,9 @@ def describe_body(chosen, positions, targets, points):
 
 def with_calibration(chosen, names, positions, targets, points):
     """A line on the errors after a calibration by the square alone, the Cramér-Rao bound."""
-    frames = np.moveaxis(prediction.axes(positions, targets), 1, 2)
-    cameras = [scene.Camera(name, NOMINAL_LENS, frame, position, prediction.SIZE)
-               for name, frame, position in zip(names, frames, positions)]
+    cameras = [scene.Camera(name, NOMINAL_LENS, scene.look_at(position, target), position,
+                            prediction.SIZE)
+               for name, position, target in zip(names, positions, targets)]
     corners = chosen.corners()
     for camera in cameras:
         if not camera.sees(corners).all():

@@ -20,16 +20,6 @@ PRIOR[6:, 6:] = bound.lens_prior(scene.Camera('', NOMINAL_LENS, None, np.zeros(3
 UNSEEN, UNTURNED = 0.5, 1.0
 
 
-def axes(positions, targets):
-    """N x 3 x 3: right, down and forward of cameras that look at targets, the image's x horizontal."""
-    forward = targets - positions
-    forward = forward / np.maximum(np.linalg.norm(forward, axis=-1, keepdims=True), 1e-9)
-    right = np.stack([forward[:, 1], -forward[:, 0], 0.0 * forward[:, 0]], axis=-1)
-    right[np.linalg.norm(right, axis=-1) < 1e-6] = [1.0, 0.0, 0.0]  # looks up or down
-    right = right / np.linalg.norm(right, axis=-1, keepdims=True)
-    return np.stack([right, np.cross(forward, right), forward], axis=1)
-
-
 @dataclasses.dataclass(eq=False)
 class Look:
     """N cameras at M points. sees: N x M. by_point: N x M x 2 x 3, derivatives of the pixels [px/m].
@@ -42,7 +32,7 @@ class Look:
 
 def look(plan, positions, targets, points, directions=None) -> Look:
     """directions: M x 3, in which the LEDs shine; None: the plan's led_axis."""
-    frames = axes(positions, targets)
+    frames = np.swapaxes(scene.look_at(positions, targets), 1, 2)  # right, down, forward
     away = points[None] - positions[:, None]
     right, down, depth = np.moveaxis(np.einsum('nij,nmj->nmi', frames, away), -1, 0)
     ahead = depth > 0.1

@@ -14,6 +14,7 @@ MIDDLE = np.array([experiment.SIDE / 2.0, experiment.SIDE / 2.0, 0.0])  # of the
 
 
 def read(path: str) -> Dict:
+    """A description, or a calibrated rig."""
     with open(path) as file:
         return yaml.safe_load(file)
 

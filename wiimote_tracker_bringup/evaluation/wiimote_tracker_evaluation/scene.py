@@ -7,7 +7,8 @@ import dataclasses
 from typing import List
 
 import numpy as np
-import yaml
+
+from wiimote_tracker_evaluation import rigs
 
 
 class Camera:
@@ -74,8 +75,7 @@ class Scene:
 
 def read_scene(path: str) -> Scene:
     """Scene of a rig description. ValueError if a lens has distortion other than k1."""
-    with open(path) as file:
-        description = yaml.safe_load(file)
+    description = rigs.read(path)
     cameras = []
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']

@@ -15,7 +15,7 @@ import rospy
 import yaml
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import alignment, programs
+from wiimote_tracker_evaluation import alignment, programs, rigs
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')
@@ -70,8 +70,7 @@ def figures(known, number, played, folder):
     for rig, path in zip((known, disturbed, None), files):
         write_bag(rig, played, path)
     programs.run('wiimote_tracker_calibration/keep_calibrated', files[1], corrected)
-    with open(corrected) as file:
-        content = yaml.safe_load(file)
+    content = rigs.read(corrected)
     found = content['cameras'][camera.name]
     pose, true = found['extrinsics']['transform'], known.cameras[number].world_from_camera
     left = rotation_of(true.orientation).inv() * Rotation.from_quat(

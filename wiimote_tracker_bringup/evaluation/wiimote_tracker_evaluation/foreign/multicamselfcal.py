@@ -9,10 +9,9 @@ from types import SimpleNamespace
 
 import numpy as np
 import rosbag
-import yaml
 from scipy.optimize import least_squares
 
-from wiimote_tracker_evaluation import programs, reprojection
+from wiimote_tracker_evaluation import programs, reprojection, rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
 
 METHOD = ('Lenses and poses by self_calibrate from every other ten frames; the rest are held out, '
@@ -67,10 +66,8 @@ def split(source, target, half):
 
 def cameras_of(path):
     """{name: camera} of a rig's file, each as reprojection.project() takes it."""
-    with open(path) as file:
-        content = yaml.safe_load(file)['cameras']
     cameras = {}
-    for name, camera in content.items():
+    for name, camera in rigs.read(path)['cameras'].items():
         pose = camera['extrinsics']['transform']
         fx, _, cx, _, fy, cy = camera['camera_matrix']['data'][:6]
         cameras[name] = SimpleNamespace(

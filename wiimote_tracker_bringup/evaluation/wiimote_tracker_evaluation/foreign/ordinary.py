@@ -15,7 +15,7 @@ import rospy
 import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
-from wiimote_tracker_evaluation import programs
+from wiimote_tracker_evaluation import programs, rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.foreign.rig import Rig
 from wiimote_tracker_evaluation.foreign.views import LONGEST_GAP
@@ -131,13 +131,11 @@ def lenses_of(views, rig, folder):
     """A file of the rig whose covariance is that of its lenses, whose principal points are off by
     views.accuracy: poses are aligned later."""
     path = os.path.join(folder, 'lenses.yaml')
-    with open(rig.path) as file:
-        content = yaml.safe_load(file)
+    content = rigs.read(rig.path)
     variances = np.zeros((len(views.cameras), PER_CAMERA))
     variances[:, PRINCIPAL_POINT] = views.accuracy ** 2
     content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())
-    with open(path, 'w') as file:
-        yaml.safe_dump(content, file, sort_keys=False)
+    rigs.write(path, content)
     return path
 
 

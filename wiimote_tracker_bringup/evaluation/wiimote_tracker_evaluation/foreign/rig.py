@@ -1,8 +1,9 @@
 """A solved rig's file, as far as scores need it: poses and clock offsets."""
 
 import numpy as np
-import yaml
 from scipy.spatial.transform import Rotation
+
+from wiimote_tracker_evaluation import rigs
 
 DISTANCE = 3.0  # of a light from cameras in a room [m]
 
@@ -12,8 +13,7 @@ class Rig:
     stamp, 0 if not solved [s]; residuals k [px]."""
 
     def __init__(self, path):
-        with open(path) as file:
-            cameras = list(yaml.safe_load(file)['cameras'].values())
+        cameras = list(rigs.read(path)['cameras'].values())
         self.path = path
         poses = [camera['extrinsics']['transform'] for camera in cameras]
         self.rotations = Rotation.from_quat([[pose['rotation'][axis] for axis in 'xyzw']

@@ -30,16 +30,6 @@ PARTS = 10
 CHI_SQUARED_95 = 7.814727903251178  # of three degrees of freedom
 
 
-class Clock:
-    """From the cameras' time to the truth's."""
-
-    def __init__(self, rate, offset):
-        self.rate, self.offset = rate, offset
-
-    def __call__(self, times):
-        return self.rate * times + self.offset
-
-
 def truth_at(truth, times):
     """Positions n x 3 and velocities n x 3 of the truth; NaN in its gaps."""
     after = np.clip(np.searchsorted(truth.times, times), 1, len(truth.times) - 1)
@@ -87,7 +77,8 @@ class Path:
 
 
 def fit(path, truth, kind):
-    """Clock, alignment, and the truth's place on the body [m], which is 0 without rotations."""
+    """Clock (from the cameras' time to the truth's), alignment, and the truth's place on the body [m],
+    which is 0 without rotations."""
     times = path.times
 
     def misfit(clock):
@@ -95,7 +86,7 @@ def fit(path, truth, kind):
         fitted, _ = fit_space(path.positions, true, kind)
         return np.nanmedian(np.linalg.norm(fitted.apply(path.positions) - true, axis=1))
     steps = np.arange(-truth.tolerance, truth.tolerance + STEP, STEP)
-    clock = min((Clock(truth.rate, truth.offset + step) for step in steps), key=misfit)
+    clock = min((np.poly1d([truth.rate, truth.offset + step]) for step in steps), key=misfit)
     middle, place = times.mean(), np.zeros(3)
     for _ in range(ROUNDS):
         true, velocity = truth_at(truth, clock(times))
@@ -111,7 +102,7 @@ def fit(path, truth, kind):
                             @ path.rotations[used].as_matrix()).reshape(-1, 3))
         step = np.linalg.lstsq(np.concatenate(columns, axis=1), error.reshape(-1), rcond=None)[0]
         shift, rate = step[columns[0].shape[1]:][:2]
-        clock = Clock(clock.rate + rate, clock.offset + shift - rate * middle)
+        clock = clock + [rate, shift - rate * middle]
         if path.rotations is not None:
             place = place + step[-3:]
     true, _ = truth_at(truth, clock(times))

@@ -1,6 +1,7 @@
 """The LEDs of a rigid body as targets."""
 
 import numpy as np
+from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation.motion.pivot import skew
 
@@ -12,9 +13,7 @@ def lights(leds, points):
     B x L x 3, for an upright body at each of the points in each heading, headings in turn.
     leds: L x 6."""
     angles = 2.0 * np.pi * np.arange(HEADINGS) / HEADINGS
-    turns = np.zeros((HEADINGS, 3, 3))
-    turns[:, 0, 0] = turns[:, 1, 1] = np.cos(angles)
-    turns[:, 1, 0], turns[:, 0, 1], turns[:, 2, 2] = np.sin(angles), -np.sin(angles), 1.0
+    turns = Rotation.from_euler('z', angles).as_matrix()
     leds = np.array(leds)
     directions = leds[:, 3:] / np.linalg.norm(leds[:, 3:], axis=1, keepdims=True)
     levers, directions = (np.tile(each @ np.swapaxes(turns, 1, 2), (len(points), 1, 1))

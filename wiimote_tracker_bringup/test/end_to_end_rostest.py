@@ -17,9 +17,10 @@ import rospy
 import rostest
 from geometry_msgs.msg import PointStamped
 from live_rig import DEADLINE
-from wiimote_tracker_evaluation import alignment, bound, experiment, scene, scoring
+from wiimote_tracker_evaluation import alignment, bound, experiment, scene
 from wiimote_tracker_evaluation.conductor import SETTLE, Conductor
-from wiimote_tracker_evaluation.recording import LiveRecorder, Recording, truth_row
+from wiimote_tracker_evaluation.demo import scoring
+from wiimote_tracker_evaluation.demo.recording import LiveRecorder, Recording, truth_row
 
 DWELL = 0.5  # [s]
 RATE = 100.0  # of images of one camera [Hz]

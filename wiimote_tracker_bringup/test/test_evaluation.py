@@ -9,8 +9,8 @@ import pytest
 import yaml
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import (alignment, animation, bound, experiment,
-                                        report, scene, scoring)
+from wiimote_tracker_evaluation import alignment, bound, experiment, scene
+from wiimote_tracker_evaluation.demo import animation, report, scoring
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
@@ -262,8 +262,8 @@ class HandMade:
     """A recording with a known error of every point."""
 
     def __init__(self):
-        from wiimote_tracker_evaluation import recording
         from wiimote_tracker_evaluation.conductor import Segment
+        from wiimote_tracker_evaluation.demo import recording
         points, truths, self.segments = [], [], []
         now = 1000.0
         places = ([('test', p) for p in experiment.TEST_POINTS]

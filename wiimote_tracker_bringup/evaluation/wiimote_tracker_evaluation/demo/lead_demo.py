@@ -82,7 +82,7 @@ class Demo:
         """The LED's tour. Returns the measured segments, and the images used per corner."""
         # Imported late: rospy reads the master's address at import.
         from wiimote_tracker_evaluation.conductor import Conductor
-        from wiimote_tracker_evaluation.recording import LiveRecorder
+        from wiimote_tracker_evaluation.demo.recording import LiveRecorder
         progress = self._progress
         conductor = Conductor(LED, LiveRecorder(), stack.check, progress.passing)
 
@@ -147,7 +147,7 @@ class Demo:
                                 f'{len(self._scene.cameras)} cameras')
 
     def _finish(self, segments, corner_samples):
-        from wiimote_tracker_evaluation import animation, recording, report, scoring
+        from wiimote_tracker_evaluation.demo import animation, recording, report, scoring
         self._progress.step('Closing the bag, computing the results')
         stack.end(self._recorder)
         if not os.path.exists(self.file('demo.bag')):

@@ -7,7 +7,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation import experiment
 from wiimote_tracker_evaluation.alignment import KINDS
-from wiimote_tracker_evaluation.scoring import milli
+from wiimote_tracker_evaluation.demo.scoring import milli
 
 
 def table(score, bounds):

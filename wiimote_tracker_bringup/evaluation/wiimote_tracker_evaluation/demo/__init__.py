@@ -1,0 +1,1 @@
+"""The demonstration: the paper's experiment with the whole system, recorded, scored and shown."""

@@ -14,10 +14,10 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_evaluation import programs, reprojection
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign import (accuracy, body, disturbed,
-                                                flight as flights, lighthouse, multicamselfcal,
-                                                ordinary, program)
-from wiimote_tracker_evaluation.foreign.views import Camera, Truth, Views
+from wiimote_tracker_evaluation.recordings import (accuracy, body, disturbed,
+                                                   flight as flights, lighthouse, multicamselfcal,
+                                                   ordinary, program)
+from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 NOISE = 1e-4  # [rad]

@@ -18,8 +18,9 @@ sys.path[:0] = [HERE, os.path.join(HERE, '..', 'evaluation')]
 
 import simulated_cameras  # noqa: E402
 from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.foreign import (cameras, flight, ordinary, time_maps)  # noqa: E402
-from wiimote_tracker_evaluation.foreign.rig import Rig  # noqa: E402
+from wiimote_tracker_evaluation.recordings import (  # noqa: E402
+    cameras, flight, ordinary, time_maps)
+from wiimote_tracker_evaluation.recordings.rig import Rig  # noqa: E402
 
 
 def hand():

@@ -14,9 +14,9 @@ import scipy.io
 
 from wiimote_tracker_evaluation import (charts, evaluation, results_table,
                                         section, sections)
-from wiimote_tracker_evaluation.foreign import formats
 from wiimote_tracker_evaluation.interruption import Interrupted
-from wiimote_tracker_evaluation.page import data
+from wiimote_tracker_evaluation.recordings import formats
+from wiimote_tracker_evaluation.report import data
 from wiimote_tracker_evaluation.sections import recordings
 
 HERE = os.path.dirname(os.path.realpath(__file__))

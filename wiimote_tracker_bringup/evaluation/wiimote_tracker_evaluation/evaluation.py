@@ -11,9 +11,9 @@ from wiimote_tracker_evaluation import ranges, rigs, sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.files import prepare
 from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.page import write_report
 from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.programs import package_file
+from wiimote_tracker_evaluation.report import write_report
 from wiimote_tracker_evaluation.section import Run
 
 USED_BY = {'led': 'distance', 'gestures': 'ours', 'recordings': 'recordings', 'faults': 'faults'}

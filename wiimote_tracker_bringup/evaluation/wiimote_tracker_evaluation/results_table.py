@@ -10,7 +10,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation import statistics
 from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
-from wiimote_tracker_evaluation.page import words
+from wiimote_tracker_evaluation.report import words
 
 Measurement = Tuple[float, Tuple[float, float]]  # value, its 95 % interval
 ROUNDING = 0.005  # relative, of the table's three digits

@@ -6,7 +6,7 @@ import re
 import numpy as np
 
 from wiimote_tracker_evaluation import statistics
-from wiimote_tracker_evaluation.foreign import formats, program
+from wiimote_tracker_evaluation.recordings import formats, program
 
 NAME = 'recordings'
 TITLE = 'Recordings by others'

@@ -4,7 +4,7 @@ import base64
 import html as escaping
 import re
 
-from wiimote_tracker_evaluation.page import data, markdown
+from wiimote_tracker_evaluation.report import data, markdown
 from wiimote_tracker_evaluation.section import Plot, Table
 
 MOST_INLINE = 200000  # [bytes] of one table

@@ -1,6 +1,6 @@
 """report.md: the report as text."""
 
-from wiimote_tracker_evaluation.page import words
+from wiimote_tracker_evaluation.report import words
 from wiimote_tracker_evaluation.section import Plot, Table, Text
 
 TITLE = 'Evaluation of the Wiimote tracker'

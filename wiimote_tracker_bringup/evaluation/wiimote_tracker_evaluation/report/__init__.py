@@ -5,7 +5,7 @@ import os
 import time
 
 from wiimote_tracker_evaluation import programs
-from wiimote_tracker_evaluation.page import data, html, markdown
+from wiimote_tracker_evaluation.report import data, html, markdown
 
 
 class Report:

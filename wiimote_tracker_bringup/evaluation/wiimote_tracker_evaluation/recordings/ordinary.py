@@ -17,8 +17,8 @@ from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
 from wiimote_tracker_evaluation import programs, rigs
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign.rig import Rig
-from wiimote_tracker_evaluation.foreign.views import LONGEST_GAP
+from wiimote_tracker_evaluation.recordings.rig import Rig
+from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 
 # The first poses come from this many instants at most.
 INSTANTS = 400

@@ -8,7 +8,7 @@ import os
 import sys
 
 from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
-from wiimote_tracker_evaluation.foreign import formats
+from wiimote_tracker_evaluation.recordings import formats
 
 
 def drawing(outcome):

@@ -5,8 +5,8 @@ import os
 import numpy as np
 
 from wiimote_tracker_evaluation import programs
-from wiimote_tracker_evaluation.foreign import ordinary
-from wiimote_tracker_evaluation.foreign.views import LONGEST_GAP
+from wiimote_tracker_evaluation.recordings import ordinary
+from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 
 MEDIAN_SQUARE = 0.4549  # of a normal distribution of variance 1
 

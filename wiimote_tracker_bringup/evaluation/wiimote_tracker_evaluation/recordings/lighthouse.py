@@ -16,7 +16,7 @@ import zlib
 import numpy as np
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign.views import (
+from wiimote_tracker_evaluation.recordings.views import (
     LONGEST_GAP, Camera, Truth, Views, to_nearest)
 
 # Of the sensors on the deck: x forward, y to the left [m].

@@ -12,8 +12,8 @@ import numpy as np
 import yaml
 
 from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.foreign.lighthouse import read_table
-from wiimote_tracker_evaluation.foreign.views import Camera, Truth, Views
+from wiimote_tracker_evaluation.recordings.lighthouse import read_table
+from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
 START = 0.5  # [s]
 BEGIN = 1000.0  # of each camera's frame 0, so that all times are positive [s]

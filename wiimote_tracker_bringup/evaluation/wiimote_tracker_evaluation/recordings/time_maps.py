@@ -13,7 +13,7 @@ import dataclasses
 
 import numpy as np
 
-from wiimote_tracker_evaluation.foreign import ordinary
+from wiimote_tracker_evaluation.recordings import ordinary
 
 STEP = 0.02  # of the search for an offset [s]
 # Of its refinement: offsets [s] and drifts [1] about the best.

@@ -19,7 +19,7 @@ def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional
 
 
 def prepare(folder: str, names: Iterable[str]) -> None:
-    """Makes a folder for results, and removes files and folders of an earlier run that have these names."""
+    """Makes a folder for results; removes files and folders of an earlier run with these names."""
     try:
         os.makedirs(folder, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()

@@ -45,8 +45,8 @@ def project(parameters: np.ndarray, rotation: np.ndarray, position: np.ndarray,
 
 
 def look_at(positions: np.ndarray, targets: np.ndarray) -> np.ndarray:
-    """... x 3 x 3: rotations of cameras at ... x 3 positions with their axes through the targets and
-    horizontal image x axes."""
+    """... x 3 x 3: rotations of cameras at ... x 3 positions, with their axes through the targets
+    and horizontal image x axes."""
     forward = np.subtract(targets, positions, dtype=float)
     forward /= np.maximum(np.linalg.norm(forward, axis=-1, keepdims=True), 1e-9)
     right = np.cross(forward, [0.0, 0.0, 1.0])

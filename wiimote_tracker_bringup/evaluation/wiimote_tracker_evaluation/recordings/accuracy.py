@@ -77,8 +77,8 @@ class Path:
 
 
 def fit(path, truth, kind):
-    """Clock (from the cameras' time to the truth's), alignment, and the truth's place on the body [m],
-    which is 0 without rotations."""
+    """Clock (from the cameras' time to the truth's), alignment, and the truth's place on the body
+    [m], 0 without rotations."""
     times = path.times
 
     def misfit(clock):

@@ -1,4 +1,5 @@
-// What the calibrations share: derivatives that are not Ceres' own, and covariances.
+// What the calibrations share: derivatives that are not Ceres' own, covariances, and quantiles.
+#include "adjust/chi_squared.h"
 #include "adjust/corner.h"
 #include "adjust/covariance.h"
 #include "adjust/path.h"
@@ -117,6 +118,12 @@ TEST_F(CovarianceOf, IsTheInverseOfTheInformationInTheOrderAskedFor) {
 
 TEST_F(CovarianceOf, IsNothingWhereSomeParameterIsOpen) {
   EXPECT_FALSE(covarianceOf(&problem_, {&a_}));
+}
+
+TEST(ChiSquared, QuantilesOfTheTables) {
+  EXPECT_NEAR(chiSquaredQuantile(3, kTwoNines), 11.345, 0.03);
+  EXPECT_NEAR(chiSquaredQuantile(5, kThreeNines), 20.515, 0.25);
+  EXPECT_NEAR(chiSquaredQuantile(1, kTwoNines), 6.635, 0.1);
 }
 
 }  // namespace

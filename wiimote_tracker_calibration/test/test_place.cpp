@@ -4,7 +4,6 @@
 #include "simulated_rig.h"
 
 #include "place/check_place.h"
-#include "place/chi_squared.h"
 #include "place/known_places.h"
 #include "place/measure_place.h"
 
@@ -50,12 +49,6 @@ std::string refusal(const geometry::Rig& rig, const capture::CapturedCorner& cor
     return error.what();
   }
   return "";
-}
-
-TEST(ChiSquared, QuantilesOfTheTables) {
-  EXPECT_NEAR(chiSquaredQuantile(3, kTwoNines), 11.345, 0.03);
-  EXPECT_NEAR(chiSquaredQuantile(5, kThreeNines), 20.515, 0.25);
-  EXPECT_NEAR(chiSquaredQuantile(1, kTwoNines), 6.635, 0.1);
 }
 
 TEST(CameraParameters, DerivativesAreThoseOfDisplacedCameras) {

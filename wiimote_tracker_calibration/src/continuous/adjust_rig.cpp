@@ -2,11 +2,11 @@
 
 #include "../recalibrate/seen_path.h"
 #include "adjust/camera_blocks.h"
+#include "adjust/chi_squared.h"
 #include "adjust/covariance.h"
 #include "adjust/joint_prior.h"
 #include "adjust/moving_pixel.h"
 #include "continuous/keyframes.h"
-#include "place/chi_squared.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -268,7 +268,7 @@ bool isWithinDrift(const geometry::Rig& rig, const geometry::Rig& adjusted) {
     }
   }
   return geometry::squaredMahalanobis(change, covariance) <
-         place::chiSquaredQuantile(static_cast<double>(change.size()), place::kThreeNines);
+         adjust::chiSquaredQuantile(static_cast<double>(change.size()), adjust::kThreeNines);
 }
 
 std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,

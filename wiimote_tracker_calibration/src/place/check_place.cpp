@@ -1,6 +1,6 @@
 #include "place/check_place.h"
 
-#include "place/chi_squared.h"
+#include "adjust/chi_squared.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -56,8 +56,8 @@ PlaceCheck checkPlace(const MeasuredPlace& measured,
   PlaceCheck check;
   check.error = difference.norm();
   check.expected_stddev = std::sqrt(covariance.trace());
-  check.consistent =
-      geometry::squaredMahalanobis(difference, covariance) <= chiSquaredQuantile(3, kTwoNines);
+  check.consistent = geometry::squaredMahalanobis(difference, covariance) <=
+                     adjust::chiSquaredQuantile(3, adjust::kTwoNines);
   check.message =
       format(
           "measured %.1f mm from the known place, where %.1f mm (one standard deviation) are to "

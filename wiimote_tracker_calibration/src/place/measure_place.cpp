@@ -1,6 +1,6 @@
 #include "place/measure_place.h"
 
-#include "place/chi_squared.h"
+#include "adjust/chi_squared.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -88,7 +88,7 @@ double disagreement(const geometry::Rig& rig, const Measurement& measurement, do
   const double squared =
       geometry::squaredMahalanobis(measurement.residuals - measurement.by_point * step, covariance);
   const auto rows = static_cast<int>(measurement.residuals.size());
-  return squared / chiSquaredQuantile(rows - 3, kThreeNines);
+  return squared / adjust::chiSquaredQuantile(rows - 3, adjust::kThreeNines);
 }
 
 /// The cameras whose removal makes the others agree.

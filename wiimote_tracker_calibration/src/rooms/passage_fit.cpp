@@ -1,6 +1,6 @@
 #include "rooms/passage_fit.h"
 
-#include "place/chi_squared.h"
+#include "adjust/chi_squared.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -121,7 +121,7 @@ bool contradicts(const RigMotion& all, const RigMotion& others) {
   const double a = 2.0 / 9.0 / kConditions;
   const double b = 2.0 / 9.0 / (3.0 * kModelWeight + others.degrees_of_freedom);
   const double root = std::cbrt(ratio);
-  return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a) > place::kThreeNines;
+  return ((1.0 - b) * root - (1.0 - a)) / std::sqrt(b * root * root + a) > adjust::kThreeNines;
 }
 
 /// All passages, those that fit best first: beside a motion that few wrong ones hardly change

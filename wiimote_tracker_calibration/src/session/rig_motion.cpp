@@ -3,7 +3,7 @@
 // two, three or six conditions for each thing shared, are solved in closed form a few times.
 #include "rig_motion.h"
 
-#include "place/chi_squared.h"
+#include "adjust/chi_squared.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -113,7 +113,7 @@ Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
 
 bool RigMotion::contradicts() const {
   return degrees_of_freedom > 0 &&
-         chi_squared > place::chiSquaredQuantile(degrees_of_freedom, place::kThreeNines);
+         chi_squared > adjust::chiSquaredQuantile(degrees_of_freedom, adjust::kThreeNines);
 }
 
 RigMotion fitMotion(const geometry::Rig& first,

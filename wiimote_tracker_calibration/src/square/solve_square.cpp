@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
-#include "place/chi_squared.h"
+#include "adjust/chi_squared.h"
 #include "square/error.h"
 #include "square/expected_error.h"
 #include "wiimote_tracker_calibration/square/branches.h"
@@ -122,7 +122,7 @@ void checkMisfit(const RigModel& model, const BranchChoice& choice, Solution* so
   const bool implausible = isImplausible(model, choice.state);
   // By chance it is in fewer than one of 1000 calibrations.
   const bool is_significant =
-      freedom > 0 && choice.cost > place::chiSquaredQuantile(freedom, place::kThreeNines);
+      freedom > 0 && choice.cost > adjust::chiSquaredQuantile(freedom, adjust::kThreeNines);
   solution->contradicts = implausible || is_significant;
   if (!solution->contradicts)
     return;

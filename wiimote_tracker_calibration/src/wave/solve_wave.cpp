@@ -11,7 +11,7 @@
 #include "state.h"
 #include "wand_on_floor.h"
 
-#include "place/chi_squared.h"
+#include "adjust/chi_squared.h"
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -107,7 +107,8 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
 
 bool contradicts(const Agreement& agreement) {
   return agreement.chi_squared >
-         place::chiSquaredQuantile(std::max(1.0, agreement.degrees_of_freedom), place::kThreeNines);
+         adjust::chiSquaredQuantile(std::max(1.0, agreement.degrees_of_freedom),
+                                    adjust::kThreeNines);
 }
 
 /// @throws WaveError: a clock jumped, and without the jump everything fits better.

@@ -1,9 +1,9 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_PLACE_CHI_SQUARED_H
-#define WIIMOTE_TRACKER_CALIBRATION_PLACE_CHI_SQUARED_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CHI_SQUARED_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CHI_SQUARED_H
 
 #include <cmath>
 
-namespace wiimote_tracker::place {
+namespace wiimote_tracker::adjust {
 
 /// Quantiles of the standard normal distribution.
 constexpr double kTwoNines = 2.3263;    ///< 99 %
@@ -17,6 +17,6 @@ inline double chiSquaredQuantile(double degrees_of_freedom, double normal_quanti
   return degrees_of_freedom * std::pow(1.0 - spread + normal_quantile * std::sqrt(spread), 3);
 }
 
-}  // namespace wiimote_tracker::place
+}  // namespace wiimote_tracker::adjust
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_PLACE_CHI_SQUARED_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CHI_SQUARED_H

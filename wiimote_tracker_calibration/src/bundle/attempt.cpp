@@ -156,7 +156,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
   const Options rough = roughly(options.bundle);
   std::vector<bool>& placed = reconstruction.placed;
   while (static_cast<std::size_t>(std::count(placed.begin(), placed.end(), true)) < camera_count) {
-    const std::size_t next = nextToPlace(rough, reconstruction);
+    const std::size_t next = nextToResect(rough, reconstruction);
     geometry::Camera best;
     double least = std::numeric_limits<double>::infinity();
     std::string reason;
@@ -164,7 +164,7 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
          lensesToTry(options, reconstruction.cameras[next].intrinsics)) {
       reconstruction.cameras[next].intrinsics = lens;
       try {
-        place(rough, next, &reconstruction);
+        resect(rough, next, &reconstruction);
         const double cost = refineAlone(rough, next, &reconstruction);
         if (cost < least) {
           least = cost;

@@ -58,7 +58,7 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
     adjust(&reconstruction, now, Held());
     if (all_placed)
       break;
-    place(options, nextToPlace(options, reconstruction), &reconstruction);
+    resect(options, nextToResect(options, reconstruction), &reconstruction);
   }
   refuseUnexplained(reconstruction, options);
   return reconstruction;

@@ -140,7 +140,7 @@ std::string adviceFor(const std::string& name) {
 
 }  // namespace
 
-std::size_t nextToPlace(const Options& options, const Reconstruction& reconstruction) {
+std::size_t nextToResect(const Options& options, const Reconstruction& reconstruction) {
   std::size_t next = 0;
   std::size_t most = 0;
   bool any = false;
@@ -162,7 +162,7 @@ std::size_t nextToPlace(const Options& options, const Reconstruction& reconstruc
   return next;
 }
 
-std::size_t place(const Options& options, std::size_t index, Reconstruction* reconstruction) {
+std::size_t resect(const Options& options, std::size_t index, Reconstruction* reconstruction) {
   geometry::Camera& camera = reconstruction->cameras[index];
   const KnownViews known = knownViews(*reconstruction, index);
   if (!adjust::fillAnArea(known.views))

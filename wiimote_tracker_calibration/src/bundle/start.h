@@ -59,11 +59,11 @@ void startFrom(const Pair& pair, Reconstruction* reconstruction);
 
 /// The camera that sees most known points of those not placed.
 /// @throws BundleError when it sees too few of them.
-std::size_t nextToPlace(const Options& options, const Reconstruction& reconstruction);
+std::size_t nextToResect(const Options& options, const Reconstruction& reconstruction);
 
 /// Estimates the pose of one camera from known points (resection), and marks it as placed.
 /// @returns the number of inliers. @throws BundleError: points on a line, or too few inliers.
-std::size_t place(const Options& options, std::size_t camera, Reconstruction* reconstruction);
+std::size_t resect(const Options& options, std::size_t camera, Reconstruction* reconstruction);
 
 }  // namespace wiimote_tracker::bundle
 

@@ -32,7 +32,7 @@ constexpr double kOffsetStep = 0.01;
 constexpr double kLeastVariance = 1e-12;
 // Number of points used in the search for a first pose.
 constexpr std::size_t kSearchPoints = 150;
-constexpr double kRoughError = 4.0;  // of an inlier, of which bundle::place() takes 4 times [px]
+constexpr double kRoughError = 4.0;  // of an inlier, of which bundle::resect() takes 4 times [px]
 constexpr std::size_t kMinimumMatches = 100;  // as in wave/checks.cpp
 // Gates: first in px, then in standard deviations.
 constexpr double kWideGates[] = {30.0, 15.0};
@@ -67,7 +67,7 @@ std::size_t searchPose(const SeenPath& path,
   if (seen.points.size() < options.minimum_common_points)
     return 0;
   try {
-    const std::size_t support = bundle::place(options, 0, &seen);
+    const std::size_t support = bundle::resect(options, 0, &seen);
     *camera = seen.cameras.front();
     return support;
   } catch (const bundle::BundleError&) {

@@ -191,7 +191,7 @@ void placeRest(const bundle::Options& options, bundle::Reconstruction* reconstru
   const std::vector<bool>& placed = reconstruction->placed;
   while (std::find(placed.begin(), placed.end(), false) != placed.end()) {
     bundle::triangulatePoints(reconstruction, options.maximum_error, placed);
-    bundle::place(options, bundle::nextToPlace(options, *reconstruction), reconstruction);
+    bundle::resect(options, bundle::nextToResect(options, *reconstruction), reconstruction);
   }
 }
 

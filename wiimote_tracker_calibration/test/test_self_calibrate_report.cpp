@@ -10,7 +10,7 @@
 #include <cstdlib>
 #include <string>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::self_calibrate {
 namespace {
 
 /// What is printed when every `spoiled`-th observation fits no point.
@@ -46,4 +46,4 @@ TEST(SelfCalibrateReport, SaysThatManyObservationsFitNoPoint) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::self_calibrate

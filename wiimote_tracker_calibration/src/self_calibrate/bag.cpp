@@ -1,7 +1,5 @@
 #include "source.h"
 
-#include "wiimote_tracker_calibration/import/number_table.h"
-
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
@@ -12,7 +10,7 @@
 #include <optional>
 #include <system_error>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::self_calibrate {
 
 namespace {
 
@@ -116,4 +114,4 @@ Recording readBag(const std::string& path) {
   return recording;
 }
 
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::self_calibrate

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::self_calibrate {
 
 namespace {
 
@@ -78,7 +78,7 @@ void printPoses(const bundle::Reconstruction& reconstruction, std::FILE* file) {
 }
 
 void printComparison(const Report& report, std::FILE* file) {
-  const Comparison& comparison = *report.comparison;
+  const import::Comparison& comparison = *report.comparison;
   std::fprintf(file, "\nCompared with the shipped calibration: %s.\n", comparison.what.c_str());
   if (comparison.own.empty())
     return;
@@ -142,7 +142,7 @@ std::string jsonCamera(const Report& report, std::size_t i, const bundle::Statis
   return text + "}";
 }
 
-std::string jsonShipped(const Comparison& comparison) {
+std::string jsonShipped(const import::Comparison& comparison) {
   return format(",\n \"shipped\": {\"points\": %zu, ", comparison.points) +
          "\"extent\": " + json(comparison.extent) +
          ", \"after_similarity\": " + jsonDistances(comparison.similar) +
@@ -169,7 +169,7 @@ void print(const Report& report, bool points, std::FILE* file) {
   std::fprintf(file, "Noise of a pixel coordinate: %.3f px\n", solution.pixel_stddev);
   std::fprintf(file, "\n%-20s %16s %9s %9s %9s\n", "reprojection [px]", "inliers", "median", "mean",
                "p95");
-  const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
+  const std::vector<bundle::Statistics> errors = import::errorsOf(reconstruction);
   for (std::size_t i = 0; i < errors.size(); ++i)
     printErrors(reconstruction.cameras[i].name, errors[i], file);
   printOutliers(reconstruction, file);
@@ -190,7 +190,7 @@ std::string jsonText(const Report& report) {
   const bundle::SelfCalibration& solution = report.solution;
   const bundle::Reconstruction& reconstruction = solution.reconstruction;
   std::vector<std::string> cameras;
-  for (const bundle::Statistics& errors : errorsOf(reconstruction))
+  for (const bundle::Statistics& errors : import::errorsOf(reconstruction))
     cameras.push_back(jsonCamera(report, cameras.size(), errors));
   std::vector<std::string> points;
   for (const auto& point : reconstruction.points)
@@ -205,4 +205,4 @@ std::string jsonText(const Report& report) {
   return text + "}\n";
 }
 
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::self_calibrate

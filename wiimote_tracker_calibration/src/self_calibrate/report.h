@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::self_calibrate {
 
 /// Results of self_calibrate.
 struct Report {
@@ -16,7 +16,7 @@ struct Report {
   std::size_t frames = 0;
   bool lenses_given = false;
   bundle::SelfCalibration solution;
-  std::optional<Comparison> comparison;
+  std::optional<import::Comparison> comparison;
 };
 
 /// Text tables. @param points also the 3D points, one per line.
@@ -25,6 +25,6 @@ void print(const Report& report, bool points, std::FILE* file);
 /// The same figures, all cameras and all points, as JSON.
 std::string jsonText(const Report& report);
 
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::self_calibrate
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H

@@ -23,7 +23,7 @@
 namespace {
 
 using namespace wiimote_tracker;
-using namespace wiimote_tracker::import;
+using namespace wiimote_tracker::self_calibrate;
 
 struct Arguments {
   std::string source;
@@ -73,8 +73,8 @@ class ProgressLine {
 };
 
 Report solve(const Arguments& arguments) {
-  Recording recording = fileExists(arguments.source + "/Res.dat")
-                            ? readRecording(arguments.source, false)
+  Recording recording = import::fileExists(arguments.source + "/Res.dat")
+                            ? import::readRecording(arguments.source, false)
                             : readBag(arguments.source);
   if (!arguments.subset.empty())
     recording = subsetOf(recording, split(arguments.subset));
@@ -88,8 +88,8 @@ Report solve(const Arguments& arguments) {
   report.source = arguments.source;
   report.frames = used.frames.size();
   report.lenses_given = options.fixed_lenses;
-  report.solution = bundle::selfCalibrate(observedBy(used), options, ProgressLine());
-  report.comparison = compare(recording, report.solution, options.bundle);
+  report.solution = bundle::selfCalibrate(import::observedBy(used), options, ProgressLine());
+  report.comparison = import::compare(recording, report.solution, options.bundle);
   return report;
 }
 
@@ -103,7 +103,7 @@ void writeJson(const Report& report, const std::string& path) {
 /// The cameras as a rig, whose scale is arbitrary.
 geometry::Rig rigOf(const Report& report) {
   const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
-  const std::vector<bundle::Statistics> errors = errorsOf(reconstruction);
+  const std::vector<bundle::Statistics> errors = import::errorsOf(reconstruction);
   // The fit follows the noise in part: corrected, the residuals tell all of it.
   const double rms = bundle::statistics(reconstruction).rms;
   const double correction = rms > 0.0 ? std::sqrt(2.0) * report.solution.pixel_stddev / rms : 1.0;

@@ -1,7 +1,5 @@
 #include "source.h"
 
-#include "wiimote_tracker_calibration/import/number_table.h"
-
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
@@ -9,7 +7,7 @@
 #include <cstddef>
 #include <map>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::self_calibrate {
 
 Recording subsetOf(const Recording& recording, const std::vector<std::string>& names) {
   std::vector<std::size_t> kept;
@@ -37,8 +35,8 @@ Recording subsetOf(const Recording& recording, const std::vector<std::string>& n
 
 void takeIntrinsics(const std::string& path, Recording* recording) {
   std::map<std::string, geometry::Intrinsics> by_name;
-  if (fileExists(path + "/Res.dat")) {
-    for (const RecordedCamera& camera : readRecording(path).cameras)
+  if (import::fileExists(path + "/Res.dat")) {
+    for (const RecordedCamera& camera : import::readRecording(path).cameras)
       by_name[camera.name] = camera.intrinsics;
   } else {
     for (const geometry::RigCamera& camera : geometry::readRigFile(path).cameras)
@@ -58,4 +56,4 @@ void takeIntrinsics(const std::string& path, Recording* recording) {
   }
 }
 
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::self_calibrate

@@ -1,12 +1,18 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_SOURCE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_SOURCE_H
 
+#include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/recording.h"
 
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::self_calibrate {
+
+using import::ImportError;
+using import::Pixels;
+using import::RecordedCamera;
+using import::Recording;
 
 /// Reads `<camera>/ir_blobs` of a bag. Pixels are interpolated linearly to the times of the camera
 /// with the most images, between images at most 50 ms apart with exactly one spot each. Stamps are
@@ -22,6 +28,6 @@ Recording subsetOf(const Recording& recording, const std::vector<std::string>& n
 /// readRigFile().
 void takeIntrinsics(const std::string& path, Recording* recording);
 
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::self_calibrate
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_SOURCE_H

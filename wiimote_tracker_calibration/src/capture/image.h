@@ -15,6 +15,9 @@ namespace wiimote_tracker::capture {
 /// Spots of one image [px], lens distortion still in them.
 using Blobs = std::vector<Eigen::Vector2d>;
 
+/// A spot is not interpolated between images further apart [s].
+constexpr double kLongestGap = 0.05;
+
 /// Removes spots that no image can have: not finite, or outside of `width` x `height` [px].
 inline void removeImpossible(double width, double height, Blobs* spots) {
   spots->erase(std::remove_if(spots->begin(), spots->end(),

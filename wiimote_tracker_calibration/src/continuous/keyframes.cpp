@@ -1,7 +1,5 @@
 #include "continuous/keyframes.h"
 
-#include "../recalibrate/seen_path.h"
-
 #include <wiimote_tracker_triangulation/geometry/sight.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -14,13 +12,14 @@ namespace wiimote_tracker::continuous {
 
 namespace {
 
-constexpr double kPeriod = 0.05;      // Between keyframes, as in MotionOptions [s].
-constexpr double kLongestGap = 0.05;  // Between images that are interpolated [s].
+using recalibrate::Spot;
+
+constexpr double kPeriod = 0.05;  // Between keyframes, as in MotionOptions [s].
 // A resting LED repeats the same rounding.
 constexpr double kLeastStep = 0.01;     // [m]
 constexpr std::size_t kLeastViews = 3;  // With two none can be found to be the outlier.
 // A spot farther from the middle between those before and after is another light. An LED 3 m away
-// that accelerates by 10 m/s^2 bends by 5 px between images kLongestGap apart [px].
+// that accelerates by 10 m/s^2 bends by 5 px between images capture::kLongestGap apart [px].
 constexpr double kLargestBend = 8.0;
 
 /// Triangulates the views. @returns whether they agree within the gate [px].
@@ -68,6 +67,21 @@ bool locateWithoutOutlier(const std::vector<geometry::Camera>& cameras,
   return true;
 }
 
+void removeOtherLights(std::vector<Spot>* spots) {
+  std::vector<Spot> smooth;
+  for (std::size_t i = 1; i + 1 < spots->size(); ++i) {
+    const Spot& before = (*spots)[i - 1];
+    const Spot& after = (*spots)[i + 1];
+    const Spot& spot = (*spots)[i];
+    const double share = (spot.time - before.time) / (after.time - before.time);
+    const Eigen::Vector2d middle = before.pixel + share * (after.pixel - before.pixel);
+    if (after.time - before.time < 2.0 * capture::kLongestGap &&
+        (spot.pixel - middle).norm() < kLargestBend)
+      smooth.push_back(spot);
+  }
+  spots->swap(smooth);
+}
+
 }  // namespace
 
 KeyframeSource::KeyframeSource(const geometry::Rig& rig, const std::vector<capture::Image>& images)
@@ -75,13 +89,9 @@ KeyframeSource::KeyframeSource(const geometry::Rig& rig, const std::vector<captu
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
     for (const capture::Image& image :
-         recalibrate::withoutLamps(images, rig.cameras[i].camera.name)) {
-      if (track.epoch != image.clock_epoch)
-        track.spots.clear();
+         recalibrate::latestImages(images, rig.cameras[i].camera.name)) {
       track.epoch = image.clock_epoch;
-      if (image.spots.size() == 1 &&
-          (track.spots.empty() || image.stamp > track.spots.back().stamp))
-        track.spots.push_back({image.stamp, image.spots.front()});
+      recalibrate::append(image.stamp, image, &track.spots);
     }
     removeOtherLights(&track.spots);
   }
@@ -91,45 +101,26 @@ std::optional<std::uint32_t> KeyframeSource::epoch(std::size_t camera) const {
   return tracks_[camera].epoch;
 }
 
-void KeyframeSource::removeOtherLights(std::vector<Spot>* spots) {
-  std::vector<Spot> smooth;
-  for (std::size_t i = 1; i + 1 < spots->size(); ++i) {
-    const Spot& before = (*spots)[i - 1];
-    const Spot& after = (*spots)[i + 1];
-    const Spot& spot = (*spots)[i];
-    const double share = (spot.stamp - before.stamp) / (after.stamp - before.stamp);
-    const Eigen::Vector2d middle = before.pixel + share * (after.pixel - before.pixel);
-    if (after.stamp - before.stamp < 2.0 * kLongestGap &&
-        (spot.pixel - middle).norm() < kLargestBend)
-      smooth.push_back(spot);
-  }
-  spots->swap(smooth);
-}
-
 std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) const {
   const std::vector<Spot>& spots = tracks_[camera].spots;
-  const auto after =
-      std::lower_bound(spots.begin(), spots.end(), stamp,
-                       [](const Spot& spot, double value) { return spot.stamp < value; });
-  if (after == spots.end() || after == spots.begin())
+  const auto found = recalibrate::bracket(spots, stamp);
+  if (!found)
     return std::nullopt;
-  const auto before = after - 1;
-  const double gap = after->stamp - before->stamp;
-  if (gap > kLongestGap)
-    return std::nullopt;
-  const double time = stamp - before->stamp;
+  const auto [before, after] = *found;
+  const double gap = found->gap();
+  const double time = stamp - before->time;
   const Eigen::Vector2d velocity = (after->pixel - before->pixel) / gap;
   View view{camera, before->pixel + time * velocity, velocity};
   // A chord cuts the curve short, which would move the cameras: add half the second derivative,
   // which the slopes before and after tell, times time * (time - gap).
-  if (before != spots.begin() && after + 1 != spots.end()) {
+  if (before != &spots.front() && after != &spots.back()) {
     const Spot& first = *(before - 1);
     const Spot& last = *(after + 1);
-    if (last.stamp - first.stamp < gap + 2.0 * kLongestGap) {
-      const Eigen::Vector2d bend = (last.pixel - after->pixel) / (last.stamp - after->stamp) -
-                                   (before->pixel - first.pixel) / (before->stamp - first.stamp);
+    if (last.time - first.time < gap + 2.0 * capture::kLongestGap) {
+      const Eigen::Vector2d bend = (last.pixel - after->pixel) / (last.time - after->time) -
+                                   (before->pixel - first.pixel) / (before->time - first.time);
       view.pixel +=
-          bend / (last.stamp + after->stamp - before->stamp - first.stamp) * time * (time - gap);
+          bend / (last.time + after->time - before->time - first.time) * time * (time - gap);
     }
   }
   return view;
@@ -142,9 +133,9 @@ double KeyframeSource::nextSpot(const geometry::Rig& rig, double time) const {
     const double offset = rig.cameras[i].time_offset;
     const auto after =
         std::upper_bound(spots.begin(), spots.end(), time - offset,
-                         [](double value, const Spot& spot) { return value < spot.stamp; });
+                         [](double value, const Spot& spot) { return value < spot.time; });
     if (after != spots.end())
-      next = std::min(next, after->stamp + offset);
+      next = std::min(next, after->time + offset);
   }
   return next;
 }
@@ -157,8 +148,8 @@ std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double
     cameras.push_back(rig.rayCamera(rig.cameras[i]));
     if (tracks_[i].spots.empty())
       continue;
-    begin = std::min(begin, tracks_[i].spots.front().stamp);
-    end = std::max(end, tracks_[i].spots.back().stamp);
+    begin = std::min(begin, tracks_[i].spots.front().time);
+    end = std::max(end, tracks_[i].spots.back().time);
   }
   std::vector<Keyframe> keyframes;
   for (double time = begin; time < end; time += kPeriod) {

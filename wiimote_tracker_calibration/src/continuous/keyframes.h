@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
 
 #include "capture/image.h"
+#include "recalibrate/seen_path.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -44,16 +45,11 @@ class KeyframeSource {
   std::vector<Keyframe> keyframes(const geometry::Rig& rig, double gate) const;
 
  private:
-  struct Spot {
-    double stamp;  // [s]
-    Eigen::Vector2d pixel;
-  };
   struct Track {
     std::optional<std::uint32_t> epoch;
-    std::vector<Spot> spots;
+    std::vector<recalibrate::Spot> spots;  // By the camera's clock.
   };
 
-  static void removeOtherLights(std::vector<Spot>* spots);
   std::optional<View> viewAt(std::size_t camera, double stamp) const;
   /// When any camera sees its next spot after a time; infinite: never [s].
   double nextSpot(const geometry::Rig& rig, double time) const;

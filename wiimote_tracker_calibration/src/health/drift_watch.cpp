@@ -12,8 +12,6 @@ namespace {
 constexpr double kSamplePeriod = 0.05;  // [s]
 // Longest wait of a sample for images.
 constexpr double kPatience = 0.1;  // [s]
-// The LED's position is not interpolated between images further apart.
-constexpr double kLongestGap = 0.05;  // [s]
 // A larger step of the time is a jump of the clock.
 constexpr double kJump = 1.0;  // [s]
 // A still LED repeats the same rounding: the next sample is at least this far away.
@@ -93,7 +91,7 @@ void DriftWatch::sampleAt(double time) {
     Camera& camera = cameras_[i];
     camera.frames.forgetBefore(time);
     const auto bracket = camera.frames.bracket(time);
-    if (!bracket || bracket->gap() > kLongestGap || !bracket->before->pixel ||
+    if (!bracket || bracket->gap() > capture::kLongestGap || !bracket->before->pixel ||
         !bracket->after->pixel)
       continue;
     const Eigen::Vector2d step = *bracket->after->pixel - *bracket->before->pixel;

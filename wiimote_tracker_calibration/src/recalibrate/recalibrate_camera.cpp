@@ -82,16 +82,6 @@ bool sameDevice(const geometry::RigCamera& calibrated, const Request& request) {
   return before.empty() || request.identity.empty() || before == request.identity;
 }
 
-/// What the camera saw since its clock runs as it does now. A time offset is that of one epoch.
-std::vector<capture::Image> latestImages(const Request& request) {
-  std::vector<capture::Image> images = withoutLamps(request.images, request.camera);
-  const auto other = std::find_if(images.rbegin(), images.rend(), [&](const capture::Image& image) {
-    return image.clock_epoch != images.back().clock_epoch;
-  });
-  images.erase(images.begin(), other.base());
-  return images;
-}
-
 /// The prior of the camera: its lens is the rig's, unless it is another device.
 /// @param images of the camera
 Prior priorOf(const geometry::Rig& rig,
@@ -309,7 +299,7 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   checkInput(rig, request, options);
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
-  const std::vector<capture::Image> images = latestImages(request);
+  const std::vector<capture::Image> images = latestImages(request.images, request.camera);
   const Prior prior = priorOf(rig, index, request, images, options);
   geometry::Camera start = rig.cameras[index].camera;
   start.intrinsics = prior.lens;

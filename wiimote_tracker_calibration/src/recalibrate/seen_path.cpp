@@ -12,8 +12,6 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
-// Longest interval between images that is interpolated.
-constexpr double kLongestGap = 0.05;  // [s]
 // The velocity is a central difference over twice this [s].
 constexpr double kStep = 0.02;
 // Largest RMS reprojection error of one light [px]; larger where a time offset is unknown.
@@ -23,8 +21,6 @@ constexpr double kLargestMissUnclocked = 20.0;
 // the position on the line between them.
 constexpr double kLargestSpread = 0.02;
 
-}  // namespace
-
 std::vector<capture::Image> withoutLamps(const std::vector<capture::Image>& images,
                                          const std::string& camera) {
   std::vector<capture::Image> own;
@@ -32,6 +28,33 @@ std::vector<capture::Image> withoutLamps(const std::vector<capture::Image>& imag
                [&](const capture::Image& image) { return image.camera == camera; });
   wave::removeStillSpots(&own);
   return own;
+}
+
+}  // namespace
+
+std::vector<capture::Image> latestImages(const std::vector<capture::Image>& images,
+                                         const std::string& camera) {
+  std::vector<capture::Image> own = withoutLamps(images, camera);
+  const auto other = std::find_if(own.rbegin(), own.rend(), [&](const capture::Image& image) {
+    return image.clock_epoch != own.back().clock_epoch;
+  });
+  own.erase(own.begin(), other.base());
+  return own;
+}
+
+void append(double time, const capture::Image& image, std::vector<Spot>* spots) {
+  if (image.spots.size() == 1 && (spots->empty() || time > spots->back().time))
+    spots->push_back({time, image.spots.front()});
+}
+
+std::optional<fusion::Bracket<Spot>> bracket(const std::vector<Spot>& spots, double time) {
+  const auto after =
+      std::lower_bound(spots.begin(), spots.end(), time,
+                       [](const Spot& spot, double value) { return spot.time < value; });
+  if (after == spots.end() || after == spots.begin())
+    return std::nullopt;
+  const fusion::Bracket<Spot> found{&*(after - 1), &*after};
+  return found.gap() > capture::kLongestGap ? std::nullopt : std::make_optional(found);
 }
 
 SeenPath::SeenPath(const geometry::Rig& rig,
@@ -45,9 +68,7 @@ SeenPath::SeenPath(const geometry::Rig& rig,
       for (const capture::Image& image : withoutLamps(images, camera.camera.name)) {
         const auto offset = camera.timeOffsetIn(image.clock_epoch);
         track.clock_known = offset.has_value();
-        const double time = image.stamp + offset.value_or(0.0);
-        if (image.spots.size() == 1 && (track.spots.empty() || time > track.spots.back().time))
-          track.spots.push_back({time, image.spots.front()});
+        append(image.stamp + offset.value_or(0.0), image, &track.spots);
       }
     }
     if (!track.spots.empty())
@@ -62,17 +83,11 @@ SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
   double largest_miss = kLargestMiss;
   for (const std::size_t i : seeing_) {
     const Track& track = tracks_[i];
-    const auto after =
-        std::lower_bound(track.spots.begin(), track.spots.end(), time,
-                         [](const Spot& spot, double value) { return spot.time < value; });
-    if (after == track.spots.end() || after == track.spots.begin())
+    const auto found = bracket(track.spots, time);
+    if (!found)
       continue;
-    const auto before = after - 1;
-    const double gap = after->time - before->time;
-    if (gap > kLongestGap)
-      continue;
-    const double share = (time - before->time) / gap;
-    observations.push_back({&track.rays, before->pixel + share * (after->pixel - before->pixel)});
+    const Eigen::Vector2d step = found->after->pixel - found->before->pixel;
+    observations.push_back({&track.rays, found->before->pixel + found->shareAt(time) * step});
     point->cameras.push_back(i);
     if (!track.clock_known)
       largest_miss = kLargestMissUnclocked;

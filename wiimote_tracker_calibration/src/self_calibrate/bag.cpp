@@ -1,5 +1,7 @@
 #include "source.h"
 
+#include "capture/image.h"
+
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
@@ -13,8 +15,6 @@
 namespace wiimote_tracker::self_calibrate {
 
 namespace {
-
-constexpr double kLongestGap = 0.05;  // between images that are interpolated [s]
 
 struct Image {
   double stamp;
@@ -51,7 +51,7 @@ std::optional<Eigen::Vector2d> pixelAt(const std::vector<Image>& images, double 
     return std::nullopt;
   const auto before = std::prev(after);
   const double gap = after->stamp - before->stamp;
-  if (!before->pixel || !after->pixel || gap > kLongestGap)
+  if (!before->pixel || !after->pixel || gap > capture::kLongestGap)
     return std::nullopt;
   const double share = (stamp - before->stamp) / gap;
   return Eigen::Vector2d((1.0 - share) * *before->pixel + share * *after->pixel);

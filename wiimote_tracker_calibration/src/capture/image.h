@@ -18,6 +18,10 @@ using Blobs = std::vector<Eigen::Vector2d>;
 /// A spot is not interpolated between images further apart [s].
 constexpr double kLongestGap = 0.05;
 
+/// Standard deviation of a camera's time offset that was not estimated, as in
+/// tracking/camera_clocks.cpp: assumed [s].
+constexpr double kUnknownOffset = 0.005;
+
 /// Removes spots that no image can have: not finite, or outside of `width` x `height` [px].
 inline void removeImpossible(double width, double height, Blobs* spots) {
   spots->erase(std::remove_if(spots->begin(), spots->end(),

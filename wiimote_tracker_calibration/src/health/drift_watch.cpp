@@ -16,10 +16,9 @@ constexpr double kPatience = 0.1;  // [s]
 constexpr double kJump = 1.0;  // [s]
 // A still LED repeats the same rounding: the next sample is at least this far away.
 constexpr double kLeastMotion = 2.0;  // [px]
-// Error of a camera's clock with and without a valid offset, and how far it may shift a spot: spots
-// faster than 1000 and 100 px/s take no part.
-constexpr double kClockKnown = 0.0005;   // [s]
-constexpr double kClockUnknown = 0.005;  // [s]
+// Error of a camera's clock with a valid offset, and how far an error may shift a spot: spots
+// faster than 1000 px/s take no part, without a valid offset those faster than 100 px/s.
+constexpr double kKnownOffset = 0.0005;  // [s]
 constexpr double kLargestShift = 0.5;    // [px]
 // Judgements per window.
 constexpr double kJudgements = 12.0;
@@ -98,7 +97,7 @@ void DriftWatch::sampleAt(double time) {
     const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * step;
     if (bracket->gap() > 0.0) {
       const double speed = step.norm() / bracket->gap();
-      if (speed * (camera.clock_known ? kClockKnown : kClockUnknown) > kLargestShift)
+      if (speed * (camera.clock_known ? kKnownOffset : capture::kUnknownOffset) > kLargestShift)
         continue;
     }
     const auto sight = geometry::sightFromPixel(camera.rays, pixel);

@@ -29,9 +29,6 @@ using geometry::kRotation;
 using geometry::kTimeOffset;
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
-// Standard deviation of the time offset of another camera whose offset is unknown, as in
-// health/drift_watch.cpp [s].
-constexpr double kUnknownOffset = 0.005;
 // Share of the images that fit, and the path's thinnest over its widest standard deviation: as in
 // wave/checks.cpp.
 constexpr double kMinimumInlierRatio = 0.5;
@@ -214,7 +211,7 @@ ParameterMatrix updateCovariance(const SeenPath& path,
   for (const std::size_t i : path.cameras()) {
     if (!path.clockKnown(i)) {
       const Eigen::Index k = firstParameter(i) + kTimeOffset;
-      others(k, k) += kUnknownOffset * kUnknownOffset;
+      others(k, k) += capture::kUnknownOffset * capture::kUnknownOffset;
     }
   }
   own += geometry::propagated(by_rig, others);

@@ -25,7 +25,7 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
-// Time offsets tried first, around the prior mean: as far as its standard deviation [s].
+// Prior of the time offset, as in WaveOptions; offsets so far around its mean are tried first [s].
 constexpr double kOffsetStddev = 0.05;
 constexpr double kOffsetStep = 0.01;
 // Least variance of a lens parameter: one that was held has none [px^2, 1].

@@ -114,6 +114,8 @@ class PlaceCameras(NodeTest):
         self.feedback.publish(client_id='rviz', marker_name='wiimote_3', menu_entry_id=1,
                               event_type=InteractiveMarkerFeedback.MENU_SELECT)
         self.wait(lambda: os.path.exists(output), 'what the menu saves')
+        self.wait(lambda: any('three: ' in text and 'saved to' in text
+                              for text in self.summaries[-1]), 'the words that it is saved')
 
 
 if __name__ == '__main__':

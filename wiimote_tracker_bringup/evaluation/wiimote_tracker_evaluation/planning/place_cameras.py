@@ -37,6 +37,7 @@ class PlaceCameras:
     def __init__(self, chosen, rig, output):
         self._plan, self._rig, self._output = chosen, rig, output
         self._names, self._positions, self._targets = plan_rig.places_of(rig)
+        self._lines = []  # of the summary
         self._lock = threading.Lock()
         self._cells = rospy.Publisher('coverage/cells', PointCloud2, queue_size=1, latch=True)
         self._summary = rospy.Publisher('coverage', MarkerArray, queue_size=1, latch=True)
@@ -55,6 +56,8 @@ class PlaceCameras:
         if feedback.event_type == InteractiveMarkerFeedback.MENU_SELECT:
             answer = self._save()
             (rospy.loginfo if answer.success else rospy.logerr)('%s', answer.message)
+            with self._lock:
+                self._show_words([*self._lines, answer.message])
         elif feedback.event_type == InteractiveMarkerFeedback.MOUSE_UP:
             with self._lock:
                 self._move(feedback.marker_name, feedback.pose)
@@ -88,16 +91,22 @@ class PlaceCameras:
         points = self._plan.grid(plan_rig.ACROSS)
         self._cells.publish(cells.cloud(handles.FRAME, points, *prediction.at_points(
             self._plan, self._positions, self._targets, points)))
+        self._summary.publish(self._name_texts())
+        self._lines = plan_rig.describe_sight(self._plan, self._names, self._positions,
+                                              self._targets)
+        self._show_words(self._lines)
+
+    def _name_texts(self):
+        return [handles.text(name, 'name', number, place + NAME_ABOVE)
+                for number, (name, place) in enumerate(zip(
+                    [*self._names, *CORNERS],
+                    [*self._positions, *np.reshape(self._plan.volume, (2, 3))]))]
+
+    def _show_words(self, lines):
         lower, upper = np.reshape(self._plan.volume, (2, 3))
-        names = [handles.text(name, 'name', number, place + NAME_ABOVE)
-                 for number, (name, place) in enumerate(zip(
-                     [*self._names, *CORNERS], [*self._positions, lower, upper]))]
-        self._summary.publish(names)
-        lines = plan_rig.describe_sight(self._plan, self._names, self._positions,
-                                        self._targets)
         words = '\n'.join(textwrap.fill(line.strip(), WIDTH) for line in lines)
         before = [(lower[0] + upper[0]) / 2, *lower[1:]] + SUMMARY_BEFORE
-        self._summary.publish([handles.text(words, 'summary', 0, before), *names])
+        self._summary.publish([handles.text(words, 'summary', 0, before), *self._name_texts()])
 
     def _save(self):
         with self._lock:

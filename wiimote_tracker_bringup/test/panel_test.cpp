@@ -34,6 +34,7 @@
 #include <memory>
 #include <set>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -208,6 +209,23 @@ TEST_F(Panel, SaysWhatBecameOfARecordingThatIsStoppedAtOnce) {
     return label("recording") == "Nothing was recorded." ||
            label("recording").startsWith("Recorded to ");
   })) << label("recording").toStdString();
+}
+
+TEST_F(Panel, RefusesToRecordWhereNoBagCanBe) {
+  open(2);
+  const QTemporaryDir folder;
+  auto* record = find<QPushButton>("record");
+  for (const auto& [path, refusal] :
+       {std::pair(folder.filePath("none/take"), "make the folder " + folder.filePath("none")),
+        {folder.path() + "/", "end the path with the beginning of the bag's name"},
+        {QString(), "end the path with the beginning of the bag's name"}}) {
+    find<QLineEdit>("path")->setText(path);
+    record->click();
+    EXPECT_TRUE(waitFor([&, words = "Nothing is recorded: " + refusal] {
+      return label("recording").startsWith(words);
+    })) << label("recording").toStdString();
+    EXPECT_EQ(record->text(), "Record");
+  }
 }
 
 TEST_F(Panel, AsksForTheWandOnTheFloor) {

@@ -20,10 +20,13 @@ Recorder::~Recorder() {
 }
 
 void Recorder::start(const QString& prefix) {
-  is_wanted_ = true;
-  words_ = kStarts;
   // The folder where roslaunch was called: nodes run elsewhere.
   prefix_ = QDir(qEnvironmentVariable("PWD")).absoluteFilePath(prefix);
+  words_ = refusal(prefix);
+  is_wanted_ = words_.isEmpty();
+  if (!is_wanted_)
+    return;
+  words_ = kStarts;
   started_ = QDateTime::currentDateTime();
   process_.setProcessChannelMode(QProcess::ForwardedChannels);
   process_.start("roslaunch", {"wiimote_tracker_bringup", "record.launch", "output:=" + prefix_});
@@ -34,6 +37,19 @@ void Recorder::stop() {
   asked_.start();
   if (isRunning() && process_.processId() > 0)
     ::kill(static_cast<pid_t>(process_.processId()), SIGINT);  // as Ctrl-C: the bag is closed
+}
+
+/// Why bags cannot be written there; empty: they can.
+QString Recorder::refusal(const QString& prefix) const {
+  const QFileInfo bags(prefix_);
+  if (prefix.isEmpty() || bags.fileName().isEmpty())
+    return "Nothing is recorded: end the path with the beginning of the bag's name.";
+  const QFileInfo folder(bags.path());
+  if (!folder.isDir())
+    return "Nothing is recorded: make the folder " + folder.filePath() + ", or choose another.";
+  if (!folder.isWritable())
+    return "Nothing is recorded: you may not write to " + folder.filePath() + "; choose another.";
+  return {};
 }
 
 QString Recorder::bag() const {

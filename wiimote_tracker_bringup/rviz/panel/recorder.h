@@ -23,6 +23,7 @@ class Recorder {
   QString words();
 
  private:
+  QString refusal(const QString& prefix) const;
   /// Path of the newest bag; empty: there is none yet.
   QString bag() const;
 

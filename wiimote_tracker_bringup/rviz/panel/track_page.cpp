@@ -48,8 +48,8 @@ TrackPage::TrackPage(QWidget* parent)
   layout->addWidget(leds_, 2);
   layout->addWidget(bodies_, 1);
   layout->addWidget(events_);
-  layout->addLayout(row);
   layout->addWidget(recording_);
+  layout->addLayout(row);  // last: the button stays in its place
 }
 
 QTableWidget* TrackPage::addTable(const QString& name, const QString& seen_by, QWidget* parent) {

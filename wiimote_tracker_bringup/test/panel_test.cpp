@@ -241,6 +241,16 @@ TEST_F(Panel, AsksForTheWandOnTheFloor) {
   EXPECT_TRUE(waitFor([this] { return title() == "Wand"; })) << title().toStdString();
 }
 
+TEST_F(Panel, ShowsLongWordsOfHealthInFull) {
+  open(3);
+  const auto* tree = find<QTreeWidget>("health");
+  ASSERT_TRUE(waitFor(
+      [&] { return tree->topLevelItemCount() > 0 && tree->topLevelItem(0)->childCount() > 0; }));
+  const auto* value = tree->topLevelItem(0)->child(0);
+  for (const int column : {0, 1})
+    EXPECT_EQ(value->toolTip(column), value->text(column));
+}
+
 TEST_F(Panel, SaysWhatUndoDrops) {
   const auto* undo = find<QPushButton>("Undo");
   ASSERT_NE(undo, nullptr);

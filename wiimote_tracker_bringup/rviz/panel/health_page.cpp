@@ -59,9 +59,12 @@ void HealthPage::show(const HealthView& health, double now) {
     item->setIcon(0, iconOf(part.level));
     item->setToolTip(0, name);  // with the node
     item->setToolTip(1, item->text(1));
-    for (const auto& value : part.values)
-      new QTreeWidgetItem(item,
-                          {QString::fromStdString(value.key), QString::fromStdString(value.value)});
+    for (const auto& value : part.values) {
+      auto* row = new QTreeWidgetItem(
+          item, {QString::fromStdString(value.key), QString::fromStdString(value.value)});
+      for (const int column : {0, 1})
+        row->setToolTip(column, row->text(column));
+    }
     item->setExpanded(unfolded.count(name) > 0);
   }
 }

@@ -5,15 +5,19 @@
 #include "calibrate_page.h"
 #include "camera_tile.h"
 #include "contrast.h"
+#include "number_box.h"
 #include "tracker_widget.h"
 
 #include <QApplication>
 #include <QCheckBox>
 #include <QColor>
+#include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
+#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
+#include <QLocale>
 #include <QPalette>
 #include <QPushButton>
 #include <QTabWidget>
@@ -21,6 +25,7 @@
 #include <QTemporaryDir>
 #include <QThread>
 #include <QTreeWidget>
+#include <QWheelEvent>
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -249,6 +254,59 @@ TEST_F(Panel, ShowsLongWordsOfHealthInFull) {
   const auto* value = tree->topLevelItem(0)->child(0);
   for (const int column : {0, 1})
     EXPECT_EQ(value->toolTip(column), value->text(column));
+}
+
+TEST_F(Panel, LearnsTheLightsAgain) {
+  open(1);
+  auto* learn = find<QPushButton>("Learn the lights");
+  ASSERT_TRUE(waitFor([&] { return learn->isEnabled(); }));
+  learn->click();
+  EXPECT_TRUE(waitFor([this] { return title() == "LED off"; })) << title().toStdString();
+  find<QPushButton>("Stop")->click();
+  EXPECT_TRUE(waitFor([&] { return learn->isEnabled(); })) << title().toStdString();
+}
+
+TEST_F(Panel, IsScrolledByTheWheelAndNothingElse) {
+  find<QDoubleSpinBox>("side")->setValue(2.5);
+  for (const char* name : {"side", "x", "from"}) {
+    QWheelEvent down(QPointF(5, 5), QPointF(5, 5), QPoint(), QPoint(0, -120), Qt::NoButton,
+                     Qt::NoModifier, Qt::NoScrollPhase, false);
+    QApplication::sendEvent(find<QWidget>(name), &down);
+  }
+  EXPECT_EQ(find<QDoubleSpinBox>("side")->value(), 2.5);
+  EXPECT_EQ(find<QDoubleSpinBox>("x")->value(), 0.0);
+  EXPECT_EQ(find<QComboBox>("from")->currentIndex(), 0);
+}
+
+TEST(CalibratePage, HidesTheRemarksOfANodeThatIsGone) {
+  CalibratePage page(nullptr, [](const Request&) {});
+  Guide guide;
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.missing = {"put the LED on corner 1"};
+  guide.onStatus(status, 0.0);
+  page.show(guide, 0.1);
+  EXPECT_FALSE(page.findChild<QLabel*>("remarks")->isHidden());
+  page.show(guide, 100.0);
+  EXPECT_TRUE(page.findChild<QLabel*>("remarks")->isHidden());
+}
+
+TEST(NumberBox, TakesAPointAndACommaInEveryLanguage) {
+  for (const QLocale::Language language : {QLocale::English, QLocale::German}) {
+    QLocale::setDefault(QLocale(language));
+    for (const char* typed : {"2.5", "2,5"}) {
+      NumberBox box(nullptr);
+      box.setRange(0.0, 100.0);
+      box.setDecimals(3);
+      box.setSuffix(" m");
+      box.selectAll();
+      for (const QChar letter : QString(typed)) {
+        QKeyEvent press(QEvent::KeyPress, 0, Qt::NoModifier, letter);
+        QApplication::sendEvent(&box, &press);
+      }
+      EXPECT_EQ(box.value(), 2.5) << box.text().toStdString();
+    }
+  }
+  QLocale::setDefault(QLocale::c());
 }
 
 TEST_F(Panel, SaysWhatUndoDrops) {

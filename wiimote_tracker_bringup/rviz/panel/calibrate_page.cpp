@@ -2,11 +2,11 @@
 
 #include "big_words.h"
 #include "figure.h"
+#include "number_box.h"
 #include "square_drawing.h"
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QDoubleSpinBox>
 #include <QFontMetrics>
 #include <QGridLayout>
 #include <QHeaderView>
@@ -17,6 +17,7 @@
 #include <QScrollArea>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <QWheelEvent>
 
 #include <algorithm>
 #include <array>
@@ -28,8 +29,10 @@ namespace {
 
 constexpr int kMostRemarks = 6;
 constexpr int kSentenceLines = 3;
-constexpr int kAdviceMargin = 9;       // around the advice [px of the screen]
-constexpr double kLongestSide = 20.0;  // [m]
+constexpr int kAdviceMargin = 9;  // around the advice [px of the screen]
+// In metres. Of cm or mm no digit is dropped: the node refuses them, and says why.
+constexpr double kLongestSide = 9999.0;
+constexpr double kFarthest = 9999.0;
 
 QString text(const std::string& words) {
   return QString::fromStdString(words);
@@ -54,9 +57,18 @@ QString measurementWords(const wiimote_tracker_msgs::CalibrationVerdict& verdict
   return words;
 }
 
+/// Of a corner. The wheel scrolls the page.
+class CornerBox : public QComboBox {
+ public:
+  using QComboBox::QComboBox;
+
+ protected:
+  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
+};
+
 /// @param none what 0 stands for
 QDoubleSpinBox* lengthBox(const QString& name, const QString& none, QWidget* parent) {
-  auto* box = new QDoubleSpinBox(parent);
+  auto* box = new NumberBox(parent);
   box->setObjectName(name);
   box->setRange(0.0, kLongestSide);
   box->setDecimals(3);
@@ -166,12 +178,14 @@ void CalibratePage::addLengths(QVBoxLayout* layout) {
 
 void CalibratePage::addButtons(QVBoxLayout* layout) {
   auto* rows = new QGridLayout;
-  rows->addWidget(addButton("Start again", "start"), 0, 0);
+  rows->addWidget(addButton("Learn the lights", "learn_masks"), 0, 0);
+  rows->addWidget(addButton("Check the cameras", "check_connection"), 0, 1);
+  rows->addWidget(addButton("Start again", "start"), 1, 0);
   QPushButton* undo = addButton("Undo", "undo");
   undo->setToolTip("drops the last place to solve with, else the wave, else the last corner");
-  rows->addWidget(undo, 0, 1);
-  rows->addWidget(addButton("Solve now", "solve"), 1, 0);
-  rows->addWidget(cancel_ = addButton("Stop", "cancel"), 1, 1);
+  rows->addWidget(undo, 1, 1);
+  rows->addWidget(addButton("Solve now", "solve"), 2, 0);
+  rows->addWidget(cancel_ = addButton("Stop", "cancel"), 2, 1);
   hands_free_ = new QCheckBox("Capture a corner when the LED is held still", this);
   hands_free_->setObjectName("hands_free");
   connect(hands_free_, &QCheckBox::clicked, this, [this](bool on) {
@@ -180,7 +194,7 @@ void CalibratePage::addButtons(QVBoxLayout* layout) {
     request.on = on;
     send_(request);
   });
-  rows->addWidget(hands_free_, 2, 0, 1, 2);
+  rows->addWidget(hands_free_, 3, 0, 1, 2);
   layout->addLayout(rows);
 }
 
@@ -198,9 +212,9 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
   auto* row = new QGridLayout;
   row->addWidget(new QLabel("LED at", this), 0, 0);
   for (int i = 0; i < 3; ++i) {
-    known_[i] = new QDoubleSpinBox(this);
+    known_[i] = new NumberBox(this);
     known_[i]->setObjectName(QStringList({"x", "y", "z"})[i]);
-    known_[i]->setRange(-100.0, 100.0);
+    known_[i]->setRange(-kFarthest, kFarthest);
     known_[i]->setDecimals(3);
     known_[i]->setPrefix(QStringList({"x ", "y ", "z "})[i]);
     known_[i]->setToolTip("a place that you know, in the world [m]");
@@ -220,7 +234,7 @@ void CalibratePage::addTape(QVBoxLayout* layout) {
   auto* row = new QHBoxLayout;
   row->addWidget(new QLabel("Corner", this));
   for (int i = 0; i < 2; ++i) {
-    ends_[i] = new QComboBox(this);
+    ends_[i] = new CornerBox(this);
     ends_[i]->setObjectName(QStringList({"from", "to"})[i]);
     ends_[i]->addItems({"1", "2", "3", "4"});
     row->addWidget(ends_[i]);
@@ -269,6 +283,8 @@ void CalibratePage::show(const Guide& guide, double now) {
   advice_ = guide.advice(now);
   showWords(guide, advice_);
   const bool is_there = !guide.isSilent(now);
+  if (!is_there)
+    remarks_->hide();  // They are old.
   const bool is_free = is_there && !guide.isWaiting();
   next_->setVisible(!advice_.button.empty());
   next_->setText(text(advice_.button));

@@ -15,6 +15,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <regex>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -63,6 +64,16 @@ void replace(const std::filesystem::path& path, const std::string& content) {
   }
 }
 
+/// What kind of file a content is, by its key `format`; empty: it does not say.
+std::string kindOf(const std::string& content) {
+  if (content.rfind("#ROSBAG", 0) == 0)
+    return "bag";
+  const std::string head = content.substr(0, 1000);
+  std::smatch match;
+  std::regex_search(head, match, std::regex("(^|\n)format: *[\"']?(\\w+)"));
+  return match.str(2);
+}
+
 }  // namespace
 
 void writeFileAtomically(const std::string& path, const std::string& content) {
@@ -74,9 +85,14 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
     if (fs::is_symlink(target))
       target = fs::weakly_canonical(target);
     fs::create_directories(target.parent_path());
-    if (fs::exists(target))
-      replace(target.string() + ".bak",
-              readFile(target.string(), std::numeric_limits<std::size_t>::max()));
+    if (fs::exists(target)) {
+      const std::string old = readFile(target.string(), std::numeric_limits<std::size_t>::max());
+      const std::string kind = kindOf(old);
+      if (!kind.empty() && kind != kindOf(content))
+        throw FileError(path + " is kept, it is a file of another kind (" + kind +
+                        "); choose another name");
+      replace(target.string() + ".bak", old);
+    }
     replace(target, content);
   } catch (const fs::filesystem_error& e) {
     fail("write", path, e.code().value());

@@ -201,6 +201,18 @@ TEST_F(RigFile, KeepsTheOldFileAsABackup) {
   EXPECT_EQ("second", readRigFile(path_).verdict);
 }
 
+TEST_F(RigFile, DoesNotReplaceAFileOfAnotherKind) {
+  for (const std::string other :
+       {"# Captured.\nformat: wiimote_tracker_samples\nversion: 1\n", "#ROSBAG V2.0\n"}) {
+    put(other);
+    EXPECT_THROW(writeRigFile(fullRig(), path_), FileError);
+    EXPECT_EQ(contentOf(path_), other);
+  }
+  put("a damaged file");
+  writeRigFile(fullRig(), path_);
+  EXPECT_EQ(complaint(path_), "");
+}
+
 TEST_F(RigFile, MakesFoldersAndFollowsALink) {
   const std::string deep = (folder_ / "a" / "b" / "rig.yaml").string();
   writeRigFile(fullRig(), deep);

@@ -7,8 +7,8 @@
 namespace wiimote_tracker::geometry {
 
 /// Writes a file atomically: for every reader, and after a crash, it has its old content or all of
-/// the new. The old file is kept as path + ".bak". Creates folders; follows a symbolic link.
-/// Threads may write at the same time. @throws FileError; then the file at `path` is unchanged.
+/// the new. The old file is kept as path + ".bak"; a bag, or another `format:`, stays. Creates
+/// folders; follows a link. Threads may write together. @throws FileError; then nothing changes.
 void writeFileAtomically(const std::string& path, const std::string& content);
 
 constexpr std::size_t kLargestReadable = 32000000;  ///< File [bytes].

@@ -9,10 +9,12 @@
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
+#include <cstddef>
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -20,6 +22,9 @@
 namespace {
 
 using namespace wiimote_tracker;
+
+// A camera is judged by two others.
+constexpr std::size_t kFewestCameras = 3;
 
 /// The rig in use, and what corrects it. Every proposal is applied, as by the policy `all`.
 class KeptRig {
@@ -32,21 +37,27 @@ class KeptRig {
   }
 
   void add(capture::Image image) {
-    if (!continuous_)
+    if (!continuous_ || !rig_->find(image.camera))
       return;
+    ++images_;
     capture::applyMasks(masks_, &image);
     if (const auto proposal = continuous_->add(image)) {
       std::printf("%.3f: %s\n", image.stamp, proposal->message.c_str());
       use(continuous::appliedRig(proposal->rig, *rig_));
+      ++changes_;
     }
   }
 
   const std::optional<geometry::Rig>& rig() const { return rig_; }
+  std::size_t images() const { return images_; }    ///< Of its cameras.
+  std::size_t changes() const { return changes_; }  ///< That were applied.
 
  private:
   std::optional<geometry::Rig> rig_;
   capture::Masks masks_;  // of the rig
   std::optional<continuous::ContinuousCalibration> continuous_;
+  std::size_t images_ = 0;
+  std::size_t changes_ = 0;
 };
 
 /// @param rig empty: that of the bag.
@@ -70,7 +81,16 @@ void keep(const std::string& path, const std::string& rig, const std::string& ta
   }
   if (!kept.rig())
     throw geometry::Error(path + " holds no /calibration/rig: name a rig file with --rig");
+  if (kept.images() == 0)
+    throw geometry::Error(path + " holds no images of the rig's cameras: record <camera>/ir_blobs");
+  if (kept.rig()->cameras.size() < kFewestCameras)
+    throw geometry::Error(
+        format("the rig has %zu cameras, but only a rig of %zu or more can be "
+               "corrected: calibrate it again instead",
+               kept.rig()->cameras.size(), kFewestCameras));
   geometry::writeRigFile(*kept.rig(), target);
+  std::printf("%zu images of %zu cameras; %zu changes; the rig is in %s\n", kept.images(),
+              kept.rig()->cameras.size(), kept.changes(), target.c_str());
 }
 
 }  // namespace

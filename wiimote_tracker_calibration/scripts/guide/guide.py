@@ -97,7 +97,7 @@ class Guide:
             self.measured = ''
         if word in ('length', 'known') and good:
             self.measured = text
-        if word == 'save' and good:
+        if word == 'save' and good and not self._is_unsolved():
             self._saved_at = now
         if good:
             self._done[word] = len(self.answers)
@@ -157,6 +157,11 @@ class Guide:
         status = self.status
         return status is not None and status.step in (
             status.CAPTURING, status.WAVING, status.SOLVING, status.MASKING, status.MEASURING)
+
+    def _is_unsolved(self) -> bool:
+        """Whether what was captured is not solved, and the rig is an earlier one."""
+        status = self.status
+        return status is not None and status.step in (status.READY, status.COMPLETE)
 
     def has_done(self, word: str, since: str = 'start') -> bool:
         """Whether a command succeeded after `start` and another one last did."""

@@ -88,6 +88,8 @@ def test_it_says_how_long_it_took():
     assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
     guide.on_answer('start', True, '', 110.0)
     guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 120.0)
+    guide.on_answer('save', True, '', 125.0)  # the rig of an earlier calibration
+    assert guide.took(130.0).startswith('Nothing was calibrated and saved')
     guide.on_status(status(CalibrationStatus.COMPLETE, corners_captured=4), 150.0)
     guide.on_status(status(CalibrationStatus.SOLVED, corners_captured=4), 170.0)
     assert guide.elapsed(171.0) == 61.0

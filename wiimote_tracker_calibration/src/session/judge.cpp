@@ -33,7 +33,7 @@ constexpr double kNearest = 0.3;
 constexpr double kFarthest = 12.0;
 
 std::string millimetres(double value) {
-  return format("%.0f mm", 1e3 * value);
+  return format(value < 0.001 ? "%.1f mm" : "%.0f mm", 1e3 * value);
 }
 
 CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {

@@ -93,7 +93,7 @@ std::vector<std::string> missing(const CoverageReport& report, const CoverageOpt
   }
   if (report.volume && *report.volume < options.volume)
     result.push_back(
-        format("the LED has been in %.1f of %.1f cubic metres: wave it high and low, near and far",
+        format("the LED has been in %.2f of %.2f cubic metres: wave it high and low, near and far",
                *report.volume, options.volume));
   if (report.speed && *report.speed < options.speed)
     result.push_back(format("the LED moves at %.1f m/s: wave it faster than %.1f m/s",

@@ -188,6 +188,17 @@ TEST(JoinRooms, OnlyOneLedThatIsCarriedStraightCounts) {
   EXPECT_SAYS(refusalOf(trial), "no passage from one room to the other was found");
 }
 
+TEST(JoinRooms, AnLedSeenFromBothRoomsAtTheSameTimeIsSaid) {
+  TwoRooms trial(7, 0.0);
+  trial.carryOften(3);
+  Path& second = trial.second_tracks[1];
+  const double shift = second.front().time > trial.first_tracks[1].front().time ? -1.5 : 1.5;
+  for (PathPoint& point : second)
+    point.time += shift;
+  EXPECT_SAYS(trial.join().message,
+              "by 2 passages through the door; 1 left out: seen from both rooms at the same time");
+}
+
 TEST(JoinRooms, AnLedWithSeveralTracksIsOne) {
   TwoRooms trial(12, 0.0);
   trial.carryOften(6);

@@ -126,7 +126,8 @@ JoinedRooms joinRooms(const geometry::Rig& first,
   checkNoSharedCamera(first, second);
   const Passages found = findPassages(first_tracks, second_tracks, options.walk);
   std::string left_out = leftOut(found.crowded, "several LEDs at the same time") +
-                         leftOut(found.crooked, "not straight");
+                         leftOut(found.crooked, "not straight") +
+                         leftOut(found.unhidden, "seen from both rooms at the same time");
   std::vector<SharedPlaces> places;
   for (const Passage& passage : found.passages) {
     if (const auto shared = sharedPlaces(first, second, passage, options.walk))
@@ -140,7 +141,7 @@ JoinedRooms joinRooms(const geometry::Rig& first,
                 left_out);
   const PassageProblem problem(first, second, places, sharedVertical(first, second, options.slope));
   const PassageFit fit = fitPassages(problem);
-  left_out += leftOut(places.size() - fit.used.size(), "contradicts the others, another LED?");
+  left_out += leftOut(places.size() - fit.used.size(), "contradicts the others (another LED?)");
 
   JoinedRooms result;
   result.first_from_second = fit.motion.first_from_second;

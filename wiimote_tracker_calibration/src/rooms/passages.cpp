@@ -95,8 +95,14 @@ Passages findPassages(const std::vector<Path>& first_tracks,
     const auto entry = std::find_if(entries.begin(), entries.end(), [&](const End& other) {
       return exit.in_first != other.in_first && follows(other, exit);
     });
-    if (entry == entries.end())
+    if (entry == entries.end()) {
+      result.unhidden += static_cast<std::size_t>(
+          std::any_of(entries.begin(), entries.end(), [&](const End& other) {
+            return other.in_first != exit.in_first && other.time <= exit.time &&
+                   other.time > exit.track->front().time && other.track->back().time > exit.time;
+          }));
       continue;
+    }
     const auto rivals = std::count_if(entries.begin(), entries.end(),
                                       [&](const End& other) { return follows(other, exit); }) +
                         std::count_if(exits.begin(), exits.end(),

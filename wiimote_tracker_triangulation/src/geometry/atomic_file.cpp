@@ -8,6 +8,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
@@ -15,7 +16,6 @@
 #include <limits>
 #include <memory>
 #include <mutex>
-#include <regex>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -68,10 +68,14 @@ void replace(const std::filesystem::path& path, const std::string& content) {
 std::string kindOf(const std::string& content) {
   if (content.rfind("#ROSBAG", 0) == 0)
     return "bag";
-  const std::string head = content.substr(0, 1000);
-  std::smatch match;
-  std::regex_search(head, match, std::regex("(^|\n)format: *[\"']?(\\w+)"));
-  return match.str(2);
+  const std::string head = "\n" + content.substr(0, 1000);
+  const std::string key = "\nformat:";
+  const std::size_t found = head.find(key);
+  if (found == std::string::npos)
+    return "";
+  const std::size_t begin =
+      std::min(head.find_first_not_of(" \"'", found + key.size()), head.size());
+  return head.substr(begin, head.find_first_of(" \"'\r\n", begin) - begin);
 }
 
 }  // namespace

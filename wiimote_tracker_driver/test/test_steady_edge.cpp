@@ -2,11 +2,14 @@
 
 #include "exposure_clock/frame_history.h"
 #include "exposure_clock/steady_edge.h"
+#include "simulated_link.h"
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <random>
 #include <vector>
 
@@ -179,7 +182,7 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
       counter.normalise();
       history.add(counter, r, 1.0);
     }
-    double marginal[kReports][kNumbers] = {};
+    double marginal[kReports][kNumbers] = {}, lost[kReports] = {}, kept[kReports] = {};
     for (int a = 0; a < kNumbers; ++a)
       for (int b = a; b < kNumbers; ++b)
         for (int c = b; c < kNumbers; ++c) {
@@ -189,6 +192,11 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
           marginal[1][a] += path;
           marginal[2][b] += path;
           marginal[3][c] += path;
+          const int steps[kReports] = {0, a, b - a, c - b};
+          for (int r = 1; r < kReports; ++r) {
+            lost[r] += steps[r] > 1 ? path : 0.0;
+            kept[r] += steps[r] == 1 ? path : 0.0;
+          }
         }
     ASSERT_EQ(history.smooth(counter), kReports);
     for (int r = 1; r < kReports; ++r) {
@@ -200,6 +208,8 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
       }
       EXPECT_EQ(history.report(r).frame, best);
       EXPECT_NEAR(history.report(r).probability, marginal[r][best] / sum, 1e-4);
+      EXPECT_NEAR(history.report(r).lost, lost[r] / sum, 1e-4);
+      EXPECT_NEAR(history.report(r).kept, kept[r] / sum, 1e-4);
       EXPECT_EQ(history.report(r).arrival, r);
     }
   }
@@ -221,7 +231,28 @@ TEST(FrameHistory, is_complete_when_the_latest_number_is_certain_or_memory_is_fu
     history.add(counter, reports, 1.0);
   }
   EXPECT_EQ(history.smooth(counter), reports);
+  history.add(counter, reports, 1.0);
   EXPECT_FALSE(history.complete());
+  EXPECT_EQ(history.smooth(counter), 2) << "the latest and this one";
+}
+
+// Reports whose numbers are certain at once are seldom those after losses.
+TEST(FrameHistory, learns_losses_from_uncertain_frame_numbers) {
+  LinkModel link;
+  link.drops = 0.15;
+  int reports = 0, wrong = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    const SimulatedSession session = simulate(link, 20.0, seed);
+    ExposureClock clock;
+    for (const virtual_wiimote::FrameTime& report : session.reports) {
+      const double error = clock.update(report.arrival).exposure - report.exposure - link.delay;
+      if (report.exposure < link.phase + 10.0)
+        continue;
+      ++reports;
+      wrong += std::abs(error) > 0.5 * session.period;
+    }
+  }
+  EXPECT_LT(wrong, 0.2 * reports);
 }
 
 }  // namespace

@@ -70,9 +70,6 @@ class ClockEstimator {
   FrameHistory history_;
   SteadyEdge edge_;  // exact state of the filter for a sharp edge and a steady clock
   bool edge_used_ = false;
-  // Of the latest report used by learnFromHistory():
-  double history_arrival_ = 0.0;
-  std::int64_t history_frame_ = 0;
   double stall_probability_;   // that a report is held up,
   double sample_count_ = 0.0;  // and number of reports used for it
   std::array<double, kModels> weights_;

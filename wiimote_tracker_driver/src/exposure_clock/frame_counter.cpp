@@ -13,7 +13,7 @@ constexpr double kNegligibleShare = 1e-7;
 // Number of reports that the initial loss probability counts as, number of latest reports it is
 // estimated from, and its least value.
 constexpr double kPrior = 300.0;
-constexpr double kMemory = 6000.0;
+constexpr double kMemory = 1000.0;
 constexpr double kMinLossProbability = 0.002;
 }  // namespace
 
@@ -27,11 +27,9 @@ double FrameCounter::transition(std::int64_t frames) const {
   return kFloor + loss_probability_ * (1.0 - kNextLoss) * std::pow(kNextLoss, frames - 2);
 }
 
-void FrameCounter::learn(std::int64_t frames) {
-  if (frames <= 0)
-    return;
+void FrameCounter::learn(double lost, double kept) {
   sample_count_ = std::min(sample_count_ + 1.0, kMemory);
-  loss_probability_ += ((frames > 1 ? 1.0 : 0.0) - loss_probability_) / (sample_count_ + kPrior);
+  loss_probability_ += (lost - (lost + kept) * loss_probability_) / (sample_count_ + kPrior);
   loss_probability_ = std::max(loss_probability_, kMinLossProbability);
 }
 

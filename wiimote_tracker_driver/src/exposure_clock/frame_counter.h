@@ -16,8 +16,9 @@ class FrameCounter {
 
   /// Probability that the next report is `frames` frames after this one; 0: a duplicate.
   double transition(std::int64_t frames) const;
-  /// Updates the loss probability: a report was `frames` frames after the one before.
-  void learn(std::int64_t frames);
+  /// Updates the loss probability: a report came after lost frames or after the frame before, with
+  /// these probabilities; else it was a duplicate.
+  void learn(double lost, double kept);
   void copyLossesFrom(const FrameCounter& other);
 
   /// The latest report is certainly this frame.

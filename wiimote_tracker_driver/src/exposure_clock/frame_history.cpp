@@ -11,16 +11,18 @@ constexpr int kNumbersBelow = 4;     // of those kept, below the most probable o
 }  // namespace
 
 void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_time) {
-  if (size_ == kCapacity)
-    return;
+  if (complete()) {
+    entries_[0] = entries_[static_cast<std::size_t>(size_ - 1)];
+    size_ = 1;
+  }
   Entry& entry = entries_[static_cast<std::size_t>(size_++)];
-  entry = {{arrival, on_time, 0, 0.0},
+  entry = {{arrival, on_time, 0, 0.0, 0.0, 0.0},
            std::max(numbers.frame(0), numbers.mostProbable() - kNumbersBelow),
            {}};
   int number = static_cast<int>(entry.first - numbers.frame(0));
   for (double& probability : entry.probability)
     probability = number < numbers.size() ? numbers[number++] : 0.0;
-  decide(entry);
+  decide(&entry);
 }
 
 bool FrameHistory::complete() const {
@@ -28,41 +30,47 @@ bool FrameHistory::complete() const {
 }
 
 int FrameHistory::smooth(const FrameCounter& counter) {
-  const int size = size_;
-  for (int i = size - 2; i >= 0; --i) {
+  for (int i = size_ - 2; i >= 0; --i) {
     const auto at = static_cast<std::size_t>(i);
-    smoothEntry(counter, entries_[at + 1], &entries_[at]);
-    decide(entries_[at]);
+    smoothEntry(counter, &entries_[at], &entries_[at + 1]);
+    decide(&entries_[at]);
   }
-  size_ = 0;
-  return size;
+  return size_;
 }
 
-// p(from | all) = p(from | so far) * sum over `to` of p(to | from) p(to | all) / p(to | so far)
-void FrameHistory::smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry) {
-  std::array<double, kNumbers> factor{}, transition{};
+// p(from, to | all) = p(from | so far) p(to | from) p(to | all) / p(to | so far)
+void FrameHistory::smoothEntry(const FrameCounter& counter, Entry* entry, Entry* next) {
+  std::array<double, kNumbers> smoothed{}, joint{};
   for (std::size_t to = 0; to < kNumbers; ++to) {
-    if (next.probability[to] == 0.0)
+    if (next->probability[to] == 0.0)
       continue;
+    const auto frames = [&](std::size_t from) {
+      return next->first - entry->first + static_cast<std::int64_t>(to) -
+             static_cast<std::int64_t>(from);
+    };
     double predicted = 0.0;
     for (std::size_t from = 0; from < kNumbers; ++from) {
-      const auto step = static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from);
-      transition[from] = counter.transition(next.first - entry->first + step);
-      predicted += entry->probability[from] * transition[from];
+      joint[from] = entry->probability[from] * counter.transition(frames(from));
+      predicted += joint[from];
     }
-    for (std::size_t from = 0; from < kNumbers && predicted > 0.0; ++from)
-      factor[from] += transition[from] * next.probability[to] / predicted;
+    for (std::size_t from = 0; from < kNumbers && predicted > 0.0; ++from) {
+      const double both = joint[from] * next->probability[to] / predicted;
+      smoothed[from] += both;
+      next->report.lost += frames(from) > 1 ? both : 0.0;
+      next->report.kept += frames(from) == 1 ? both : 0.0;
+    }
   }
-  for (std::size_t i = 0; i < kNumbers; ++i)
-    entry->probability[i] *= factor[i];
+  entry->probability = smoothed;
 }
 
-void FrameHistory::decide(Entry& entry) {
-  const auto& p = entry.probability;
-  const auto best = std::max_element(p.begin(), p.end());
+void FrameHistory::decide(Entry* entry) {
+  auto& p = entry->probability;
   const double sum = std::accumulate(p.begin(), p.end(), 0.0);
-  entry.report.frame = entry.first + (best - p.begin());
-  entry.report.probability = sum > 0.0 ? *best / sum : 0.0;
+  for (double& probability : p)
+    probability /= sum > 0.0 ? sum : 1.0;
+  const auto best = std::max_element(p.begin(), p.end());
+  entry->report.frame = entry->first + (best - p.begin());
+  entry->report.probability = *best;
 }
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -19,6 +19,8 @@ class FrameHistory {
     double on_time = 0.0;      ///< probability that it arrived without waiting
     std::int64_t frame = 0;    ///< most probable smoothed number,
     double probability = 0.0;  ///< and its probability
+    double lost = 0.0;         ///< probability that frames before it were lost,
+    double kept = 0.0;         ///< and that none was
   };
 
   void clear() { size_ = 0; }
@@ -26,8 +28,9 @@ class FrameHistory {
   void add(const FrameCounter& numbers, double arrival, double on_time);
   /// Whether more reports would not help: the latest number is certain, or memory is full.
   bool complete() const;
-  /// Smooths the numbers of all reports since clear(), and clears. report() is valid until the next
-  /// add(). @param counter has the loss probability. @return their count; report(0) is the oldest.
+  /// Smooths the numbers of all reports so far, of which add() then keeps only the latest.
+  /// report(0), the oldest, is that of the last time. @param counter has the loss probability.
+  /// @return their count.
   int smooth(const FrameCounter& counter);
   const Report& report(int i) const { return entries_[static_cast<std::size_t>(i)].report; }
 
@@ -39,8 +42,8 @@ class FrameHistory {
     std::int64_t first = 0;
     std::array<double, kNumbers> probability{};
   };
-  static void smoothEntry(const FrameCounter& counter, const Entry& next, Entry* entry);
-  static void decide(Entry& entry);
+  static void smoothEntry(const FrameCounter& counter, Entry* entry, Entry* next);
+  static void decide(Entry* entry);
 
   std::array<Entry, kCapacity> entries_;
   int size_ = 0;

@@ -29,6 +29,7 @@ class PlaceCameras(NodeTest):
         self.feedback = rospy.Publisher('plan/feedback', InteractiveMarkerFeedback, queue_size=10)
         self.wait(lambda: self.clouds and self.summaries and handles
                   and self.feedback.get_num_connections(), 'the first coverage')
+        rospy.sleep(1.0)  # for so long the server of a new handle takes no other client's feedback
         self.poses = {handle.name: handle.pose for handle in handles[-1].markers}
 
     def on_texts(self, message):

@@ -29,7 +29,8 @@ class PlaceCameras(NodeTest):
         self.feedback = rospy.Publisher('plan/feedback', InteractiveMarkerFeedback, queue_size=10)
         self.wait(lambda: self.clouds and self.summaries and handles
                   and self.feedback.get_num_connections(), 'the first coverage')
-        rospy.sleep(1.0)  # for so long the server of a new handle takes no other client's feedback
+        # interactive_markers' server takes no feedback of a client for 1 s after a handle was made.
+        rospy.sleep(1.1)
         self.poses = {handle.name: handle.pose for handle in handles[-1].markers}
 
     def on_texts(self, message):

@@ -30,7 +30,7 @@ namespace {
 constexpr int kMostRemarks = 6;
 constexpr int kSentenceLines = 3;
 constexpr int kAdviceMargin = 9;  // around the advice [px of the screen]
-// In metres. Of cm or mm no digit is dropped: the node refuses them, and says why.
+// In metres. So wide that a number in cm can be typed whole: the node then doubts it.
 constexpr double kLongestSide = 9999.0;
 constexpr double kFarthest = 9999.0;
 

@@ -106,10 +106,11 @@ class Search {
   }
 
  private:
-  static constexpr std::size_t kPairs = 4;       // Of cameras, to start from.
-  static constexpr std::size_t kFewCameras = 4;  // Until when all starts are followed,
-  static constexpr std::size_t kFollowed = 3;    // and how many are from then on.
-  static constexpr double kSameFocal = 0.01;     // Relative, of starts that agree.
+  static constexpr std::size_t kPairs = 4;  // Of cameras, to start from.
+  // Up to so many cameras all starts are followed; from then on only the best kFollowed.
+  static constexpr std::size_t kFewCameras = 4;
+  static constexpr std::size_t kFollowed = 3;
+  static constexpr double kSameFocal = 0.01;  // Relative, of starts that agree.
 
   double maximumError() const { return options_.bundle.maximum_error; }
 

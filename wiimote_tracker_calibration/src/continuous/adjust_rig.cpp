@@ -58,9 +58,10 @@ constexpr double kTurnRate = 0.0005 / 3600;  // [rad/s]
 constexpr double kMostTurn = 0.002;          // [rad]
 constexpr double kLever = 0.1;               // [m]
 
-// Error of the stamps that changes slowly, and prior of the time offset in a new epoch, around 0:
-// wider than capture::kUnknownOffset, as much as the benchmark draws, since the images tell it [s].
+// Error of the stamps that changes slowly [s].
 constexpr double kOffsetStddev = 0.0001;
+// Prior of the time offset in a new epoch, around 0 [s]. As wide as the benchmark draws it: unlike
+// capture::kUnknownOffset it is estimated.
 constexpr double kNewOffsetStddev = 0.02;
 
 /// The rig with its covariance widened by turns of the cameras [rad], standard deviation per axis.

@@ -27,8 +27,8 @@ std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
 }
 
-/// @returns a sentence on zones that a person wrote into the file but that are not in use; empty if
-/// there are none.
+/// @returns a sentence on zones of the file that the rig does not have, such as those that a person
+/// wrote into it; empty if there are none.
 std::string describeLostZones(const geometry::Rig& rig, const std::string& path) {
   std::vector<std::string> lost;
   try {
@@ -43,8 +43,9 @@ std::string describeLostZones(const geometry::Rig& rig, const std::string& path)
   }
   return lost.empty()
              ? ""
-             : "zones of the file before were not in use and are only in " + path + ".bak (" +
-                   joined(lost) + "): copy them into the file, then call calibration/load";
+             : "the file had other zones (" + joined(lost) + "), which are in " + path +
+                   ".bak until the next save: if they still hold, copy them into the file, then "
+                   "call calibration/load";
 }
 
 /// @returns why the driver does not know its lens now; empty when it does.

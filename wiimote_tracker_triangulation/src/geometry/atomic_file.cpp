@@ -68,14 +68,14 @@ void replace(const std::filesystem::path& path, const std::string& content) {
 std::string kindOf(const std::string& content) {
   if (content.rfind("#ROSBAG", 0) == 0)
     return "bag";
-  const std::string head = "\n" + content.substr(0, 1000);
   const std::string key = "\nformat:";
-  const std::size_t found = head.find(key);
+  const std::string lines = "\n" + content;
+  const std::size_t found = lines.find(key);
   if (found == std::string::npos)
     return "";
   const std::size_t begin =
-      std::min(head.find_first_not_of(" \"'", found + key.size()), head.size());
-  return head.substr(begin, head.find_first_of(" \"'\r\n", begin) - begin);
+      std::min(lines.find_first_not_of(" \"'", found + key.size()), lines.size());
+  return lines.substr(begin, lines.find_first_of(" \"'\r\n", begin) - begin);
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void writeFileAtomically(const std::string& path, const std::string& content) {
       const std::string old = readFile(target.string(), std::numeric_limits<std::size_t>::max());
       const std::string kind = kindOf(old);
       if (!kind.empty() && kind != kindOf(content))
-        throw FileError(path + " is kept, it is a file of another kind (" + kind +
+        throw FileError(path + " was not written: it is a file of another kind (" + kind +
                         "); choose another name");
       replace(target.string() + ".bak", old);
     }

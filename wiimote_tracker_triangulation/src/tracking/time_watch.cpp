@@ -32,9 +32,11 @@ TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
     return Result::kWrongClock;
   cameras_[camera].used = arrival;
   const bool jumped_back = hasJumpedBack(camera);
-  for (Camera& each : cameras_)
-    each.furthest = jumped_back ? -kInfinity : each.furthest;
-  cameras_[camera].furthest = std::max(cameras_[camera].furthest, arrival);
+  if (jumped_back) {
+    for (Camera& each : cameras_)
+      each.furthest = -kInfinity;
+  }
+  noteProgress(arrival, jumped_back || arrival >= newest_used_ - kJump, &cameras_[camera]);
   disordered_ = !jumped_back && arrival < newest_used_;
   if (jumped_back || arrival >= newest_used_) {
     newest_used_ = arrival;
@@ -49,6 +51,12 @@ void TimeWatch::note(double arrival, Camera* camera) {
   if (is_behind ? camera->was_behind : arrival > camera->newest.value_or(-kInfinity))
     camera->newest = arrival;
   camera->was_behind = is_behind;
+}
+
+void TimeWatch::noteProgress(double arrival, bool is_present, Camera* camera) {
+  if (is_present)
+    camera->furthest = std::max(camera->furthest, arrival);
+  camera->waited = is_present ? 0 : std::min(camera->waited + 1, kLongestBacklog + 1);
 }
 
 void TimeWatch::Pair::add(double lead) {
@@ -156,15 +164,14 @@ bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
 }
 
 /// Whether all trusted cameras that are not silent are back behind the newest image that was used,
-/// or that image came from a camera that is not trusted any more. Not for images that only waited
-/// in a network: these go on after the camera's last one, but may be so many together that the
-/// others seem silent.
+/// or that image came from a camera that is not trusted any more. Images that only waited in a
+/// network are no jump, though they may be so many together that the others seem silent.
 bool TimeWatch::hasJumpedBack(std::size_t camera) const {
   if (awaited_ > 0)
     return false;
   const bool is_trusted = cameras_[newest_camera_].trusted;
   const double jump = is_trusted ? kJump : kTolerance;
-  if (is_trusted && !(*cameras_[camera].newest < cameras_[camera].furthest - kTolerance))
+  if (is_trusted && isBacklog(cameras_[camera]))
     return false;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const bool counts = i == camera || (cameras_[i].trusted && activePair(camera, i));
@@ -172,6 +179,12 @@ bool TimeWatch::hasJumpedBack(std::size_t camera) const {
       return false;
   }
   return true;
+}
+
+/// Whether its images go on where they were when the camera was last with the others.
+bool TimeWatch::isBacklog(const Camera& camera) {
+  return camera.furthest > -kInfinity && *camera.newest >= camera.furthest - kTolerance &&
+         camera.waited <= kLongestBacklog;
 }
 
 std::optional<double> TimeWatch::ahead(std::size_t camera) const {

@@ -67,8 +67,11 @@ class TimeWatch {
   struct Camera {
     std::optional<double> newest;  // arrival of its newest image [s]
     std::optional<double> used;    // of the last one that was used [s]
-    double furthest = 0.0;         // of the newest one that was used since the last jump [s]
-    bool was_behind = false;       // its last image was older than `newest`
+    // Of the newest one since the last jump that was not kJump behind all others [s]; and images
+    // since.
+    double furthest = -std::numeric_limits<double>::infinity();
+    int waited = 0;
+    bool was_behind = false;  // its last image was older than `newest`
     bool trusted = true;
   };
 
@@ -76,13 +79,17 @@ class TimeWatch {
   static constexpr int kLeast = 8;    ///< Comparisons before they may change whether two agree.
   /// Images of one camera after which another is silent; more than come together after a pause.
   static constexpr int kSilence = 100;
-  /// Images of one camera up to which the last one of another may show that one of them is ahead.
+  /// A camera is compared with another's last image until as many came from it alone since.
   static constexpr int kRecent = 10;
+  /// More images of one camera do not wait in a network: about half a minute.
+  static constexpr int kLongestBacklog = 3000;
 
   std::size_t indexOf(std::size_t a, std::size_t b) const;
   const Pair* activePair(std::size_t a, std::size_t b) const;
   bool doAgree(std::size_t a, std::size_t b) const;
   static void note(double arrival, Camera* camera);
+  static void noteProgress(double arrival, bool is_present, Camera* camera);
+  static bool isBacklog(const Camera& camera);
   bool comparePairs(std::size_t camera, double arrival);
   void vote();
   bool someAgreesWith(std::size_t a, std::size_t b) const;

@@ -149,6 +149,30 @@ TEST(Tracker, AGapOfACameraAfterHalfOfThemEndedCostsOnlyTheGap) {
   EXPECT_EQ(0u, tracker.counters().dropped);
 }
 
+/// Half of the cameras run alone with a clock that is an hour ahead, and end; then the others
+/// start. Or these ran before, too: their images look like a backlog for longer.
+TEST(Tracker, GoesOnAfterCamerasWhoseClockWasAheadEnded) {
+  for (const bool ran_before : {false, true}) {
+    std::vector<SceneImage> images;
+    for (SceneImage& image :
+         imagesOf(paperRig(), {circle({1.25, 1.25, 1.0}, 0.5, 1.5)}, {}, 18000)) {
+      const double time = image.image.arrival;
+      const bool is_ahead = image.camera < 2;
+      const bool runs = is_ahead ? time > 1001.0 && time < 1003.0
+                                 : time > 1003.0 || (ran_before && time < 1001.0);
+      if (!runs)
+        continue;
+      image.image.arrival += is_ahead ? 3600.0 : 0.0;
+      images.push_back(image);
+    }
+    Tracker tracker(paperRig(), exactOptions());
+    const std::vector<Snapshot> snapshots = track(&tracker, images);
+    EXPECT_EQ(1u, tracker.counters().resets) << ran_before;
+    EXPECT_EQ(1u, idsIn(snapshots.back(), TrackState::kTracked).size()) << ran_before;
+    EXPECT_NEAR(images.back().image.arrival, snapshots.back().time, 0.1) << ran_before;
+  }
+}
+
 TEST(Tracker, RestartsWhenABagStartsOver) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(2, 9), {}, 1200);
   Tracker tracker(paperRig(), exactOptions());

@@ -7,8 +7,9 @@
 namespace wiimote_tracker::geometry {
 
 /// Writes a file atomically: for every reader, and after a crash, it has its old content or all of
-/// the new. The old file is kept as path + ".bak"; a bag, or another `format:`, stays. Creates
-/// folders; follows a link. Threads may write together. @throws FileError; then nothing changes.
+/// the new. The old file is kept as path + ".bak". Creates folders; follows a link. Threads may
+/// write together. @throws FileError, also instead of replacing a bag, or a file whose key `format`
+/// is another; then the file at `path` is unchanged.
 void writeFileAtomically(const std::string& path, const std::string& content);
 
 constexpr std::size_t kLargestReadable = 32000000;  ///< File [bytes].

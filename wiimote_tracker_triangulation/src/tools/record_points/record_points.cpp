@@ -74,7 +74,7 @@ class Recorder {
     finishOne(&trajectories_);
     if (messages_ > 0)
       std::printf("record_points: %zu messages came.\n", messages_);
-    else
+    else if (!tables_.empty())
       std::fprintf(stderr,
                    "record_points: no points are in the files, since none came on %s: start the "
                    "tracker, or record in its namespace.\n",
@@ -95,7 +95,7 @@ class Recorder {
   }
 
   void onTimer(const ros::WallTimerEvent&) {
-    if (messages_ == 0)
+    if (messages_ == 0 && !tables_.empty())
       ROS_WARN_DELAYED_THROTTLE(10.0,
                                 "No points came on %s yet: start the tracker, or record in its "
                                 "namespace.",

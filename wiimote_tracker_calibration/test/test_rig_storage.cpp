@@ -57,7 +57,7 @@ TEST_F(RigStorage, ZonesThatWereWrittenButNotLoadedAreNotLostWithoutAWord) {
   rig.zones[0].maximum.z() = 2.0;
   const std::vector<std::string> warnings = saveRig(rig, path);
   ASSERT_EQ(warnings.size(), 1U);
-  EXPECT_SAYS(warnings[0], "rig.yaml.bak (hall): copy them into the file");
+  EXPECT_SAYS(warnings[0], "other zones (hall), which are in " + path + ".bak until the next save");
 }
 
 }  // namespace

@@ -50,9 +50,9 @@ constexpr Eigen::Index kPose = 6;            // Parameters of a pose: rotation, 
 constexpr double kHeldVariance = 1e-12;
 
 // How far a camera may have turned since the rig was solved, standard deviation per axis: at once,
-// with time, at most. It moves by the lever times the angle. Assumed; the benchmark drifts by 0.4
-// mrad an hour, of which chi-squared in isWithinDrift() is at most 4 in eight hours (the limit is
-// 51); it was over 1,100 where another LED was followed.
+// with time, at most. It moves by the lever times the angle. These are assumed. The benchmark
+// drifts by 0.4 mrad an hour. In its eight hours, chi-squared in isWithinDrift() is at most 4; the
+// limit is 51. Where another LED was followed, it was over 1,100.
 constexpr double kLeastTurn = 0.0001;        // [rad]
 constexpr double kTurnRate = 0.0005 / 3600;  // [rad/s]
 constexpr double kMostTurn = 0.002;          // [rad]

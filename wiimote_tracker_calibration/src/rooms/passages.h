@@ -26,7 +26,7 @@ struct Passages {
   /// Left out: several LEDs may have gone through the door at the same time.
   std::size_t crowded = 0;
   std::size_t crooked = 0;   ///< Left out: not straight.
-  std::size_t unhidden = 0;  ///< Left out: both rooms saw the LED at the same time.
+  std::size_t unhidden = 0;  ///< Left out: both rooms saw an LED, maybe the same, at that time.
 };
 
 /// Pairs the end of a track in one room with the beginning of one in the other.

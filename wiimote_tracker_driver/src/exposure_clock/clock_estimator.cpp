@@ -68,7 +68,8 @@ constexpr double kMinStallProbability = 0.0005;
 constexpr double kServiceTime = 0.0025;
 // Density of an arrival that no model explains [1/s]; a stall explains delays up to 0.8 s.
 constexpr double kUnexplained = 1e-7;
-// Number of such arrivals in a row after which the clock restarts: reports once a second or less.
+// Number of such arrivals in a row after which the clock restarts, as when reports come once a
+// second or less.
 constexpr int kMaxUnexplained = 8;
 // Number of reports in a row, one second, with an uncertain frame after which it restarts, as when
 // reports came twice for a while.

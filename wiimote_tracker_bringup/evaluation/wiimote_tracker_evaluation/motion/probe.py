@@ -154,7 +154,7 @@ class Probe:
 
 
 def refuse_unknown():
-    """Throws ExperimentError if a private parameter is misspelt. It lasts as long as the master."""
+    """Throws ExperimentError if a private parameter is misspelt; the master keeps it."""
     for name in sorted(set(rospy.get_param(rospy.get_name(), {})) - PARAMETERS):
         parameter = rospy.resolve_name('~' + name)
         raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and: rosparam '

@@ -69,8 +69,9 @@ class BodyLearning {
   std::string file_;
   std::vector<std::string> names_;
   std::set<std::string> codes_;
-  std::vector<body::Constellation> bodies_;  // all known; only for the service's thread
-  std::string content_;                      // of the file, as last read or written; the same
+  // Only for the service's thread:
+  std::vector<body::Constellation> bodies_;  // all known
+  std::string content_;                      // of the file, as last read or written
 
   std::mutex mutex_;  // protects all below
   std::condition_variable changed_;

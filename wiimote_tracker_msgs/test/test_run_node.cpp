@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,19 @@ TEST_F(RunNodeTest, HelpSaysWhatTheNodeDoesAndEnds) {
 TEST_F(RunNodeTest, RefusesAWordThatRosDoesNotKnow) {
   EXPECT_EQ(run({"other:=topic", "/dev/hidraw0"}), 2);
   EXPECT_NE(errors_.find("'/dev/hidraw0' is one argument too many"), std::string::npos) << errors_;
+  EXPECT_FALSE(has_run_);
+}
+
+TEST_F(RunNodeTest, SaysWhatToCorrectInTheAddressOfTheMaster) {
+  for (const char* address :
+       {"", "lab", "lab:11311", "http://lab", "http://:11311", "http://lab:x"}) {
+    setenv("ROS_MASTER_URI", address, 1);
+    EXPECT_EQ(run({}), 1);
+    const std::string given = *address == '\0' ? "empty" : address;
+    EXPECT_EQ(errors_, "some_node: ROS_MASTER_URI is " + given +
+                           ", but must be such as http://HOST:11311: correct it\n");
+    EXPECT_EQ(run({"--help"}), 0);
+  }
   EXPECT_FALSE(has_run_);
 }
 

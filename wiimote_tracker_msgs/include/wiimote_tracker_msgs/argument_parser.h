@@ -103,7 +103,11 @@ class ArgumentParser {
   /// An exception, also of `program`, becomes one sentence on stderr. @returns the exit status: of
   /// `program`, 2 for BadArguments, 1 for another exception.
   int run(int argc, char** argv, const std::function<int()>& program) {
-    const Words words(argv + std::min(argc, 1), argv + argc);
+    return run(Words(argv + std::min(argc, 1), argv + argc), program);
+  }
+
+  /// The same for the words after the program's name.
+  int run(const Words& words, const std::function<int()>& program) {
     const auto given = [&](const char* word) {
       return std::find(words.begin(), words.end(), word) != words.end();
     };

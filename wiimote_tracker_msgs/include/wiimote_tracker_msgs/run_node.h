@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_MSGS_RUN_NODE_H
 
 #include "wiimote_tracker_msgs/argument_parser.h"
+#include "wiimote_tracker_msgs/error.h"
 #include "wiimote_tracker_msgs/log_exceptions.h"
 #include "wiimote_tracker_msgs/parameter_reader.h"
 
@@ -140,6 +141,22 @@ int runWithMaster(const Node& node) {
   }
 }
 
+/// @throws Error if the master's address is none: ros::init() would abort.
+inline void requireMasterUri(int argc, char** argv) {
+  const char* const variable = std::getenv("ROS_MASTER_URI");
+  std::string uri = variable == nullptr ? "" : variable;
+  const std::string remapping = "__master:=";
+  for (const std::string& word : std::vector<std::string>(argv, argv + argc)) {
+    if (word.rfind(remapping, 0) == 0)
+      uri = word.substr(remapping.size());
+  }
+  std::string host;
+  std::uint32_t port = 0;
+  if (!ros::network::splitURI(uri, host, port) || host.empty() || port == 0)
+    throw Error("ROS_MASTER_URI is " + (uri.empty() ? "empty" : uri) +
+                ", but must be such as http://HOST:11311: correct it");
+}
+
 /// A node's main(): calls node(nh, private_nh), which returns when the node is to end. Without a
 /// master, or when an exception comes, it says so in one sentence; after a refused parameter it
 /// waits for its end if it is respawned. Link Boost::program_options.
@@ -151,12 +168,17 @@ int runNode(int argc,
             const std::string& name,
             const std::string& purpose,
             const Node& node) {
-  const std::string path = argv[0];
-  // Without a timeout init() waits forever for a master to set the parameters of the command line.
-  ros::master::setRetryTimeout(ros::WallDuration(1.0));
-  ros::init(argc, argv, name);  // and takes the arguments for ROS away
-  ros::master::setRetryTimeout(ros::WallDuration(0.0));
-  return ArgumentParser(path, purpose).run(argc, argv, [&] { return runWithMaster(node); });
+  std::vector<std::string> words;
+  ros::removeROSArgs(argc, argv, words);
+  words.erase(words.begin());  // the program's path
+  return ArgumentParser(argv[0], purpose).run(words, [&] {
+    requireMasterUri(argc, argv);
+    // Without a timeout init() waits forever for a master to set parameters of the command line.
+    ros::master::setRetryTimeout(ros::WallDuration(1.0));
+    ros::init(argc, argv, name);
+    ros::master::setRetryTimeout(ros::WallDuration(0.0));
+    return runWithMaster(node);
+  });
 }
 
 /// The same for an object that is made of both handles and needs one thread for its callbacks.

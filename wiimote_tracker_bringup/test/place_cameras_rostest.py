@@ -91,6 +91,8 @@ class PlaceCameras(NodeTest):
         moved.position.x -= 0.5
         self.drag('wiimote_1', moved)
         self.assertAlmostEqual(self.summaries[-1]['wiimote_1'].x, moved.position.x)
+        with open(output, 'w') as file:
+            file.write('# of a user')
         answer = rospy.ServiceProxy('plan/save', Trigger)()
         self.assertTrue(answer.success, answer.message)
         self.assertIn(output, answer.message)
@@ -118,6 +120,8 @@ class PlaceCameras(NodeTest):
         self.wait(lambda: os.path.exists(output), 'what the menu saves')
         self.wait(lambda: any('three: ' in text and 'saved to' in text
                               for text in self.summaries[-1]), 'the words that it is saved')
+        with open(output + '.bak') as file:
+            self.assertEqual(file.read(), '# of a user')
 
 
 if __name__ == '__main__':

@@ -122,7 +122,9 @@ def test_the_search_betters_a_poor_start(monkeypatch):
 
 def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(tmp_path, capsys):
     path = str(tmp_path / 'rig.yaml')
+    (tmp_path / 'rig.yaml').write_text('# of a user')
     plan_rig.main([EXAMPLE, '--generations', '1', '--output', path])
+    assert (tmp_path / 'rig.yaml.bak').read_text() == '# of a user'
     proposed = capsys.readouterr().out
     assert len(scene.read_scene(path).cameras) == 4
     plan_rig.main([EXAMPLE, '--score', path])

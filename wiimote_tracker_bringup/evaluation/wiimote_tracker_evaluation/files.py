@@ -18,6 +18,12 @@ def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional
         taken.add(os.path.realpath(path))
 
 
+def keep_copy(path: str) -> None:
+    """Copies a file that is about to be replaced, if there is one, to path + '.bak'."""
+    if os.path.isfile(path):
+        shutil.copyfile(path, path + '.bak')
+
+
 def prepare(folder: str, names: Iterable[str]) -> None:
     """Makes a folder for results; removes files and folders of an earlier run with these names."""
     try:

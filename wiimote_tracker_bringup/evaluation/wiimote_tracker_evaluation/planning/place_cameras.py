@@ -38,6 +38,7 @@ class PlaceCameras:
         self._plan, self._rig, self._output = chosen, rig, output
         self._names, self._positions, self._targets = plan_rig.places_of(rig)
         self._lines = []  # of the summary
+        self._is_saved = False
         self._lock = threading.Lock()
         self._cells = rospy.Publisher('coverage/cells', PointCloud2, queue_size=1, latch=True)
         self._summary = rospy.Publisher('coverage', MarkerArray, queue_size=1, latch=True)
@@ -113,7 +114,10 @@ class PlaceCameras:
             description = rigs.placed(self._rig, self._positions, self._targets)
             volume = [round(float(v), 3) for v in self._plan.volume]
         try:
+            if not self._is_saved:  # a file of before, perhaps with comments
+                files.keep_copy(self._output)
             rigs.write(self._output, description)
+            self._is_saved = True
         except OSError as error:
             return TriggerResponse(False, f'not saved: {sentence_of(error)}')
         return TriggerResponse(True, f'saved to {self._output}; the plan file is unchanged, the volume '

@@ -152,6 +152,7 @@ def run(arguments):
     names, positions, targets = places_of(rig)
     print('\n'.join(describe_sight(chosen, names, positions, targets)))
     if arguments.output:
+        files.keep_copy(arguments.output)
         rigs.write(arguments.output, rig)
     if arguments.plot:
         picture.draw(chosen, positions, targets, arguments.plot)
@@ -165,7 +166,7 @@ def main(argv=None):
     parser.add_argument('--score', metavar='DESCRIPTION', help='rate this rig description instead of '
                         'searching')
     parser.add_argument('--output', metavar='RIG', help='write a rig description for '
-                        'simulated_rig.launch')
+                        'simulated_rig.launch; a file that is there is kept as RIG.bak')
     parser.add_argument('--plot', metavar='FILE', help='write a map (.png, .svg, .pdf)')
     parser.add_argument('--generations', type=ranges.within(1, 10 ** 6, int), default=500,
                         metavar='N', help='of the search; more take longer (default: 500)')

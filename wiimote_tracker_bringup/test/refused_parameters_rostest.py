@@ -17,9 +17,12 @@ NODES = {
                  '_cell_size:=-1'],
     'triangulation': [roslib.packages.find_node('wiimote_tracker_triangulation',
                                                 'tracker_manager')[0], '_mode:=track'],
+    'simulated_hand': [roslib.packages.find_node('wiimote_tracker_bringup', 'simulated_hand')[0],
+                       '_side:=-1'],
 }
 MANAGER = [roslib.packages.find_node('nodelet', 'nodelet')[0], 'manager']
-SAID = {'coverage': '/coverage/cell_size is -1, but', 'triangulation': '/triangulation/mode is'}
+SAID = {'coverage': '/coverage/cell_size is -1, but', 'triangulation': '/triangulation/mode is',
+        'simulated_hand': '/simulated_hand/side is -1, but'}
 
 
 class RefusedParameters(unittest.TestCase):

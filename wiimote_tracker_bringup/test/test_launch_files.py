@@ -185,15 +185,19 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
 
 
 @pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch',
-                                  'several_machines.launch'])
+                                  'several_machines.launch', 'simulated_rig.launch hand:=true'])
 def test_nodes_that_are_respawned_know_it(load, name):
-    nodes = load(name)[0].values()
+    nodes = load(*name.split())[0].values()
     # Of drivers it is what they start that is respawned.
     respawned = [node for node in nodes
                  if (node.respawn or node.type == 'drivers') and node.type != 'master_watch']
     assert respawned
     for node in respawned:
         assert ('WIIMOTE_TRACKER_RESPAWNS', '1') in node.env_args
+
+
+def test_the_hand_is_started_again(load):
+    assert load('simulated_rig.launch', 'hand:=true')[0]['simulated_hand'].respawn
 
 
 def test_a_replay_knows_bodies_and_codes(load):

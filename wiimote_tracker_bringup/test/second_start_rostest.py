@@ -3,16 +3,16 @@
 
 import subprocess
 import sys
-import unittest
 import xmlrpc.client
 
 import rosgraph
 import roslib.packages
 import rospy
 import rostest
+from live_rig import NodeTest
 
 
-class SecondStart(unittest.TestCase):
+class SecondStart(NodeTest):
     def start(self):
         node = roslib.packages.find_node('wiimote_tracker_triangulation', 'coverage_node')[0]
         process = subprocess.Popen([node], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
@@ -20,10 +20,7 @@ class SecondStart(unittest.TestCase):
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)
-        deadline = rospy.get_time() + 30.0
-        while self.pid() != process.pid:
-            self.assertLess(rospy.get_time(), deadline, 'the node was not started')
-            rospy.sleep(0.02)
+        self.wait(lambda: self.pid() == process.pid, 'the node to start')
         return process
 
     def pid(self):

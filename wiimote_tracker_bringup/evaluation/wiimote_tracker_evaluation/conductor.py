@@ -12,6 +12,7 @@ from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRe
                                       SolveCalibration, StartCalibration)
 
 from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.waiting import wait_until
 
 SETTLE = 0.1  # between arrival of an LED and measurement [s]
 REST = 0.02   # spread of the points of an LED at rest within that time [m]
@@ -54,13 +55,12 @@ class Conductor:
     def wait(self, condition, timeout, what):
         """Waits until the condition holds. what: for what, or a function that tells it.
         @raise ExperimentError: not within timeout [s]."""
-        deadline = rospy.get_time() + timeout
-        while not condition():
+        def check():
             self._check()
-            if rospy.is_shutdown() or rospy.get_time() > deadline:
-                raise ExperimentError(f'waited {timeout:.0f} s in vain for '
-                                      f'{what() if callable(what) else what}')
-            rospy.sleep(0.01)
+            if rospy.is_shutdown():
+                raise ExperimentError('interrupted')
+        wait_until(condition, timeout, lambda: f'waited {timeout:.0f} s in vain for '
+                   f'{what() if callable(what) else what}', check, period=0.01)
 
     def _call(self, service, type_, *arguments, **named):
         """Response of a service that returns success and a sentence."""

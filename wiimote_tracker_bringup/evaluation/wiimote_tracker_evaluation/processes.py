@@ -9,6 +9,7 @@ import time
 from typing import List, Sequence
 
 from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.waiting import wait_until
 
 PR_SET_PDEATHSIG = 1
 PR_SET_CHILD_SUBREAPER = 36
@@ -76,12 +77,8 @@ class Processes:
         @raise ExperimentError: it does not within patience [s]."""
         import rosgraph
         master = self.start('rosmaster', ['rosmaster', '--core', '-p', str(port)], output)
-        deadline = time.monotonic() + patience
-        while not rosgraph.is_master_online():
-            self.check()
-            if time.monotonic() > deadline:
-                raise ExperimentError(f'no ROS master within {patience:.0f} s; see {output}')
-            time.sleep(0.02)
+        wait_until(rosgraph.is_master_online, patience,
+                   f'no ROS master within {patience:.0f} s; see {output}', self.check)
         return master
 
     def check(self) -> None:

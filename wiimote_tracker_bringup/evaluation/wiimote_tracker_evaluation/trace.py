@@ -4,13 +4,13 @@ Simulation, driver, tracker and recorder run on one computer with one clock.
 """
 
 import os
-import time
 import xmlrpc.client
 
 import numpy as np
 
 from wiimote_tracker_evaluation import stack
 from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_evaluation.waiting import wait_until
 
 EXPOSURES = '/simulation/exposures'
 DEADLINE = 20.0       # for the start of the recorder [s]
@@ -79,12 +79,8 @@ def wait_until_connected(node, topics):
     """Waits until the node whose name begins so is connected to a publisher of each topic."""
     import rosgraph
     master = rosgraph.Master('/evaluation')
-    deadline = time.monotonic() + DEADLINE
-    while not connected_topics(master, node).issuperset(topics):
-        stack.check()
-        if time.monotonic() > deadline:
-            raise ExperimentError(f'the recorder did not begin within {DEADLINE:.0f} s')
-        time.sleep(0.02)
+    wait_until(lambda: connected_topics(master, node).issuperset(topics), DEADLINE,
+               f'the recorder did not begin within {DEADLINE:.0f} s', stack.check)
 
 
 def connected_topics(master, node):

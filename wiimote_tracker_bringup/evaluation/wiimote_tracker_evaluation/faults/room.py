@@ -17,6 +17,7 @@ from wiimote_tracker_evaluation.faults.rig_file import write_rig
 from wiimote_tracker_evaluation.processes import descendants, free_port
 from wiimote_tracker_evaluation.programs import find_program, package_file
 from wiimote_tracker_evaluation.true_rig import true_rig
+from wiimote_tracker_evaluation.waiting import wait_until
 
 START = 90.0      # longest time until all LEDs are tracked, on a busy computer [s]
 SETTLED = 2.0     # that the LEDs must be tracked at the start [s]
@@ -108,13 +109,12 @@ class Room:
         return figures.figures(self.window(start, end), end - start)
 
     def wait_until_tracked(self):
-        deadline = time.monotonic() + START
-        while not figures.is_tracked(self.window(time.time() - SETTLED, time.time()), SETTLED,
-                                     len(LEDS), self.cameras):
-            if time.monotonic() > deadline:
-                raise ExperimentError(f'the LEDs are not tracked by all cameras within '
-                                      f'{START:.0f} s; see {self.log}')
-            time.sleep(SETTLED / 2.0)
+        def is_tracked():
+            newest = self.window(time.time() - SETTLED, time.time())
+            return figures.is_tracked(newest, SETTLED, len(LEDS), self.cameras)
+        wait_until(is_tracked, START,
+                   f'the LEDs are not tracked by all cameras within {START:.0f} s; see {self.log}',
+                   period=SETTLED / 2.0)
 
     # --- Processes
 

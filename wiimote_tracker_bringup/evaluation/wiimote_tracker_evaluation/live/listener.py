@@ -9,6 +9,7 @@ import numpy as np
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 from wiimote_tracker_evaluation.ros_master import master_problem
+from wiimote_tracker_evaluation.waiting import wait_until
 
 KEPT = 60.0         # [s]
 STILL_TIME = 1.5    # at rest, for a measurement [s]
@@ -69,7 +70,8 @@ class Listener:
     # --- The rig
 
     def rig(self):
-        self._wait(lambda: self._rig is not None, 'the tracker has no calibration: calibrate first '
+        wait_until(lambda: self._rig is not None, THERE,
+                   'the tracker has no calibration: calibrate first '
                    '(rosrun wiimote_tracker_calibration calibrate)')
         return self._rig
 
@@ -89,8 +91,9 @@ class Listener:
     # --- The LEDs
 
     def wait_for_points(self):
-        self._wait(lambda: self._seen, 'no points come; see rosrun wiimote_tracker_calibration '
-                   'calibrate for what the cameras see')
+        wait_until(lambda: self._seen, THERE,
+                   'no points come; see rosrun wiimote_tracker_calibration calibrate for what the '
+                   'cameras see')
 
     def since(self, begin):
         """Points that arrived after a time [s since 1970]."""
@@ -127,13 +130,6 @@ class Listener:
             return None
         return Place(mean, float(np.sqrt(((positions - mean) ** 2).sum() / (len(rows) - 1))),
                      len(rows))
-
-    def _wait(self, condition, otherwise):
-        deadline = time.monotonic() + THERE
-        while not condition():
-            if time.monotonic() > deadline:
-                raise ExperimentError(otherwise)
-            time.sleep(0.02)
 
 
 def with_listener(measure):

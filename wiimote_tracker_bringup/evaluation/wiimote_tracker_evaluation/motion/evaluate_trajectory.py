@@ -67,7 +67,7 @@ def main(argv=None):
         'with poses against another, of nav_msgs/Odometry, PoseStamped or '
         'PoseWithCovarianceStamped.')
     parser.add_argument('bag', help='recording of both topics')
-    parser.add_argument('--estimate', required=True, metavar='TOPIC')
+    parser.add_argument('--estimate', required=True, metavar='TOPIC', help='to be judged')
     parser.add_argument('--truth', required=True, metavar='TOPIC', help='/<body>/odometry')
     parser.add_argument('--alignment', choices=alignment.KINDS, default='rigid',
                         help='fitted to the positions; absolute: none, rigid: without scale, '

@@ -43,7 +43,7 @@ def main():
         'motion capture; cameras: of the path, with rates, offsets and read-out times of '
         'unsynchronised cameras; multicamselfcal: of predicted pixels, and of cameras that were '
         'disturbed and corrected by continuous calibration.')
-    parser.add_argument('format', choices=sorted(formats.FORMATS))
+    parser.add_argument('format', choices=sorted(formats.FORMATS), help='of the recording')
     parser.add_argument('folder', metavar='DIR', help='the recording')
     parser.add_argument('--json', metavar='FILE', help='write the figures')
     parser.add_argument('--report', metavar='DIR', help='write a page with plots')

@@ -286,6 +286,15 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
 
   EXPECT_TRUE(std::ifstream(parameter("files") + "_1.yaml").good())
       << "saved where camera_info_url says";
+
+  Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const auto is_told_empty = [&] {
+    return driverStatus(diagnostics).message.find("_1.yaml is empty") != std::string::npos;
+  };
+  std::ofstream(parameter("files") + "_1.yaml").close();  // as a full disk leaves it
+  EXPECT_TRUE(eventually(is_told_empty));
+  ASSERT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
+  EXPECT_TRUE(eventually([&] { return !is_told_empty(); }));
 }
 
 TEST_F(DriverTest, FactoryCalibrationIsPublished) {

@@ -6,6 +6,7 @@
 
 #include <exception>
 #include <filesystem>
+#include <system_error>
 
 namespace wiimote_tracker::driver {
 namespace {
@@ -13,11 +14,10 @@ namespace {
 /// Of camera_info_manager.
 constexpr const char* kDefaultUrl = "file://${ROS_HOME}/camera_info/${NAME}.yaml";
 
-/// Whether the URL names a file that is not there: the first `set_camera_info` will write it.
-bool isToBeWritten(const std::string& resolved_url) {
+/// The file that a resolved URL names; empty: it names one of a package.
+std::string pathOf(const std::string& url) {
   const std::string scheme = "file://";
-  return resolved_url.compare(0, scheme.size(), scheme) == 0 &&
-         !std::filesystem::exists(resolved_url.substr(scheme.size()));
+  return url.compare(0, scheme.size(), scheme) == 0 ? url.substr(scheme.size()) : "";
 }
 
 }  // namespace
@@ -34,8 +34,9 @@ CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
                          "package://name/camera.yaml");
   // Reports errors of the file now rather than at the first image, but not that there is none yet.
   const std::string file = manager_.resolveURL(url.empty() ? kDefaultUrl : url, camera);
+  path_ = pathOf(file);
   try {
-    if (isToBeWritten(file))
+    if (!path_.empty() && !std::filesystem::exists(path_))  // the first set_camera_info writes it
       manager_.setCameraInfo(sensor_msgs::CameraInfo());
     else
       manager_.getCameraInfo();
@@ -44,6 +45,15 @@ CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
                          e.what() + "): move it away or name another file");
   }
   factory_ = nh_.advertise<sensor_msgs::CameraInfo>("factory/camera_info", 1, true);
+}
+
+std::string CameraInfoPublisher::problem() const {
+  std::error_code missing;
+  return std::filesystem::file_size(path_, missing) == 0
+             ? path_ +
+                   " is empty, so the next start will not know the lens: free space on its "
+                   "disk, then save the calibration again"
+             : "";
 }
 
 void CameraInfoPublisher::publish(const ros::Time& stamp) {

@@ -26,6 +26,10 @@ class CameraInfoPublisher {
                       const std::string& url,
                       const std::string& url_parameter);
 
+  /// What is wrong with the saved calibration, empty if nothing is: on a full disk
+  /// camera_info_manager leaves an empty file and answers `set_camera_info` with success.
+  std::string problem() const;
+
   bool subscribed() { return topic_.subscribed(); }
   void publish(const ros::Time& stamp);
 
@@ -37,6 +41,7 @@ class CameraInfoPublisher {
  private:
   ros::NodeHandle nh_;
   const std::string frame_id_;
+  std::string path_;  // of the calibration; empty: it belongs to a package
   camera_info_manager::CameraInfoManager manager_;
   ImageTopic<sensor_msgs::CameraInfo> topic_;
   ros::Publisher factory_;

@@ -269,6 +269,9 @@ void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   state.shared_with = shared_with_;
   updater_.setHardwareID(state.link.identity.empty() ? "none" : state.link.identity);
   diagnostics_.describe(state, status);
+  const std::string problem = camera_info_.problem();
+  if (!problem.empty())
+    status.mergeSummary(diagnostic_msgs::DiagnosticStatus::WARN, problem);
 }
 
 }  // namespace wiimote_tracker::driver

@@ -197,6 +197,13 @@ void Triangulation::onTimer() {
                       rig_subscriber_.getTopic().c_str());
     markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
+  for (const auto& [camera, images] : image_subscribers_) {
+    if (images.getNumPublishers() > 1)
+      ROS_WARN_THROTTLE(10.0,
+                        "%s has %u publishers, as where a bag is replayed beside a running "
+                        "tracker, and their images are mixed: end all but one.",
+                        images.getTopic().c_str(), images.getNumPublishers());
+  }
   if (const auto bodies = learning_.change())  // while no image comes
     useBodies(*bodies);
   std::vector<std::string> without_samples;

@@ -60,5 +60,22 @@ TEST_F(RigStorage, ZonesThatWereWrittenButNotLoadedAreNotLostWithoutAWord) {
   EXPECT_SAYS(warnings[0], "other zones (hall), which are in " + path + ".bak until the next save");
 }
 
+TEST_F(RigStorage, ARigOfOtherCamerasIsNotReplacedWithoutAWord) {
+  geometry::Rig rig;
+  rig.cameras.resize(2);
+  rig.cameras[0].camera.name = "hall_1";
+  rig.cameras[1].camera.name = "hall_2";
+  const std::string path = folder_ + "/cameras/rig.yaml";
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  rig.cameras[1].camera.identity = "00:1f:32:00:00:01";  // replaced
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  rig.cameras[0].camera.name = "attic_1";
+  rig.cameras[1].camera.identity = "00:1f:32:00:00:02";
+  const std::vector<std::string> warnings = saveRig(rig, path);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_SAYS(warnings[0], "the file had a rig of other cameras (hall_1, hall_2), which is in " +
+                               path + ".bak until the next save");
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

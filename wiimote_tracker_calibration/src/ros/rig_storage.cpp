@@ -27,25 +27,39 @@ std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
 }
 
-/// @returns a sentence on zones of the file that the rig does not have, such as those that a person
-/// wrote into it; empty if there are none.
-std::string describeLostZones(const geometry::Rig& rig, const std::string& path) {
-  std::vector<std::string> lost;
+/// @returns sentences on what only the file has, such as zones that a person wrote into it, or the
+/// cameras of another rig that uses the same file.
+std::vector<std::string> describeLost(const geometry::Rig& rig, const std::string& path) {
+  geometry::Rig old;
   try {
-    for (const geometry::Zone& old : geometry::readRigFile(path).zones) {
-      if (std::none_of(rig.zones.begin(), rig.zones.end(), [&](const geometry::Zone& zone) {
-            return zone.name == old.name && zone.minimum == old.minimum &&
-                   zone.maximum == old.maximum;
-          }))
-        lost.push_back(old.name);
-    }
-  } catch (const Error&) {  // there is no rig whose zones could be lost
+    old = geometry::readRigFile(path);
+  } catch (const Error&) {  // there is no rig that could be lost
+    return {};
   }
-  return lost.empty()
-             ? ""
-             : "the file had other zones (" + joined(lost) + "), which are in " + path +
-                   ".bak until the next save: if they still hold, copy them into the file, then "
-                   "call calibration/load";
+  const std::string kept = path + ".bak until the next save: if ";
+  std::vector<std::string> sentences;
+  std::vector<std::string> zones;
+  for (const geometry::Zone& lost : old.zones) {
+    if (std::none_of(rig.zones.begin(), rig.zones.end(), [&](const geometry::Zone& zone) {
+          return zone.name == lost.name && zone.minimum == lost.minimum &&
+                 zone.maximum == lost.maximum;
+        }))
+      zones.push_back(lost.name);
+  }
+  if (!zones.empty())
+    sentences.push_back("the file had other zones (" + joined(zones) + "), which are in " + kept +
+                        "they still hold, copy them into the file, then call calibration/load");
+  std::vector<std::string> cameras;
+  for (const geometry::RigCamera& lost : old.cameras) {
+    const geometry::RigCamera* same = rig.find(lost.camera.name);
+    if (!same || same->camera.identity != lost.camera.identity)
+      cameras.push_back(lost.camera.name);
+  }
+  if (!cameras.empty() && cameras.size() == old.cameras.size())
+    sentences.push_back("the file had a rig of other cameras (" + joined(cameras) +
+                        "), which is in " + kept +
+                        "that rig is in use, too, give each rig a rig_file of its own");
+  return sentences;
 }
 
 /// @returns why the driver does not know its lens now; empty when it does.
@@ -70,11 +84,8 @@ std::string callDriver(const std::string& name,
 }  // namespace
 
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path) {
-  const std::string lost_zones = describeLostZones(rig, path);
+  std::vector<std::string> warnings = describeLost(rig, path);
   geometry::writeRigFile(rig, path);
-  std::vector<std::string> warnings;
-  if (!lost_zones.empty())
-    warnings.push_back(lost_zones);
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
     const std::string file = beside(path, geometry::withoutSlashes(camera.name) + ".yaml");

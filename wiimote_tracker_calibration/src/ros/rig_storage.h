@@ -12,8 +12,8 @@ namespace wiimote_tracker {
 
 /// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it one camera-info YAML per
 /// camera, named after the camera. Only rig.yaml is read back by this package.
-/// @returns warnings: of zones of the file before that the rig does not have, and one for each
-/// camera file that could not be written, or that would replace a rig or samples.
+/// @returns warnings: of zones or cameras that only the file before has, and one for each camera
+/// file that could not be written, or that would replace a rig or samples.
 /// @throws Error: rig.yaml could not be written; nothing has changed then.
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
 

@@ -21,10 +21,6 @@ constexpr double kPixelNoise = 0.5;  // [px]
 constexpr double kBegin = 1001.0;    // errors before are not scored [s]
 constexpr double kWrong = 0.35;      // a larger rotation error means a wrong assignment [rad]
 
-Constellation threeLeds() {
-  return {"three_leds", {{0.1, 0.0, 0.03}, {-0.06, 0.09, 0.0}, {0.02, -0.03, 0.02}}};
-}
-
 geometry::Rig rigOf(std::size_t cameras) {
   geometry::Rig rig = tracking::test::paperRig();
   rig.cameras.resize(cameras);  // two: neighbours, as in the paper

@@ -10,20 +10,11 @@
 namespace wiimote_tracker::body {
 namespace {
 
-/// LEDs move within the window, so rays miss each other by this multiple of the pixel noise.
-constexpr double kWindowNoise = 4.0;
-
 /// Images that may be computed again per new image, because samples of an IMU came later.
 constexpr std::size_t kRepeats = 16;
 
 /// Cost of a false detection: greater than that of any LED.
 constexpr double kGhostCost = 1e6;
-
-association::AssociationOptions associationOptions(const BodyTrackerOptions& options) {
-  association::AssociationOptions result;
-  result.pixel_stddev = kWindowNoise * options.pixel_stddev;
-  return result;
-}
 
 }  // namespace
 
@@ -44,8 +35,7 @@ BodyTracker::BodyTracker(const geometry::Rig& rig,
 void BodyTracker::useRig(const geometry::Rig& rig) {
   rig.check();
   rig_ = rig;
-  associator_.emplace(rig, association::sharedViews(rig, options_.maximum_range),
-                      associationOptions(options_));
+  associator_.emplace(rig, association::sharedViews(rig, options_.maximum_range), searchOptions());
   cameras_.clear();
   for (const geometry::RigCamera& camera : rig_.cameras)
     cameras_.push_back(rig_.rayCamera(camera));
@@ -154,7 +144,7 @@ void BodyTracker::take(std::list<Entry>::iterator entry) {
   entry->image_before = images_[entry->camera];
   follow(entry->camera, entry->time, entry->pixels);
   dropLost(entry->time);
-  find(entry->time);
+  find(entry->camera, entry->pixels);
 }
 
 LedGroups BodyTracker::groupsOf(std::size_t body, std::size_t camera) const {
@@ -210,8 +200,7 @@ void BodyTracker::follow(std::size_t camera,
   spots_taken_.assign(pixels.size(), false);
   for (std::size_t s = 0; s < pixels.size(); ++s) {
     if (!led_of_spot_[s]) {
-      if (geometry::sightFromPixel(view, pixels[s]))
-        image.free.push_back(pixels[s]);
+      image.free.push_back(pixels[s]);
       continue;
     }
     spots_taken_[s] = true;
@@ -254,113 +243,6 @@ void BodyTracker::dropLost(double time) {
                  !body->filter.state().poseCovariance().allFinite()))
       body.reset();
   }
-}
-
-/// LEDs of which two cameras show a spot within the search's window.
-std::size_t BodyTracker::countSeenLeds(std::size_t body, double time) const {
-  std::array<int, kMaximumLeds> cameras{};
-  for (const LastImage& image : images_) {
-    for (const BodySpot& spot : image.taken)
-      cameras[spot.led] += spot.body == body && time - image.time <= options_.window;
-  }
-  return static_cast<std::size_t>(
-      std::count_if(cameras.begin(), cameras.end(), [](int count) { return count > 1; }));
-}
-
-/// LEDs that a match needs for a body to be started there. A hidden body may reappear far from its
-/// prediction. A body that was started with LEDs exchanged stays tracked by the LEDs that fit by
-/// chance: another pose then shows at least two more. None: the body cannot be started.
-std::optional<std::size_t> BodyTracker::neededLeds(std::size_t body, double time) const {
-  if (!has_clear_shape_[body])
-    return std::nullopt;
-  if (!bodies_[body] || time - bodies_[body]->last_observed > options_.tracked_time)
-    return options_.match.minimum_seen;
-  const std::size_t needed = countSeenLeds(body, time) + 2;
-  if (needed > constellations_[body].leds.size())
-    return std::nullopt;
-  return std::max(needed, options_.match.minimum_seen);
-}
-
-void BodyTracker::find(double time) {
-  needed_leds_.clear();
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
-    needed_leds_.push_back(neededLeds(b, time));
-  if (std::none_of(needed_leds_.begin(), needed_leds_.end(),
-                   [](const auto& needed) { return needed.has_value(); }))
-    return;
-  for (std::size_t c = 0; c < cameras_.size(); ++c) {
-    const LastImage& image = images_[c];
-    candidates_[c] = image.free;
-    for (const BodySpot& spot : image.taken) {
-      if (needed_leds_[spot.body] && !spot.is_further)
-        candidates_[c].push_back(spot.pixel);
-    }
-    sights_[c].clear();
-    views_[c].watching = time - image.time <= options_.window;
-    views_[c].full = true;  // no cost for a missed LED: the body may hide it
-    for (const Eigen::Vector2d& pixel : candidates_[c]) {
-      if (views_[c].watching)
-        sights_[c].push_back(*geometry::sightFromPixel(cameras_[c], pixel));
-    }
-    views_[c].sights = sights_[c].data();
-    views_[c].count = sights_[c].size();
-  }
-  const association::Association& found = associator_->associate(views_);
-
-  points_.clear();
-  for (const association::AssociatedPoint& point : found.points)
-    points_.push_back({point.point.position,
-                       std::hypot(std::sqrt(point.point.covariance.trace() / 3.0) / kWindowNoise,
-                                  options_.window_motion),
-                       false});
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!needed_leds_[b])
-      continue;
-    MatchOptions options = options_.match;
-    options.minimum_seen = *needed_leds_[b];
-    const std::optional<Match> match = matchPoints(constellations_[b], points_, options);
-    if (!match || match->margin < options_.minimum_margin || !start(b, *match, found, time))
-      continue;
-    for (const int p : match->point_of_led) {
-      if (p != kUnseen)
-        points_[static_cast<std::size_t>(p)].taken = true;
-    }
-  }
-}
-
-bool BodyTracker::start(std::size_t body,
-                        const Match& match,
-                        const association::Association& found,
-                        double time) {
-  observations_.clear();
-  for (std::size_t led = 0; led < constellations_[body].leds.size(); ++led) {
-    if (match.point_of_led[led] == kUnseen)
-      continue;
-    const association::AssociatedPoint& point =
-        found.points[static_cast<std::size_t>(match.point_of_led[led])];
-    for (std::size_t i = 0; i < point.spot_count; ++i) {
-      const association::SpotReference& spot = found.spots[point.first_spot + i];
-      observations_.push_back({&cameras_[spot.view], constellations_[body].leds[led],
-                               candidates_[spot.view][spot.spot]});
-    }
-  }
-  // Motion within the window counts as noise; later images determine the velocity.
-  const double noise = kWindowNoise * options_.pixel_stddev;
-  const auto solved =
-      solvePose(observations_.data(), observations_.size(), match.world_from_body, noise);
-  if (!solved || solved->reprojection_error > 3.0 * noise)
-    return false;
-  startAt(body, *solved, time);
-  return true;
-}
-
-void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time) {
-  const PoseFilter filter(options_.motion, time, pose.world_from_body, pose.covariance);
-  Body started{BodyFilter(options_.motion, options_.inertial, filter), time, time, {}};
-  if (bodies_[body])
-    started.first_seen = bodies_[body]->first_seen;
-  started.led_times.fill(-std::numeric_limits<double>::infinity());
-  bodies_[body] = started;
 }
 
 }  // namespace wiimote_tracker::body

@@ -5,6 +5,18 @@
 #include <cmath>
 
 namespace wiimote_tracker::body {
+namespace {}  // namespace
+
+bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
+                const Eigen::Isometry3d& a,
+                const Eigen::Isometry3d& b) {
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    if ((a * leds[i] - b * leds[i]).norm() > 0.5 * distanceToNearest(leds, i))
+      return false;
+  }
+  return true;
+}
+
 namespace {
 
 /// Depth-first search: each LED takes a point consistent with those before it, or none.
@@ -79,25 +91,16 @@ class MatchSearch {
         alignment.cost + static_cast<double>(leds_.size() - seen) * options_.unseen_cost;
     if (cost < best_cost_) {
       // A match of the same pose with one LED more or less is not a rival.
-      if (found_ && !isSamePose(best_.world_from_body, alignment.world_from_body))
+      if (found_ && !isSamePose(leds_, best_.world_from_body, alignment.world_from_body))
         runner_up_cost_ = best_cost_;
       found_ = true;
       best_cost_ = cost;
       best_.point_of_led = chosen_;
       best_.world_from_body = alignment.world_from_body;
     } else if (cost < runner_up_cost_ &&
-               !isSamePose(best_.world_from_body, alignment.world_from_body)) {
+               !isSamePose(leds_, best_.world_from_body, alignment.world_from_body)) {
       runner_up_cost_ = cost;
     }
-  }
-
-  /// Whether all LEDs lie within half the distance to their nearest neighbour.
-  bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) const {
-    for (std::size_t i = 0; i < leds_.size(); ++i) {
-      if ((a * leds_[i] - b * leds_[i]).norm() > 0.5 * distanceToNearest(leds_, i))
-        return false;
-    }
-    return true;
   }
 
   const std::vector<Eigen::Vector3d>& leds_;

@@ -59,7 +59,7 @@ void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
     if (bodies_[b] || constellations_[b].labels.empty())
       continue;
     if (const auto pose = poseFromLabels(constellations_[b], points))
-      startAt(b, *pose, time_);
+      startAt(b, *pose, time_, 0);
   }
   estimate();
 }

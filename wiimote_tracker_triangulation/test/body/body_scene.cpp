@@ -16,6 +16,10 @@ Constellation fourLeds() {
           {{0.09, 0.0, 0.03}, {-0.05, 0.085, 0.0}, {-0.06, -0.07, 0.04}, {0.02, 0.03, -0.09}}};
 }
 
+Constellation threeLeds() {
+  return {"three_leds", {{0.1, 0.0, 0.03}, {-0.06, 0.09, 0.0}, {0.02, -0.03, 0.02}}};
+}
+
 Isometry3d randomPose(geometry::test::Random& random, const Vector3d& center) {
   Isometry3d pose = Isometry3d::Identity();
   const Vector3d axis = random.inBox(1.0).normalized();

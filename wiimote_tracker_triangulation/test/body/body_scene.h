@@ -20,6 +20,9 @@ using Motion = std::function<Eigen::Isometry3d(double)>;
 /// the last LED, within 0.5 mm.
 Constellation fourLeds();
 
+/// Three LEDs 86 to 186 mm from each other.
+Constellation threeLeds();
+
 /// Any orientation, within 0.5 m of a centre along each axis.
 Eigen::Isometry3d randomPose(geometry::test::Random& random, const Eigen::Vector3d& center);
 

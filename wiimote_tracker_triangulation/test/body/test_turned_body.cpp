@@ -13,6 +13,32 @@ namespace {
 using Eigen::Vector3d;
 using test::Motion;
 
+/// The paper's two neighbouring cameras see a body of 0.1 m from 4 m, so that some wrong poses fit
+/// many of its spots.
+TEST(TurnedBody, IsRareWithTwoCameras) {
+  geometry::Rig rig = tracking::test::paperRig();
+  rig.cameras.resize(2);
+  tracking::test::SceneOptions options;
+  options.pixel_noise = 0.5;
+  for (const Constellation& body : {test::threeLeds(), test::fourLeds()}) {
+    for (const Motion& motion : {Motion(test::held), Motion(test::handheld)}) {
+      test::BodyScore score;
+      for (unsigned seed = 1; seed < 11; ++seed) {
+        test::FollowedBody follow(rig, body, motion, options, seed);
+        while (!(follow.time() > 1010.0)) {
+          follow.step();
+          if (follow.time() > 1000.5)
+            score.add(follow);
+        }
+      }
+      EXPECT_GT(score.known(), 0.999) << body.name;
+      EXPECT_LT(score.wrong(), 0.002) << body.name;  // 0
+      EXPECT_GT(score.nees(), 0.6) << body.name;
+      EXPECT_LT(score.nees(), 1.2) << body.name;
+    }
+  }
+}
+
 /// It is hidden for the last 0.1 s of each second.
 TEST(TurnedBody, IsRareAfterABodyWasHidden) {
   tracking::test::SceneOptions options;

@@ -138,6 +138,8 @@ class BodyTracker {
     BodyFilter filter;
     double first_seen;                           // [s]
     double last_observed;                        // [s]
+    double found_time;                           // when it was started, last [s]
+    std::size_t found_spots;                     // that told its pose then
     std::array<double, kMaximumLeds> led_times;  // when last seen [s]
   };
   struct SpotLed {
@@ -151,10 +153,17 @@ class BodyTracker {
     double residual;   // [px]
     double deviation;  // [m]
   };
+  struct MatchedSpot {
+    std::size_t led;
+    std::size_t camera;
+    Eigen::Vector2d pixel;
+  };
   struct LastImage {
     double time = -std::numeric_limits<double>::infinity();
     std::vector<BodySpot> taken;
-    std::vector<Eigen::Vector2d> free;  // spots of no tracked body that have a ray [px]
+    std::vector<Eigen::Vector2d> free;  // spots of no tracked body [px]
+
+    std::size_t countSpots(std::size_t body) const;
   };
   struct Entry {
     std::size_t camera;
@@ -179,14 +188,20 @@ class BodyTracker {
   void leaveToSearch(double time);
   bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);
-  std::size_t countSeenLeds(std::size_t body, double time) const;
-  std::optional<std::size_t> neededLeds(std::size_t body, double time) const;
-  void find(double time);
-  bool start(std::size_t body,
-             const Match& match,
-             const association::Association& found,
-             double time);
-  void startAt(std::size_t body, const BodyPose& pose, double time);
+  association::AssociationOptions searchOptions() const;
+  bool isTracked(std::size_t body, double time) const;
+  std::size_t countSpots(std::size_t body, double time) const;
+  std::optional<std::size_t> neededSpots(std::size_t body, double time) const;
+  void find(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels);
+  const association::Association& locateSpots(double time);
+  void listMatchedSpots(std::size_t body,
+                        const Match& match,
+                        const association::Association& found);
+  void updateByMatch(std::size_t body,
+                     std::size_t camera,
+                     const std::vector<Eigen::Vector2d>& pixels);
+  bool start(std::size_t body, const Match& match, double time);
+  void startAt(std::size_t body, const BodyPose& pose, double time, std::size_t spots);
   void estimate();
   void estimateLeds(std::size_t body, BodyEstimate* estimate) const;
 
@@ -214,11 +229,12 @@ class BodyTracker {
   std::vector<std::optional<SpotLed>> led_of_spot_;  // nothing: free
   std::vector<bool> spots_taken_;
   std::vector<geometry::Sight> body_sights_;
-  std::vector<std::optional<std::size_t>> needed_leds_;   // per body
+  std::vector<std::optional<std::size_t>> needed_spots_;  // per body
   std::vector<std::vector<Eigen::Vector2d>> candidates_;  // spots to search, per camera [px]
   std::vector<std::vector<geometry::Sight>> sights_;
   std::vector<association::View> views_;
   std::vector<MeasuredPoint> points_;
+  std::vector<MatchedSpot> matched_spots_;
   std::vector<LedObservation> observations_;
 };
 

@@ -49,6 +49,11 @@ std::optional<Match> matchPoints(const Constellation& constellation,
                                  const std::vector<MeasuredPoint>& points,
                                  const MatchOptions& options);
 
+/// Whether all LEDs lie within half the distance to their nearest neighbour.
+bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
+                const Eigen::Isometry3d& a,
+                const Eigen::Isometry3d& b);
+
 }  // namespace wiimote_tracker::body
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_MATCH_POINTS_H

@@ -60,10 +60,12 @@ TEST(DeviceNames, AllKinds) {
 }
 
 TEST(DeviceNames, RemotesAreTriedInTurn) {
-  std::vector<Remote> remotes{{"", "/dev/hidraw0"}, {"", "/dev/hidraw1"}, {"", "/dev/hidraw2"}};
+  std::vector<KernelRemote> remotes(3);
+  for (std::size_t i = 0; i < remotes.size(); ++i)
+    remotes[i].path = "/dev/hidraw" + std::to_string(i);
   const auto first = [&](const std::string& last) {
     beginAfter(last, &remotes);
-    return remotes.front().description;
+    return remotes.front().path;
   };
   EXPECT_EQ("/dev/hidraw0", first(""));
   EXPECT_EQ("/dev/hidraw0", first("/dev/hidraw9"));

@@ -8,11 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cerrno>
 #include <cmath>
 #include <cstring>
-#include <filesystem>
 #include <mutex>
 #include <optional>
 #include <utility>
@@ -21,62 +19,6 @@
 namespace wiimote_tracker::transport {
 namespace {
 
-constexpr unsigned short kNintendo = 0x057e;
-constexpr unsigned short kRemote = 0x0306;
-constexpr unsigned short kRemotePlus = 0x0330;
-
-std::string narrowLowerCase(const wchar_t* text) {
-  std::string result;
-  for (; text != nullptr && *text != L'\0'; ++text) {
-    const auto c = static_cast<unsigned char>(*text & 0x7f);
-    result.push_back(static_cast<char>(std::tolower(c)));
-  }
-  return result;
-}
-
-// hidapi's enumeration and opening share state within a process.
-std::mutex& hidapiMutex() {
-  static std::mutex mutex;
-  return mutex;
-}
-
-// The Wii U Pro Controller and the Balance Board share the ids, but have no camera.
-bool hasCamera(const hid_device_info& info) {
-  const std::string name = narrowLowerCase(info.product_string);
-  return name.find("rvl-cnt-01-uc") == std::string::npos &&
-         name.find("rvl-wbc-01") == std::string::npos;
-}
-
-/// Those that the kernel knows, by path. Their drivers are not looked up.
-std::vector<Remote> enumerate() {
-  const std::lock_guard<std::mutex> lock(hidapiMutex());
-  std::vector<Remote> found;
-  hid_device_info* const list = hid_enumerate(kNintendo, 0);
-  for (const hid_device_info* i = list; i != nullptr; i = i->next) {
-    const bool is_remote = i->product_id == kRemote || i->product_id == kRemotePlus;
-    if (i->path != nullptr && is_remote && hasCamera(*i))
-      found.push_back({narrowLowerCase(i->serial_number), i->path});
-  }
-  hid_free_enumeration(list);
-  // The kernel's order is not that of plugging in.
-  std::sort(found.begin(), found.end(),
-            [](const Remote& a, const Remote& b) { return a.description < b.description; });
-  // Newer versions of hidapi list a device once per use that its descriptor names.
-  found.erase(
-      std::unique(found.begin(), found.end(),
-                  [](const Remote& a, const Remote& b) { return a.description == b.description; }),
-      found.end());
-  return found;
-}
-
-std::string kernelDriverOf(const std::string& path) {
-  const std::string name = path.substr(path.rfind('/') + 1);
-  std::error_code none;  // then the path is empty
-  return std::filesystem::read_symlink("/sys/class/hidraw/" + name + "/device/driver", none)
-      .filename()
-      .string();
-}
-
 std::string nameOf(const Remote& remote) {
   return "the Wii Remote " + remote.identity + " (" + remote.description + ")";
 }
@@ -84,9 +26,7 @@ std::string nameOf(const Remote& remote) {
 class HidrawTransport : public Transport {
  public:
   HidrawTransport(hid_device* device, FileDescriptor lock, const Remote& remote)
-      : lock_(std::move(lock)), device_(device), remote_(remote) {
-    remote_.kernel_driver = kernelDriverOf(remote_.description);
-  }
+      : lock_(std::move(lock)), device_(device), remote_(remote) {}
   ~HidrawTransport() override { hid_close(device_); }
   HidrawTransport(const HidrawTransport&) = delete;
   HidrawTransport& operator=(const HidrawTransport&) = delete;
@@ -118,10 +58,11 @@ class HidrawTransport : public Transport {
 
   FileDescriptor lock_;
   hid_device* device_;
-  Remote remote_;
+  const Remote remote_;
 };
 
-std::unique_ptr<Transport> openRemote(const Remote& remote) {
+std::unique_ptr<Transport> openRemote(const KernelRemote& kernel_remote) {
+  const Remote remote{kernel_remote.address, kernel_remote.path, kernel_remote.kernel_driver};
   // The lock goes with an own descriptor, since hidapi does not show its own; it also tells why
   // opening fails, which hidapi does not.
   const std::string& path = remote.description;
@@ -131,7 +72,8 @@ std::unique_ptr<Transport> openRemote(const Remote& remote) {
   lockDevice(lock.get(), nameOf(remote));
   hid_device* device = nullptr;
   {
-    const std::lock_guard<std::mutex> hidapi_lock(hidapiMutex());
+    static std::mutex mutex;  // hidapi's openings share state within a process
+    const std::lock_guard<std::mutex> hidapi_lock(mutex);
     device = hid_open_path(path.c_str());
   }
   if (device == nullptr)
@@ -139,11 +81,11 @@ std::unique_ptr<Transport> openRemote(const Remote& remote) {
   return std::make_unique<HidrawTransport>(device, std::move(lock), remote);
 }
 
-std::unique_ptr<Transport> openFirstFree(const std::vector<Remote>& all) {
+std::unique_ptr<Transport> openFirstFree(const std::vector<KernelRemote>& all) {
   std::optional<PermissionDenied> denied;
   std::optional<TransportError> other;
   std::string taken;
-  for (const Remote& remote : all) {
+  for (const KernelRemote& remote : all) {
     try {
       return openRemote(remote);
     } catch (const PermissionDenied& e) {
@@ -187,15 +129,19 @@ void throwOpenError(int error_number, const std::string& path) {
   }
 }
 
-void beginAfter(const std::string& last, std::vector<Remote>* remotes) {
+void beginAfter(const std::string& last, std::vector<KernelRemote>* remotes) {
   const auto at = std::find_if(remotes->begin(), remotes->end(),
-                               [&](const Remote& remote) { return remote.description == last; });
+                               [&](const KernelRemote& remote) { return remote.path == last; });
   if (at != remotes->end())
     std::rotate(remotes->begin(), at + 1, remotes->end());
 }
 
-std::unique_ptr<Transport> openHidraw(const DeviceName& name, const std::string& last) {
-  std::vector<Remote> all = enumerate();
+std::unique_ptr<Transport> openHidraw(const DeviceName& name,
+                                      std::vector<KernelRemote> all,
+                                      const std::string& last) {
+  all.erase(std::remove_if(all.begin(), all.end(),
+                           [](const KernelRemote& remote) { return remote.path.empty(); }),
+            all.end());
   if (name.kind == DeviceName::Kind::kAny) {
     if (all.empty())
       throw NoSuchDevice(
@@ -204,8 +150,8 @@ std::unique_ptr<Transport> openHidraw(const DeviceName& name, const std::string&
     return openFirstFree(all);
   }
   const bool by_address = name.kind == DeviceName::Kind::kAddress;
-  for (const Remote& remote : all) {
-    if ((by_address ? remote.identity : remote.description) == name.value)
+  for (const KernelRemote& remote : all) {
+    if ((by_address ? remote.address : remote.path) == name.value)
       return openRemote(remote);
   }
   if (by_address)

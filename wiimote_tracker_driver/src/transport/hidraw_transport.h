@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H
 #define WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H
 
+#include "transport/kernel_remotes.h"
 #include "transport/transport.h"
 
 #include <memory>
@@ -12,12 +13,14 @@ namespace wiimote_tracker::transport {
 /// The file with the udev rule that lets users open remotes.
 constexpr const char* kUdevRule = "60-wiimote-tracker.rules";
 
-/// Opens a remote that the kernel offers as /dev/hidrawN, by its Bluetooth address, its path or
-/// as the first free one, the one after `last` first. @throws as open().
-std::unique_ptr<Transport> openHidraw(const DeviceName& name, const std::string& last);
+/// Opens one of the kernel's remotes: by its Bluetooth address, by its path or as the first free
+/// one, the one after `last` first. @throws as open().
+std::unique_ptr<Transport> openHidraw(const DeviceName& name,
+                                      std::vector<KernelRemote> all,
+                                      const std::string& last);
 
 /// Rotates remotes so that the one with path `last`, if there is one, becomes the last.
-void beginAfter(const std::string& last, std::vector<Remote>* remotes);
+void beginAfter(const std::string& last, std::vector<KernelRemote>* remotes);
 
 /// Throws the error, with its sentence, that belongs to a failed open(2) of a hidraw node.
 [[noreturn]] void throwOpenError(int error_number, const std::string& path);

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace wiimote_tracker::transport {
 namespace {
@@ -60,21 +61,20 @@ DeviceName parseDeviceName(const std::string& text) {
                       "replay:FILE");
 }
 
-std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last) {
-  switch (name.kind) {
-    case DeviceName::Kind::kVirtual:
-      return openSocket(name.value);
-    case DeviceName::Kind::kReplay:
-      throw BadDeviceName("the recording " + name.value +
-                          " is no remote for this program: give it to the driver's node");
-    default:
-      return openHidraw(name, last);
-  }
+std::unique_ptr<Transport> open(const DeviceName& name) {
+  return opener(name)();
 }
 
-std::function<std::unique_ptr<Transport>()> opener(const DeviceName& name) {
-  return [name, last = std::string()]() mutable {
-    auto transport = open(name, last);
+std::function<std::unique_ptr<Transport>()> opener(
+    const DeviceName& name,
+    std::function<std::vector<KernelRemote>()> list) {
+  return [name, list = std::move(list), last = std::string()]() mutable {
+    if (name.kind == DeviceName::Kind::kVirtual)
+      return openSocket(name.value);
+    if (name.kind == DeviceName::Kind::kReplay)
+      throw BadDeviceName("the recording " + name.value +
+                          " is no remote for this program: give it to the driver's node");
+    auto transport = openHidraw(name, list(), last);
     last = transport->remote().description;
     return transport;
   };

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
 #define WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
 
+#include "transport/kernel_remotes.h"
 #include "wiimote_tracker_driver/protocol/report.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -9,6 +10,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::transport {
 
@@ -72,13 +74,15 @@ struct DeviceName {
 DeviceName parseDeviceName(const std::string& text);
 
 /// Opens the remote for this process alone. A recording (kReplay) has a time of its own and is
-/// opened by recording::Replay instead. `last`: description of the remote that kAny tries last,
-/// because it was opened before and did not work. @throws NoSuchDevice, PermissionDenied,
-/// DeviceTaken, TransportError.
-std::unique_ptr<Transport> open(const DeviceName& name, const std::string& last = "");
+/// opened by recording::Replay instead. @throws NoSuchDevice, PermissionDenied, DeviceTaken,
+/// TransportError.
+std::unique_ptr<Transport> open(const DeviceName& name);
 
-/// Opens the remote at each call; with kAny, the one of the call before is the last to be tried.
-std::function<std::unique_ptr<Transport>()> opener(const DeviceName& name);
+/// As open(), at each call; with kAny, the one of the call before is the last to be tried. `list`:
+/// the kernel's remotes; for tests.
+std::function<std::unique_ptr<Transport>()> opener(
+    const DeviceName& name,
+    std::function<std::vector<KernelRemote>()> list = [] { return kernelRemotes(); });
 
 }  // namespace wiimote_tracker::transport
 

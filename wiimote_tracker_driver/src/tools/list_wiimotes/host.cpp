@@ -1,87 +1,26 @@
 #include "host.h"
 
-#include "transport/transport.h"
+#include "system_files.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <fstream>
 #include <map>
 
 namespace wiimote_tracker::list_wiimotes {
 namespace {
 
 namespace fs = std::filesystem;
+using transport::KernelRemote;
 
 // A Bluetooth adapter has at most this many devices.
 constexpr std::size_t kRemotesPerAdapter = 7;
 
-std::vector<std::string> linesOfFile(const fs::path& path) {
-  std::ifstream file(path);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);)
-    lines.push_back(line);
-  return lines;
-}
-
 /// Whether this is all that the file holds.
 bool says(const fs::path& path, const std::string& line) {
   return linesOfFile(path) == std::vector<std::string>{line};
-}
-
-std::vector<fs::path> entriesOf(const fs::path& folder) {
-  std::vector<fs::path> entries;
-  std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error))
-    entries.push_back(i->path());
-  std::sort(entries.begin(), entries.end());
-  return entries;
-}
-
-/// The KEY=VALUE lines of a uevent file.
-std::map<std::string, std::string> valuesOf(const fs::path& path) {
-  std::map<std::string, std::string> values;
-  for (const std::string& line : linesOfFile(path)) {
-    const std::size_t equals = line.find('=');
-    if (equals != std::string::npos)
-      values[line.substr(0, equals)] = line.substr(equals + 1);
-  }
-  return values;
-}
-
-// HID_ID is bus:vendor:product, "0005:0000057E:00000306".
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
-std::vector<KernelRemote> readRemotes(const fs::path& root) {
-  std::vector<KernelRemote> remotes;
-  for (const fs::path& device : entriesOf(root / "sys/bus/hid/devices")) {
-    auto values = valuesOf(device / "uevent");
-    const std::string id = lowerCase(values["HID_ID"]);
-    KernelRemote remote;
-    remote.plus = endsWith(id, ":0000057e:00000330");
-    if (!remote.plus && !endsWith(id, ":0000057e:00000306"))
-      continue;
-    // The Wii U Pro Controller and the Balance Board share the ids, but have no camera.
-    const std::string& name = values["HID_NAME"];
-    if (endsWith(name, "RVL-CNT-01-UC") || endsWith(name, "RVL-WBC-01"))
-      continue;
-    remote.address = lowerCase(values["HID_UNIQ"]);
-    // For a Bluetooth device this is its adapter, for others a location.
-    remote.adapter = transport::bluetoothAddress(values["HID_PHYS"]).value_or("");
-    remote.kernel_driver = values["DRIVER"];
-    const std::vector<fs::path> nodes = entriesOf(device / "hidraw");
-    if (!nodes.empty())
-      remote.path = "/dev/" + nodes.front().filename().string();
-    remotes.push_back(remote);
-  }
-  std::sort(remotes.begin(), remotes.end(), [](const KernelRemote& a, const KernelRemote& b) {
-    return a.path.size() != b.path.size() ? a.path.size() < b.path.size() : a.path < b.path;
-  });
-  return remotes;
 }
 
 std::vector<BluetoothAdapter> readAdapters(const fs::path& root) {
@@ -167,7 +106,7 @@ void addBluetoothProblems(const Host& host, std::vector<std::string>* sentences)
 Host readHost(const std::string& root) {
   const fs::path base = root.empty() ? "/" : root;
   Host host;
-  host.remotes = readRemotes(base);
+  host.remotes = transport::kernelRemotes(root);
   host.adapters = readAdapters(base);
   host.udev_rule = hasUdevRule(base);
   host.bonded_only = readBondedOnly(base);

@@ -1,20 +1,13 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_HOST_H
 #define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_HOST_H
 
+#include "transport/kernel_remotes.h"
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::list_wiimotes {
-
-/// A Wii Remote known to the kernel, even if nobody can open it.
-struct KernelRemote {
-  std::string path;           ///< "/dev/hidraw3"; empty when the kernel made no node for it.
-  std::string address;        ///< Lower case with colons; empty when not known.
-  std::string adapter;        ///< Address of the Bluetooth adapter it is connected to, or empty.
-  bool plus = false;          ///< The model RVL-CNT-01-TR, else RVL-CNT-01.
-  std::string kernel_driver;  ///< "wiimote", "hid-generic"; empty when none is attached.
-};
 
 struct BluetoothAdapter {
   enum class Block { kNone, kSoft, kHard };
@@ -24,7 +17,7 @@ struct BluetoothAdapter {
 
 /// What is known about this computer without asking a service or opening a device.
 struct Host {
-  std::vector<KernelRemote> remotes;  ///< In the order of their paths.
+  std::vector<transport::KernelRemote> remotes;
   std::vector<BluetoothAdapter> adapters;
   bool udev_rule = false;           ///< Some rule lets users open Wii Remotes.
   std::optional<bool> bonded_only;  ///< ClassicBondedOnly; nothing when not set.
@@ -36,10 +29,10 @@ Host readHost(const std::string& root = "");
 /// Problems of the computer, one sentence each with what to do.
 std::vector<std::string> problems(const Host& host);
 
-std::vector<std::string> problems(const KernelRemote& remote);
+std::vector<std::string> problems(const transport::KernelRemote& remote);
 
 /// "Wii Remote (RVL-CNT-01)", "Wii Remote Plus (RVL-CNT-01-TR)".
-std::string modelOf(const KernelRemote& remote);
+std::string modelOf(const transport::KernelRemote& remote);
 
 }  // namespace wiimote_tracker::list_wiimotes
 

@@ -93,7 +93,7 @@ std::string permissionOf(const Row& row) {
 /// The remotes known to the kernel, or only that with the address or path `wanted`.
 std::vector<Row> rowsOf(const Host& host, const std::string& wanted) {
   std::vector<Row> rows;
-  for (const KernelRemote& remote : host.remotes) {
+  for (const transport::KernelRemote& remote : host.remotes) {
     if (!wanted.empty() && wanted != remote.address && wanted != remote.path)
       continue;
     Row row;

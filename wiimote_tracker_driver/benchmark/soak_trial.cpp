@@ -52,7 +52,7 @@ void disturb(wiimote::SteadyRemote& remote, std::uint64_t hour, double length) {
 Results runSoak(std::uint64_t reports, double length) {
   wiimote::SteadyRemote remote;
   wiimote::Wiimote wiimote(
-      wiimote::Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+      wiimote::Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
   SoakStamps stamps(DriftingClock(24.0 * length, 24.0 * length * kLeapAfter),
                     std::min(kSettlingOfStamps, length / 2.0));
   const auto begin = std::chrono::steady_clock::now();

@@ -88,7 +88,7 @@ struct Driven {
       : remote(faults, device),
         wiimote(
             options,
-            [this] { return std::make_unique<RemoteTransport>(&remote); },
+            [this](bool) { return std::make_unique<RemoteTransport>(&remote); },
             [this] { return remote.now; }) {}
 
   /// Advances the time. @returns the number of images that show a light.

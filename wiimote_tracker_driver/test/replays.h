@@ -149,7 +149,7 @@ class Replays : public testing::Test {
     const double end = remote.now + duration;
     Wiimote wiimote(
         options,
-        [&]() -> std::unique_ptr<transport::Transport> {
+        [&](bool) -> std::unique_ptr<transport::Transport> {
           if (remote.device.away())
             throw transport::NoSuchDevice("the remote is out of reach");
           remote.under_way.clear();
@@ -175,7 +175,7 @@ class Replays : public testing::Test {
                                  const Options& options = Options(),
                                  wiimote::Link* link = nullptr) {
     Wiimote wiimote(
-        options, [&] { return replay.open(); }, [&] { return replay.now(); });
+        options, [&](bool) { return replay.open(); }, [&] { return replay.now(); });
     std::vector<Frame> frames;
     while (!replay.ended()) {
       if (const double idle = wiimote.idleTime(); idle > 0.0)

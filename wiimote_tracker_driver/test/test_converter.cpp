@@ -148,6 +148,18 @@ TEST_F(AConverter, RemoteThatMovesToAnotherSlotIsFound) {
   EXPECT_EQ(1U, driver.link().clock_epoch);
 }
 
+TEST_F(AConverter, OneThatWorkedIsTakenAgain) {
+  bar.slots = {Slot::kSilent, Slot::kRemote, Slot::kRemote, Slot::kRemote};
+  Wiimote driver = anyRemote();
+  EXPECT_GT(run({&driver}, 5.0)[0], 50);
+  bar.slots[1] = Slot::kRefusesWrites;
+  while (driver.link().state != Link::State::kSearching && bar.now < 200.0)
+    driver.step(0.01);
+  bar.slots[1] = Slot::kRemote;
+  EXPECT_GT(run({&driver}, 3.0)[0], 50);
+  EXPECT_EQ((std::vector<std::size_t>{0, 1, 1}), bar.opened);
+}
+
 TEST_F(AConverter, OneWithoutANodeIsPassed) {
   bar.slots = {Slot::kRemote, Slot::kRemote, Slot::kRemote, Slot::kRemote};
   bar.paths[0].clear();

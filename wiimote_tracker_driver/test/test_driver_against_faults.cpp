@@ -76,7 +76,7 @@ TEST_P(DriverAgainst, ImagesComeBack) {
   double now = 0.0;
   wiimote::Wiimote wiimote(
       wiimote::Options(),
-      [&]() -> std::unique_ptr<transport::Transport> {
+      [&](bool) -> std::unique_ptr<transport::Transport> {
         if (device.away())
           throw transport::NoSuchDevice("there is no remote");
         return std::make_unique<FaultyTransport>(&device, &senses, &now);

@@ -332,7 +332,7 @@ TEST_F(Served, DriverStreamsAgainEachTimeTheRemoteIsBack) {
     }
   });
   wiimote::Wiimote wiimote(
-      wiimote::Options(), [this] { return connect(); }, steadyNow);
+      wiimote::Options(), [this](bool) { return connect(); }, steadyNow);
   const double deadline = steadyNow() + 60.0;
   bool seen = false;
   while (!(seen && wiimote.link().clock_epoch == 2) && steadyNow() < deadline) {

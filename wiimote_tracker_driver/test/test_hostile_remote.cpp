@@ -74,7 +74,7 @@ TEST(HostileRemote, OneThatNeverSendsAnImageIsGivenUpWhateverElseItSends) {
                                                  {0x33, 0}}) {
     FakeRemote remote;
     Wiimote wiimote(
-        Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+        Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
     remote.lose = [&](const Report& report) {
       if (report.bytes[0] == 0x12)
         remote.say({0x22, 0, 0, 0x12, 0}, 0.005);

@@ -30,7 +30,7 @@ TEST_F(WiimoteTest, AnyExceptionEndsTheConnectionAndNothingElse) {
   int failures = 1;
   Wiimote wiimote(
       Options(),
-      [&]() -> std::unique_ptr<transport::Transport> {
+      [&](bool) -> std::unique_ptr<transport::Transport> {
         if (failures-- > 0)
           throw std::bad_alloc();
         return remote_.open();
@@ -67,7 +67,7 @@ TEST_F(WiimoteTest, RemoteThatIsNotThereYetIsLookedForWithGrowingPauses) {
   std::vector<double> attempts;
   Wiimote wiimote(
       Options(),
-      [&]() -> std::unique_ptr<transport::Transport> {
+      [&](bool) -> std::unique_ptr<transport::Transport> {
         attempts.push_back(remote.now);
         if (attempts.size() < 7)
           throw transport::NoSuchDevice("none");

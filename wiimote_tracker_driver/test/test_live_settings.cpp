@@ -57,7 +57,7 @@ TEST_F(WiimoteTest, TheLastSensitivityAppliesAtAnyMomentOfChange) {
     const double moment = 100.0 + 0.001 * (i / 2);
     FakeRemote remote;
     Wiimote wiimote(
-        Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+        Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
     const auto runUntil = [&](double end) {
       int images = 0;
       while (remote.now < end)

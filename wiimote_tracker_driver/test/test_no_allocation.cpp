@@ -27,7 +27,7 @@ TEST_P(NoAllocation, PerReportInAnHour) {
   Options options;
   options.ir_format = GetParam();
   Wiimote wiimote(
-      options, [&] { return remote.open(); }, [&] { return remote.now; });
+      options, [&](bool) { return remote.open(); }, [&] { return remote.now; });
   while (wiimote.link().state != Link::State::kStreaming) {
     wiimote.step(0.1);
     ASSERT_LT(remote.now, 10.0);
@@ -64,7 +64,7 @@ INSTANTIATE_TEST_SUITE_P(Formats,
 TEST(NoAllocation, WhenSettingsChange) {
   SteadyRemote remote;
   Wiimote wiimote(
-      Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+      Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
   while (wiimote.link().state != Link::State::kStreaming) {
     wiimote.step(0.1);
     ASSERT_LT(remote.now, 10.0);

@@ -196,7 +196,7 @@ TEST_F(Replays, NoBytesMakeItCrashOrHang) {
       Replay replay(path);
       // A damaged time may leave the remote silent or absent for very long.
       Wiimote wiimote(
-          Options(), [&] { return replay.open(); }, [&] { return replay.now(); });
+          Options(), [&](bool) { return replay.open(); }, [&] { return replay.now(); });
       for (int i = 0; i < 2000 && !replay.ended(); ++i) {
         replay.pass(wiimote.idleTime());
         wiimote.step(0.1);
@@ -301,7 +301,7 @@ TEST_F(Replays, SocketSession) {
     const auto recorder = std::make_shared<Recorder>(path_, now, 1.7e9);
     Wiimote wiimote(
         Options(),
-        [&] {
+        [&](bool) {
           auto remote = transport::open(transport::parseDeviceName("virtual:" + socket));
           return record(std::make_unique<ArrivalClock>(std::move(remote), &now), recorder, clock);
         },

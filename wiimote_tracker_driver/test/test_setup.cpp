@@ -37,7 +37,7 @@ TEST_F(WiimoteTest, EveryLostRequestOrAnswerIsRepeated) {
     int losses = 2;
     remote.lose = [&](const Report& report) { return report == lost && losses-- > 0; };
     Wiimote wiimote(
-        Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+        Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
     bool image = false;
     while (!image && remote.now < 160.0)
       image = wiimote.step(0.1).has_value();
@@ -67,7 +67,7 @@ TEST_F(WiimoteTest, RemoteThatDoesNotAcknowledgeCommandsStreams) {
     FakeRemote remote;
     remote.unacknowledged = silent;
     Wiimote wiimote(
-        Options(), [&] { return remote.open(); }, [&] { return remote.now; });
+        Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
     int images = 0;
     while (remote.now < 230.0) {
       remote.now += wiimote.idleTime();

@@ -63,8 +63,8 @@ TEST(DeviceNames, RemotesAreTriedInTurn) {
   std::vector<KernelRemote> remotes(3);
   for (std::size_t i = 0; i < remotes.size(); ++i)
     remotes[i].path = "/dev/hidraw" + std::to_string(i);
-  const auto first = [&](const std::string& last) {
-    beginAfter(last, &remotes);
+  const auto first = [&](const std::string& last, bool delivered = false) {
+    orderAfter(last, delivered, &remotes);
     return remotes.front().path;
   };
   EXPECT_EQ("/dev/hidraw0", first(""));
@@ -72,6 +72,7 @@ TEST(DeviceNames, RemotesAreTriedInTurn) {
   EXPECT_EQ("/dev/hidraw1", first("/dev/hidraw0"));
   EXPECT_EQ("/dev/hidraw2", first("/dev/hidraw1"));
   EXPECT_EQ("/dev/hidraw0", first("/dev/hidraw2"));
+  EXPECT_EQ("/dev/hidraw1", first("/dev/hidraw1", true));
 }
 
 TEST(SocketTransport, OnlyTheOwnerMayConnect) {

@@ -49,7 +49,7 @@ class WiimoteTest : public testing::Test {
   explicit WiimoteTest(const Options& options = Options())
       : wiimote_(
             options,
-            [this] { return remote_.open(); },
+            [this](bool) { return remote_.open(); },
             [this] { return remote_.now; }) {}
 
   /// Advances the time. @returns the number of images.

@@ -67,7 +67,7 @@ void play(const std::string& path) {
   wiimote::Options options;
   options.ir_format = replay.irFormat().value_or(protocol::IrFormat::kExtended);
   wiimote::Wiimote wiimote(
-      options, [&] { return replay.open(); }, [&] { return replay.now(); });
+      options, [&](bool) { return replay.open(); }, [&] { return replay.now(); });
   for (int turn = 0; turn < kMostTurns && !replay.ended(); ++turn) {
     const double before = replay.now();
     replay.pass(wiimote.idleTime());

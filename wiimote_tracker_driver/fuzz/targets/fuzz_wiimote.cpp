@@ -176,7 +176,7 @@ class WiimoteTrial {
         options_(optionsOf(in)),
         wiimote_(
             options_,
-            [this] { return world_.open(); },
+            [this](bool) { return world_.open(); },
             [this] { return world_.now; }) {}
 
   void run() {

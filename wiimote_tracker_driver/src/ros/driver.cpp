@@ -92,7 +92,7 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
       control_(options_.leds, parameters_.rumble_max),
       wiimote_(
           options_,
-          [this] { return open(); },
+          [this](bool delivered) { return open(delivered); },
           [this] { return source_.now(); }),
       camera_info_(nh,
                    parameters_.camera_name,
@@ -178,8 +178,8 @@ bool Driver::waitForTurn() {
   return !stop_;
 }
 
-std::unique_ptr<transport::Transport> Driver::open() {
-  auto transport = source_.open();
+std::unique_ptr<transport::Transport> Driver::open(bool delivered) {
+  auto transport = source_.open(delivered);
   if (!recorder_)
     return transport;
   return recording::record(std::move(transport), recorder_, [this] { return source_.now(); });

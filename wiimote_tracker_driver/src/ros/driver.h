@@ -49,7 +49,7 @@ class Driver {
   void readAndPublish();
   void raisePriority();
   bool waitForTurn();
-  std::unique_ptr<transport::Transport> open();
+  std::unique_ptr<transport::Transport> open(bool delivered);
   void publishImage(const protocol::DataReport& image);
   void stampWaiting();
   void linkChanged();

@@ -7,7 +7,6 @@
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,7 +22,9 @@ class RemoteSource {
   RemoteSource(const DriverParameters& parameters, const std::string& device_parameter);
 
   /// As wiimote::Wiimote::Open.
-  std::unique_ptr<transport::Transport> open() { return replay_ ? replay_->open() : open_(); }
+  std::unique_ptr<transport::Transport> open(bool delivered) {
+    return replay_ ? replay_->open() : open_(delivered);
+  }
 
   /// A clock that never goes back [s].
   double now() const { return replay_ ? replay_->now() : steadyNow(); }
@@ -48,7 +49,7 @@ class RemoteSource {
   bool recorded() const { return replay_.has_value(); }
 
  private:
-  std::function<std::unique_ptr<transport::Transport>()> open_;  ///< Of a remote.
+  transport::Opener open_;  ///< Of a remote.
   std::optional<recording::Replay> replay_;
 };
 

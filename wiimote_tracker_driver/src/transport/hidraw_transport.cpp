@@ -129,16 +129,14 @@ void throwOpenError(int error_number, const std::string& path) {
   }
 }
 
-void beginAfter(const std::string& last, std::vector<KernelRemote>* remotes) {
+void orderAfter(const std::string& last, bool delivered, std::vector<KernelRemote>* remotes) {
   const auto at = std::find_if(remotes->begin(), remotes->end(),
                                [&](const KernelRemote& remote) { return remote.path == last; });
   if (at != remotes->end())
-    std::rotate(remotes->begin(), at + 1, remotes->end());
+    std::rotate(remotes->begin(), delivered ? at : at + 1, remotes->end());
 }
 
-std::unique_ptr<Transport> openHidraw(const DeviceName& name,
-                                      std::vector<KernelRemote> all,
-                                      const std::string& last) {
+std::unique_ptr<Transport> openHidraw(const DeviceName& name, std::vector<KernelRemote> all) {
   all.erase(std::remove_if(all.begin(), all.end(),
                            [](const KernelRemote& remote) { return remote.path.empty(); }),
             all.end());
@@ -146,7 +144,6 @@ std::unique_ptr<Transport> openHidraw(const DeviceName& name,
     if (all.empty())
       throw NoSuchDevice(
           "no Wii Remote is connected: press a button of a paired one, or pair one first");
-    beginAfter(last, &all);
     return openFirstFree(all);
   }
   const bool by_address = name.kind == DeviceName::Kind::kAddress;

@@ -14,13 +14,12 @@ namespace wiimote_tracker::transport {
 constexpr const char* kUdevRule = "60-wiimote-tracker.rules";
 
 /// Opens one of the kernel's remotes: by its Bluetooth address, by its path or as the first free
-/// one, the one after `last` first. @throws as open().
-std::unique_ptr<Transport> openHidraw(const DeviceName& name,
-                                      std::vector<KernelRemote> all,
-                                      const std::string& last);
+/// one. @throws as open().
+std::unique_ptr<Transport> openHidraw(const DeviceName& name, std::vector<KernelRemote> all);
 
-/// Rotates remotes so that the one with path `last`, if there is one, becomes the last.
-void beginAfter(const std::string& last, std::vector<KernelRemote>* remotes);
+/// Rotates remotes: the one with path `last`, if there is one, becomes the first if it has
+/// delivered images, else the last.
+void orderAfter(const std::string& last, bool delivered, std::vector<KernelRemote>* remotes);
 
 /// Throws the error, with its sentence, that belongs to a failed open(2) of a hidraw node.
 [[noreturn]] void throwOpenError(int error_number, const std::string& path);

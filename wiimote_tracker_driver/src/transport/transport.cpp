@@ -62,19 +62,19 @@ DeviceName parseDeviceName(const std::string& text) {
 }
 
 std::unique_ptr<Transport> open(const DeviceName& name) {
-  return opener(name)();
+  return opener(name)(false);
 }
 
-std::function<std::unique_ptr<Transport>()> opener(
-    const DeviceName& name,
-    std::function<std::vector<KernelRemote>()> list) {
-  return [name, list = std::move(list), last = std::string()]() mutable {
+Opener opener(const DeviceName& name, std::function<std::vector<KernelRemote>()> list) {
+  return [name, list = std::move(list), last = std::string()](bool delivered) mutable {
     if (name.kind == DeviceName::Kind::kVirtual)
       return openSocket(name.value);
     if (name.kind == DeviceName::Kind::kReplay)
       throw BadDeviceName("the recording " + name.value +
                           " is no remote for this program: give it to the driver's node");
-    auto transport = openHidraw(name, list(), last);
+    std::vector<KernelRemote> remotes = list();
+    orderAfter(last, delivered, &remotes);
+    auto transport = openHidraw(name, remotes);
     last = transport->remote().description;
     return transport;
   };

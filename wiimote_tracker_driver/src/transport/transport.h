@@ -78,9 +78,13 @@ DeviceName parseDeviceName(const std::string& text);
 /// TransportError.
 std::unique_ptr<Transport> open(const DeviceName& name);
 
-/// As open(), at each call; with kAny, the one of the call before is the last to be tried. `list`:
-/// the kernel's remotes; for tests.
-std::function<std::unique_ptr<Transport>()> opener(
+/// `delivered`: whether images have come from the remote of the call before.
+using Opener = std::function<std::unique_ptr<Transport>(bool delivered)>;
+
+/// As open(), at each call. With kAny, the remote of the call before is the first to be tried if it
+/// delivered images, so that the camera keeps its identity; else the last, since it did not work.
+/// `list`: the kernel's remotes; for tests.
+Opener opener(
     const DeviceName& name,
     std::function<std::vector<KernelRemote>()> list = [] { return kernelRemotes(); });
 

@@ -52,7 +52,8 @@ void Wiimote::orDrop(Action action) {
 }
 
 void Wiimote::connect() {
-  transport_ = open_();
+  transport_ = open_(delivered_);
+  delivered_ = false;
   link_.state = Link::State::kStarting;
   static_cast<transport::Remote&>(link_) = transport_->remote();
   link_.status.reset();
@@ -82,6 +83,7 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
     new_epoch_ = had_image_;
   if (image) {
     had_image_ = true;
+    delivered_ = true;
     retry_pause_ = kShortestPause;
     if (new_epoch_) {
       new_epoch_ = false;

@@ -37,7 +37,7 @@ struct Link : transport::Remote {
 class Wiimote {
  public:
   /// Opens the transport or throws TransportError.
-  using Open = std::function<std::unique_ptr<transport::Transport>()>;
+  using Open = transport::Opener;
   /// Any clock that never goes back [s].
   using Clock = std::function<double()>;
 
@@ -101,6 +101,7 @@ class Wiimote {
   double last_read_ = 0.0;  ///< [s] When the last attempt to read returned.
   bool backlog_ = false;    ///< Reports wait that the kernel kept during a long stall.
   bool had_image_ = false;
+  bool delivered_ = false;  ///< Images have come from the remote that was opened last.
   bool new_epoch_ = false;  ///< The next image is the first of another epoch.
 };
 

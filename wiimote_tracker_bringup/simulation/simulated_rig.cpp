@@ -30,7 +30,7 @@ virtual_wiimote::Device::Options deviceOptions(const geometry::Camera& camera, s
   const auto& intrinsics = camera.intrinsics;
   virtual_wiimote::Device::Options options;
   options.factory_points = virtual_wiimote::factoryPoints(
-      intrinsics.cx + offset_x, intrinsics.height - 1 - intrinsics.cy + offset_y, random());
+      intrinsics.cx + offset_x, sensorY(intrinsics, intrinsics.cy) + offset_y, random());
   return options;
 }
 

@@ -30,8 +30,7 @@ virtual_wiimote::Light VirtualCamera::lightAt(const Eigen::Vector2d& pixel,
                                               double brightness) const {
   virtual_wiimote::Light light;
   light.x = pixel.x() + noise.x();
-  // The sensor's y points up.
-  light.y = camera_.intrinsics.height - 1 - (pixel.y() + noise.y());
+  light.y = sensorY(camera_.intrinsics, pixel.y() + noise.y());
   light.size = size;
   light.brightness = brightness;
   return light;

@@ -24,6 +24,11 @@ struct Lamp {
   double brightness;
 };
 
+/// The sensor's y, which points up, of the y in an image [px]: the inverse of what the driver does.
+inline double sensorY(const geometry::Intrinsics& intrinsics, double y) {
+  return intrinsics.height - 1 - y;
+}
+
 /// Optics and mounting of one Wii Remote: converts lamps in the world to the input of the device.
 /// The device simulates the sensor (rounding, edges, the limit of four).
 class VirtualCamera {

@@ -46,7 +46,7 @@ const std::vector<tracking::Spot>& RemoteCamera::look(const virtual_wiimote::Sen
     if (!seen.seen)
       continue;
     tracking::Spot spot;
-    spot.pixel = {seen.x, protocol::kSensorHeight - 1 - seen.y};
+    spot.pixel = {seen.x, protocol::imageY(seen.y)};
     spot.slot = static_cast<int>(slot);
     spots_.push_back(spot);
   }

@@ -5,11 +5,11 @@
 namespace wiimote_tracker::driver {
 namespace {
 
+using protocol::imageY;
 using protocol::IrFormat;
 using wiimote_tracker_msgs::IrBlobArray;
 
 constexpr int kCell = 8;  // [px] Side of a cell of a bounding box.
-constexpr int kLastRow = protocol::kSensorHeight - 1;
 constexpr float kNoValue = std::numeric_limits<float>::quiet_NaN();
 
 // Both are the values of the camera's mode register.
@@ -25,17 +25,16 @@ wiimote_tracker_msgs::IrBlob irBlob(const protocol::IrSpot& spot,
                                     std::size_t slot) {
   wiimote_tracker_msgs::IrBlob blob;
   blob.x = spot.x;
-  blob.y = kLastRow - spot.y;
+  blob.y = imageY(spot.y);
   blob.size = format == IrFormat::kBasic ? kNoValue : static_cast<float>(spot.size);
   blob.intensity = kNoValue;
   blob.slot = static_cast<std::uint8_t>(slot);
   if (format == IrFormat::kFull) {
     blob.intensity = static_cast<float>(spot.intensity);
     const auto [x_min, y_min, x_max, y_max] = spot.box;
-    blob.bounding_box = {static_cast<float>(kCell * x_min),
-                         static_cast<float>(kLastRow - (kCell * y_max + kCell - 1)),
-                         static_cast<float>(kCell * x_max + kCell - 1),
-                         static_cast<float>(kLastRow - kCell * y_min)};
+    blob.bounding_box = {
+        static_cast<float>(kCell * x_min), static_cast<float>(imageY(kCell * y_max + kCell - 1)),
+        static_cast<float>(kCell * x_max + kCell - 1), static_cast<float>(imageY(kCell * y_min))};
   }
   return blob;
 }

@@ -78,7 +78,7 @@ void CameraInfoPublisher::publishFactory(const std::optional<protocol::IrCalibra
   message.height = protocol::kSensorHeight;
   if (calibration) {
     message.K[2] = calibration->centre()[0];
-    message.K[5] = protocol::kSensorHeight - 1 - calibration->centre()[1];  // y points up there
+    message.K[5] = protocol::imageY(calibration->centre()[1]);
     message.K[8] = 1.0;
   }
   factory_.publish(message);

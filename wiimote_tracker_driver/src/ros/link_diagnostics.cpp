@@ -78,7 +78,7 @@ void addRemote(const Link& link, DiagnosticStatusWrapper& status) {
   if (link.ir_calibration) {
     const auto centre = link.ir_calibration->centre();
     status.addf("factory principal point [px]", "%.1f, %.1f", centre[0],
-                protocol::kSensorHeight - 1 - centre[1]);
+                protocol::imageY(centre[1]));
   }
 }
 

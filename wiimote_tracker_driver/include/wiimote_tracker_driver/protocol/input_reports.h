@@ -15,6 +15,12 @@ namespace wiimote_tracker::protocol {
 constexpr int kSensorWidth = 1024;
 constexpr int kSensorHeight = 768;
 
+/// y in an image, which points down, of the sensor's y, which points up [px].
+template <typename T>
+constexpr T imageY(T sensor_y) {
+  return kSensorHeight - 1 - sensor_y;
+}
+
 /// Buttons: first byte in bits 8..15, second in 0..7, other bits cleared.
 std::uint16_t decodeButtons(const Report& report);
 

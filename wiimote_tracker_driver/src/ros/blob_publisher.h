@@ -24,7 +24,6 @@ class BlobPublisher {
  public:
   BlobPublisher(ros::NodeHandle& nh, const std::string& camera, const std::string& frame_id);
 
-  bool subscribed() { return topic_.subscribed(); }
   /// `identity`: of the remote that sent the image.
   void publish(const protocol::DataReport& image,
                const ImageTime& time,

@@ -30,7 +30,6 @@ class CameraInfoPublisher {
   /// camera_info_manager leaves an empty file and answers `set_camera_info` with success.
   std::string problem() const;
 
-  bool subscribed() { return topic_.subscribed(); }
   void publish(const ros::Time& stamp);
 
   /// Publishes the factory's principal point as cx and cy, with a focal length of 0 (unknown).

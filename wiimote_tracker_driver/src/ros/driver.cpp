@@ -109,7 +109,6 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
       log_(parameters_.camera_name, !source_.recorded()),
       stamper_(stamperOptions(parameters_.stamper, options_.ir_format)),
       statistics_(steadyNow()),
-      reader_priority_("normal"),
       settings_(private_nh, parameters_, control_),
       feedback_(nh, parameters_.camera_name, control_),
       diagnostics_(options_.ir_format,
@@ -121,7 +120,9 @@ Driver::Driver(ros::NodeHandle nh, const ros::NodeHandle& private_nh)
     ROS_WARN(
         "the driver runs in the namespace /, so its topics are /ir_blobs and so on: start it in "
         "the camera's namespace, for example ROS_NAMESPACE=wiimote_1");
-  time_.stddev = std::numeric_limits<double>::quiet_NaN();
+  state_.clock = stamper_.statistics();
+  state_.stamp_stddev = std::numeric_limits<double>::quiet_NaN();
+  state_.reader_priority = "normal";
   updater_.setHardwareID("none");
   updater_.add("Wii Remote " + parameters_.camera_name, this, &Driver::diagnose);
   diagnostics_timer_ = nh.createSteadyTimer(
@@ -166,8 +167,9 @@ void Driver::raisePriority() {
   if (!refused.empty())
     ROS_WARN("%s: %s", parameters_.camera_name.c_str(), refused.c_str());
   const std::lock_guard<std::mutex> lock(mutex_);
-  reader_priority_ = refused.empty() ? "real time " + std::to_string(parameters_.realtime_priority)
-                                     : "normal: " + refused;
+  state_.reader_priority = refused.empty()
+                               ? "real time " + std::to_string(parameters_.realtime_priority)
+                               : "normal: " + refused;
 }
 
 // Waits until the remote may need attention. @returns false at shutdown.
@@ -185,37 +187,23 @@ std::unique_ptr<transport::Transport> Driver::open(bool delivered) {
   return recording::record(std::move(transport), recorder_, [this] { return source_.now(); });
 }
 
-// Stamps that nobody needs are computed once a second, for the diagnostics, or when 200 wait:
-// together they take half the time, since the clock's code and state stay in the caches.
 void Driver::publishImage(const protocol::DataReport& image) {
   const wiimote::Link& link = wiimote_.link();
-  const Arrival arrival{source_.readClocks(), link.clock_epoch};
-  const bool needed = blobs_.subscribed() || camera_info_.subscribed() || imu_.subscribed() ||
-                      joy_.changed(image.buttons);
-  ImageTime time;
+  const ImageTime time = stamper_.stamp(source_.readClocks(), link.clock_epoch);
+  const exposure_clock::Statistics clock = stamper_.statistics();
+  const ImageStamper::Totals totals = stamper_.totals();
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     statistics_.add(steadyNow());
-    waiting_.push_back(arrival);
-    if (!needed && !waiting_.full())
-      return;
-    stampWaiting();
-    time = time_;
+    state_.stamp_stddev = time.stddev;
+    state_.clock = clock;
+    state_.totals = totals;
   }
   blobs_.publish(image, time, link.identity);
   camera_info_.publish(time.stamp);
   if (image.acceleration)
     imu_.publish(*image.acceleration, wiimote_.accelerometer(), time.stamp);
   joy_.publish(image.buttons, time.stamp);
-}
-
-// Call it with mutex_ locked.
-void Driver::stampWaiting() {
-  while (!waiting_.empty()) {
-    const Arrival next = waiting_.front();
-    waiting_.pop_front();
-    time_ = stamper_.stamp(next.clocks, next.epoch);
-  }
 }
 
 void Driver::linkChanged() {
@@ -225,7 +213,7 @@ void Driver::linkChanged() {
   wiimote::Link before;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    before = std::exchange(link_, now);
+    before = std::exchange(state_.link, now);
     if (now.state == wiimote::Link::State::kStreaming && before.state != now.state)
       statistics_.begin(steadyNow());
   }
@@ -242,6 +230,11 @@ void Driver::linkChanged() {
 
 void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   DriverState state;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    state = state_;
+    state.stream = statistics_.take(steadyNow());
+  }
   state.ir_sensitivity = settings_.sensitivity();
   state.replayed = source_.recorded();
   if (recorder_) {
@@ -250,16 +243,6 @@ void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
     if (state.recording_error != recording_error_)
       ROS_ERROR("%s: %s", parameters_.camera_name.c_str(), state.recording_error.c_str());
     recording_error_ = state.recording_error;
-  }
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    stampWaiting();
-    state.link = link_;
-    state.stream = statistics_.take(steadyNow());
-    state.clock = stamper_.statistics();
-    state.totals = stamper_.totals();
-    state.stamp_stddev = time_.stddev;
-    state.reader_priority = reader_priority_;
   }
   if (steadyNow() >= users_due_) {
     users_due_ = steadyNow() + kUsersCheck;

@@ -20,7 +20,6 @@
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/ros.h>
-#include <boost/circular_buffer.hpp>
 
 #include <atomic>
 #include <cstdint>
@@ -51,7 +50,6 @@ class Driver {
   bool waitForTurn();
   std::unique_ptr<transport::Transport> open(bool delivered);
   void publishImage(const protocol::DataReport& image);
-  void stampWaiting();
   void linkChanged();
   void diagnose(diagnostic_updater::DiagnosticStatusWrapper& status);
 
@@ -71,19 +69,12 @@ class Driver {
   BatteryPublisher battery_;
   JoyPublisher joy_;
   LinkLog log_;
+  ImageStamper stamper_;
   std::uint64_t seen_changes_ = 0;  // of wiimote_.linkChanges()
 
-  std::mutex mutex_;  // guards the members below
-  wiimote::Link link_;
-  struct Arrival {
-    ClockReading clocks;
-    std::uint32_t epoch;
-  };
-  boost::circular_buffer<Arrival> waiting_{200};  // not stamped yet
-  ImageStamper stamper_;
-  ImageTime time_;  // of the last image that was stamped
+  std::mutex mutex_;   // guards the two below; held only to copy, as the reader may be real-time
+  DriverState state_;  // the reader's part of it
   wiimote::StreamStatistics statistics_;
-  std::string reader_priority_;
 
   // For callbacks.
   LiveSettings settings_;

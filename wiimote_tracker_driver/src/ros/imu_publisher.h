@@ -22,7 +22,6 @@ class ImuPublisher {
                const std::string& imu_frame,
                double stddev);
 
-  bool subscribed() { return topic_.subscribed(); }
   /// `raw`: x, y, z of the remote's converter.
   void publish(const std::array<int, 3>& raw,
                const protocol::AccelerometerCalibration& calibration,

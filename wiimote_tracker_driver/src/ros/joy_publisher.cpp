@@ -22,7 +22,7 @@ JoyPublisher::JoyPublisher(ros::NodeHandle& nh, const std::string& frame_id)
     : frame_id_(frame_id), publisher_(nh.advertise<sensor_msgs::Joy>("joy", 10, true)) {}
 
 void JoyPublisher::publish(std::uint16_t buttons, const ros::Time& stamp) {
-  if (!changed(buttons))
+  if (published_ == buttons)
     return;
   published_ = buttons;
   sensor_msgs::Joy message;

@@ -20,8 +20,7 @@ class JoyPublisher {
  public:
   JoyPublisher(ros::NodeHandle& nh, const std::string& frame_id);
 
-  /// Whether these are not the ones published last. `buttons`: as protocol::decodeButtons().
-  bool changed(std::uint16_t buttons) const { return published_ != buttons; }
+  /// `buttons`: as protocol::decodeButtons().
   void publish(std::uint16_t buttons, const ros::Time& stamp);
 
   /// Publishes all buttons as released, when the remote has disconnected.

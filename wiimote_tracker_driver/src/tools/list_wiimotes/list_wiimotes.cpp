@@ -302,7 +302,9 @@ int main(int argc, char** argv) {
                 "CAMERA gets the remote with ADDRESS in the cameras.yaml; the calibration of its "
                 "lens is renamed");
   parser.option("--camera-info FOLDER", &arguments.camera_info,
-                "where <camera>.yaml is (default: ~/.ros/camera_info)");
+                "where <camera>.yaml is (default: $ROS_HOME/camera_info, or ~/.ros/camera_info if "
+                "ROS_HOME is "
+                "not set)");
   return parser.run(argc, argv, [&] {
     check(&arguments);
     if (arguments.replace.empty())

@@ -1,31 +1,34 @@
 """check_setup, with fakes of the driver's programs and of the ROS master."""
 
+import json
 import os
 import socket
+import subprocess
 import sys
+import time
 
 import program_module
 import pytest
+import roslib.packages
 
 check_setup = program_module.load('launch/check_setup')
 
 A, B = '00:1f:32:00:00:01', '00:1f:32:00:00:02'
 BLUETOOTH = 'Uses the Bluetooth adapter 00:1A:7D:DA:71:13.\nPaired remotes: %s.\n' % A.upper()
-REMOTE = '''1  %s  /dev/hidraw3
-   Wii Remote (RVL-CNT-01), kernel driver wiimote, you may open it
-   free, battery 100 %% (raw 105)
-   ! the kernel's driver hid-wiimote shares this remote
-''' % A
-IN_USE = '''1  %s  /dev/hidraw3  door
-   Wii Remote (RVL-CNT-01), kernel driver wiimote, you may open it
-   - %s is in use by driver_node
-''' % (A, A)
-REFUSED = '''1  %s  /dev/hidraw3
-   Wii Remote (RVL-CNT-01), kernel driver wiimote, you may NOT open it
-   ! permission denied on /dev/hidraw3: install the rule
-''' % A
-NO_REMOTE = 'No Wii Remote is connected: press a button of a paired one\n'
-NO_RULE = '! no udev rule lets users open Wii Remotes: run  sudo cp\n'
+
+
+def listed(*remotes, computer_problems=()):
+    """What list_wiimotes --json prints."""
+    advice = '' if remotes else 'No Wii Remote is connected'
+    return json.dumps({'remotes': remotes, 'advice': advice,
+                       'computer_problems': computer_problems})
+
+
+def remote(address=A, usable=True, problems=()):
+    return {'address': address, 'device': '/dev/hidraw3', 'usable': usable, 'problems': problems}
+
+
+NO_PERMISSION = ['permission denied on /dev/hidraw3: install the rule']
 CAMERAS = 'cameras:\n  door: "%s"\n'
 RIG = 'cameras:\n  door:\n    identity: "%s"\ncomplete: true\n'
 
@@ -64,7 +67,7 @@ def check(tmp_path, monkeypatch, capsys):
     rosrun.write_text('#!/bin/sh\ncat {0}/$2 && ! grep -q ^pair: {0}/$2\n'.format(tmp_path))
     rosrun.chmod(0o755)
 
-    def run(bluetooth=BLUETOOTH, remotes=REMOTE, cameras=CAMERAS % A, rig=RIG % A,
+    def run(bluetooth=BLUETOOTH, remotes=listed(remote()), cameras=CAMERAS % A, rig=RIG % A,
             plugin='wiimote', master=None, parameters={}):
         monkeypatch.setattr(Master, 'publishers', master)
         monkeypatch.setattr(Master, 'parameters', parameters)
@@ -97,10 +100,11 @@ def test_all_is_well(check):
     ({'bluetooth': 'pair: the Bluetooth service does not run: run  sudo systemctl'},
      'Next: Bluetooth: the Bluetooth service does not run'),
     ({'plugin': 'nothing'}, 'lacks its wiimote plugin'),
-    ({'remotes': NO_REMOTE + NO_RULE}, 'Next: computer: no udev rule'),
-    ({'remotes': NO_REMOTE}, 'Next: remotes: No Wii Remote is connected'),
-    ({'remotes': REFUSED}, 'permission denied on /dev/hidraw3'),
-    ({'remotes': REFUSED.replace(A, '(address unknown)')}, 'Next: remote (address unknown): permiss'),
+    ({'remotes': listed(computer_problems=['no udev rule'])}, 'Next: computer: no udev rule'),
+    ({'remotes': listed()}, 'Next: remotes: No Wii Remote is connected'),
+    ({'remotes': listed(remote(A, False, NO_PERMISSION))}, f'{A}: permission denied on /dev/'),
+    ({'remotes': listed(remote('', False, NO_PERMISSION))}, 'Next: remote (address unknown): perm'),
+    ({'remotes': ''}, 'list_wiimotes says nothing'),
     ({'cameras': CAMERAS % B, 'rig': RIG % B}, f'Next: camera door: {B} is not connected'),
     ({'cameras': None}, 'list_wiimotes --write cameras.yaml'),
     ({'cameras': 'cameras: {a: [1'}, 'not valid YAML'),
@@ -116,6 +120,28 @@ def test_each_problem_gives_advice(check, situation, advice):
     status, lines = check(**situation)
     assert status == 1
     assert advice in lines[-1], lines
+
+
+def program(name):
+    return roslib.packages.find_node('wiimote_tracker_driver', name)[0]
+
+
+def test_the_real_list_of_remotes_is_understood(check, tmp_path):
+    sockets = [str(tmp_path / name) for name in ('a.sock', 'nowhere.sock')]
+    command = [program('virtual_wiimote'), '--socket', sockets[0], '--address', A]
+    with subprocess.Popen(command) as one:
+        try:
+            end = time.monotonic() + 30.0
+            while not os.path.exists(sockets[0]) and time.monotonic() < end:
+                time.sleep(0.01)
+            found = subprocess.run([program('list_wiimotes'), '--json', '--virtual'] + sockets,
+                                   stdout=subprocess.PIPE, universal_newlines=True).stdout
+        finally:
+            one.terminate()
+    _, lines = check(remotes=found)
+    assert f'ok remote {A}: can be used' in lines
+    assert any(line.startswith('DO remote (address unknown): no virtual Wii Remote listens')
+               for line in lines)
 
 
 @pytest.mark.parametrize('address, named', [
@@ -137,7 +163,7 @@ def test_a_running_tracker_is_named(check, monkeypatch):
     with socket.create_server(('localhost', 0)) as node:
         monkeypatch.setattr(Master, 'port', node.getsockname()[1])
         status, lines = check(master=[['/diagnostics', ['/door/driver', '/master_watch']]],
-                              parameters={'/use_sim_time': False}, remotes=IN_USE)
+                              parameters={'/use_sim_time': False})
     assert status == 0
     assert any('where /door/driver run already' in line for line in lines)
     assert f'ok remote {A}: can be used' in lines

@@ -93,7 +93,8 @@ def test_discovered_remotes_keep_their_names(tmp_path, monkeypatch):
     # Replaces list_wiimotes by a program that has found a remote.
     finder = tmp_path / 'finder'
     finder.write_text('#!/bin/sh\n[ "$1" = --write ] || exit 2\n'
-                      'printf \'  wiimote_1: "00:1f:32:00:00:01"\\n\' >> "$2"\n')
+                      'printf \'  wiimote_1: "00:1f:32:00:00:01"\\n\' >> "$2"\n'
+                      'echo a warning >&2; echo {}\n')
     finder.chmod(0o755)
     monkeypatch.setattr(drivers.roslib.packages, 'find_node', lambda *_: [str(finder)])
     drivers.discover(str(path), '')

@@ -3,6 +3,7 @@
 The environment variable LIST_WIIMOTES is the path of the program.
 """
 
+import json
 import os
 import socket
 import subprocess
@@ -74,6 +75,33 @@ def test_free_remotes_are_shown_with_their_battery(remotes):
     assert '1  00:1f:32:00:00:01  virtual:%s' % remotes[0].path in text
     assert '2  00:1f:32:00:00:02' in text
     assert text.count('free, battery 100 % (raw 105)') == 2
+
+
+def test_programs_read_json(remotes, tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text('cameras:\n  door: "x"\n')
+    taken = Remote(str(tmp_path / 'ta"ken.sock'), f'taken by process {os.getpid()}')
+    nowhere = str(tmp_path / 'nowhere.sock')
+    status, text = list_wiimotes('--json', '--write', str(path), '--virtual', remotes[0].path,
+                                 taken.path, nowhere)
+    found = json.loads(text)
+    free, used, absent = found['remotes']
+    assert status == 1
+    assert free == {
+        'address': '00:1f:32:00:00:01', 'device': 'virtual:' + remotes[0].path,
+        'camera': 'wiimote_1', 'description': 'virtual Wii Remote', 'usable': True,
+        'state': 'free, battery 100 % (raw 105)', 'notes': [], 'problems': []}
+    assert used['usable'] and 'in use' in used['notes'][0] and used['problems'] == []
+    assert used['device'] == 'virtual:' + taken.path
+    assert not absent['usable'] and 'listens at' in absent['problems'][0]
+    assert found['absent'] == [{'camera': 'door', 'device': 'x'}]
+    assert 'camera door has the device x' in found['camera_problems'][0]
+    assert found['computer_problems'] == [] and found['advice'] == ''
+
+    status, text = list_wiimotes('--json', '--device', '00:00:00:00:00:00')
+    found = json.loads(text)
+    assert status == 1
+    assert found['remotes'] == [] and 'not connected' in found['advice']
 
 
 def test_a_remote_in_use_is_no_error(tmp_path):
@@ -196,6 +224,7 @@ def test_invalid_arguments_are_refused(arguments):
     ('--cameras a.yaml --write b.yaml', '--cameras'),
     ('--camera-info a', '--camera-info'),
     ('--device 00:1f:32:00:00:01 --virtual a.sock', '--device'),
+    ('--json --identify', '--json'),
     ('--replace a 00:1f:32:00:00:01 --cameras a.yaml --identify', '--replace'),
     ('--replace a 00:1f:32:00:00:01 --cameras a.yaml --write b.yaml', '--replace')])
 def test_an_option_without_effect_is_refused(arguments, option):

@@ -2,6 +2,7 @@
 
 import importlib.machinery
 import importlib.util
+import json
 import os
 import sys
 
@@ -77,7 +78,7 @@ class Computer:
         self.monkeypatch = monkeypatch
         self.capsys = capsys
         os.symlink(os.path.join(HERE, 'fake_bluetoothctl'), str(folder / 'bluetoothctl'))
-        self.program('rosrun', 'echo "$@" >> {0}/calls; echo "a Wii Remote"'.format(folder))
+        self.lists({'device': '/dev/hidraw3', 'usable': True, 'state': 'free', 'problems': []})
         self.program('systemctl', 'exit 3')
         monkeypatch.setenv('PATH', '%s:%s' % (folder, os.environ['PATH']))
         monkeypatch.setattr(steps, 'SETTLE_INTERVAL', 0.05)
@@ -86,6 +87,11 @@ class Computer:
         path = self.folder / name
         path.write_text('#!/bin/sh\n%s\n' % script)
         path.chmod(0o755)
+
+    def lists(self, *remotes):
+        """list_wiimotes --json prints this."""
+        (self.folder / 'listed').write_text(json.dumps({'remotes': remotes}))
+        self.program('rosrun', 'echo "$@" >> {0}/calls; cat {0}/listed'.format(self.folder))
 
     def calls(self):
         return (self.folder / 'calls').read_text().splitlines()
@@ -123,7 +129,8 @@ def test_a_remote_is_paired_and_tried(computer, dialogue):
     status, out, err = computer.pair(dialogue, '--verbose')
     assert (status, err) == (0, ''), out
     assert 'SYNC' in out and 'Paired.' in out and 'Connected.' in out
-    assert computer.calls() == ['wiimote_tracker_driver list_wiimotes --device ' + A]
+    assert '/dev/hidraw3: free' in out
+    assert computer.calls() == [f'wiimote_tracker_driver list_wiimotes --device {A} --json']
 
 
 def test_bluetooth_is_checked_without_pairing(computer):
@@ -260,27 +267,28 @@ def test_a_service_that_runs_while_bluetoothctl_ends_is_restarted(computer):
 
 def test_a_remote_that_goes_away_again_has_no_bond(computer):
     # Not there yet at the first check.
-    computer.program('rosrun', 'echo "This Wii Remote is not connected"; exit 1')
+    computer.lists()
     _, _, err = computer.pair(FOUND + TO_THE_END + '[CHG] Device %s Connected: no\n' % A + SILENCE)
     assert 'went away at once' in err and 'ClassicBondedOnly=false' in err
 
 
 def test_a_missing_node_is_a_kernel_problem(computer, monkeypatch):
     monkeypatch.setattr(steps, 'SETTLE_TIMEOUT', 0.5)
-    computer.program('rosrun', 'echo "This Wii Remote is not connected"; exit 1')
+    computer.lists()
     _, _, err = computer.pair(FOUND + TO_THE_END + SILENCE)
     assert 'modprobe hid-wiimote' in err
 
 
 def test_problems_found_by_list_wiimotes_are_passed_on(computer, monkeypatch):
     monkeypatch.setattr(steps, 'SETTLE_TIMEOUT', 0.5)
-    computer.program('rosrun', 'echo "permission denied on /dev/hidraw3: install the rule"; exit 1')
+    computer.lists({'device': '/dev/hidraw3', 'usable': False, 'state': '',
+                    'problems': ['permission denied on /dev/hidraw3: install the rule']})
     _, _, err = computer.pair(FOUND + TO_THE_END + SILENCE)
     assert 'permission denied on /dev/hidraw3: install the rule' in err
 
 
 def test_waits_for_a_late_node(computer):
-    computer.program('rosrun', 'test -e {0}/second && exit 0; touch {0}/second; exit 1'.format(
+    computer.program('rosrun', 'test -e {0}/second && cat {0}/listed; touch {0}/second'.format(
         computer.folder))
     status, _, err = computer.pair(FOUND + TO_THE_END + SILENCE)
     assert (status, err) == (0, '')

@@ -1,18 +1,17 @@
 // Lists the Wii Remotes of this computer, and keeps the list of a rig's cameras.
 #include "camera_list.h"
 #include "host.h"
+#include "listing.h"
 #include "remote_check.h"
 #include "replacement.h"
 #include "transport/transport.h"
 #include "transport/users.h"
-#include "wiimote_tracker_driver/protocol/input_reports.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/ros_home.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <time.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -28,6 +27,7 @@ namespace {
 /// Arguments of the program.
 struct Arguments {
   bool identify = false;
+  bool json = false;
   std::string write;                 ///< A cameras.yaml, may be new; or empty.
   std::string cameras;               ///< A cameras.yaml, or empty.
   std::string device;                ///< Address or path of the only remote to list, or empty.
@@ -60,6 +60,8 @@ void check(Arguments* arguments) {
     throw BadArguments("--replace lists no remotes: use only --cameras and --camera-info with it");
   if (!replaces && !arguments->camera_info.empty())
     throw BadArguments("--camera-info has an effect only with --replace: leave it out");
+  if (arguments->json && (replaces || arguments->identify))
+    throw BadArguments("--json is for a list: leave out --identify and --replace");
   if (!arguments->write.empty() && !arguments->cameras.empty())
     throw BadArguments(
         "--cameras has no effect with --write FILE, which shows the names of FILE: leave it out");
@@ -69,26 +71,7 @@ void check(Arguments* arguments) {
     arguments->device = addressOrPath(arguments->device);
 }
 
-/// A remote in the list.
-struct Row {
-  transport::DeviceName device;  ///< How to open it.
-  std::string text;              ///< Device in a cameras.yaml; empty: impossible.
-  std::string address;
-  std::string description;
-  bool can_be_opened = true;
-  std::vector<std::string> hints;
-  RemoteCheck check;
-  std::string camera;
-};
-
 constexpr double kAnswerTimeout = 1.0;  // [s]
-
-std::string permissionOf(const Row& row) {
-  if (row.device.kind != transport::DeviceName::Kind::kPath || row.device.value.empty())
-    return "";
-  const bool allowed = ::access(row.device.value.c_str(), R_OK | W_OK) == 0;
-  return allowed ? ", you may open it" : ", you may NOT open it";
-}
 
 /// The remotes known to the kernel, or only that with the address or path `wanted`.
 std::vector<Row> rowsOf(const Host& host, const std::string& wanted) {
@@ -105,7 +88,7 @@ std::vector<Row> rowsOf(const Host& host, const std::string& wanted) {
     if (!remote.adapter.empty())
       row.description += ", adapter " + remote.adapter;
     row.can_be_opened = !remote.path.empty();
-    row.hints = problems(remote);
+    row.problems = problems(remote);
     rows.push_back(row);
   }
   return rows;
@@ -130,42 +113,20 @@ void check(const CameraList& list, Row* row) {
     row->check = checkRemote(row->device, kAnswerTimeout);
     if (row->address.empty())
       row->address = row->check.identity;
+    if (row->check.state == RemoteCheck::State::kTaken)
+      row->notes.push_back(row->check.sentence);
+    if (row->check.state == RemoteCheck::State::kFailed)
+      row->problems.insert(row->problems.begin(), row->check.sentence);
     // If a driver uses it, the check has named it.
     if (row->device.kind == transport::DeviceName::Kind::kPath &&
         row->check.state == RemoteCheck::State::kFree) {
       const std::string others = transport::sharedWith(row->device.value);
       if (!others.empty())
-        row->hints.push_back(others);
+        row->problems.push_back(others);
     }
   }
   if (!row->text.empty())
     row->camera = list.nameOf(row->text);
-}
-
-/// Whether the remote is free or in use by a driver.
-bool isFine(const Row& row) {
-  return row.can_be_opened && row.check.state != RemoteCheck::State::kFailed;
-}
-
-void print(int number, const Row& row) {
-  const std::string where =
-      row.device.kind == transport::DeviceName::Kind::kVirtual ? row.text : row.device.value;
-  std::printf("%d  %s  %s%s%s\n", number,
-              row.address.empty() ? "(address unknown)" : row.address.c_str(),
-              where.empty() ? "(no hidraw node)" : where.c_str(), row.camera.empty() ? "" : "  ",
-              row.camera.c_str());
-  std::printf("   %s%s\n", row.description.c_str(), permissionOf(row).c_str());
-  if (row.check.state == RemoteCheck::State::kFree) {
-    const protocol::Status& status = *row.check.status;
-    std::printf("   free, battery %.0f %% (raw %d)%s\n",
-                100.0 * protocol::batteryCharge(status.battery), status.battery,
-                status.battery_low ? ", low by its own sign: put new batteries in" : "");
-  } else if (!row.check.sentence.empty()) {
-    std::printf("   %s %s\n", isFine(row) ? "-" : "!", row.check.sentence.c_str());
-  }
-  for (const std::string& hint : row.hints)
-    std::printf("   ! %s\n", hint.c_str());
-  std::fflush(stdout);
 }
 
 void identify(const std::vector<Row>& rows) {
@@ -190,38 +151,39 @@ void identify(const std::vector<Row>& rows) {
   }
 }
 
-void write(const std::string& path, CameraList list, const std::vector<Row>& rows) {
+/// Adds the new remotes to the file. @returns what was done, for people.
+std::string write(const std::string& path, CameraList list, std::vector<Row>* rows) {
   bool changed = false;
-  std::string done;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Row& row = rows[i];
+  std::string done = "\n";
+  for (std::size_t i = 0; i < rows->size(); ++i) {
+    Row& row = (*rows)[i];
     const std::string remote = "Remote " + std::to_string(i + 1);
     if (row.text.empty() || row.address.empty()) {
       done += remote + " is not written because its address is unknown.\n";
     } else if (row.camera.empty()) {
-      done += remote + " (" + row.address + ") is camera " + list.add(row.text) + ".\n";
+      row.camera = list.add(row.text);
+      done += remote + " (" + row.address + ") is camera " + row.camera + ".\n";
       changed = true;
     }
   }
   if (changed)
     writeCameraList(list, path);
-  std::printf("\n%s", done.c_str());
-  std::printf(changed                  ? "Written to %s.\n"
-              : list.cameras().empty() ? "Nothing was written to %s.\n"
-                                       : "%s needed no change.\n",
-              path.c_str());
+  return done + (changed                  ? "Written to " + path + ".\n"
+                 : list.cameras().empty() ? "Nothing was written to " + path + ".\n"
+                                          : path + " needed no change.\n");
 }
 
 /// The cameras whose remotes are not connected.
-void printAbsent(const CameraList& list, const std::vector<Row>& rows) {
+std::vector<CameraList::Camera> absentOf(const CameraList& list, const std::vector<Row>& rows) {
+  std::vector<CameraList::Camera> absent;
   for (const CameraList::Camera& camera : list.cameras()) {
     const bool connected = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
       return lowerCase(row.text) == lowerCase(camera.device);
     });
     if (!connected)
-      std::printf("-  %s  camera %s is not connected\n", camera.device.c_str(),
-                  camera.name.c_str());
+      absent.push_back(camera);
   }
+  return absent;
 }
 
 CameraList listOf(const Arguments& arguments) {
@@ -235,34 +197,37 @@ CameraList listOf(const Arguments& arguments) {
 }
 
 int list(const Arguments& arguments) {
-  CameraList cameras = listOf(arguments);
+  const CameraList cameras = listOf(arguments);
   const bool is_virtual = !arguments.sockets.empty();
   const Host host = is_virtual ? Host() : readHost();
-  std::vector<Row> rows = is_virtual ? rowsOf(arguments.sockets) : rowsOf(host, arguments.device);
-  bool fine = !rows.empty();
+  Listing listing;
+  listing.remotes = is_virtual ? rowsOf(arguments.sockets) : rowsOf(host, arguments.device);
+  std::vector<Row>& rows = listing.remotes;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     check(cameras, &rows[i]);
-    print(static_cast<int>(i) + 1, rows[i]);
-    fine = fine && isFine(rows[i]);
+    if (!arguments.json)
+      print(static_cast<int>(i) + 1, rows[i]);
   }
   if (rows.empty())
-    std::puts(arguments.device.empty()
-                  ? "No Wii Remote is connected: press a button of a paired one, or pair one with  "
-                    "rosrun wiimote_tracker_driver pair"
-                  : "This Wii Remote is not connected: press one of its buttons.");
+    listing.advice =
+        arguments.device.empty()
+            ? "No Wii Remote is connected: press a button of a paired one, or pair one with  "
+              "rosrun wiimote_tracker_driver pair"
+            : "This Wii Remote is not connected: press one of its buttons.";
   if (arguments.device.empty())
-    printAbsent(cameras, rows);
-  for (const std::string& sentence : problems(cameras))
-    std::printf("! %s\n", sentence.c_str());
-  if (!is_virtual && arguments.device.empty()) {
-    for (const std::string& sentence : problems(host))
-      std::printf("! %s\n", sentence.c_str());
-  }
+    listing.absent = absentOf(cameras, rows);
+  listing.camera_problems = problems(cameras);
+  if (!is_virtual && arguments.device.empty())
+    listing.computer_problems = problems(host);
+  if (!arguments.json)
+    printRest(listing);
+  std::string said;
   if (!arguments.write.empty() && !rows.empty())
-    write(arguments.write, cameras, rows);
+    said = write(arguments.write, cameras, &rows);
+  std::fputs((arguments.json ? json(listing) : said).c_str(), stdout);
   if (arguments.identify)
     identify(rows);
-  return fine ? 0 : 1;
+  return !rows.empty() && std::all_of(rows.begin(), rows.end(), isUsable) ? 0 : 1;
 }
 
 std::string cameraInfoFolder(const Arguments& arguments) {
@@ -291,6 +256,7 @@ int main(int argc, char** argv) {
       "Exit status: 0 when there are remotes and all are free or in use by a driver, 1 when not,\n"
       "2 for wrong arguments.");
   parser.flag("--identify", &arguments.identify, "each free remote flashes its number in turn");
+  parser.flag("--json", &arguments.json, "for programs: the list as JSON");
   parser.option("--write FILE", &arguments.write,
                 "add new remotes to the cameras.yaml FILE as wiimote_1, ...; the names in it stay, "
                 "and the old file is kept as FILE.bak");

@@ -1,0 +1,49 @@
+#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_LISTING_H
+#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_LISTING_H
+
+#include "camera_list.h"
+#include "remote_check.h"
+#include "transport/transport.h"
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::list_wiimotes {
+
+/// A remote in the list.
+struct Row {
+  transport::DeviceName device;  ///< How to open it.
+  std::string text;              ///< Device in a cameras.yaml; empty: impossible.
+  std::string address;
+  std::string description;
+  bool can_be_opened = true;
+  RemoteCheck check;
+  std::vector<std::string> notes;     ///< Sentences for information.
+  std::vector<std::string> problems;  ///< Sentences with what to do.
+  std::string camera;                 ///< Its name in the cameras.yaml, or empty.
+};
+
+/// What list_wiimotes shows.
+struct Listing {
+  std::vector<Row> remotes;
+  std::string advice;                      ///< What to do without remotes; else empty.
+  std::vector<CameraList::Camera> absent;  ///< Those whose remotes are not connected.
+  std::vector<std::string> camera_problems;
+  std::vector<std::string> computer_problems;
+};
+
+/// Whether the remote is free or in use by a driver.
+bool isUsable(const Row& row);
+
+/// Prints a remote under its number, for people.
+void print(int number, const Row& row);
+
+/// Prints all but the remotes, for people.
+void printRest(const Listing& listing);
+
+/// For programs: one JSON object..
+std::string json(const Listing& listing);
+
+}  // namespace wiimote_tracker::list_wiimotes
+
+#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_LISTING_H

@@ -78,7 +78,9 @@ TEST(Host, RemotesAreFoundWithAllThatTheKernelReports) {
   EXPECT_EQ("/dev/hidraw10", host.remotes[1].path);
   EXPECT_FALSE(contains(modelOf(host.remotes[1]), "-TR"));
   EXPECT_TRUE(problems(host.remotes[0]).empty());
-  EXPECT_EQ(1, count(problems(host.remotes[1]), "hid-wiimote shares"));
+  EXPECT_TRUE(notes(host.remotes[0]).empty());
+  EXPECT_TRUE(problems(host.remotes[1]).empty());
+  EXPECT_EQ(1, count(notes(host.remotes[1]), "hid-wiimote shares"));
 }
 
 TEST(Host, RemoteWithoutKernelDriverIsFound) {

@@ -250,6 +250,24 @@ TEST_F(DiagnosticsTest, RestorationsAreReportedOnce) {
   EXPECT_EQ("the camera was switched off", value("last restoration"));
 }
 
+TEST_F(DiagnosticsTest, TheKernelsDriverIsNoWarningUnlessItMayHaveDoneHarm) {
+  state_.link.kernel_driver = "wiimote";
+  const auto level = [&] {
+    const auto status = describe();
+    EXPECT_NE(std::string::npos, status.message.find("hid-wiimote")) << status.message;
+    return status.level;
+  };
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, level());
+  state_.stream.gaps = 1;
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, level());
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, level());
+  state_.link.restorations = 1;
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, level());
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, level());
+  state_.stream.rate = 70.0;
+  EXPECT_EQ(std::string::npos, describe().message.find("hid-wiimote")) << "another warning";
+}
+
 TEST_F(DiagnosticsTest, NoImageIsMissedRightAfterTheStreamBegan) {
   state_.stream.rate = 0.0;
   state_.stream.has_rate = false;
@@ -268,6 +286,7 @@ TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   state_.replayed = true;
   EXPECT_FALSE(says("bring the remote nearer")) << "a recording may be played slowly";
   state_.link.kernel_driver = "wiimote";
+  state_.stream.gaps = 1;
   EXPECT_TRUE(says("hid-wiimote"));
   state_.link.accelerometer_calibrated = false;
   EXPECT_TRUE(says("accelerometer calibration of the remote is damaged"));

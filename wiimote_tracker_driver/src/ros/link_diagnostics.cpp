@@ -117,16 +117,21 @@ void LinkDiagnostics::summarise(const DriverState& state, DiagnosticStatusWrappe
 void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatusWrapper& status) {
   const Link& link = state.link;
   status.summary(DiagnosticStatus::OK, "streaming");
+  if (link.kernel_driver == "wiimote") {
+    // It serves all remotes of a usual kernel, mostly without harm.
+    const bool harm = link.restorations != restorations_ || state.stream.gaps != gaps_;
+    status.summary(harm ? DiagnosticStatus::WARN : DiagnosticStatus::OK,
+                   std::string("streaming; ") + kKernelDriverShares);
+  }
   if (state.stream.has_rate && state.stream.rate < kLowRate * image_rate_)
     status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second%s", state.stream.rate,
                          state.replayed ? "" : kRaiseRate);
-  if (link.kernel_driver == "wiimote")
-    status.mergeSummary(DiagnosticStatus::WARN, kKernelDriverShares);
   if (!state.shared_with.empty())
     status.mergeSummary(DiagnosticStatus::WARN, state.shared_with);
   if (link.restorations != restorations_)
     status.mergeSummary(DiagnosticStatus::WARN, "put right: " + link.last_restoration);
   restorations_ = link.restorations;
+  gaps_ = state.stream.gaps;
   if (const char* problem = accelerometerProblem(link))
     status.mergeSummary(DiagnosticStatus::WARN, problem);
   if (link.status && batteryLow(*link.status, battery_low_))

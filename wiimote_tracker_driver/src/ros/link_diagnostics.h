@@ -44,6 +44,7 @@ class LinkDiagnostics {
   const double image_rate_;
   const double battery_low_;
   std::uint64_t restorations_ = 0;  // reported already
+  std::uint64_t gaps_ = 0;          // reported already
 };
 
 }  // namespace wiimote_tracker::driver

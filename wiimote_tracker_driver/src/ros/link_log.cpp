@@ -68,7 +68,7 @@ void LinkLog::reportStream(const wiimote::Link& link) const {
   if (const char* problem = accelerometerProblem(link))
     ROS_WARN("%s: %s", camera, problem);
   if (link.kernel_driver == "wiimote")
-    ROS_WARN("%s: %s", camera, kKernelDriverShares);
+    ROS_INFO("%s: %s", camera, kKernelDriverShares);
 }
 
 }  // namespace wiimote_tracker::driver

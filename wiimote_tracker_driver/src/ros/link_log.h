@@ -11,7 +11,7 @@ namespace wiimote_tracker::driver {
 
 // Sentences of both the log and the diagnostics.
 inline constexpr char kKernelDriverShares[] =
-    "the kernel's driver hid-wiimote uses the same remote and sometimes interrupts its images: see "
+    "the kernel's driver hid-wiimote uses the same remote and may interrupt its images: see "
     "\"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver";
 
 /// What is wrong with the accelerometer's calibration; null when nothing is. Of a streaming remote.

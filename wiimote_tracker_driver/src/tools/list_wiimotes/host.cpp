@@ -134,16 +134,20 @@ std::vector<std::string> problems(const KernelRemote& remote) {
         "the kernel has this remote but made no hidraw node for it: run  sudo modprobe "
         "hid-wiimote  and reconnect the remote"};
   std::vector<std::string> sentences;
-  if (remote.kernel_driver == "wiimote")
-    sentences.push_back(
-        "the kernel's driver hid-wiimote shares this remote and sometimes interrupts its "
-        "images: see \"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver if the driver's "
-        "diagnostics show gaps");
   if (remote.address.empty())
     sentences.push_back(
         "this remote does not reveal its Bluetooth address, so it cannot be recognised: connect it "
         "to a Bluetooth adapter of this computer instead of a converter");
   return sentences;
+}
+
+std::vector<std::string> notes(const KernelRemote& remote) {
+  if (remote.kernel_driver != "wiimote")
+    return {};
+  return {
+      "the kernel's driver hid-wiimote shares this remote, as is usual: if the driver's "
+      "diagnostics "
+      "show gaps, see \"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver"};
 }
 
 std::string modelOf(const KernelRemote& remote) {

@@ -31,6 +31,9 @@ std::vector<std::string> problems(const Host& host);
 
 std::vector<std::string> problems(const transport::KernelRemote& remote);
 
+/// What is good to know about the remote, one sentence each.
+std::vector<std::string> notes(const transport::KernelRemote& remote);
+
 /// "Wii Remote (RVL-CNT-01)", "Wii Remote Plus (RVL-CNT-01-TR)".
 std::string modelOf(const transport::KernelRemote& remote);
 

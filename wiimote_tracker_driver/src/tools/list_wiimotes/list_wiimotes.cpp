@@ -88,6 +88,7 @@ std::vector<Row> rowsOf(const Host& host, const std::string& wanted) {
     if (!remote.adapter.empty())
       row.description += ", adapter " + remote.adapter;
     row.can_be_opened = !remote.path.empty();
+    row.notes = notes(remote);
     row.problems = problems(remote);
     rows.push_back(row);
   }
@@ -114,7 +115,7 @@ void check(const CameraList& list, Row* row) {
     if (row->address.empty())
       row->address = row->check.identity;
     if (row->check.state == RemoteCheck::State::kTaken)
-      row->notes.push_back(row->check.sentence);
+      row->notes.insert(row->notes.begin(), row->check.sentence);
     if (row->check.state == RemoteCheck::State::kFailed)
       row->problems.insert(row->problems.begin(), row->check.sentence);
     // If a driver uses it, the check has named it.

@@ -1,6 +1,8 @@
 """The list of cameras, as read by the drivers script."""
 
+import json
 import os
+import subprocess
 
 import program_module
 import pytest
@@ -59,6 +61,9 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {"a\\n": "00:1f:32:00:00:01"}', "camera name 'a\\n'"),
     ('cameras: {a: "00:1f:32:00:00:01", a: "00:1f:32:00:00:02"}', 'a is there twice'),
     ('cameras: {a: "00:1F:32:00:00:01", b: "00:1f:32:00:00:01"}', 'so has another one'),
+    ('cameras: {a: /tmp/x}', 'a path such as /dev/hidraw0'),
+    ('discovr: true\ncameras: {a: "00:1F:32:00:00:01"}', 'unknown key discovr'),
+    ('cameras: {a: "00:1F:32:00:00:01"}\ndiscover: true', 'above "cameras:"'),
 ])
 def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
     with pytest.raises(drivers.CamerasError) as error:
@@ -78,6 +83,40 @@ def test_parameters_of_a_camera_in_the_wrong_place_are_refused(tmp_path, keys):
 def test_a_rig_description_has_keys_of_its_own():
     assert drivers.read_parameters(os.path.join(HERE, '../simulation/paper_rig.yaml'))[
         'wiimote_1'] == {}
+
+
+ONE = 'cameras:\n  a: "00:1f:32:00:00:01"\n'
+
+
+@pytest.mark.parametrize('text, accepted', [
+    (ONE, True), ('discover: true\n' + ONE, True), ('discover: true\ncameras:\n', True),
+    ('cameras:\n  a: /dev/hidraw3\n  b: "virtual:/tmp/b.sock"\n  c: "replay:c.wiirec"\n', True),
+    ('cameras:\n  a:\n    identity: "00:1f:32:00:00:01"\n    driver: {ir_mode: full}\n', True),
+    ('cameras:\n  a:\n    identity: "00:1f:32:00:00:01"\n    driver:\n', True),
+    ('', False), ('discover: true\n', False), ('discover: perhaps\n' + ONE, False),
+    (ONE + 'discover: true\n', False), ('cameas: true\n' + ONE, False), (ONE + ONE, False),
+    ('cameras:\n  a b: "00:1f:32:00:00:01"\n', False), (ONE + '  a: /dev/hidraw1\n', False),
+    (ONE + '  b: "00:1F:32:00:00:01"\n', False), ('cameras:\n  a: /dev/ttyUSB0\n', False),
+    ('cameras:\n  a: /tmp/x\n', False), ('cameras:\n  a: "virtual:"\n', False),
+    ('cameras:\n  a: "00:1f:32:00:00"\n', False), ('cameras:\n  a: 11:22:33:44:55:06\n', False),
+    ('cameras:\n  a:\n    driver: {ir_mode: full}\n', False),
+    ('cameras:\n  a:\n    identity: "00:1f:32:00:00:01"\n    drivr: {}\n', False),
+    ('cameras:\n  a:\n    identity: "00:1f:32:00:00:01"\n    driver: full\n', False)])
+def test_list_wiimotes_has_the_same_rules(tmp_path, text, accepted):
+    path = tmp_path / 'cameras.yaml'
+    path.write_text(text)
+    program = drivers.roslib.packages.find_node('wiimote_tracker_driver', 'list_wiimotes')[0]
+    listed = subprocess.run(
+        [program, '--json', '--cameras', str(path), '--virtual', str(tmp_path / 'none.sock')],
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, universal_newlines=True).stdout
+    try:
+        drivers.read_devices(str(path), '')
+        drivers.read_parameters(str(path))
+        ours = True
+    except drivers.CamerasError:
+        ours = False
+    theirs = listed != '' and json.loads(listed)['camera_problems'] == []
+    assert (ours, theirs) == (accepted, accepted)
 
 
 def test_a_missing_file_is_named(tmp_path):

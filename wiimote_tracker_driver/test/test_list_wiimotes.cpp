@@ -226,7 +226,10 @@ TEST(CameraList, RefusesTextsThatItCannotPreserve) {
        {"", "# nothing\n", "wiimote_1: \"00:1f:32:00:00:01\"\n", "cameras: {a: \"x\"}\n",
         "cameras:\n  - a\n", "cameras:\n  a:\n    driver: \"x\"\n", "cameras:\n  a:\n",
         "cameras:\n  1: \"x\"\n", "cameras:\n  a b: \"x\"\n", "cameras:\n  a: \"x\"\n  a: \"y\"\n",
-        "cameras:\n  a: \"x\"\nother:\n", "cameras:\n  a: \"x\n", "cameras:\n  a: {b: c}\n"}) {
+        "cameras:\n  a: \"x\"\nother:\n", "discover: perhaps\ncameras:\n",
+        "cameras:\n  a: 11:22:33:44:55:06\n", "cameras:\n  a:\n    identity: \"x\"\n    drivr:\n",
+        "cameras:\n  a:\n    identity: \"x\"\n    driver: max\n", "cameras:\n  a: \"x\n",
+        "cameras:\n  a: {b: c}\n"}) {
     EXPECT_NE("", errorOf([&] { CameraList list{std::string(text)}; })) << text;
   }
   EXPECT_TRUE(contains(errorOf([] { CameraList list(std::string("cameras:\n  - a\n")); }),

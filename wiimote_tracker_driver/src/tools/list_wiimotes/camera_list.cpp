@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <set>
 #include <sstream>
 
 namespace wiimote_tracker::list_wiimotes {
@@ -48,6 +49,48 @@ YAML::Node load(const std::string& text, const std::vector<std::string>& lines) 
   }
 }
 
+/// Refuses a key of a mapping that is there twice.
+void refuseRepeated(const YAML::Node& mapping, const std::vector<std::string>& lines) {
+  std::set<std::string> seen;
+  for (const auto& pair : mapping) {
+    const std::string key = pair.first.as<std::string>("");
+    if (!seen.insert(key).second)
+      refuse(pair.first.Mark(), lines, key + " is there twice; remove one of them");
+  }
+}
+
+/// Refuses what may not stand beside "cameras:".
+void checkFile(const YAML::Node& file, const std::vector<std::string>& lines) {
+  refuseRepeated(file, lines);
+  for (const auto& pair : file) {
+    const YAML::Mark mark = pair.first.Mark();
+    const std::string key = pair.first.as<std::string>("");
+    if (key != "cameras" && key != "discover")
+      refuse(mark, lines, "only \"discover:\" and \"cameras:\" are allowed here");
+    if (key == "cameras")
+      continue;
+    bool discover = false;
+    if (!YAML::convert<bool>::decode(pair.second, discover))
+      refuse(mark, lines, "\"discover\" must be true or false");
+    if (mark.line > file["cameras"].Mark().line)
+      refuse(mark, lines, "write it above \"cameras:\"");
+  }
+}
+
+/// Refuses what a camera may not have.
+void checkCamera(const YAML::Node& camera, const std::vector<std::string>& lines) {
+  refuseRepeated(camera, lines);
+  for (const auto& pair : camera) {
+    const std::string key = pair.first.as<std::string>("");
+    if (key != "identity" && key != "driver")
+      refuse(
+          pair.first.Mark(), lines,
+          "a camera may have \"identity:\" and \"driver:\", and the parameters below the latter");
+    if (key == "driver" && !pair.second.IsMap() && !pair.second.IsNull())
+      refuse(pair.first.Mark(), lines, "\"driver:\" must have lines \"parameter: value\"");
+  }
+}
+
 bool isDevice(const std::string& text) {
   try {
     transport::parseDeviceName(text);
@@ -68,26 +111,21 @@ CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
   const YAML::Node file = load(text, lines_);
   if (!file.IsMap() || !file["cameras"])
     throw CameraListError("there is no line \"cameras:\": write one above the cameras");
-  for (const auto& pair : file) {
-    const std::string key = pair.first.as<std::string>("");
-    if (key != "cameras" && key != "discover")
-      refuse(pair.first.Mark(), lines_, "only \"discover:\" and \"cameras:\" are allowed here");
-    if (key == "discover" && pair.first.Mark().line > file["cameras"].Mark().line)
-      refuse(pair.first.Mark(), lines_, "write it above \"cameras:\"");
-  }
+  checkFile(file, lines_);
   const YAML::Node cameras = file["cameras"];
   if (cameras.IsNull())
     return;
   if (!cameras.IsMap() || cameras.Style() == YAML::EmitterStyle::Flow)
     refuse(cameras.Mark(), lines_, "write one line  name: \"address\"  for each camera");
+  refuseRepeated(cameras, lines_);
   for (const auto& pair : cameras) {
     const YAML::Mark mark = pair.first.Mark();
     Camera camera;
     camera.name = pair.first.as<std::string>("");
     if (!isWord(camera.name))
       refuse(mark, lines_, "a camera's name must be letters, digits and _, a letter first");
-    if (find(camera.name) != nullptr)
-      refuse(mark, lines_, "camera " + camera.name + " is there already; remove one of them");
+    if (pair.second.IsMap())
+      checkCamera(pair.second, lines_);
     const YAML::Node device = pair.second.IsMap() ? pair.second["identity"] : pair.second;
     if (!device || !device.IsScalar() || device.Scalar().empty())
       refuse(mark, lines_,
@@ -100,6 +138,9 @@ CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
     camera.size = camera.device.size() + (quoted ? 2 : 0);
     if (line.compare(camera.begin + (quoted ? 1 : 0), camera.device.size(), camera.device) != 0)
       refuse(device.Mark(), lines_, "write the address in quotes on one line");
+    if (!quoted && camera.device[0] != '0' &&
+        camera.device.find_first_not_of("0123456789:") == std::string::npos)
+      refuse(device.Mark(), lines_, "write the address in quotes: YAML takes it for a number");
     indent_.assign(static_cast<std::size_t>(mark.column), ' ');
     cameras_.push_back(camera);
   }
@@ -158,9 +199,10 @@ std::vector<std::string> problems(const CameraList& list) {
     const std::string start = "camera " + camera.name + " has the device " + camera.device;
     const std::string owner = list.nameOf(camera.device);
     if (!isDevice(camera.device))
-      sentences.push_back(start +
-                          ": give a Bluetooth address such as \"00:1f:32:12:34:56\", or a "
-                          "path");
+      sentences.push_back(
+          start +
+          ": give a Bluetooth address such as \"00:1f:32:12:34:56\", or a path such as "
+          "/dev/hidraw0");
     else if (owner != camera.name)
       sentences.push_back(start + ", and so has camera " + owner + ": remove one of them");
   }

@@ -1,6 +1,7 @@
 // The running node or nodelet: points in, gestures out. Whether they are marked by rests or by
 // light is read from its parameter.
 #include "gesture/examples_file.h"
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
@@ -18,6 +19,7 @@
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
@@ -274,6 +276,16 @@ TEST_F(GesturesTest, ZonesHaveTheirOwn) {
   EXPECT_NEAR(event.end.toSec(), bench_->begin_ + 1.0, 0.1);
   EXPECT_EQ(bench_->list().zones, (std::vector<std::string>{"kitchen"}));
   EXPECT_TRUE(bench_->remove("lights"));
+}
+
+TEST_F(GesturesTest, AreNotWrittenOverAFileThatAPersonChanged) {
+  ASSERT_NO_FATAL_FAILURE(recordCircle());
+  const std::string content = geometry::readFile(bench_->file_);
+  std::ofstream(bench_->file_) << content << "# by hand\n";
+  EXPECT_NE(bench_->record("corner").find("was changed after it was read"), std::string::npos);
+  EXPECT_FALSE(bench_->remove("circle"));
+  std::ofstream(bench_->file_) << content;
+  EXPECT_TRUE(bench_->remove("circle"));
 }
 
 TEST_F(GesturesTest, GoOnAfterABagStartsOver) {

@@ -2,7 +2,6 @@
 
 #include "body/bodies_file.h"
 #include "body_parameters.h"
-#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -12,8 +11,6 @@
 #include <cmath>
 #include <cstddef>
 #include <exception>
-#include <filesystem>
-#include <system_error>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -41,12 +38,6 @@ std::vector<Constellation> without(const std::string& name, std::vector<Constell
                               [&](const Constellation& body) { return body.name == name; }),
                bodies.end());
   return bodies;
-}
-
-/// Of a file; empty if there is none.
-std::string contentOf(const std::string& file) {
-  std::error_code error;
-  return std::filesystem::exists(file, error) ? geometry::readFile(file) : "";
 }
 
 /// Labels of a body's LEDs in their order, if all blink.
@@ -108,7 +99,7 @@ BodyLearning::BodyLearning(const ros::NodeHandle& nh,
       names_(names),
       codes_(codes.begin(), codes.end()),
       bodies_(bodies),
-      content_(contentOf(file)),
+      guard_(file),
       spinner_(1, &queue_) {
   ros::NodeHandle handle(nh);
   handle.setCallbackQueue(&queue_);
@@ -194,20 +185,13 @@ std::string BodyLearning::refusal(const LearnBody::Request& request) {
       return "'" + request.name + "' is the name of a frame of the rig; choose another one";
   }
   try {
-    checkFile();
+    guard_.check();
     // Checks only the name.
     Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();
   } catch (const Error& e) {
     return e.what();
   }
   return "";
-}
-
-/// What a person wrote into the file since it was read would be lost. @throws Error.
-void BodyLearning::checkFile() const {
-  const std::string content = contentOf(file_);
-  if (!content.empty() && content != content_)
-    throw Error(file_ + " was changed after it was read: start the tracker again, then learn");
 }
 
 BodyLearning::Collected BodyLearning::collect(const LearnBody::Request& request) {
@@ -267,10 +251,10 @@ void BodyLearning::learn(const LearnBody::Request& request,
   if (!unseen.empty())
     warnings.push_back(unseen);
   bodies.push_back(learned.constellation);
-  checkFile();
+  guard_.check();
   const bool replaces = bodies.size() <= bodies_.size();
   body::writeBodies(file_, bodies);
-  content_ = contentOf(file_);
+  guard_.update();
   bodies_ = bodies;
   response->success = true;
   response->message = "body '" + request.name + "' with " +

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_LEARNING_H
 
 #include "body/learn_constellation.h"
+#include "geometry/file_guard.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -59,7 +60,6 @@ class BodyLearning {
 
   bool onRequest(LearnBody::Request& request, LearnBody::Response& response);
   std::string refusal(const LearnBody::Request& request);
-  void checkFile() const;
   Collected collect(const LearnBody::Request& request);
   void learn(const LearnBody::Request& request,
              const Collected& collected,
@@ -71,7 +71,7 @@ class BodyLearning {
   std::set<std::string> codes_;
   // Only for the service's thread:
   std::vector<body::Constellation> bodies_;  // all known
-  std::string content_;                      // of the file, as last read or written
+  geometry::FileGuard guard_;                // of the file
 
   std::mutex mutex_;  // protects all below
   std::condition_variable changed_;

@@ -55,6 +55,7 @@ Gestures::Hand::Hand(std::uint32_t led,
 Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
     : nh_(nh),
       parameters_(GestureParameters::read(ParameterReader(private_nh))),
+      guard_(parameters_.file),
       recognizer_(parameters_.recognizer) {
   if (std::filesystem::exists(parameters_.file)) {
     readExamples();
@@ -103,10 +104,12 @@ void Gestures::warnOfTooShort() const {
 
 /// Those that are too short stay in the file for a smaller minimum_length.
 void Gestures::writeExamples(const gesture::Recognizer& recognizer,
-                             const std::vector<gesture::Example>& too_short) const {
+                             const std::vector<gesture::Example>& too_short) {
+  guard_.check();
   std::vector<gesture::Example> all = recognizer.examples();
   all.insert(all.end(), too_short.begin(), too_short.end());
   gesture::writeExamples(parameters_.file, all);
+  guard_.update();
 }
 
 void Gestures::onRig(const wiimote_tracker_msgs::RigCalibration& message) {
@@ -294,28 +297,36 @@ void Gestures::draw(const std::string& text, const gesture::Path& path, std::uin
   markers_publisher_.publish(array);
 }
 
-bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
-                      wiimote_tracker_msgs::RecordGesture::Response& response) {
-  response.success = true;
-  if (request.gesture.empty()) {
-    wanted_.reset();
-    response.message = "recording is cancelled";
-    return true;
-  }
-  if (request.gesture.find(geometry::kUnreadableText) != std::string::npos) {
-    response.success = false;
-    response.message = "the file of examples cannot have a name with '" +
-                       std::string(geometry::kUnreadableText) + "'; choose another one";
-    return true;
-  }
+/// Why an example cannot be recorded; empty: it can.
+std::string Gestures::refusal(const wiimote_tracker_msgs::RecordGesture::Request& request) const {
+  if (request.gesture.find(geometry::kUnreadableText) != std::string::npos)
+    return "the file of examples cannot have a name with '" +
+           std::string(geometry::kUnreadableText) + "'; choose another one";
   const bool known_zone = request.zone.empty() ||
                           std::any_of(zones_.begin(), zones_.end(),
                                       [&](const auto& zone) { return zone.name == request.zone; });
-  if (!known_zone) {
-    response.success = false;
-    response.message = "the rig has no zone '" + request.zone + "'; name one of its zones, or none";
+  if (!known_zone)
+    return "the rig has no zone '" + request.zone + "'; name one of its zones, or none";
+  try {
+    guard_.check();
+  } catch (const FileError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
+                      wiimote_tracker_msgs::RecordGesture::Response& response) {
+  if (request.gesture.empty()) {
+    wanted_.reset();
+    response.success = true;
+    response.message = "recording is cancelled";
     return true;
   }
+  response.message = refusal(request);
+  response.success = response.message.empty();
+  if (!response.success)
+    return true;
   wanted_ = gesture::Example{request.gesture, request.zone, {}};
   response.message = "draw '" + request.gesture + "' now; the next gesture is kept as an example";
   return true;

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
 
+#include "geometry/file_guard.h"
 #include "gesture/recognizer.h"
 #include "gesture/segmenter.h"
 #include "gesture/spotter.h"
@@ -59,6 +60,7 @@ class Gestures {
                const Hand& hand);
   void draw(const std::string& text, const gesture::Path& path, std::uint32_t id);
 
+  std::string refusal(const wiimote_tracker_msgs::RecordGesture::Request& request) const;
   bool record(wiimote_tracker_msgs::RecordGesture::Request& request,
               wiimote_tracker_msgs::RecordGesture::Response& response);
   bool remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
@@ -69,12 +71,13 @@ class Gestures {
   void readExamples();
   void warnOfTooShort() const;
   void writeExamples(const gesture::Recognizer& recognizer,
-                     const std::vector<gesture::Example>& too_short) const;
+                     const std::vector<gesture::Example>& too_short);
 
   std::string zoneOf(const gesture::Path& path) const;
 
   ros::NodeHandle nh_;
   GestureParameters parameters_;
+  geometry::FileGuard guard_;  // of the file of examples
   gesture::Recognizer recognizer_;
   std::vector<gesture::Example> too_short_;  // of the file, shorter than minimum_length is now
   std::vector<geometry::Zone> zones_;

@@ -99,6 +99,15 @@ TEST_F(Workflow, ALoadedRigDoesNotDisturbARun) {
   EXPECT_EQ(fresh.step(), Step::kSaved);
 }
 
+TEST_F(Workflow, ALoadedRigWithACameraTypedInMillimetresIsDoubted) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  geometry::Rig rig = *calibration_.rig();
+  EXPECT_EQ(rig.describeFarCamera(), "");
+  rig.cameras[1].camera.world_from_camera.translation() *= 1000.0;
+  EXPECT_SAYS(calibration_.load(rig).message, "cameras is in use; but camera_2 is ");
+}
+
 TEST_F(Workflow, ARigThatIsSolvedAgainKeepsTheZones) {
   captureAll();
   ASSERT_TRUE(solve(1.0).success);

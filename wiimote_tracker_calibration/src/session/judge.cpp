@@ -28,9 +28,8 @@ constexpr double kClearLead = 9.2;
 // Least share of inliers of a camera that is good.
 constexpr double kGoodInliers = 0.8;
 
-// Mean distances of an LED from a camera that a Wii Remote can see [m].
-constexpr double kNearest = 0.3;
-constexpr double kFarthest = 12.0;
+// Nearest LED that a Wii Remote sees [m].
+constexpr double kNearestLed = 0.3;
 
 std::string millimetres(double value) {
   return format(value < 0.001 ? "%.1f mm" : "%.0f mm", 1e3 * value);
@@ -216,12 +215,12 @@ std::string scaleQuestion(const wave::Recording& recording,
     double distance = 0.0;
     for (const Eigen::Vector3d& place : led)
       distance += (place - camera.camera.center()).norm() / static_cast<double>(led.size());
-    if (led.empty() || (distance >= kNearest && distance <= kFarthest))
+    if (led.empty() || (distance >= kNearestLed && distance <= geometry::kFarthestLed))
       continue;
     const auto& square = recording.square;
     return camera.camera.name +
            format(" would be %.3g m from the LED, but a Wii Remote sees one at %g to %g m: is ",
-                  distance, kNearest, kFarthest) +
+                  distance, kNearestLed, geometry::kFarthestLed) +
            (square ? format("the square really %g m by %g m", square->side_x, square->side_y)
                    : format("the wand really %g m long", recording.wand->length)) +
            "? Give lengths in metres";

@@ -286,8 +286,9 @@ Reply Calibration::load(const geometry::Rig& rig) {
     preparation_.lights_learned |= !camera.masks.empty();
   if (captured_.cameras.empty() || step_ == Step::kSolved)
     step_ = Step::kSaved;
+  const std::string far_camera = rig.describeFarCamera();
   return accept("rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +
-                " cameras is in use");
+                " cameras is in use" + (far_camera.empty() ? "" : "; but " + far_camera));
 }
 
 void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {

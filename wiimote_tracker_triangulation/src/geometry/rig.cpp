@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 #include <string>
@@ -87,6 +88,22 @@ std::vector<std::string> Rig::frames() const {
   for (const RigCamera& camera : cameras)
     frames.push_back(opticalFrame(camera.camera.name));
   return frames;
+}
+
+std::string Rig::describeFarCamera() const {
+  for (const RigCamera& camera : cameras) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const RigCamera& other : cameras) {
+      if (&other != &camera)
+        nearest = std::min(nearest, (other.camera.center() - camera.camera.center()).norm());
+    }
+    if (std::isfinite(nearest) && nearest > 2.0 * kFarthestLed)
+      return format(
+          "%s is %.0f m from the nearest other camera, but Wii Remotes that see the same LED are "
+          "at most %g m apart: give its translation in metres, or calibrate again",
+          camera.camera.name.c_str(), nearest, 2.0 * kFarthestLed);
+  }
+  return "";
 }
 
 void Rig::check() const {

@@ -108,6 +108,8 @@ MessageTracker::RigChange MessageTracker::takeRig(
     reported_faults_.clear();
     reported_cameras_.clear();
     statistics_.setRig(rig);
+    if (const std::string sentence = rig.describeFarCamera(); !sentence.empty())
+      sink_->onProblem(sentence);
   }
   rig_ = rig;
   tilt_ = tiltOf(rig);

@@ -168,6 +168,19 @@ TEST(Prediction, AtARateGoesOnAfterImagesWithAWrongClock) {
     EXPECT_LT(time, studio.now) << "not at the time of the camera whose clock is ahead";
 }
 
+TEST(MessageTracker, NamesACameraWhosePlaceWasTypedInMillimetres) {
+  Heard heard;
+  MessageTracker tracker(TrackingParameters(), &heard);
+  geometry::test::Random random(84);
+  Rig rig = geometry::test::randomRig(random, 3);
+  tracker.takeRig(toMessage(rig));
+  EXPECT_TRUE(heard.problems.empty());
+  rig.cameras[1].camera.world_from_camera.translation() *= 1000.0;
+  tracker.takeRig(toMessage(rig));
+  ASSERT_EQ(1u, heard.problems.size());
+  EXPECT_EQ(0u, heard.problems[0].find("camera_1 is ")) << heard.problems[0];
+}
+
 TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
   Heard heard;
   MessageTracker tracker(TrackingParameters(), &heard);

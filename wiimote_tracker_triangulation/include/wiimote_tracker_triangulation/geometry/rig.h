@@ -17,6 +17,9 @@ namespace wiimote_tracker::geometry {
 enum class RayModel { kCalibrated, kImageCenter };
 enum class TimeOffsetRule { kNone, kAlways, kOneEpoch };
 
+/// Farthest LED that a Wii Remote sees [m].
+constexpr double kFarthestLed = 12.0;
+
 /// A round region of the image in which light is ignored.
 struct ImageMask {
   Eigen::Vector2d center;  ///< [px]
@@ -96,6 +99,10 @@ struct Rig {
 
   /// Names of its frames in TF: world_frame, then the cameras' optical frames.
   std::vector<std::string> frames() const;
+
+  /// Names a camera too far from all others to see an LED with one of them, as where millimetres
+  /// were typed for metres: what is wrong, and what to do. Empty: there is none.
+  std::string describeFarCamera() const;
 
   /// The camera to build rays with: the calibrated one or, with RayModel::kImageCenter, the paper's
   /// virtual model at the same place: a pinhole without distortion whose principal point is the

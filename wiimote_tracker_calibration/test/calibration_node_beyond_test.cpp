@@ -113,7 +113,7 @@ TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
   request.without_square = true;
   request.wand_length = -0.5;
   EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,
-              "wand.length");
+              "wand_length");
   request.wand_length = 0.5;
   request.cameras = {"camera_2", "camera_3"};
   EXPECT_SAYS(call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request).message,

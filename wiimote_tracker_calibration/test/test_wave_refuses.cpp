@@ -164,8 +164,10 @@ TEST(WaveRefuses, ValuesOutOfRange) {
   options.pixel = std::nan("");
   EXPECT_SAYS(refusalOf(wave.recording, options), "pixel");
   options = optionsFor(scene);
-  wave.recording.wand = Wand{-0.5};
-  EXPECT_SAYS(refusalOf(wave.recording, options), "wand.length");
+  for (const double length : {-0.5, 50.0, std::nan("")}) {  // 0.5 m typed in centimetres
+    wave.recording.wand = Wand{length};
+    EXPECT_SAYS(refusalOf(wave.recording, options), "wand_length");
+  }
   wave.recording.wand.reset();
   wave.recording.cameras[1].frames[10].stamp = wave.recording.cameras[1].frames[9].stamp;
   EXPECT_SAYS(refusalOf(wave.recording, options), "camera_2");

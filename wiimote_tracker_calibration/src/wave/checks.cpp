@@ -85,16 +85,16 @@ void checkFrames(const CameraRecording& camera, bool wand) {
 }  // namespace
 
 void Wand::check() const {
-  const auto refuse = [](const char* name, double value, const char* range) {
+  const auto refuse = [](const char* name, double value, const std::string& range) {
     throw WaveError(
-        format("wand.%s is %g m, but must be %s: measure between the middles of its "
+        format("%s is %g m, but must be %s: measure between the middles of the wand's "
                "LEDs, in metres",
-               name, value, range));
+               name, value, range.c_str()));
   };
-  if (!(length > 0.0) || !std::isfinite(length))
-    refuse("length", length, "above 0");
+  if (!(length > 0.0 && length <= kMaximumLength))
+    refuse("wand_length", length, format("above 0 and at most %g", kMaximumLength));
   if (!(stddev > 0.0) || !std::isfinite(stddev))
-    refuse("stddev", stddev, "above 0");
+    refuse("wand_stddev", stddev, "above 0");
   if (led_height && (!(*led_height >= 0.0) || !std::isfinite(*led_height)))
     refuse("led_height", *led_height, "0 or above");
 }

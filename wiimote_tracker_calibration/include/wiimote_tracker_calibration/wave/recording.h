@@ -30,7 +30,7 @@ struct CameraRecording {
 
 /// Two LEDs on a stick.
 struct Wand {
-  double length = 0.0;     ///< Between the LEDs [m, > 0].
+  double length = 0.0;     ///< Between the LEDs [m, > 0, at most kMaximumLength].
   double stddev = 0.0002;  ///< Of the length as it was measured [m, > 0].
   /// Height of its LEDs above the floor, if it lies there still when the recording begins
   /// [m, >= 0].
@@ -40,6 +40,9 @@ struct Wand {
   static constexpr char kNoUp[] =
       "no camera has an accelerometer that tells where up is: capture a square, or begin the wave "
       "without laying the wand on the floor";
+
+  /// Nobody waves a longer one; it was given in centimetres [m].
+  static constexpr double kMaximumLength = 5.0;
 
   /// @throws WaveError naming the value that is out of range.
   void check() const;

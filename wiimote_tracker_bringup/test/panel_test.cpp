@@ -312,7 +312,7 @@ TEST(NumberBox, TakesAPointAndACommaInEveryLanguage) {
 TEST_F(Panel, SaysWhatUndoDrops) {
   const auto* undo = find<QPushButton>("Undo");
   ASSERT_NE(undo, nullptr);
-  for (const char* dropped : {"place", "wave", "corner"})
+  for (const char* dropped : {"length", "place", "wave", "corner"})
     EXPECT_GE(undo->toolTip().indexOf(dropped), 0) << dropped;
 }
 

@@ -169,6 +169,23 @@ TEST_F(Workflow, LengthsAreTakenReplacedAndDropped) {
   EXPECT_TRUE(lengths().empty());
 }
 
+TEST_F(Workflow, UndoDropsALengthThatWasTakenLast) {
+  captureAll();
+  const auto measure = [&](std::size_t to) {
+    return calibration_.measureLength({0, to, 2.5, 0.001}, 0.005).success;
+  };
+  ASSERT_TRUE(measure(1));
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
+  ASSERT_TRUE(calibration_.endWave().success);
+  ASSERT_TRUE(measure(3));
+  EXPECT_SAYS(calibration_.undo().message, "the length from corner 1 to corner 4 was dropped");
+  EXPECT_TRUE(calibration_.wave());
+  ASSERT_TRUE(measure(3));
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
+  ASSERT_TRUE(calibration_.endWave().success);
+  EXPECT_SAYS(calibration_.undo().message, "the wave was dropped");
+}
+
 TEST_F(Workflow, KnownPlacesAreTakenSolvedAndDropped) {
   const square::KnownPlace known{{0.0, 2.5, 2.0}, 0.001};
   capture::CapturedCorner seen;

@@ -182,7 +182,9 @@ void CalibratePage::addButtons(QVBoxLayout* layout) {
   rows->addWidget(addButton("Check the cameras", "check_connection"), 0, 1);
   rows->addWidget(addButton("Start again", "start"), 1, 0);
   QPushButton* undo = addButton("Undo", "undo");
-  undo->setToolTip("drops the last place to solve with, else the wave, else the last corner");
+  undo->setToolTip(
+      "drops a length taken last, else the last place to solve with, else the wave, else the last "
+      "corner");
   rows->addWidget(undo, 1, 1);
   rows->addWidget(addButton("Solve now", "solve"), 2, 0);
   rows->addWidget(cancel_ = addButton("Stop", "cancel"), 2, 1);

@@ -188,7 +188,7 @@ RIG = [
             'Side [m] of the square, or wand and its length [m]; Enter: parameter'),
     Command('capture', 't', 'capture the next corner, or one again', capture, '[CORNER]',
             'Corner to take again, 1 to 4; Enter: the next one'),
-    Command('undo', 'u', 'drop the last place to solve with, else wave, else corner',
+    Command('undo', 'u', 'drop a length taken last, else place, else wave, else corner',
             trigger('undo')),
     Command('hands_free', 'h', 'capture a corner when the LED is held still',
             hands_free, '[on|off]'),

@@ -115,6 +115,7 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
   }
   busy_ = Step::kWaving;
   just_solved_ = false;
+  captured_.length_is_last = false;
   if (captured_.wave->needsFloor())
     return accept("recording: leave the wand on the floor");
   return accept(std::string("recording: wave the ") + (wand ? "wand" : "LED") +
@@ -174,25 +175,10 @@ void Calibration::finishCapture() {
   updateStep();
   if (captured_.square.outcome()->success) {
     captured_.dropLengthsTo(captured_.square.currentCorner());
+    captured_.length_is_last = false;
     ++captures_;
   }
   shown(*captured_.square.outcome());
-}
-
-Reply Calibration::undo() {
-  if (busy_)
-    return refuse(occupied());
-  just_solved_ = false;
-  if (captured_.dropLastPlace())
-    return changed({true, "the last known place was dropped: solve again"});
-  if (captured_.wave) {
-    captured_.wave.reset();
-    return changed({true, "the wave was dropped: record it again"});
-  }
-  const Reply reply = captured_.square.undo();
-  if (reply.success)
-    captured_.dropLengthsTo(captured_.square.corners().size());
-  return changed(reply);
 }
 
 Reply Calibration::cancel() {

@@ -98,7 +98,8 @@ class Calibration {
   /// use is not the solution of what was captured: a camera may have moved since the corners were.
   Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
 
-  /// Drops the last place to solve with, else the wave, else the last corner.
+  /// Drops the last length if nothing was captured after it, else the last place to solve with,
+  /// else the wave, else the last corner.
   Reply undo();
 
   /// Stops the running step; earlier captures stay. When none is running, it drops all that was

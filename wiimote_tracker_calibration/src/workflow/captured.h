@@ -24,6 +24,7 @@ struct Captured {
   std::vector<std::string> cameras;            ///< Empty: nothing is started.
   std::optional<square::SquareLayout> layout;  ///< Nothing: a run without a square.
   SquareRun square;
+  bool length_is_last = false;                  ///< Whether a length was measured after all else.
   std::vector<capture::CapturedCorner> places;  ///< Of layout->places.
   std::optional<WaveRecorder> wave;             ///< The wave that is being recorded, or was.
   std::string world_frame;

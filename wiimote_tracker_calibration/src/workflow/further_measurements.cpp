@@ -59,6 +59,7 @@ Reply Calibration::measureLength(const square::TapedLength& taped, double placem
                name.c_str(), by_sides, 1e3 * most, taped.length));
   drop(&layout.lengths, same);
   layout.lengths.push_back(taped);
+  captured_.length_is_last = true;
   return changed({true, format("%s is %.4f m by tape, %+.1f mm against the sides: solve again",
                                name.c_str(), taped.length, 1e3 * (taped.length - by_sides))});
 }
@@ -86,10 +87,31 @@ Reply Calibration::addPlace(const square::KnownPlace& known, const capture::Capt
     return refuse("a known place is solved together with a square: capture its four corners first");
   captured_.layout->places.push_back(known);
   captured_.places.push_back(seen);
+  captured_.length_is_last = false;
   return changed(
       {true, format("place %zu at (%.3f, %.3f, %.3f) m is captured by %zu cameras: solve again",
                     captured_.places.size(), known.position.x(), known.position.y(),
                     known.position.z(), seen.size())});
+}
+
+Reply Calibration::undo() {
+  if (busy_)
+    return refuse(occupied());
+  just_solved_ = false;
+  if (captured_.length_is_last && !captured_.layout->lengths.empty()) {
+    const square::TapedLength last = captured_.layout->lengths.back();
+    return measureLength({last.from, last.to, 0.0}, 0.0);
+  }
+  if (captured_.dropLastPlace())
+    return changed({true, "the last known place was dropped: solve again"});
+  if (captured_.wave) {
+    captured_.wave.reset();
+    return changed({true, "the wave was dropped: record it again"});
+  }
+  const Reply reply = captured_.square.undo();
+  if (reply.success)
+    captured_.dropLengthsTo(captured_.square.corners().size());
+  return changed(reply);
 }
 
 }  // namespace wiimote_tracker::workflow

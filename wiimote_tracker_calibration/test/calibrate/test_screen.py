@@ -183,7 +183,7 @@ def test_beside_a_verdict_stands_what_was_measured_and_what_to_measure_next():
 def test_the_keys_are_explained_in_a_high_window():
     guide = guide_at(status(CalibrationStatus.READY))
     lines = screen.render(guide, 1.0, 'keys', rows=40, command_list=commands.RIG)
-    assert 'u   undo          drop the last place to solve with, else wave, else corner' in lines
+    assert 'u   undo          drop a length taken last, else place, else wave, else corner' in lines
 
 
 def test_the_correction_of_the_principal_points_is_a_table():

@@ -247,6 +247,23 @@ TEST(MeasurePlace, RefusesWhatDoesNotDetermineAPoint) {
   EXPECT_THROW(measurePlace(rig, all, 0.0), Error);
 }
 
+TEST(KnownPlaces, AreNotTakenTwice) {
+  KnownPlaces places;
+  const Eigen::Vector3d first(0.4, 0.4, 0.1);
+  const Eigen::Vector3d second(2.1, 0.4, 0.1);
+  places.add({first, first});
+  EXPECT_NO_THROW(places.requireNew(second));
+  EXPECT_EQ(places.describeUnmoved({second, second}), "");
+  EXPECT_SAYS(places.describeUnmoved({first, second}), "where place 1 was measured");
+  places.add({second, second});
+  try {
+    places.requireNew(second);
+    ADD_FAILURE() << "fitRemap() would refuse it";
+  } catch (const Error& e) {
+    EXPECT_SAYS(std::string(e.what()), "place 2 has these coordinates already");
+  }
+}
+
 TEST(KnownPlaces, BelongToOneCalibration) {
   KnownPlaces places;
   EXPECT_EQ(places.useRig("first"), 0u);

@@ -3,6 +3,8 @@
 
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include <Eigen/Core>
+
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -29,6 +31,13 @@ class KnownPlaces {
     if (rig_id_ == before)
       rig_id_ = now;
   }
+
+  /// @throws Error: a place with these coordinates is there already; no fit takes it twice.
+  void requireNew(const Eigen::Vector3d& known) const;
+
+  /// A clause about an earlier place elsewhere that was measured where this one was, as when the
+  /// LED was not carried on; empty: there is none.
+  std::string describeUnmoved(const remap::KnownPoint& place) const;
 
   void add(const remap::KnownPoint& place) { places_.push_back(place); }
 

@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::size_t kFewest = 6;
 constexpr std::size_t kMost = 500;
-// Known places closer than this are the same place [m].
-constexpr double kSamePlace = 0.001;
 // A standard deviation below this share of the largest means that the points are flat.
 constexpr double kFlat = 0.03;
 
@@ -44,7 +42,7 @@ void checkPoints(const std::vector<KnownPoint>& points, const std::string& rig_i
       throw Error("known point " + std::to_string(i + 1) +
                   " is not finite: measure it again, or leave it out");
     for (std::size_t j = 0; j < i; ++j) {
-      if ((points[i].known - points[j].known).norm() < kSamePlace)
+      if (isSamePlace(points[i].known, points[j].known))
         throw Error("known points " + std::to_string(j + 1) + " and " + std::to_string(i + 1) +
                     " are one place: give each place once, with the mean of what was measured "
                     "there");

@@ -129,18 +129,21 @@ class PlaceServices {
     Reply reply = context_.answer(&lock, [&] {
       square::KnownPlace known;
       known.position = vectorOf(request.known);
+      places.requireNew(known.position);
       return measure(
           known, request.duration, &lock, [&](const auto& place, const auto& rig, const auto&) {
             if (!place.rays_agree)
               throw Refusal(place::checkPlace(place, known.position, 0.0).message);
             context_.requireSameRig(rig.id(), lock);
             // Without the present correction: the one that is fitted will replace it.
-            places.add({place.position, known.position});
+            const remap::KnownPoint point{place.position, known.position};
+            const std::string unmoved = places.describeUnmoved(point);
+            places.add(point);
             response->measured = pointOf(place.position);
             return Reply{
                 true, format("place %zu measured at (%.3f, %.3f, %.3f) m", places.places().size(),
                              place.position.x(), place.position.y(), place.position.z()) +
-                          distanceText(place.position, known.position)};
+                          distanceText(place.position, known.position) + unmoved};
           });
     });
     response->places = static_cast<std::uint32_t>(places.places().size());

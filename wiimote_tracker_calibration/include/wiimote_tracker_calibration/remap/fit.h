@@ -16,6 +16,11 @@ struct KnownPoint {
   Eigen::Vector3d known;     ///< World [m].
 };
 
+/// Whether two known places [m] are one, which fitRemap() refuses.
+inline bool isSamePlace(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
+  return (one - other).norm() < 0.001;
+}
+
 /// The result of one model.
 struct ModelReport {
   Model model = Model::kAffine;

@@ -1,0 +1,36 @@
+#include "place/known_places.h"
+
+#include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
+
+namespace wiimote_tracker::place {
+namespace {
+
+// An LED that was not carried on is measured within this distance of where it was [m].
+constexpr double kUnmoved = 0.01;
+// No correction brings places farther apart than this so near to each other [m].
+constexpr double kApart = 0.1;
+
+}  // namespace
+
+void KnownPlaces::requireNew(const Eigen::Vector3d& known) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if (remap::isSamePlace(known, places_[i].known))
+      throw Error(
+          format("place %zu has these coordinates already: correct them or, if that one is wrong, "
+                 "drop the places from %zu on and measure them again",
+                 i + 1, i + 1));
+  }
+}
+
+std::string KnownPlaces::describeUnmoved(const remap::KnownPoint& place) const {
+  for (std::size_t i = 0; i < places_.size(); ++i) {
+    if ((place.measured - places_[i].measured).norm() < kUnmoved &&
+        (place.known - places_[i].known).norm() > kApart)
+      return format("; but the LED is where place %zu was measured: drop the wrong one of the two",
+                    i + 1);
+  }
+  return "";
+}
+
+}  // namespace wiimote_tracker::place

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <csignal>
 #include <cstdint>
 #include <stdexcept>
 
@@ -103,6 +104,17 @@ TEST_F(ArgumentParserTest, a_refusal_names_the_argument_and_what_is_allowed) {
   EXPECT_NE(refusal({"--json", "a", "--json", "b"}).find("'--json'"), std::string::npos);
   EXPECT_NE(refusal({"--jso", "a"}).find("'--jso'"), std::string::npos);
   EXPECT_NE(refusal({"-x"}).find("'-x'"), std::string::npos);
+}
+
+TEST_F(ArgumentParserTest, ends_by_the_signal_that_interrupts_the_program) {
+  const auto program = [] {
+    std::signal(SIGINT, SIG_DFL);  // a script's background ignores it
+    deferInterruption();
+    std::raise(SIGINT);
+    throwIfInterrupted();
+    return 0;
+  };
+  EXPECT_EXIT(run({"a", "b"}, program), testing::KilledBySignal(SIGINT), "");
 }
 
 TEST_F(ArgumentParserTest, a_program_ends_with_its_own_status) {

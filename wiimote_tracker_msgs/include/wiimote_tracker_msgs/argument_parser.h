@@ -2,11 +2,13 @@
 #define WIIMOTE_TRACKER_MSGS_ARGUMENT_PARSER_H
 
 #include "wiimote_tracker_msgs/error.h"
+#include "wiimote_tracker_msgs/interruption.h"
 #include "wiimote_tracker_msgs/text.h"
 
 #include <boost/program_options.hpp>
 
 #include <algorithm>
+#include <csignal>
 #include <cstdio>
 #include <functional>
 #include <sstream>
@@ -100,8 +102,8 @@ class ArgumentParser {
   }
 
   /// A program's main(): sets the variables and calls `program`; --help prints the help instead.
-  /// An exception, also of `program`, becomes one sentence on stderr. @returns the exit status: of
-  /// `program`, 2 for BadArguments, 1 for another exception.
+  /// An exception, also of `program`, becomes one sentence on stderr, but Interrupted ends the
+  /// process. @returns the exit status: of `program`, 2 for BadArguments, 1 for another exception.
   int run(int argc, char** argv, const std::function<int()>& program) {
     return run(Words(argv + std::min(argc, 1), argv + argc), program);
   }
@@ -123,6 +125,10 @@ class ArgumentParser {
     } catch (const BadArguments& e) {
       std::fprintf(stderr, "%s: %s\n%s\n", program_.c_str(), e.what(), usage_.c_str());
       return 2;
+    } catch (const Interrupted& e) {
+      std::signal(e.signal, SIG_DFL);
+      std::raise(e.signal);
+      return 1;
     } catch (const std::exception& e) {
       std::fprintf(stderr, "%s: %s\n", program_.c_str(), e.what());
       return 1;

@@ -4,10 +4,13 @@ import fcntl
 import os
 import resource
 import signal
+import subprocess
+import time
 
 import rosbag
 
-from program import arrays, read, recorded, refused, run, track, write
+from program import PROGRAM, arrays, read, recorded, refused, run, track, write
+from recording import rig
 
 
 def test_no_rig(tmp_path):
@@ -156,6 +159,25 @@ def test_two_programs_do_not_write_one_bag(bag, tmp_path):
         assert not (tmp_path / 'out.csv.part').exists()
     track(bag, out)  # over what it left
     assert not part.exists() and len(arrays(out)) > 300
+
+
+def test_ctrl_c_leaves_no_part_of_a_file(tmp_path):
+    newer = rig()
+    newer.format_version += 1
+    # Said to the test, which does not listen yet: the program cannot end before the signal.
+    refusals = [('/calibration/rig', newer, 0.001 * i) for i in range(1500)]
+    write(tmp_path / 'in.bag', recorded() + refusals)
+    process = subprocess.Popen(
+        [PROGRAM, str(tmp_path / 'in.bag'), str(tmp_path / 'out.bag'), '--csv',
+         str(tmp_path / 'out.csv')], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+        preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
+    while not (tmp_path / 'out.csv.part').exists():
+        assert process.poll() is None
+        time.sleep(0.01)
+    process.send_signal(signal.SIGINT)
+    process.communicate()
+    assert process.returncode == -signal.SIGINT
+    assert not list(tmp_path.glob('out*'))
 
 
 def test_a_pipe_is_not_replaced(bag, tmp_path):

@@ -2,6 +2,8 @@
 
 #include "ros/measurements/writer.h"
 
+#include <unistd.h>
+
 #include <locale>
 #include <sstream>
 
@@ -40,6 +42,11 @@ void TrajectoryFiles::flush() {
 void TrajectoryFiles::finish() {
   for (auto& [body, file] : files_)
     file.finish();
+}
+
+void TrajectoryFiles::removeParts() const {
+  for (const auto& [body, file] : files_)
+    ::unlink(measurements::partOf(pathOf(folder_, body)).c_str());
 }
 
 }  // namespace wiimote_tracker

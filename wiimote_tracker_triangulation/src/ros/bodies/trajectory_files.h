@@ -23,6 +23,7 @@ class TrajectoryFiles {
   void add(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
   void flush();
   void finish();
+  void removeParts() const;
 
  private:
   std::string folder_;

@@ -90,6 +90,7 @@ Output::~Output() {
   if (bag_.release()) {
     for (const std::string& part : table_parts_)
       ::unlink(part.c_str());
+    trajectories_.removeParts();
   }
 }
 

@@ -44,7 +44,7 @@ class LockedPart {
 
 /// Writes the tracker's results and recorded messages to a new bag, and results to tables. The
 /// files get their names in finish(); existing files are kept as path + ".bak". Without it, the
-/// parts of bag and tables are removed. All member functions throw BagError or Error.
+/// parts of all of them are removed. All member functions throw BagError or Error.
 class Output : public MessageSink {
  public:
   /// @param options which topics of single LEDs and bodies to write.

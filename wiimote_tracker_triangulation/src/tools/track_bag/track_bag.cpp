@@ -10,6 +10,7 @@
 #include "wiimote_tracker_triangulation/ros/parameter_file.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/interruption.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <chrono>
@@ -52,7 +53,7 @@ class Player {
 
   /// Where a rig is given, with that one instead of the recorded ones.
   /// @param before called with each message before it is played.
-  /// @throws BagError: the tracker got no rig or no image.
+  /// @throws BagError: the tracker got no rig or no image. Interrupted.
   void play(const Recording& recording,
             const std::optional<RigCalibration>& own_rig,
             const std::function<void(const rosbag::MessageInstance&)>& before) {
@@ -62,6 +63,7 @@ class Player {
       const rosbag::MessageInstance& message = recording[i];
       if (own_rig && message.getTopic() == topics_("calibration/rig"))
         continue;
+      throwIfInterrupted();
       before(message);
       play(message);
     }
@@ -243,6 +245,7 @@ void run(const Arguments& arguments) {
   if (has_own_rig)
     own_rig = toMessage(geometry::readRigFile(arguments.rig));
 
+  deferInterruption();  // so that no parts of files are left
   SmoothedTracks smoothed(parameters.estimator.tracks);
   Output output(arguments.output, topics, parameters.output,
                 arguments.smooth ? &smoothed : nullptr);

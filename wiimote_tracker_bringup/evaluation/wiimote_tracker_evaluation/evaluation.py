@@ -10,7 +10,7 @@ from typing import List, Optional
 from wiimote_tracker_evaluation import ranges, rigs, sections, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.files import prepare
-from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
+from wiimote_tracker_evaluation.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.report import write_report
@@ -144,7 +144,7 @@ def evaluate(options: argparse.Namespace) -> int:
     except Interrupted:
         progress.line('Interrupted; the report contains the results so far.')
         progress.line(os.path.join(options.output, 'report.html'))
-        return 130
+        return EXIT_STATUS
     finally:
         stack.stop_all()
     failed = [run.name for run in runs if run.failure]
@@ -160,7 +160,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     try:
         return evaluate(options)
     except Interrupted:
-        return 130
+        return EXIT_STATUS
     except ExperimentError as error:
         print(error, file=sys.stderr)
         return 1

@@ -1,7 +1,10 @@
-"""Turns the first Ctrl-C, or a similar signal, into an exception."""
+"""How programs end after Ctrl-C, or a similar signal: the first is turned into an exception."""
 
 import signal
+import sys
+from typing import NoReturn
 
+EXIT_STATUS = 130  # as a shell gives it for a program that SIGINT ended
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
@@ -20,3 +23,9 @@ def interrupt(number, frame):
     for each in SIGNALS:
         signal.signal(each, signal.SIG_IGN)
     raise Interrupted()
+
+
+def end(program: str) -> NoReturn:
+    """Of a program that Ctrl-C has interrupted."""
+    print(f'{program}: interrupted', file=sys.stderr)
+    sys.exit(EXIT_STATUS)

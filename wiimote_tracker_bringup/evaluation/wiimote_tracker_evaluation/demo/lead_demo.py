@@ -9,7 +9,7 @@ import time
 from wiimote_tracker_evaluation import bound, experiment, scene as scene_module, stack
 from wiimote_tracker_evaluation.errors import ExperimentError
 from wiimote_tracker_evaluation.files import prepare
-from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
+from wiimote_tracker_evaluation.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.terminal import Terminal
 
@@ -192,7 +192,7 @@ def main(arguments=None):
         return 0
     except Interrupted:
         print('\nInterrupted; all started processes have ended.', file=sys.stderr)
-        return 130
+        return EXIT_STATUS
     except ExperimentError as error:
         print(f'\nThe demo failed: {error}', file=sys.stderr)
         return 1

@@ -12,7 +12,7 @@ from wiimote_tracker_evaluation.faults import (
     of_types)
 from wiimote_tracker_evaluation.faults.room import Room
 from wiimote_tracker_evaluation.faults.row import Fault, Result, carry_out
-from wiimote_tracker_evaluation.interruption import Interrupted, raise_when_interrupted
+from wiimote_tracker_evaluation.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
 from wiimote_tracker_evaluation.processes import Processes
 
 FAULTS = [each for module in (of_processes, of_messages, of_types, of_files, of_images, of_time,
@@ -119,7 +119,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
         finally:
             matrix.stop()
     except Interrupted:
-        return 130
+        return EXIT_STATUS
     finally:
         if options.json:
             with open(options.json, 'w') as file:

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import files, ranges
+from wiimote_tracker_evaluation import files, interruption, ranges
 from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.motion import hand_eye, inertial, mount, poses
 
@@ -51,7 +51,7 @@ def main(argv=None):
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
     except KeyboardInterrupt:
-        sys.exit('body_to_base: interrupted')
+        interruption.end('body_to_base')
     except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
         sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
                  'two axes')

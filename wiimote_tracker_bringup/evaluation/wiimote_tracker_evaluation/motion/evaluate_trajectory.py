@@ -6,7 +6,7 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment, files, ranges
+from wiimote_tracker_evaluation import alignment, files, interruption, ranges
 from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.motion import comparison, mount, poses
 
@@ -86,7 +86,7 @@ def main(argv=None):
     try:
         run(parser.parse_args(argv))
     except KeyboardInterrupt:
-        sys.exit('evaluate_trajectory: interrupted')
+        interruption.end('evaluate_trajectory')
     except ImportError as error:
         sys.exit(f'evaluate_trajectory: {error}; a plot needs matplotlib: apt install '
                  'python3-matplotlib')

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import yaml
 
-from wiimote_tracker_evaluation import bound, files, ranges, rigs, scene
+from wiimote_tracker_evaluation import bound, files, interruption, ranges, rigs, scene
 from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
 from wiimote_tracker_evaluation.planning import picture, plan, prediction, search
@@ -175,7 +175,7 @@ def main(argv=None):
     try:
         run(parser.parse_args(argv))
     except KeyboardInterrupt:
-        sys.exit('plan_rig: interrupted')
+        interruption.end('plan_rig')
     except ImportError as error:
         sys.exit(f'plan_rig: {error}; a picture needs matplotlib: apt install python3-matplotlib')
     except (ExperimentError, OSError, ValueError) as error:

@@ -7,6 +7,7 @@ import json
 import os
 import sys
 
+from wiimote_tracker_evaluation import interruption
 from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.recordings import formats
 
@@ -59,7 +60,7 @@ def main():
             title = f'{arguments.format} {os.path.basename(os.path.abspath(arguments.folder))}'
             write_report(title, outcome, arguments.report)
     except KeyboardInterrupt:
-        sys.exit('evaluate_recording: interrupted')
+        interruption.end('evaluate_recording')
     except ImportError as error:
         sys.exit(f'evaluate_recording: {error}; a report needs matplotlib: apt install '
                  'python3-matplotlib')

@@ -89,6 +89,25 @@ TEST(Coverage, GrowsUntilComplete) {
   }
 }
 
+TEST(Coverage, WhatIsJustTooLittleIsShownBelowTheWanted) {
+  const SimulatedWave wave = simulateWave(WaveScene(), 2);
+  const auto reportWith = [&](const CoverageOptions& options) {
+    Coverage coverage(wave.cameras, true, 1, options);
+    feed(wave.recording, 100.0, &coverage);
+    return coverage.report();
+  };
+  CoverageOptions options;
+  const CoverageReport report = reportWith(options);
+  ASSERT_TRUE(report.speed && report.volume);
+  options.volume = *report.volume + 0.001;
+  options.speed = *report.speed + 0.001;
+  const auto shown = [](double value) { return 0.01 * std::floor(100.0 * value); };
+  const std::string said = missing(reportWith(options));
+  EXPECT_SAYS(said, format("been in %.2f of %g cubic", shown(*report.volume), options.volume));
+  EXPECT_SAYS(
+      said, format("at %.2f m/s: wave it faster than %g m/s", shown(*report.speed), options.speed));
+}
+
 TEST(Coverage, WithoutKnownCamerasThereIsNoVolume) {
   const SimulatedWave wave = simulateWave(WaveScene(), 3);
   Coverage coverage(wave.cameras, false, 1, CoverageOptions());

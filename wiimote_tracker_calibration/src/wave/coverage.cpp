@@ -67,6 +67,11 @@ std::string emptiestPart(const capture::ImageCells& cells) {
   return name;
 }
 
+/// With two decimals. Rounded up, what is too little would show as enough.
+std::string roundedDown(double value) {
+  return format("%.2f", 0.01 * std::floor(100.0 * value));
+}
+
 /// What to do until the wave is enough, most urgent first.
 std::vector<std::string> missing(const CoverageReport& report, const CoverageOptions& options) {
   std::vector<std::string> result;
@@ -93,11 +98,11 @@ std::vector<std::string> missing(const CoverageReport& report, const CoverageOpt
   }
   if (report.volume && *report.volume < options.volume)
     result.push_back(
-        format("the LED has been in %.2f of %.2f cubic metres: wave it high and low, near and far",
-               *report.volume, options.volume));
+        format("the LED has been in %s of %g cubic metres: wave it high and low, near and far",
+               roundedDown(*report.volume).c_str(), options.volume));
   if (report.speed && *report.speed < options.speed)
-    result.push_back(format("the LED moves at %.1f m/s: wave it faster than %.1f m/s",
-                            *report.speed, options.speed));
+    result.push_back(format("the LED moves at %s m/s: wave it faster than %g m/s",
+                            roundedDown(*report.speed).c_str(), options.speed));
   if (report.seconds < options.seconds - 0.5 * kTimeStep)
     result.push_back(format("wave on for %.0f s where two cameras see the LED",
                             std::ceil(options.seconds - report.seconds)));

@@ -157,8 +157,8 @@ def refuse_unknown():
     """Throws ExperimentError if a private parameter is misspelt; the master keeps it."""
     for name in sorted(set(rospy.get_param(rospy.get_name(), {})) - PARAMETERS):
         parameter = rospy.resolve_name('~' + name)
-        raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and: rosparam '
-                              f'delete {parameter}')
+        raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and remove it '
+                              f'from the master by: rosparam delete {parameter}')
 
 
 def read_body():

@@ -196,7 +196,7 @@ TEST(JoinRooms, AnLedSeenFromBothRoomsAtTheSameTimeIsSaid) {
   for (PathPoint& point : second)
     point.time += shift;
   EXPECT_SAYS(trial.join().message,
-              "by 2 passages through the door; 1 left out: seen from both rooms at the same time");
+              "by 2 passages through the door; 1 left out: both rooms saw an LED at that time");
 }
 
 TEST(JoinRooms, AnLedWithSeveralTracksIsOne) {

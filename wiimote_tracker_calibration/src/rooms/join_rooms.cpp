@@ -125,9 +125,10 @@ JoinedRooms joinRooms(const geometry::Rig& first,
   session::checkRigs(first, second);
   checkNoSharedCamera(first, second);
   const Passages found = findPassages(first_tracks, second_tracks, options.walk);
-  std::string left_out = leftOut(found.crowded, "several LEDs at the same time") +
-                         leftOut(found.crooked, "not straight") +
-                         leftOut(found.unhidden, "seen from both rooms at the same time");
+  std::string left_out =
+      leftOut(found.crowded, "several LEDs at the same time") +
+      leftOut(found.crooked, "not straight") +
+      leftOut(found.unhidden, "both rooms saw an LED at that time (the same one?)");
   std::vector<SharedPlaces> places;
   for (const Passage& passage : found.passages) {
     if (const auto shared = sharedPlaces(first, second, passage, options.walk))

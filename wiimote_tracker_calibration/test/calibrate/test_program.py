@@ -26,6 +26,13 @@ def test_without_a_master_it_says_what_to_do(address, advice):
     assert done.stderr.startswith(advice) and done.stderr.count('\n') == 1
 
 
+def test_a_wand_that_nobody_can_wave_is_refused():
+    done = subprocess.run([sys.executable, PROGRAM, '--wand', '10'], timeout=60,
+                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+    assert (done.returncode, done.stdout) == (2, '')
+    assert '--wand needs a length above 0 and at most 5 m' in done.stderr
+
+
 @pytest.mark.parametrize('name', ['', 'no_such_terminal'])
 def test_an_unknown_terminal_is_named(name):
     master, terminal = pty.openpty()

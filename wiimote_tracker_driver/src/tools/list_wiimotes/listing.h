@@ -41,7 +41,7 @@ void print(int number, const Row& row);
 /// Prints all but the remotes, for people.
 void printRest(const Listing& listing);
 
-/// For programs: one JSON object..
+/// For programs: one JSON object.
 std::string json(const Listing& listing);
 
 }  // namespace wiimote_tracker::list_wiimotes

@@ -66,6 +66,21 @@ TEST(Parameters, SingleCamerasCanHaveTheirOwnIntrinsics) {
   EXPECT_EQ(fisheye.distortion[4], 0.0);
 }
 
+TEST(Parameters, OneCameraIsSolvedByThoseOfTheWave) {
+  const recalibrate::Options fresh;
+  const recalibrate::Options none =
+      readParameters(ParameterReader(ros::NodeHandle("~nothing"))).recalibrateOptions();
+  EXPECT_EQ(none.pixel, fresh.pixel);
+  EXPECT_EQ(none.wander, fresh.wander);
+  EXPECT_EQ(none.maximum_offset_stddev, fresh.maximum_offset_stddev);
+  const recalibrate::Options noisy =
+      readParameters(ParameterReader(ros::NodeHandle("~noisy"))).recalibrateOptions();
+  EXPECT_EQ(noisy.uncertainty.k1, 0.1);
+  EXPECT_EQ(noisy.pixel, 2.0);
+  EXPECT_EQ(noisy.wander, 0.001);
+  EXPECT_EQ(noisy.maximum_offset_stddev, 0.002);
+}
+
 TEST(Parameters, RelativeFilesLieBesideTheRigFileOrWhereTheyArePermitted) {
   Parameters parameters;
   parameters.rig_file = "/tmp/rigs/rig.yaml";

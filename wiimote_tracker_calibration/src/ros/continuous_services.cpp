@@ -50,7 +50,7 @@ class ContinuousServices {
                  advertise(nh, "calibration/continuous/revert", &Self::revert, this)};
     const Lock lock(context_.mutex());
     policy_ = context_.parameters(lock).continuous_policy;
-    options_.recalibrate.uncertainty = context_.parameters(lock).solve.square.uncertainty;
+    options_.recalibrate = context_.parameters(lock).recalibrateOptions();
     if (policy_ == ContinuousPolicy::kOff)
       return;
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& inner) {

@@ -196,4 +196,9 @@ const geometry::Intrinsics& Parameters::intrinsicsOf(const std::string& camera) 
   return own != own_intrinsics.end() ? own->second : intrinsics;
 }
 
+recalibrate::Options Parameters::recalibrateOptions() const {
+  return {solve.square.uncertainty, solve.wave.pixel, solve.wave.wander,
+          solve.wave.maximum_offset_stddev};
+}
+
 }  // namespace wiimote_tracker

@@ -3,6 +3,7 @@
 
 #include "capture/mask_learner.h"
 #include "health/health_watch.h"
+#include "recalibrate/recalibrate_camera.h"
 #include "session/solve_session.h"
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 #include "workflow/calibration.h"
@@ -48,6 +49,9 @@ struct Parameters {
 
   /// Starting intrinsics of a camera.
   const geometry::Intrinsics& intrinsicsOf(const std::string& camera) const;
+
+  /// How one camera is solved against the others: as in a wave of all.
+  recalibrate::Options recalibrateOptions() const;
 };
 
 /// Of a node, or of a file like config/calibration.yaml.

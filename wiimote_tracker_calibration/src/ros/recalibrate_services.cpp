@@ -71,8 +71,7 @@ class RecalibrateServices {
       const auto input = context_.inputs().cameras().find(camera);
       if (input != context_.inputs().cameras().end())
         recording.identity = input->second.identity;
-      recalibrate::Options options;
-      options.uncertainty = context_.parameters(lock).solve.square.uncertainty;
+      const recalibrate::Options options = context_.parameters(lock).recalibrateOptions();
       recalibrate::Recalibration result = context_.compute(
           &lock, [&] { return recalibrate::recalibrateCamera(rig, recording, options); });
       if (context_.isCancelled(Step::kMeasuring, lock))

@@ -65,6 +65,18 @@ TEST(ImageOrder, ASilentCameraDelaysNoOther) {
   EXPECT_EQ(result.size(), 100U);
 }
 
+TEST(ImageOrder, AtTheEndNothingWaits) {
+  ImageOrder order;
+  std::vector<double> stamps;
+  const auto take = [&](const Image& image) { stamps.push_back(image.stamp); };
+  for (const double stamp : {1.2, 1.1, 1.3})
+    order.add(at(stamp == 1.1 ? "b" : "a", stamp), take);
+  order.flush(take);
+  EXPECT_EQ(stamps, (std::vector<double>{1.1, 1.2, 1.3}));
+  order.flush(take);
+  EXPECT_EQ(stamps.size(), 3U);
+}
+
 TEST(ImageOrder, ALateImageIsNotLostAndOneFromAClockSetBackBeginsAnew) {
   EXPECT_EQ(ordered({at("a", 1.0), at("b", 1.0), at("a", 2.0), at("b", 0.5)}).size(), 3U);
   const auto result = ordered({at("a", 100.0), at("b", 100.0), at("a", 10.0), at("b", 10.0),

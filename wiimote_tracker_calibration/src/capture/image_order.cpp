@@ -17,7 +17,7 @@ void ImageOrder::add(Image image, const Take& take) {
   for (const auto& camera : newest_)
     newest = std::max(newest, camera.second);
   if (image.stamp < newest - kSetBack) {
-    release(kInfinity, take);
+    flush(take);
     newest_.clear();
     newest = image.stamp;
   }
@@ -33,6 +33,10 @@ void ImageOrder::add(Image image, const Take& take) {
       until = std::min(until, entry.second);
   }
   release(until, take);
+}
+
+void ImageOrder::flush(const Take& take) {
+  release(kInfinity, take);
 }
 
 void ImageOrder::release(double until, const Take& take) {

@@ -25,6 +25,9 @@ class ImageOrder {
   /// that wait are released, and the order starts again.
   void add(Image image, const Take& take);
 
+  /// Releases all that wait, at the end of a recording.
+  void flush(const Take& take);
+
  private:
   using Key = std::pair<double, std::string>;  // stamp, camera: equal stamps have an order too
 

@@ -25,6 +25,23 @@ capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message) {
   return image;
 }
 
+std::optional<Eigen::Vector3d> specificForceOf(const sensor_msgs::Imu& message,
+                                               const std::string& optical_frame,
+                                               const tf2::BufferCore& transforms) {
+  // -1 marks a quantity that the sensor does not measure.
+  if (message.linear_acceleration_covariance[0] < 0.0)
+    return std::nullopt;
+  const Eigen::Vector3d in_imu(message.linear_acceleration.x, message.linear_acceleration.y,
+                               message.linear_acceleration.z);
+  try {
+    const Eigen::Isometry3d optical_from_imu = tf2::transformToEigen(
+        transforms.lookupTransform(optical_frame, message.header.frame_id, ros::Time(0)));
+    return optical_from_imu.linear() * in_imu;
+  } catch (const tf2::TransformException&) {
+    return std::nullopt;
+  }
+}
+
 CameraInputs::CameraInputs(const ros::NodeHandle& nh,
                            const std::vector<std::string>& names,
                            const std::string& ignored,
@@ -136,23 +153,14 @@ void CameraInputs::onBlobs(const std::string& name,
 }
 
 void CameraInputs::onImu(const std::string& name, const sensor_msgs::Imu& message) {
-  // -1 marks a quantity that the sensor does not measure.
-  if (message.linear_acceleration_covariance[0] < 0.0)
-    return;
   const Lock lock(*mutex_);
   CameraInput& camera = cameras_[name];
-  const Eigen::Vector3d in_imu(message.linear_acceleration.x, message.linear_acceleration.y,
-                               message.linear_acceleration.z);
-  try {
-    const Eigen::Isometry3d optical_from_imu = tf2::transformToEigen(
-        transforms_.lookupTransform(camera.optical_frame, message.header.frame_id, ros::Time(0)));
-    const Eigen::Vector3d specific_force = optical_from_imu.linear() * in_imu;
-    camera.gravity.add(specific_force);
-    for (const OnGravity& call : on_gravity_)
-      call(name, message.header.stamp.toSec(), specific_force, lock);
-  } catch (const tf2::TransformException&) {
-    // Until the transform is there the direction of gravity stays unknown.
-  }
+  const auto specific_force = specificForceOf(message, camera.optical_frame, transforms_);
+  if (!specific_force)
+    return;
+  camera.gravity.add(*specific_force);
+  for (const OnGravity& call : on_gravity_)
+    call(name, message.header.stamp.toSec(), *specific_force, lock);
 }
 
 }  // namespace wiimote_tracker

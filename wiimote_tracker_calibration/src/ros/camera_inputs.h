@@ -13,14 +13,18 @@
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
 #include <sensor_msgs/Imu.h>
+#include <tf2/buffer_core.h>
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
+
+#include <Eigen/Core>
 
 #include <condition_variable>
 #include <functional>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -29,6 +33,12 @@ namespace wiimote_tracker {
 
 /// What a camera saw, without spots that its image cannot have.
 capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message);
+
+/// What a camera's accelerometer reads, in its optical frame [m/s^2]. Nothing if it has none, or
+/// while the transform between the frames is unknown.
+std::optional<Eigen::Vector3d> specificForceOf(const sensor_msgs::Imu& message,
+                                               const std::string& optical_frame,
+                                               const tf2::BufferCore& transforms);
 
 /// The last known properties of one camera, and its latest images.
 struct CameraInput {

@@ -1,6 +1,6 @@
 // Two rigs in one world, drawn round a known truth from known covariances.
 
-#include "session/join_rigs.h"
+#include "rooms/join_rigs.h"
 
 #include "expect_says.h"
 
@@ -18,7 +18,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
 namespace {
 
 std::string joinRefusal(const std::function<void()>& action) {
@@ -285,4 +285,4 @@ TEST_F(JoinRigs, PlacesThatTellTooLittleOrContradictAreRefused) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms

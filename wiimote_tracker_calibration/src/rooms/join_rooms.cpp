@@ -1,8 +1,8 @@
 #include "rooms/join_rooms.h"
 
+#include "rooms/joined_rig.h"
 #include "rooms/passage_fit.h"
 #include "rooms/passages.h"
-#include "session/joined_rig.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -46,15 +46,15 @@ Eigen::Isometry3d verticalOf(const geometry::Rig& rig, const std::string& which)
   return vertical;
 }
 
-std::optional<session::Shared> sharedVertical(const geometry::Rig& first,
-                                              const geometry::Rig& second,
-                                              double slope) {
+std::optional<Shared> sharedVertical(const geometry::Rig& first,
+                                     const geometry::Rig& second,
+                                     double slope) {
   if (std::isinf(slope))
     return std::nullopt;
-  return session::Shared{verticalOf(first, "first"), verticalOf(second, "second"),
-                         Eigen::MatrixXd::Zero(2, first.covariance.cols()),
-                         Eigen::MatrixXd::Zero(2, second.covariance.cols()),
-                         Eigen::Vector3d::Constant(slope)};
+  return Shared{verticalOf(first, "first"), verticalOf(second, "second"),
+                Eigen::MatrixXd::Zero(2, first.covariance.cols()),
+                Eigen::MatrixXd::Zero(2, second.covariance.cols()),
+                Eigen::Vector3d::Constant(slope)};
 }
 
 /// Standard deviations of a point of the second room [m] and of its rotation [rad].
@@ -64,7 +64,7 @@ struct Accuracy {
 };
 
 /// @param point in the second world
-Accuracy accuracyOf(const session::RigMotion& motion, const Eigen::Vector3d& point) {
+Accuracy accuracyOf(const RigMotion& motion, const Eigen::Vector3d& point) {
   Eigen::Matrix<double, 6, 6> by_motion = Eigen::Matrix<double, 6, 6>::Identity();
   by_motion.block<3, 3>(3, 0) = -geometry::so3::skew(motion.first_from_second.linear() * point);
   const Eigen::MatrixXd by_errors = by_motion * motion.by_errors;
@@ -122,7 +122,7 @@ JoinedRooms joinRooms(const geometry::Rig& first,
                       const std::vector<Path>& first_tracks,
                       const std::vector<Path>& second_tracks,
                       const JoinOptions& options) {
-  session::checkRigs(first, second);
+  checkRigs(first, second);
   checkNoSharedCamera(first, second);
   const Passages found = findPassages(first_tracks, second_tracks, options.walk);
   std::string left_out =
@@ -153,8 +153,7 @@ JoinedRooms joinRooms(const geometry::Rig& first,
   result.position_stddev = accuracy.position;
   result.rotation_stddev = accuracy.rotation;
   // Stamps of both rooms are of one clock, so the offsets of the second rig stay as they are.
-  result.rig =
-      session::joinedRig(first, second, fit.motion, {0.0, Eigen::RowVectorXd::Zero(known)});
+  result.rig = joinedRig(first, second, fit.motion, {0.0, Eigen::RowVectorXd::Zero(known)});
   result.message =
       format(
           "%zu cameras joined to the %zu of the first rig by %zu %s through the door%s. The "

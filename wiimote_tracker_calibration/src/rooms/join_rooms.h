@@ -41,7 +41,7 @@ struct JoinedRooms {
 /// that contradicts the others (99.9 %) is left out, at most a third of them.
 /// @param first_tracks, second_tracks as of findPassages()
 /// @throws Error: no passage, passages that contradict one another or leave the motion open; rigs
-/// that cannot be joined (session::checkRigs) or share a camera; a world whose z axis is not
+/// that cannot be joined (checkRigs) or share a camera; a world whose z axis is not
 /// vertical by the accelerometers, unless the slope is infinite.
 JoinedRooms joinRooms(const geometry::Rig& first,
                       const geometry::Rig& second,

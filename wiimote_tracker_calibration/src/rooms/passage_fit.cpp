@@ -17,16 +17,11 @@ namespace wiimote_tracker::rooms {
 
 namespace {
 
-using session::RigMotion;
-using session::Shared;
-
 // Degrees of freedom of the prior of each axis' squared scatter, a scaled inverse chi-squared
 // distribution about the model's.
 constexpr double kModelWeight = 4.0;
 // Nobody walks that many times less straight than the model.
 constexpr double kMostScatter = 3.0;
-// Minimum width of the places relative to their length: on a line the rotation is not determined.
-constexpr double kThinnest = 0.05;
 constexpr int kReweightings = 5;
 
 /// How far both rigs put a place apart, over the standard deviations of the model, along the axes
@@ -73,7 +68,7 @@ RigMotion PassageProblem::fit(const PassageIndices& used,
   }
   if (vertical_)
     shared.push_back(*vertical_);
-  return session::fitMotion(first_, second_, shared, start);
+  return fitMotion(first_, second_, shared, start);
 }
 
 std::vector<double> PassageProblem::misfits(const Eigen::Isometry3d& motion) const {

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H
 
+#include "rooms/rig_motion.h"
 #include "rooms/shared_places.h"
-#include "session/rig_motion.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -24,7 +24,7 @@ class PassageProblem {
   PassageProblem(const geometry::Rig& first,
                  const geometry::Rig& second,
                  const std::vector<SharedPlaces>& passages,
-                 const std::optional<session::Shared>& vertical)
+                 const std::optional<Shared>& vertical)
       : first_(first), second_(second), passages_(passages), vertical_(vertical) {}
 
   std::size_t size() const { return passages_.size(); }
@@ -34,14 +34,14 @@ class PassageProblem {
   Eigen::Isometry3d start() const;
 
   /// @param scatters of each passage
-  session::RigMotion fit(const PassageIndices& used,
-                         const Eigen::Isometry3d& start,
-                         const std::vector<Scatter>& scatters) const;
+  RigMotion fit(const PassageIndices& used,
+                const Eigen::Isometry3d& start,
+                const std::vector<Scatter>& scatters) const;
 
   /// All of the same scatter.
-  session::RigMotion fit(const PassageIndices& used,
-                         const Eigen::Isometry3d& start,
-                         const Scatter& scatter) const {
+  RigMotion fit(const PassageIndices& used,
+                const Eigen::Isometry3d& start,
+                const Scatter& scatter) const {
     return fit(used, start, std::vector<Scatter>(size(), scatter));
   }
 
@@ -49,18 +49,18 @@ class PassageProblem {
   std::vector<double> misfits(const Eigen::Isometry3d& motion) const;
 
   /// That the passages show which the motion was fitted to, and the model.
-  Scatter scatter(const PassageIndices& used, const session::RigMotion& motion) const;
+  Scatter scatter(const PassageIndices& used, const RigMotion& motion) const;
 
  private:
   const geometry::Rig& first_;
   const geometry::Rig& second_;
   std::vector<SharedPlaces> passages_;
-  std::optional<session::Shared> vertical_;
+  std::optional<Shared> vertical_;
 };
 
 /// The motion that fits best.
 struct PassageFit {
-  session::RigMotion motion;
+  RigMotion motion;
   Scatter scatter;
   PassageIndices used;  ///< The passages that agree, at least two thirds.
 };

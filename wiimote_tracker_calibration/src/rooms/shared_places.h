@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H
 
 #include "rooms/passages.h"
-#include "session/rig_motion.h"
+#include "rooms/rig_motion.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -13,7 +13,7 @@ namespace wiimote_tracker::rooms {
 
 /// The two hidden places of a passage, as both rigs measured them. The axes in the first are ahead,
 /// left and up of the walker.
-using SharedPlaces = std::array<session::Shared, 2>;
+using SharedPlaces = std::array<Shared, 2>;
 constexpr int kConditions = 6;  ///< Of a passage: the coordinates of both places.
 
 /// Nothing where hardly any point of a path is in view of two cameras of its rig.

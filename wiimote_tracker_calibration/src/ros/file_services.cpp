@@ -2,7 +2,7 @@
 
 #include "file_paths.h"
 #include "rig_storage.h"
-#include "session/join_rigs.h"
+#include "rooms/join_rigs.h"
 #include "session/judge.h"
 #include "session/session_file.h"
 
@@ -130,8 +130,8 @@ class FileServices {
       const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).places();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
       const std::string path = rigPath(request.path, context_.parameters(lock));
-      session::JoinedRigs joined = context_.compute(&lock, [&] {
-        return session::joinRigs(geometry::readRigFile(path), second, places, stddev);
+      rooms::JoinedRigs joined = context_.compute(&lock, [&] {
+        return rooms::joinRigs(geometry::readRigFile(path), second, places, stddev);
       });
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();

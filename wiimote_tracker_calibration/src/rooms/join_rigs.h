@@ -1,7 +1,7 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROOMS_JOIN_RIGS_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROOMS_JOIN_RIGS_H
 
-#include "session/rig_motion.h"
+#include "rooms/rig_motion.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
 
 /// Two rigs in one world.
 struct JoinedRigs {
@@ -32,6 +32,6 @@ JoinedRigs joinRigs(const geometry::Rig& first,
                     const std::vector<remap::KnownPoint>& places = {},
                     double stddev = 0.005);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SESSION_JOIN_RIGS_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROOMS_JOIN_RIGS_H

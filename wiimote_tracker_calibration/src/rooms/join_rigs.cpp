@@ -1,6 +1,6 @@
-#include "session/join_rigs.h"
+#include "rooms/join_rigs.h"
 
-#include "joined_rig.h"
+#include "rooms/joined_rig.h"
 #include "square/usable_cameras.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
 
 namespace {
 
@@ -20,8 +20,6 @@ using geometry::firstParameter;
 
 // A larger angle between the gravity readings of a shared camera means that it was moved [rad].
 constexpr double kTurned = 0.05;
-// Minimum width of the places relative to their length: on a line the rotation is not determined.
-constexpr double kThinnest = 0.05;
 
 void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& second) {
   if (!first.gravity || !second.gravity)
@@ -158,4 +156,4 @@ JoinedRigs joinRigs(const geometry::Rig& first,
   return finish(first, second, motion, square::listOf(names));
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms

@@ -1,7 +1,7 @@
 // A solver of its own: the weights turn with the motion that is estimated, and the covariance of
 // the joined rig needs the gain of every error, which the loop below has at hand. Six unknowns, and
 // two, three or six conditions for each thing shared, are solved in closed form a few times.
-#include "rig_motion.h"
+#include "rooms/rig_motion.h"
 
 #include "adjust/chi_squared.h"
 
@@ -14,7 +14,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
 
 namespace {
 
@@ -164,4 +164,4 @@ std::size_t oddOneOut(const geometry::Rig& first,
   return odd;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms

@@ -1,4 +1,4 @@
-#include "joined_rig.h"
+#include "rooms/joined_rig.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
@@ -9,7 +9,7 @@
 #include <cmath>
 #include <string>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
 
 using geometry::firstParameter;
 using geometry::kParameters;
@@ -119,4 +119,4 @@ geometry::Rig joinedRig(const geometry::Rig& first,
   return rig;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_RIG_MOTION_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_RIG_MOTION_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_RIG_MOTION_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_RIG_MOTION_H
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -9,7 +9,10 @@
 #include <cstddef>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
+
+/// Minimum width of shared places relative to their length: on a line they leave a rotation open.
+constexpr double kThinnest = 0.05;
 
 /// A camera, a place or the vertical that two rigs share. Derivatives are by all parameters of a
 /// rig. Their rows are: of a camera the rotation, then the position; of a place the position; of
@@ -55,6 +58,6 @@ std::size_t oddOneOut(const geometry::Rig& first,
                       const std::vector<Shared>& shared,
                       const Eigen::Isometry3d& start);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_RIG_MOTION_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_RIG_MOTION_H

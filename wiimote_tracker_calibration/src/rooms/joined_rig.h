@@ -1,7 +1,7 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JOINED_RIG_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JOINED_RIG_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOINED_RIG_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOINED_RIG_H
 
-#include "session/rig_motion.h"
+#include "rooms/rig_motion.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -9,7 +9,7 @@
 
 #include <limits>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::rooms {
 
 /// @throws Error: both are the same rig, or the second adds no camera; a rig without covariance;
 /// different ray models; a camera or device that has two names.
@@ -32,6 +32,6 @@ geometry::Rig joinedRig(const geometry::Rig& first,
                         const RigMotion& motion,
                         const ClockShift& clock);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::rooms
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JOINED_RIG_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOINED_RIG_H

@@ -1,6 +1,5 @@
 #include "continuous/adjust_rig.h"
 
-#include "../recalibrate/seen_path.h"
 #include "adjust/camera_blocks.h"
 #include "adjust/chi_squared.h"
 #include "adjust/covariance.h"

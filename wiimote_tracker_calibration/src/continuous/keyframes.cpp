@@ -12,7 +12,7 @@ namespace wiimote_tracker::continuous {
 
 namespace {
 
-using recalibrate::Spot;
+using capture::Spot;
 
 constexpr double kPeriod = 0.05;  // Between keyframes, as in MotionOptions [s].
 // A resting LED repeats the same rounding.
@@ -89,9 +89,9 @@ KeyframeSource::KeyframeSource(const geometry::Rig& rig, const std::vector<captu
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     Track& track = tracks_[i];
     for (const capture::Image& image :
-         recalibrate::latestImages(images, rig.cameras[i].camera.name)) {
+         capture::latestImagesOf(rig.cameras[i].camera.name, images)) {
       track.epoch = image.clock_epoch;
-      recalibrate::append(image.stamp, image, &track.spots);
+      capture::append(image.stamp, image, &track.spots);
     }
     removeOtherLights(&track.spots);
   }
@@ -103,7 +103,7 @@ std::optional<std::uint32_t> KeyframeSource::epoch(std::size_t camera) const {
 
 std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) const {
   const std::vector<Spot>& spots = tracks_[camera].spots;
-  const auto found = recalibrate::bracket(spots, stamp);
+  const auto found = capture::bracket(spots, stamp);
   if (!found)
     return std::nullopt;
   const auto [before, after] = *found;

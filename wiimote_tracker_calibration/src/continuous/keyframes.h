@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
 
 #include "capture/image.h"
-#include "recalibrate/seen_path.h"
+#include "capture/moving_spots.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -47,7 +47,7 @@ class KeyframeSource {
  private:
   struct Track {
     std::optional<std::uint32_t> epoch;
-    std::vector<recalibrate::Spot> spots;  // By the camera's clock.
+    std::vector<capture::Spot> spots;  // By the camera's clock.
   };
 
   std::optional<View> viewAt(std::size_t camera, double stamp) const;

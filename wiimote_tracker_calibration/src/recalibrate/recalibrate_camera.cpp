@@ -1,6 +1,7 @@
 #include "recalibrate/recalibrate_camera.h"
 
 #include "capture/camera_monitor.h"
+#include "capture/moving_spots.h"
 #include "resection.h"
 #include "seen_path.h"
 
@@ -296,7 +297,8 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   checkInput(rig, request, options);
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
-  const std::vector<capture::Image> images = latestImages(request.images, request.camera);
+  const std::vector<capture::Image> images =
+      capture::latestImagesOf(request.camera, request.images);
   const Prior prior = priorOf(rig, index, request, images, options);
   geometry::Camera start = rig.cameras[index].camera;
   start.intrinsics = prior.lens;

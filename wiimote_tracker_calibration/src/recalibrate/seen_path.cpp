@@ -1,11 +1,8 @@
 #include "seen_path.h"
 
-#include "../wave/moving_spots.h"
-
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <algorithm>
-#include <iterator>
 #include <utility>
 
 namespace wiimote_tracker::recalibrate {
@@ -21,41 +18,7 @@ constexpr double kLargestMissUnclocked = 20.0;
 // the position on the line between them.
 constexpr double kLargestSpread = 0.02;
 
-std::vector<capture::Image> withoutLamps(const std::vector<capture::Image>& images,
-                                         const std::string& camera) {
-  std::vector<capture::Image> own;
-  std::copy_if(images.begin(), images.end(), std::back_inserter(own),
-               [&](const capture::Image& image) { return image.camera == camera; });
-  wave::removeStillSpots(&own);
-  return own;
-}
-
 }  // namespace
-
-std::vector<capture::Image> latestImages(const std::vector<capture::Image>& images,
-                                         const std::string& camera) {
-  std::vector<capture::Image> own = withoutLamps(images, camera);
-  const auto other = std::find_if(own.rbegin(), own.rend(), [&](const capture::Image& image) {
-    return image.clock_epoch != own.back().clock_epoch;
-  });
-  own.erase(own.begin(), other.base());
-  return own;
-}
-
-void append(double time, const capture::Image& image, std::vector<Spot>* spots) {
-  if (image.spots.size() == 1 && (spots->empty() || time > spots->back().time))
-    spots->push_back({time, image.spots.front()});
-}
-
-std::optional<fusion::Bracket<Spot>> bracket(const std::vector<Spot>& spots, double time) {
-  const auto after =
-      std::lower_bound(spots.begin(), spots.end(), time,
-                       [](const Spot& spot, double value) { return spot.time < value; });
-  if (after == spots.end() || after == spots.begin())
-    return std::nullopt;
-  const fusion::Bracket<Spot> found{&*(after - 1), &*after};
-  return found.gap() > capture::kLongestGap ? std::nullopt : std::make_optional(found);
-}
 
 SeenPath::SeenPath(const geometry::Rig& rig,
                    const std::vector<capture::Image>& images,
@@ -65,10 +28,10 @@ SeenPath::SeenPath(const geometry::Rig& rig,
     Track track;
     track.rays = rig.rayCamera(camera);
     if (camera.camera.name != without) {
-      for (const capture::Image& image : withoutLamps(images, camera.camera.name)) {
+      for (const capture::Image& image : capture::imagesOf(camera.camera.name, images)) {
         const auto offset = camera.timeOffsetIn(image.clock_epoch);
         track.clock_known = offset.has_value();
-        append(image.stamp + offset.value_or(0.0), image, &track.spots);
+        capture::append(image.stamp + offset.value_or(0.0), image, &track.spots);
       }
     }
     if (!track.spots.empty())
@@ -83,7 +46,7 @@ SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
   double largest_miss = kLargestMiss;
   for (const std::size_t i : seeing_) {
     const Track& track = tracks_[i];
-    const auto found = bracket(track.spots, time);
+    const auto found = capture::bracket(track.spots, time);
     if (!found)
       continue;
     const Eigen::Vector2d step = found->after->pixel - found->before->pixel;

@@ -2,35 +2,17 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
 
 #include "capture/image.h"
+#include "capture/moving_spots.h"
 
-#include <wiimote_tracker_triangulation/fusion/frame_history.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <Eigen/Core>
 
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::recalibrate {
-
-/// The LED in one camera's image.
-struct Spot {
-  double time;  ///< [s]
-  Eigen::Vector2d pixel;
-};
-
-/// What one camera saw since its clock runs as it does now, without spots that stay in one place
-/// (lamps). A time offset is that of one epoch.
-std::vector<capture::Image> latestImages(const std::vector<capture::Image>& images,
-                                         const std::string& camera);
-
-/// Appends the spot of an image, if it has exactly one and is later than those before.
-void append(double time, const capture::Image& image, std::vector<Spot>* spots);
-
-/// The spots before and after a time, at most capture::kLongestGap apart; else nothing.
-std::optional<fusion::Bracket<Spot>> bracket(const std::vector<Spot>& spots, double time);
 
 /// State of the LED at some time.
 struct PathPoint {
@@ -67,7 +49,7 @@ class SeenPath {
   struct Track {
     geometry::Camera rays;
     bool clock_known = false;
-    std::vector<Spot> spots;  // By the time of the exposure.
+    std::vector<capture::Spot> spots;  // By the time of the exposure.
   };
 
   Sight positionAt(double time, PathPoint* point) const;

@@ -4,7 +4,6 @@
 #include "checks.h"
 #include "clock_step.h"
 #include "matching.h"
-#include "moving_spots.h"
 #include "solution.h"
 #include "start_path.h"
 #include "start_poses.h"
@@ -12,6 +11,7 @@
 #include "wand_on_floor.h"
 
 #include "adjust/chi_squared.h"
+#include "capture/moving_spots.h"
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -80,7 +80,7 @@ class Reporter {
 Recording prepared(Recording recording) {
   const double start = recording.span().first;
   for (CameraRecording& camera : recording.cameras) {
-    removeStillSpots(&camera.frames);
+    capture::removeStillSpots(&camera.frames);
     for (Frame& frame : camera.frames)
       frame.stamp -= start;
   }

@@ -12,7 +12,7 @@ namespace wiimote_tracker::wave {
 /// The LEDs' path from cameras with rough poses (centimetres), ignoring time offsets. If the poses
 /// are known up to scale, the wand's length scales cameras and path. Which of the wand's LEDs is
 /// the first is arbitrary, but the same throughout.
-/// @param recording without spots that stay in one place (removeStillSpots()).
+/// @param recording without spots that stay in one place (capture::removeStillSpots()).
 /// @throws WaveError when there are too few places that two cameras saw.
 Trajectory startPath(const Recording& recording, const WaveOptions& options, StartPoses* poses);
 

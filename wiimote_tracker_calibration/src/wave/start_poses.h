@@ -22,7 +22,7 @@ struct StartPoses {
 /// of the wave by resection. Without such a square from the wave alone (essential matrix), then
 /// aligned with the corners that two cameras saw. A start from the wave alone uses a random sample
 /// of points and may be wrong; each `attempt` uses other points.
-/// @param recording without spots that stay in one place (removeStillSpots()).
+/// @param recording without spots that stay in one place (capture::removeStillSpots()).
 /// @throws WaveError, square::SquareError.
 StartPoses startPoses(const Recording& recording, const WaveOptions& options, int attempt);
 

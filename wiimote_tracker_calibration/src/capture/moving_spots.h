@@ -1,5 +1,9 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_MOVING_SPOTS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_MOVING_SPOTS_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MOVING_SPOTS_H
+#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MOVING_SPOTS_H
+
+#include "capture/image.h"
+
+#include <wiimote_tracker_triangulation/fusion/frame_history.h>
 
 #include <Eigen/Core>
 
@@ -7,10 +11,12 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
-namespace wiimote_tracker::wave {
+namespace wiimote_tracker::capture {
 
 /// Removes spots that do not move (lamps and their reflections): places at which a large share of
 /// the images has a spot. @param images of one camera, with their `spots` [px].
@@ -51,6 +57,24 @@ void removeStillSpots(std::vector<Image>* images) {
                       image.spots.end());
 }
 
-}  // namespace wiimote_tracker::wave
+/// The LED in one camera's image.
+struct Spot {
+  double time;  ///< [s]
+  Eigen::Vector2d pixel;
+};
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_MOVING_SPOTS_H
+/// What one camera saw, without spots that do not move.
+std::vector<Image> imagesOf(const std::string& camera, const std::vector<Image>& images);
+
+/// The same since its clock runs as it does now: a time offset is that of one epoch.
+std::vector<Image> latestImagesOf(const std::string& camera, const std::vector<Image>& images);
+
+/// Appends the spot of an image, if it has exactly one and is later than those before.
+void append(double time, const Image& image, std::vector<Spot>* spots);
+
+/// The spots before and after a time, at most kLongestGap apart; else nothing.
+std::optional<fusion::Bracket<Spot>> bracket(const std::vector<Spot>& spots, double time);
+
+}  // namespace wiimote_tracker::capture
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MOVING_SPOTS_H

@@ -18,6 +18,12 @@ using Blobs = std::vector<Eigen::Vector2d>;
 /// A spot is not interpolated between images further apart [s].
 constexpr double kLongestGap = 0.05;
 
+/// The spot of a light moves less from image to image; farther is another light [px].
+constexpr double kLongestJump = 80.0;
+
+/// Of samples of a moving LED [s].
+constexpr double kSamplePeriod = 0.05;
+
 /// Standard deviation of a camera's time offset that was not estimated, as in
 /// tracking/camera_clocks.cpp: assumed [s].
 constexpr double kUnknownOffset = 0.005;

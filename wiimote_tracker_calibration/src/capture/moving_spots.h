@@ -18,6 +18,13 @@
 
 namespace wiimote_tracker::capture {
 
+/// What determines a camera: so many images of the LED, of which this share fits to what the other
+/// cameras saw, on a path whose thinnest standard deviation is this share of its widest. A person
+/// who moves an LED in a plane stays within a few per cent of it.
+constexpr std::size_t kLeastSightings = 100;
+constexpr double kLeastFitting = 0.5;
+constexpr double kThinnestPath = 0.05;
+
 /// Removes spots that do not move (lamps and their reflections): places at which a large share of
 /// the images has a spot. @param images of one camera, with their `spots` [px].
 template <typename Image>

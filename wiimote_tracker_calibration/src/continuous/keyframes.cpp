@@ -14,7 +14,6 @@ namespace {
 
 using capture::Spot;
 
-constexpr double kPeriod = 0.05;  // Between keyframes, as in MotionOptions [s].
 // A resting LED repeats the same rounding.
 constexpr double kLeastStep = 0.01;     // [m]
 constexpr std::size_t kLeastViews = 3;  // With two none can be found to be the outlier.
@@ -152,14 +151,14 @@ std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double
     end = std::max(end, tracks_[i].spots.back().time);
   }
   std::vector<Keyframe> keyframes;
-  for (double time = begin; time < end; time += kPeriod) {
+  for (double time = begin; time < end; time += capture::kSamplePeriod) {
     Keyframe keyframe;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       if (const auto view = viewAt(i, time - rig.cameras[i].time_offset))
         keyframe.views.push_back(*view);
     }
     if (keyframe.views.empty())  // A pause, or a step of the clock, may take years.
-      time = std::max(time, nextSpot(rig, time) - kPeriod);
+      time = std::max(time, nextSpot(rig, time) - capture::kSamplePeriod);
     if (locateWithoutOutlier(cameras, gate, &keyframe) &&
         (keyframes.empty() || (keyframe.point - keyframes.back().point).norm() > kLeastStep))
       keyframes.push_back(std::move(keyframe));

@@ -7,7 +7,8 @@ namespace wiimote_tracker::continuous {
 
 namespace {
 
-constexpr double kSamplePeriod = 0.05;  // As in MotionOptions [s].
+using capture::kSamplePeriod;
+
 constexpr std::size_t kLeastCameras = 3;
 constexpr double kLeastMotion = 2.0;  // Rounding alone does not move a spot as far [px].
 // Images are kept as long as the last sample is not older than this [s].

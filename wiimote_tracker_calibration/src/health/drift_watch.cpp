@@ -9,7 +9,6 @@ namespace wiimote_tracker::health {
 
 namespace {
 
-constexpr double kSamplePeriod = 0.05;  // [s]
 // Longest wait of a sample for images.
 constexpr double kPatience = 0.1;  // [s]
 // A larger step of the time is a jump of the clock.
@@ -76,7 +75,7 @@ void DriftWatch::restart() {
 void DriftWatch::sampleUntil(double time) {
   if (next_sample_ < time - kJump)
     next_sample_ = time;
-  for (; next_sample_ <= time; next_sample_ += kSamplePeriod)
+  for (; next_sample_ <= time; next_sample_ += capture::kSamplePeriod)
     sampleAt(next_sample_);
   while (!samples_.empty() && samples_.front().time < time - options_.window)
     samples_.pop_front();

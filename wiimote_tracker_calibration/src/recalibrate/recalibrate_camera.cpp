@@ -1,5 +1,6 @@
 #include "recalibrate/recalibrate_camera.h"
 
+#include "adjust/stamp_error.h"
 #include "capture/camera_monitor.h"
 #include "capture/moving_spots.h"
 #include "resection.h"
@@ -30,11 +31,7 @@ using geometry::kRotation;
 using geometry::kTimeOffset;
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
-// Share of the images that fit, and the path's thinnest over its widest standard deviation: as in
-// wave/checks.cpp.
-constexpr double kMinimumInlierRatio = 0.5;
-constexpr double kMinimumFlatness = 0.05;
-constexpr double kLargestNoise = 3.0;  // six times the usual, Options::pixel [px]
+constexpr double kLargestNoise = 3.0;      // six times the usual, Options::pixel [px]
 // Standard deviation of the path along its longest axis [m].
 constexpr double kMinimumExtent = 0.1;
 // Largest standard deviation of a predicted pixel due to the camera's uncertainty, the others being
@@ -119,7 +116,7 @@ void checkFit(const Fit& fit) {
     throw Error(
         "the other cameras contradict each other most of the time: they see different lights, or "
         "another one was moved; see that only the LED shines, or calibrate all of them again");
-  if (static_cast<double>(found) < kMinimumInlierRatio * static_cast<double>(fit.expected))
+  if (static_cast<double>(found) < capture::kLeastFitting * static_cast<double>(fit.expected))
     throw Error(
         format("only %zu of %zu images of %s fit to what the others saw: it moved while the LED "
                "was waved, or sees another light; fix that and wave again",
@@ -133,7 +130,7 @@ void checkFit(const Fit& fit) {
   if (extent[0] < kMinimumExtent)
     throw Error("the LED moved by " + format("%.2f m", extent[0]) +
                 " only: wave it through the whole volume");
-  if (extent[2] < kMinimumFlatness * extent[0])
+  if (extent[2] < capture::kThinnestPath * extent[0])
     throw Error(
         "the LED stayed on a line or in a plane: wave it through the whole volume, up and down "
         "and near and far");
@@ -182,13 +179,6 @@ Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
   return by_rig;
 }
 
-/// Variance of the mean of the stamps' slow errors over a wave much longer than their correlation
-/// time, of a first-order Gauss-Markov process [s^2].
-double meanStampVariance(const Fit& fit, const Options& options) {
-  const double kCorrelationTime = 2.0;  // [s]
-  return options.wander * options.wander * std::min(1.0, 2.0 * kCorrelationTime / fit.duration);
-}
-
 /// Writes the camera's block and its cross covariances into the rig's covariance.
 /// @param covariance of the camera's parameters, the others being exact.
 /// @returns the camera's block.
@@ -204,7 +194,7 @@ ParameterMatrix updateCovariance(const SeenPath& path,
   if (prior.lens_covariance)
     own -= covariance.middleCols<adjust::kLensSize>(kLens) * prior.lensInformation() *
            covariance.middleRows<adjust::kLensSize>(kLens);
-  own(kTimeOffset, kTimeOffset) += meanStampVariance(fit, options);
+  own(kTimeOffset, kTimeOffset) += adjust::meanStampVariance(options.wander, fit.duration);
   if (!geometry::hasCovariance(*rig))
     return own;
   const Eigen::MatrixXd by_rig = sensitivityToRig(*rig, index, prior, fit, covariance);

@@ -25,6 +25,8 @@ namespace wiimote_tracker::recalibrate {
 
 namespace {
 
+using capture::kLeastSightings;
+
 // Prior of the time offset, as in WaveOptions; offsets so far around its mean are tried first [s].
 constexpr double kOffsetStddev = 0.05;
 constexpr double kOffsetStep = 0.01;
@@ -33,7 +35,6 @@ constexpr double kLeastVariance = 1e-12;
 // Number of points used in the search for a first pose.
 constexpr std::size_t kSearchPoints = 150;
 constexpr double kRoughError = 4.0;  // of an inlier, of which bundle::resect() takes 4 times [px]
-constexpr std::size_t kMinimumMatches = 100;  // as in wave/checks.cpp
 // Gates: first in px, then in standard deviations.
 constexpr double kWideGates[] = {30.0, 15.0};
 constexpr double kGate = 4.0;
@@ -162,12 +163,12 @@ void matchSpots(const SeenPath& path,
     if (const auto match = matchOf(image, point, gate_px, wander, *fit))
       fit->matches.push_back(*match);
   }
-  if (fit->expected < kMinimumMatches)
+  if (fit->expected < kLeastSightings)
     throw Error(fit->camera.name + " and two other cameras saw the LED together in " +
                 std::to_string(fit->expected) + " images only, but " +
-                std::to_string(kMinimumMatches) +
+                std::to_string(kLeastSightings) +
                 " are needed: wave longer, where all of them see it");
-  if (fit->matches.size() < kMinimumMatches)
+  if (fit->matches.size() < kLeastSightings)
     throw Error(
         format("only %zu of %zu images of %s fit to what the others saw: it moved while the LED "
                "was waved, sees another light, or the others are known too badly; wave again, or "
@@ -251,9 +252,9 @@ Fit resect(const SeenPath& path,
            const geometry::Camera& start,
            const Prior& prior,
            const Options& options) {
-  if (images.size() < kMinimumMatches)
+  if (images.size() < kLeastSightings)
     throw Error(start.name + " sent " + std::to_string(images.size()) + " images only, but " +
-                std::to_string(kMinimumMatches) + " are needed: wave longer");
+                std::to_string(kLeastSightings) + " are needed: wave longer");
   Fit fit = firstPose(path, images, start, prior.time_offset);
   fit.pixel_stddev = options.pixel;
   for (const double gate : kWideGates) {

@@ -1,5 +1,7 @@
 #include "clock_lag.h"
 
+#include "capture/image.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,8 +13,6 @@ namespace {
 
 constexpr double kStep = 0.02;             // [s]
 constexpr int kLongestLag = 150;           // [kStep]
-constexpr double kLongestGap = 0.05;       // between images whose spots give a speed [s]
-constexpr double kLongestJump = 80.0;      // of a spot between images; farther: another light [px]
 constexpr double kLeastCorrelation = 0.2;  // mean over the other cameras
 constexpr std::size_t kLeastCommon = 100;  // of the steps of two cameras
 
@@ -29,11 +29,11 @@ std::vector<double> logSpeeds(const wave::CameraRecording& camera,
     const wave::Frame& after = camera.frames[i];
     const double step = std::floor((after.stamp - start) / kStep);
     const double gap = after.stamp - before.stamp;
-    if (before.spots.size() != 1 || after.spots.size() != 1 || gap > kLongestGap || step < 0.0 ||
-        step >= static_cast<double>(steps))
+    if (before.spots.size() != 1 || after.spots.size() != 1 || gap > capture::kLongestGap ||
+        step < 0.0 || step >= static_cast<double>(steps))
       continue;
     const double distance = (after.spots[0] - before.spots[0]).norm();
-    if (distance > kLongestJump)
+    if (distance > capture::kLongestJump)
       continue;
     const double speed = std::log(1.0 + distance / gap);
     result[static_cast<std::size_t>(step)] = speed;

@@ -1,5 +1,6 @@
 #include "checks.h"
 
+#include "capture/moving_spots.h"
 #include "square/lens_prior.h"
 #include "square/usable_cameras.h"
 #include "wave/error.h"
@@ -16,16 +17,12 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
+using capture::kLeastSightings;
+using capture::kThinnestPath;
+
 // Longer recordings are not better, and probably contain a jump of a clock [s].
 constexpr double kLongest = 900.0;
 constexpr double kShortest = 2.0;
-// Fewest sightings of one camera that determine it.
-constexpr std::size_t kLeastSightings = 100;
-// Share of a camera's sightings that must fit to the others'.
-constexpr double kLeastShare = 0.5;
-// Standard deviation of the path's thinnest direction, as a share of its widest. A person who
-// moves an LED in a plane stays within a few per cent of it.
-constexpr double kThinnest = 0.05;
 // Residuals this many times larger than stated are refused.
 constexpr double kRefuseRatio = 4.0;
 // Deviations from stated values that are reported, and refused [standard deviations].
@@ -141,7 +138,7 @@ void checkMatching(const Recording& recording, const Matching& matching) {
     const std::string& name = recording.cameras[i].sightings.name;
     const std::size_t found = matching.found[i];
     const std::size_t expected = matching.expected[i];
-    if (static_cast<double>(found) < kLeastShare * static_cast<double>(expected))
+    if (static_cast<double>(found) < capture::kLeastFitting * static_cast<double>(expected))
       throw WaveContradiction(
           "only " + std::to_string(found) + " of " + std::to_string(expected) + " spots of " +
           name +
@@ -240,9 +237,9 @@ void checkNoise(const WaveOptions& options, double pixel_stddev) {
 void checkSolution(const Task& task, WaveSolution* solution) {
   const Recording& recording = task.recording;
   const Eigen::Vector3d& extent = solution->extent;
-  if (extent.y() < kThinnest * extent.x())
+  if (extent.y() < kThinnestPath * extent.x())
     throw WaveError("the LED was moved along a line only: wave it through the whole volume");
-  if (extent.z() < kThinnest * extent.x())
+  if (extent.z() < kThinnestPath * extent.x())
     throw WaveError("the LED was moved in a plane only, " + format("%.0f mm", 1e3 * extent.z()) +
                     " deep: wave it through the whole volume, also to the cameras and away");
   checkLenses(task, solution->rig);

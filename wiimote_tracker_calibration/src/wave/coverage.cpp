@@ -13,9 +13,6 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-// A light's spot moves less than this from image to image [px], and is back within [s].
-constexpr double kLongestJump = 80.0;
-constexpr double kLongestTrackGap = 0.05;
 // Speeds are taken over this time [s]; a spot slower than this [px/s] is still.
 constexpr double kSpan = 0.1;
 constexpr double kStill = 30.0;
@@ -144,13 +141,13 @@ void Coverage::follow(View* view, const Frame& frame) {
   std::vector<Track>& tracks = view->tracks;
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [&](const Track& track) {
-                                return frame.stamp - track.back().first > kLongestTrackGap;
+                                return frame.stamp - track.back().first > capture::kLongestGap;
                               }),
                tracks.end());
   std::vector<bool> taken(tracks.size(), false);
   for (const Eigen::Vector2d& spot : frame.spots) {
     std::size_t best = taken.size();
-    double least = kLongestJump;
+    double least = capture::kLongestJump;
     for (std::size_t i = 0; i < taken.size(); ++i) {
       const double distance = (tracks[i].back().second - spot).norm();
       if (!taken[i] && distance < least) {

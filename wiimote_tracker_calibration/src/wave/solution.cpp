@@ -2,6 +2,7 @@
 
 #include "adjustment.h"
 
+#include "adjust/stamp_error.h"
 #include "square/expected_error.h"
 
 #include <wiimote_tracker_msgs/median.h>
@@ -18,13 +19,10 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-/// Adds the slow errors of the clocks, which hardly average out over a wave, to the offsets: the
-/// variance of the mean of an exponentially correlated error. The first camera's error enters all
-/// offsets.
+/// Adds the slow errors of the clocks, which hardly average out over a wave, to the offsets. The
+/// first camera's error enters all offsets.
 void addWander(const WaveOptions& options, double seconds, Eigen::MatrixXd* covariance) {
-  const double kCorrelationTime = 2.0;  // [s]
-  const double share = std::min(1.0, 2.0 * kCorrelationTime / seconds);
-  const double variance = options.wander * options.wander * share;
+  const double variance = adjust::meanStampVariance(options.wander, seconds);
   constexpr Eigen::Index kStep = geometry::kParameters;
   constexpr Eigen::Index kSecond = kStep + geometry::kTimeOffset;
   for (Eigen::Index i = kSecond; i < covariance->rows(); i += kStep) {

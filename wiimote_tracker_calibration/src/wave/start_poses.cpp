@@ -1,6 +1,7 @@
 #include "start_poses.h"
 
 #include "bundle/start.h"
+#include "capture/image.h"
 #include "wave/error.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
@@ -21,8 +22,6 @@ namespace {
 constexpr std::size_t kInstants = 200;
 // Frames farther apart than this are not joined [s].
 constexpr double kLongestFrameGap = 0.035;
-// Nor are spots that jump more than this from frame to frame [px].
-constexpr double kLongestFrameJump = 80.0;
 // Errors of pixels due to lenses off by several per cent and clocks by milliseconds; attempts
 // alternate [px].
 constexpr double kTolerances[] = {6.0, 12.0};
@@ -54,7 +53,7 @@ std::optional<Eigen::Vector2d> middleAt(const std::vector<Frame>& frames, double
   const auto first = middle(*before, wand);
   const auto second = middle(*after, wand);
   if (!first || !second || !(gap > 0.0) || gap > kLongestFrameGap ||
-      (*second - *first).norm() > kLongestFrameJump)
+      (*second - *first).norm() > capture::kLongestJump)
     return std::nullopt;
   return *first + (time - before->stamp) / gap * (*second - *first);
 }

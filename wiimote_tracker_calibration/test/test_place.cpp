@@ -4,7 +4,6 @@
 #include "simulated_rig.h"
 
 #include "place/check_place.h"
-#include "place/known_places.h"
 #include "place/measure_place.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -245,36 +244,6 @@ TEST(MeasurePlace, RefusesWhatDoesNotDetermineAPoint) {
   EXPECT_SAYS(refusal(twice, {{"camera_1", all.at("camera_1")}, {"camera_2", all.at("camera_1")}}),
               "parallel");
   EXPECT_THROW(measurePlace(rig, all, 0.0), Error);
-}
-
-TEST(KnownPlaces, AreNotTakenTwice) {
-  KnownPlaces places;
-  const Eigen::Vector3d first(0.4, 0.4, 0.1);
-  const Eigen::Vector3d second(2.1, 0.4, 0.1);
-  places.add({first, first});
-  EXPECT_NO_THROW(places.requireNew(second));
-  EXPECT_EQ(places.describeUnmoved({second, second}), "");
-  EXPECT_SAYS(places.describeUnmoved({first, second}), "where place 1 was measured");
-  places.add({second, second});
-  try {
-    places.requireNew(second);
-    ADD_FAILURE() << "fitRemap() would refuse it";
-  } catch (const Error& e) {
-    EXPECT_SAYS(std::string(e.what()), "place 2 has these coordinates already");
-  }
-}
-
-TEST(KnownPlaces, BelongToOneCalibration) {
-  KnownPlaces places;
-  EXPECT_EQ(places.useRig("first"), 0u);
-  places.add({Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()});
-  places.add({Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()});
-  EXPECT_EQ(places.useRig("first"), 0u);
-  EXPECT_EQ(places.places().size(), 2u);
-  EXPECT_TRUE(places.undo());
-  EXPECT_EQ(places.places().size(), 1u);
-  EXPECT_EQ(places.useRig("second"), 1u);
-  EXPECT_FALSE(places.undo());
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 // Corrections of the volume: recovered exactly, chosen honestly, never used silently where they do
 // not hold. All simulated.
 
+#include "expect_says.h"
+#include "remap/measured_points.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -361,6 +363,36 @@ TEST(Remap, AWrongPointIsNamed) {
   const FitResult result = fitRemap(points, kRig);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_NE(result.warnings[0].find("known point 17"), std::string::npos);
+}
+
+TEST(MeasuredPoints, AreNotTakenTwice) {
+  MeasuredPoints points;
+  const Eigen::Vector3d first(0.4, 0.4, 0.1);
+  const Eigen::Vector3d second(2.1, 0.4, 0.1);
+  points.add({first, first});
+  EXPECT_NO_THROW(points.requireNew(second));
+  EXPECT_EQ(points.describeUnmoved({second, second}), "");
+  EXPECT_SAYS(points.describeUnmoved({first, second}), "where place 1 was measured");
+  points.add({second, second});
+  try {
+    points.requireNew(second);
+    ADD_FAILURE() << "fitRemap() would refuse it";
+  } catch (const Error& e) {
+    EXPECT_SAYS(std::string(e.what()), "place 2 has these coordinates already");
+  }
+}
+
+TEST(MeasuredPoints, BelongToOneCalibration) {
+  MeasuredPoints points;
+  EXPECT_EQ(points.useRig("first"), 0U);
+  points.add({Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()});
+  points.add({Eigen::Vector3d::Ones(), Eigen::Vector3d::Ones()});
+  EXPECT_EQ(points.useRig("first"), 0U);
+  EXPECT_EQ(points.points().size(), 2U);
+  EXPECT_TRUE(points.undo());
+  EXPECT_EQ(points.points().size(), 1U);
+  EXPECT_EQ(points.useRig("second"), 1U);
+  EXPECT_FALSE(points.undo());
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ class FileServices {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
       const geometry::Rig second = context_.existingRig("to join", lock);
-      const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).places();
+      const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).points();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
       const std::string path = rigPath(request.path, context_.parameters(lock));
       rooms::JoinedRigs joined = context_.compute(&lock, [&] {

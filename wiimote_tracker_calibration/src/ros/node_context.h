@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
 #include "capture/walk.h"
-#include "place/known_places.h"
+#include "remap/measured_points.h"
 #include "session/verdict.h"
 #include "workflow/calibration.h"
 #include "workflow/sounds.h"
@@ -114,7 +114,7 @@ class NodeContext {
   /// Drops known places that another rig measured. @returns what to say about that.
   std::string dropPlacesOfOtherRigs(const Lock&);
   /// Measured with the current rig after dropPlacesOfOtherRigs(); before that perhaps with another.
-  place::KnownPlaces& knownPlaces(const Lock&) { return known_places_; }
+  remap::MeasuredPoints& knownPlaces(const Lock&) { return known_places_; }
 
   /// Shows a reply in the status at once. @returns it.
   workflow::Reply show(const workflow::Reply& reply, const Lock& lock);
@@ -177,7 +177,7 @@ class NodeContext {
   workflow::Sounds sounds_;
   capture::Walk walk_;
   bool walk_is_wanted_ = false;  // though there is a rig
-  place::KnownPlaces known_places_;
+  remap::MeasuredPoints known_places_;
   session::Verdict verdict_;  // of the current rig
   std::map<std::string, std::string> health_;
   std::pair<std::string, std::string> proposal_;  // Camera and text.

@@ -2,8 +2,8 @@
 
 #include "capture/corner_capture.h"
 #include "place/check_place.h"
-#include "place/known_places.h"
 #include "place/measure_place.h"
+#include "remap/measured_points.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
@@ -125,7 +125,7 @@ class PlaceServices {
     response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
     Lock lock(context_.mutex());
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    place::KnownPlaces& places = context_.knownPlaces(lock);
+    remap::MeasuredPoints& places = context_.knownPlaces(lock);
     Reply reply = context_.answer(&lock, [&] {
       square::KnownPlace known;
       known.position = vectorOf(request.known);
@@ -141,12 +141,12 @@ class PlaceServices {
             places.add(point);
             response->measured = pointOf(place.position);
             return Reply{
-                true, format("place %zu measured at (%.3f, %.3f, %.3f) m", places.places().size(),
+                true, format("place %zu measured at (%.3f, %.3f, %.3f) m", places.points().size(),
                              place.position.x(), place.position.y(), place.position.z()) +
                           distanceText(place.position, known.position) + unmoved};
           });
     });
-    response->places = static_cast<std::uint32_t>(places.places().size());
+    response->places = static_cast<std::uint32_t>(places.points().size());
     reply.message += dropped;
     return reply;
   }
@@ -154,11 +154,11 @@ class PlaceServices {
   Reply undo() {
     const Lock lock(context_.mutex());
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    place::KnownPlaces& places = context_.knownPlaces(lock);
+    remap::MeasuredPoints& places = context_.knownPlaces(lock);
     const bool success = places.undo();
     return context_.show(
         {success, (success ? "the latest place was dropped, " +
-                                 std::to_string(places.places().size()) + " are left"
+                                 std::to_string(places.points().size()) + " are left"
                            : "there is no known place to drop") +
                       dropped},
         lock);
@@ -177,7 +177,7 @@ class PlaceServices {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
       const std::string rig_id = context_.existingRig("to correct", lock).id();
-      const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).places();
+      const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).points();
       std::vector<remap::Model> allowed;
       for (const std::string& name : request.models)
         allowed.push_back(remap::modelFromName(name));

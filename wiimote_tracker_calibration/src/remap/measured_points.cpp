@@ -1,9 +1,9 @@
-#include "place/known_places.h"
+#include "remap/measured_points.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
-namespace wiimote_tracker::place {
+namespace wiimote_tracker::remap {
 namespace {
 
 // An LED that was not carried on is measured within this distance of where it was [m].
@@ -13,9 +13,9 @@ constexpr double kApart = 0.1;
 
 }  // namespace
 
-void KnownPlaces::requireNew(const Eigen::Vector3d& known) const {
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if (remap::isSamePlace(known, places_[i].known))
+void MeasuredPoints::requireNew(const Eigen::Vector3d& known) const {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if (isSamePlace(known, points_[i].known))
       throw Error(
           format("place %zu has these coordinates already: correct them or, if that one is wrong, "
                  "drop the places from %zu on and measure them again",
@@ -23,14 +23,14 @@ void KnownPlaces::requireNew(const Eigen::Vector3d& known) const {
   }
 }
 
-std::string KnownPlaces::describeUnmoved(const remap::KnownPoint& place) const {
-  for (std::size_t i = 0; i < places_.size(); ++i) {
-    if ((place.measured - places_[i].measured).norm() < kUnmoved &&
-        (place.known - places_[i].known).norm() > kApart)
+std::string MeasuredPoints::describeUnmoved(const KnownPoint& point) const {
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    if ((point.measured - points_[i].measured).norm() < kUnmoved &&
+        (point.known - points_[i].known).norm() > kApart)
       return format("; but the LED is where place %zu was measured: drop the wrong one of the two",
                     i + 1);
   }
   return "";
 }
 
-}  // namespace wiimote_tracker::place
+}  // namespace wiimote_tracker::remap

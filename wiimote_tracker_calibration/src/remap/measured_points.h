@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
-#define WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_REMAP_MEASURED_POINTS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_REMAP_MEASURED_POINTS_H
 
 #include "wiimote_tracker_calibration/remap/fit.h"
 
@@ -9,19 +9,19 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::place {
+namespace wiimote_tracker::remap {
 
-/// The places to fit a correction of the volume to. All are measured with one calibration, without
-/// the present correction.
-class KnownPlaces {
+/// The known points to fit a correction of the volume to. All are measured with one calibration,
+/// without the present correction.
+class MeasuredPoints {
  public:
-  /// Sets the calibration in use (geometry::Rig::id()). @returns how many places of another one
+  /// Sets the calibration in use (geometry::Rig::id()). @returns how many points of another one
   /// were dropped.
   std::size_t useRig(const std::string& rig_id) {
     if (rig_id == rig_id_)
       return 0;
-    const std::size_t dropped = places_.size();
-    places_.clear();
+    const std::size_t dropped = points_.size();
+    points_.clear();
     rig_id_ = rig_id;
     return dropped;
   }
@@ -37,27 +37,27 @@ class KnownPlaces {
 
   /// A clause about an earlier place elsewhere that was measured where this one was, as when the
   /// LED was not carried on; empty: there is none.
-  std::string describeUnmoved(const remap::KnownPoint& place) const;
+  std::string describeUnmoved(const KnownPoint& point) const;
 
-  void add(const remap::KnownPoint& place) { places_.push_back(place); }
+  void add(const KnownPoint& point) { points_.push_back(point); }
 
   /// Drops the latest. @returns false when there is none.
   bool undo() {
-    if (places_.empty())
+    if (points_.empty())
       return false;
-    places_.pop_back();
+    points_.pop_back();
     return true;
   }
 
-  void clear() { places_.clear(); }
+  void clear() { points_.clear(); }
 
-  const std::vector<remap::KnownPoint>& places() const { return places_; }
+  const std::vector<KnownPoint>& points() const { return points_; }
 
  private:
   std::string rig_id_;
-  std::vector<remap::KnownPoint> places_;
+  std::vector<KnownPoint> points_;
 };
 
-}  // namespace wiimote_tracker::place
+}  // namespace wiimote_tracker::remap
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_PLACE_KNOWN_PLACES_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_REMAP_MEASURED_POINTS_H

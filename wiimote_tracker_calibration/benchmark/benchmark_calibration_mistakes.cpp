@@ -213,7 +213,7 @@ BenchmarkRow rowOf(const Mistake& mistake, int runs) {
     session.masks.resize(spoilt.cameras().size());
     session::SolveOptions options;
     options.wave = wave::optionsFor(spoilt.scene);
-    options.square.uncertainty = options.wave.uncertainty;
+    options.square.uncertainty = spoilt.scene.uncertainty;
     double deviation = 0.0;
     std::string text;
     try {

@@ -153,7 +153,7 @@ class WaveMistake : public ::testing::Test {
   std::string outcome() const {
     SolveOptions options;
     options.wave = wave::optionsFor(scene_);
-    options.square.uncertainty = options.wave.uncertainty;
+    options.square.uncertainty = scene_.uncertainty;
     return outcomeOf(recording_, options);
   }
 

@@ -101,7 +101,7 @@ Session sessionOf(const wave::SimulatedWave& wave) {
 SolveOptions optionsOf(const wave::WaveScene& scene) {
   SolveOptions options;
   options.wave = wave::optionsFor(scene);
-  options.square.uncertainty = options.wave.uncertainty;
+  options.square.uncertainty = scene.uncertainty;
   return options;
 }
 

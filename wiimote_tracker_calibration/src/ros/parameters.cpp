@@ -30,14 +30,14 @@ void readCoverage(ParameterReader* reader, wave::CoverageOptions* options) {
   reader->read("wave_distraction", &options->distraction, 0.0, 1.0);
 }
 
-void readWave(ParameterReader* reader, wave::WaveOptions* options) {
-  reader->read("wave_pixel_stddev", &options->pixel, 1e-3, 100.0);
-  reader->read("stamp_stddev", &options->stamp, 0.0, 1.0);
-  reader->read("stamp_wander", &options->wander, 0.0, 1.0);
-  reader->read("time_offset_stddev", &options->offset, 1e-6, 10.0);
-  reader->read("knot_spacing", &options->knot_spacing, 0.005, 0.05);
-  reader->read("wave_acceleration", &options->acceleration, 0.1, 1e4);
-  reader->read("maximum_offset_stddev", &options->maximum_offset_stddev, 1e-6, 10.0);
+void readWave(ParameterReader* reader, wave::WaveModel* model) {
+  reader->read("wave_pixel_stddev", &model->pixel, 1e-3, 100.0);
+  reader->read("stamp_stddev", &model->stamp, 0.0, 1.0);
+  reader->read("stamp_wander", &model->wander, 0.0, 1.0);
+  reader->read("time_offset_stddev", &model->offset, 1e-6, 10.0);
+  reader->read("knot_spacing", &model->knot_spacing, 0.005, 0.05);
+  reader->read("wave_acceleration", &model->acceleration, 0.1, 1e4);
+  reader->read("maximum_offset_stddev", &model->maximum_offset_stddev, 1e-6, 10.0);
 }
 
 void readRays(ParameterReader* reader, session::SolveOptions* options) {

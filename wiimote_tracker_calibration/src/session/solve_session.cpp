@@ -21,11 +21,9 @@ void correctPrincipalPoints(const wave::Recording& recording,
                             const wave::ProgressCallback& progress,
                             wave::WaveSolution* found,
                             std::optional<principal_point::Trace>* trace) {
-  principal_point::CorrectionOptions correction = options.correction;
-  correction.ray_model = options.ray_model;
-  correction.virtual_hfov = options.virtual_hfov;
-  correction.uncertainty = options.square.uncertainty;
-  correction.branch_odds = options.square.branch_odds;
+  const principal_point::CorrectionOptions correction = {
+      options.correction, options.ray_model, options.virtual_hfov, options.square.uncertainty,
+      options.square.branch_odds};
   const principal_point::CorrectionResult result = principal_point::correctPrincipalPoints(
       *recording.square, recording.sightings(), correction,
       [&](int rounds, const principal_point::Trace&) {
@@ -103,11 +101,8 @@ wave::WaveSolution solveOrDiagnose(const wave::Recording& recording,
 wave::WaveSolution solveRecording(const wave::Recording& recording,
                                   const SolveOptions& options,
                                   const wave::ProgressCallback& progress) {
-  if (recording.hasFrames()) {
-    wave::WaveOptions wave_options = options.wave;
-    wave_options.uncertainty = options.square.uncertainty;
-    return wave::solveWave(recording, wave_options, progress);
-  }
+  if (recording.hasFrames())
+    return wave::solveWave(recording, {options.wave, options.square.uncertainty}, progress);
   wave::WaveSolution found;
   static_cast<square::Solution&>(found) =
       square::solveSquare(*recording.square, recording.sightings(), options.square);

@@ -15,15 +15,13 @@
 namespace wiimote_tracker::session {
 
 struct SolveOptions {
-  /// Its uncertainty also holds for the wave and the correction.
+  /// Its uncertainty also holds for the wave; so do uncertainty and branch odds for the correction.
   square::SolveOptions square;
-  /// Its uncertainty is not used.
-  wave::WaveOptions wave;
+  wave::WaveModel wave;
   /// Corrects the principal points as the paper does (section IV.C), for a square alone: a wave
   /// determines them itself.
   bool correct_principal_points = false;
-  /// Its ray model, uncertainty and branch odds are not used.
-  principal_point::CorrectionOptions correction;
+  principal_point::CorrectionSteps correction;
   geometry::RayModel ray_model = geometry::RayModel::kCalibrated;  ///< As in geometry::Rig.
   double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
   /// Uses the accelerometers. The rig has their readings in either case.

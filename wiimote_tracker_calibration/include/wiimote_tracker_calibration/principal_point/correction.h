@@ -22,7 +22,7 @@ enum class Points {
   kAllCorners,  ///< The mean of all four, as the paper's section VII asks for.
 };
 
-struct CorrectionOptions {
+struct CorrectionSteps {
   int rounds = 14;     ///< At most [0..1000]; 14 in all of the paper's measurements.
   double limit = 0.0;  ///< Stops when the error of the points is below it [m, >= 0]; 0: never.
   /// Share of the difference by which a principal point moves per round [-1..1, not 0]. A negative
@@ -31,6 +31,9 @@ struct CorrectionOptions {
   Points points = Points::kOrigin;
   /// Of the points; kMeanClosest is the paper's "average closest point".
   geometry::TriangulationMethod method = geometry::TriangulationMethod::kMeanClosest;
+};
+
+struct CorrectionOptions : CorrectionSteps {
   geometry::RayModel ray_model = geometry::RayModel::kCalibrated;  ///< As in geometry::Rig.
   double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
   square::Uncertainty uncertainty;

@@ -12,10 +12,8 @@
 
 namespace wiimote_tracker::wave {
 
-/// Standard deviations, unless stated otherwise.
-struct WaveOptions {
-  /// Of starting intrinsics and corners. Its `pixel` is that of a corner.
-  square::Uncertainty uncertainty;
+/// What moves, and how it is seen: standard deviations, unless stated otherwise.
+struct WaveModel {
   double pixel = 0.5;          ///< Of a moving spot, per axis [px, > 0]; estimated from here.
   double stamp = 0.0;          ///< Independent error of each stamp [s, >= 0].
   double wander = 0.0003;      ///< Error of a camera's stamps, correlated over 2 s [s, >= 0].
@@ -23,6 +21,11 @@ struct WaveOptions {
   double knot_spacing = 0.05;  ///< Of the LED's path, a cubic spline [s, 0.005 to 0.05].
   double acceleration = 20.0;  ///< Of the LED; bridges times when no camera sees it [m/s^2, > 0].
   double maximum_offset_stddev = 0.0005;  ///< A result less certain of an offset is refused [s].
+};
+
+struct WaveOptions : WaveModel {
+  /// Of starting intrinsics and corners. Its `pixel` is that of a corner.
+  square::Uncertainty uncertainty;
 };
 
 /// A solved recording. Its rig has time offsets, too, in the order of the recording: exposure time

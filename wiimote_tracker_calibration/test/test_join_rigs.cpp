@@ -3,6 +3,7 @@
 #include "rooms/join_rigs.h"
 
 #include "expect_says.h"
+#include "session/grade.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -155,6 +156,18 @@ TEST_F(JoinRigs, ExactRigsMakeAnExactOne) {
   EXPECT_EQ(joined.rig.covariance.rows(), 96);
   // What the first room had stays.
   EXPECT_LT((joined.rig.covariance.topLeftCorner(64, 64) - first_.covariance).norm(), 1e-15);
+}
+
+TEST_F(JoinRigs, TheVerdictIsNoBetterThanThoseOfBoth) {
+  first_.verdict = "good; points are known to 2 mm";
+  second_.verdict = "good";
+  const std::string usable = joinRigs(first_, second_).rig.verdict;
+  EXPECT_EQ(session::gradeOf(usable), session::Grade::kUsable) << usable;
+  EXPECT_SAYS(usable, "usable: ");
+  EXPECT_SAYS(usable, "; first: good; points are known to 2 mm; second: good");
+  second_.verdict = "redo corner 3: it was 50 mm off";
+  const std::string redo = joinRigs(first_, second_).rig.verdict;
+  EXPECT_EQ(session::gradeOf(redo), session::Grade::kRedo) << redo;
 }
 
 TEST_F(JoinRigs, ErrorsAreAsLargeAsStated) {

@@ -163,7 +163,7 @@ JoinedRooms joinRooms(const geometry::Rig& first,
           result.passages == 1 ? "passage" : "passages", left_out.c_str(),
           100.0 * result.position_stddev, result.rotation_stddev / kDegree) +
       adviceFor(problem, fit, middle);
-  result.rig.verdict = result.message + "; first: " + first.verdict + "; second: " + second.verdict;
+  result.rig.verdict = joinedVerdict(first, second, result.message);
   return result;
 }
 

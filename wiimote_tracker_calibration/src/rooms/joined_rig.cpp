@@ -1,5 +1,7 @@
 #include "rooms/joined_rig.h"
 
+#include "session/grade.h"
+
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -117,6 +119,15 @@ geometry::Rig joinedRig(const geometry::Rig& first,
   rig.method = first.method + " joined with " + second.method;
   rig.check();
   return rig;
+}
+
+std::string joinedVerdict(const geometry::Rig& first,
+                          const geometry::Rig& second,
+                          const std::string& message) {
+  const session::Grade grade = std::max(
+      {session::Grade::kUsable, session::gradeOf(first.verdict), session::gradeOf(second.verdict)});
+  return session::nameOf(grade) + ": " + message + "; first: " + first.verdict +
+         "; second: " + second.verdict;
 }
 
 }  // namespace wiimote_tracker::rooms

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <limits>
+#include <string>
 
 namespace wiimote_tracker::rooms {
 
@@ -25,12 +26,17 @@ struct ClockShift {
 ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second);
 
 /// The first rig with the second's other cameras, moved into its world. The joint covariance is to
-/// first order. The verdict is left to the caller.
+/// first order. The verdict is left to the caller (joinedVerdict()).
 /// @throws geometry::InvalidRigError as Rig::check().
 geometry::Rig joinedRig(const geometry::Rig& first,
                         const geometry::Rig& second,
                         const RigMotion& motion,
                         const ClockShift& clock);
+
+/// That of a joined rig, which is no better than its parts. @param message how they were joined.
+std::string joinedVerdict(const geometry::Rig& first,
+                          const geometry::Rig& second,
+                          const std::string& message);
 
 }  // namespace wiimote_tracker::rooms
 

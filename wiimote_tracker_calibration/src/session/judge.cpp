@@ -2,6 +2,7 @@
 
 #include "next_measurement.h"
 #include "square/expected_error.h"
+#include "square/usable_cameras.h"
 
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
@@ -172,6 +173,10 @@ std::string improvement(const wave::Recording& recording) {
          (recording.square ? ", or use a larger square" : "");
 }
 
+bool concernsQuality(const std::string& warning) {
+  return warning != square::kZDown;
+}
+
 /// Why the rig is not good, or empty.
 std::vector<std::string> shortcomings(const Session& session,
                                       const Accuracy& accuracy,
@@ -192,14 +197,14 @@ std::vector<std::string> shortcomings(const Session& session,
           format("%.0f %%", 100.0 * (1.0 - camera.inlier_share)) + " of what " + camera.name +
           " saw was not the LED: cover lamps and reflections, and see whether its clock jumped");
   }
-  // The warning that z points down does not concern the quality.
-  if (found.warnings.size() > (found.z_up ? 0U : 1U))
+  if (std::any_of(found.warnings.begin(), found.warnings.end(), concernsQuality))
     reasons.emplace_back("read the warnings");
   return reasons;
 }
 
-std::string redoCorner(const square::SuspectCorner& suspect) {
-  std::string text = "redo corner " + std::to_string(suspect.corner + 1);
+/// Which corner to redo, and why.
+std::string suspectText(const square::SuspectCorner& suspect) {
+  std::string text = "corner " + std::to_string(suspect.corner + 1);
   if (suspect.runner_up && suspect.lead < kClearLead)
     text += " or " + std::to_string(*suspect.runner_up + 1);
   return text + ": the other data put the LED " + millimetres(suspect.distance) +
@@ -233,8 +238,7 @@ Verdict verdictOf(const geometry::Rig& rig) {
   for (std::size_t i = 0; i < rig.cameras.size(); ++i)
     verdict.cameras.push_back(judgeCamera(rig, i));
   verdict.text = rig.verdict;
-  const auto begins = [&](const std::string& word) { return rig.verdict.rfind(word, 0) == 0; };
-  verdict.grade = begins("good") ? Grade::kGood : begins("redo") ? Grade::kRedo : Grade::kUsable;
+  verdict.grade = gradeOf(rig.verdict);
   return verdict;
 }
 
@@ -244,23 +248,24 @@ Verdict judge(const Session& session, const wave::WaveSolution& found, double pi
     predict(*session.recording.square, found, pixel, &verdict);
   const Accuracy accuracy = accuracyOf(session, found, verdict);
   const std::vector<std::string> reasons = shortcomings(session, accuracy, found, verdict);
+  std::string reason;
   if (found.suspect && square::isDisplaced(*found.suspect)) {
     verdict.grade = Grade::kRedo;
     verdict.redo_corner = found.suspect->corner;
-    verdict.text = redoCorner(*found.suspect);
+    reason = " " + suspectText(*found.suspect);
   } else if (accuracy.share > kUsableShare) {
     verdict.grade = Grade::kRedo;
-    verdict.text =
-        "redo: points would be far off; place the cameras so that they look from different sides, "
+    reason =
+        ": points would be far off; place the cameras so that they look from different sides, "
         "and " +
         improvement(session.recording);
   } else if (!reasons.empty()) {
     verdict.grade = Grade::kUsable;
-    verdict.text = "usable: " + joined(reasons, ", and ");
+    reason = ": " + joined(reasons, ", and ");
   } else {
     verdict.grade = Grade::kGood;
-    verdict.text = "good";
   }
+  verdict.text = nameOf(verdict.grade) + reason;
   if (!accuracy.text.empty())
     verdict.text += "; " + accuracy.text;
   verdict.text += "; " + found.rig.verdict;

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
 #define WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
 
+#include "session/grade.h"
+
 #include <Eigen/Core>
 
 #include <array>
@@ -11,9 +13,6 @@
 #include <vector>
 
 namespace wiimote_tracker::session {
-
-/// Values as in CalibrationVerdict.msg.
-enum class Grade { kGood = 0, kUsable = 1, kRedo = 2 };
 
 /// How well one camera was calibrated. Fields as in CameraVerdict.msg: standard deviations are 0
 /// where held fixed, NaN is unknown. The residuals of a wave and of self_calibrate are corrected

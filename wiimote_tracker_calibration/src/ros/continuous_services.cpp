@@ -1,3 +1,4 @@
+#include "input_queue.h"
 #include "units.h"
 
 #include "continuous/approach.h"
@@ -23,9 +24,8 @@ using workflow::Step;
 
 namespace {
 
-constexpr double kUpdatePeriod = 0.5;       // [s]
-constexpr std::size_t kMostInputs = 20000;  // that wait: a minute of four cameras
-constexpr std::size_t kMostChanges = 100;   // that can be reverted
+constexpr double kUpdatePeriod = 0.5;      // [s]
+constexpr std::size_t kMostChanges = 100;  // that can be reverted
 const char kApply[] = "; call calibration/continuous/apply to use it";
 const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
                                   1000.0 * continuous::Approach::kLongestStep,
@@ -53,18 +53,7 @@ class ContinuousServices {
     options_.recalibrate = context_.parameters(lock).recalibrateOptions();
     if (policy_ == ContinuousPolicy::kOff)
       return;
-    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& inner) {
-      if (takesInputs(inner))
-        inputs_.push_back({image, std::nullopt});
-    });
-    context_.inputs().subscribeGravity([this](const std::string& camera, double,
-                                              const Eigen::Vector3d& specific_force,
-                                              const Lock& inner) {
-      if (!takesInputs(inner))
-        return;
-      inputs_.push_back({{}, specific_force});
-      inputs_.back().image.camera = camera;
-    });
+    inputs_.emplace(&context_.inputs(), [this](const Lock& inner) { return isCalibrated(inner); });
     timer_ = context_.nh().createWallTimer(
         ros::WallDuration(kUpdatePeriod), [this](const ros::WallTimerEvent&) {
           runCallback("continuous calibration", [this] { update(); });
@@ -72,11 +61,6 @@ class ContinuousServices {
   }
 
  private:
-  /// An image, or a reading of a camera's accelerometer in its optical frame [m/s^2].
-  struct Input {
-    capture::Image image;
-    std::optional<Eigen::Vector3d> specific_force;
-  };
   /// A rig that was changed: its idWithoutMasks() now, and as it was.
   struct Change {
     std::string id;
@@ -90,22 +74,16 @@ class ContinuousServices {
            (step == Step::kIdle || step == Step::kSolved || step == Step::kSaved);
   }
 
-  /// What a slow computer cannot take in time is left out.
-  bool takesInputs(const Lock& lock) const {
-    return isCalibrated(lock) && inputs_.size() < kMostInputs;
-  }
-
   /// Only the timer calls it, once at a time.
   void update() {
     Lock lock(context_.mutex());
-    std::vector<Input> inputs;
-    inputs.swap(inputs_);
+    const std::vector<Input> inputs = inputs_->take(lock);
     useRig(lock);
     if (!continuous_ || inputs.empty())
       return;
     if (approach_ && isCalibrated(lock))
       stepTowardsGoal(inputs, lock);
-    const auto proposal = context_.compute(&lock, [&] { return newestProposal(inputs); });
+    const auto proposal = NodeContext::unlocked(&lock, [&] { return newestProposal(inputs); });
     if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
     // Meanwhile the rig may have been replaced, or what was proposed before applied.
@@ -158,10 +136,12 @@ class ContinuousServices {
 
   void stepTowardsGoal(const std::vector<Input>& inputs, const Lock& lock) {
     double newest = 0.0;  // [s]
-    for (const Input& input : inputs)
-      newest = std::max(newest, input.image.stamp);
+    for (const Input& input : inputs) {
+      if (!input.specific_force)
+        newest = std::max(newest, input.image.stamp);
+    }
     if (newest == 0.0)
-      return;  // only accelerometers, whose time is not known
+      return;
     const geometry::Rig before = *context_.rig(lock);
     const auto next = approach_->step(before, newest);
     if (!next)
@@ -286,7 +266,7 @@ class ContinuousServices {
   NodeContext& context_;
   ContinuousPolicy policy_;
   continuous::Options options_;
-  std::vector<Input> inputs_;                     // Since the last update.
+  std::optional<InputQueue> inputs_;              // Nothing when the policy is off.
   std::string in_use_;                            // idInUse() at the last update.
   std::optional<continuous::Approach> approach_;  // From the rig in use to another.
   std::string watched_;                           // idWithoutMasks() of the rig that is watched.

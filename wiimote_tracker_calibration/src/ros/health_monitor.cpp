@@ -1,3 +1,4 @@
+#include "input_queue.h"
 #include "units.h"
 
 #include "health/health_watch.h"
@@ -10,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -21,16 +23,9 @@ const char kUnknownCamera[] = "is not in the rig and makes no points: calibrate 
 
 class HealthMonitor {
  public:
-  explicit HealthMonitor(NodeContext* context) : context_(*context) {
-    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-      if (watch_)
-        watch_->addImage(image);
-    });
-    context_.inputs().subscribeGravity([this](const std::string& camera, double stamp,
-                                              const Eigen::Vector3d& specific_force, const Lock&) {
-      if (watch_)
-        watch_->addAcceleration(camera, stamp, specific_force);
-    });
+  explicit HealthMonitor(NodeContext* context)
+      : context_(*context),
+        inputs_(&context_.inputs(), [this](const Lock&) { return watch_.has_value(); }) {
     diagnostics_.setHardwareID("none");
     diagnostics_.add("cameras", this, &HealthMonitor::report);
     timer_ = context_.nh().createWallTimer(
@@ -40,9 +35,13 @@ class HealthMonitor {
   }
 
  private:
+  /// Only the timer calls it, once at a time.
   void update() {
     {
-      const Lock lock(context_.mutex());
+      Lock lock(context_.mutex());
+      const std::vector<Input> inputs = inputs_.take(lock);
+      if (watch_)
+        NodeContext::unlocked(&lock, [&] { watch(inputs); });
       const auto& rig = context_.rig(lock);
       const std::string id = rig ? rig->id() : "";
       if (id != rig_id_) {
@@ -63,6 +62,16 @@ class HealthMonitor {
       context_.setHealth(texts, lock);
     }
     diagnostics_.update();
+  }
+
+  /// Judging drift takes longer than images may wait.
+  void watch(const std::vector<Input>& inputs) {
+    for (const Input& input : inputs) {
+      if (input.specific_force)
+        watch_->addAcceleration(input.image.camera, input.image.stamp, *input.specific_force);
+      else
+        watch_->addImage(input.image);
+    }
   }
 
   void warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
@@ -104,6 +113,7 @@ class HealthMonitor {
   }
 
   NodeContext& context_;
+  InputQueue inputs_;
   std::string rig_id_;
   std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
   std::set<std::string> unknown_cameras_;     // Cameras that the rig does not have.

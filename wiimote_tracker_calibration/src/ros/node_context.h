@@ -93,14 +93,21 @@ class NodeContext {
   /// Waits for some time, and sets the progress meanwhile. @returns false if the job was cancelled.
   bool waitFor(double duration, workflow::Step step, Lock* lock);
 
-  /// Computes something without the lock. It is locked again afterwards, whatever is thrown.
-  template <typename Compute>
-  auto compute(Lock* lock, const Compute& compute) {
-    const std::function<void()> fault_now = fault;
+  /// Works without the lock. It is locked again afterwards, whatever is thrown.
+  template <typename Work>
+  static auto unlocked(Lock* lock, const Work& work) {
     lock->unlock();
     const AtEnd relock{[&] { lock->lock(); }};
-    fault_now();
-    return compute();
+    return work();
+  }
+
+  /// The same, for a request.
+  template <typename Compute>
+  auto compute(Lock* lock, const Compute& compute) {
+    return unlocked(lock, [&, fault_now = fault] {
+      fault_now();
+      return compute();
+    });
   }
 
   /// For tests: called while a request waits or computes. It may throw.

@@ -30,7 +30,7 @@ class CameraGroup {
 
   /// @param members indices of the cameras in the rig, ascending.
   /// @param partners of all cameras of the rig, see association::sharedViews.
-  /// @param options must outlive the tracks, also those that another group adopts.
+  /// @param options must outlive the group and the tracks, also those that another group adopts.
   CameraGroup(const geometry::Rig& rig,
               const std::vector<std::size_t>& members,
               const std::vector<std::vector<std::size_t>>& partners,
@@ -88,7 +88,7 @@ class CameraGroup {
   void show(const StoredImage& image, std::vector<CameraView>* views) const;
   void showStarts(std::vector<CameraView>* views) const;
 
-  TrackerOptions options_;
+  const TrackerOptions& options_;
   std::vector<std::size_t> members_;
   std::vector<GroupCamera> cameras_;
   ImageUpdate update_;

@@ -22,7 +22,7 @@ namespace wiimote_tracker::tracking {
 /// Where two LEDs may have merged into one spot, follows both hypotheses (MergedPair).
 class ImageUpdate {
  public:
-  /// @param members indices of the group's cameras in the rig
+  /// @param members indices of the group's cameras in the rig. @param options must live longer.
   ImageUpdate(const geometry::Rig& rig,
               const std::vector<std::size_t>& members,
               const TrackerOptions& options);
@@ -81,7 +81,7 @@ class ImageUpdate {
 
   geometry::Rig rig_;
   std::vector<std::size_t> members_;
-  TrackerOptions options_;
+  const TrackerOptions& options_;
   // Of the last apply(); the pointers are valid while it runs.
   const GroupCamera* camera_ = nullptr;
   const StoredImage* image_ = nullptr;

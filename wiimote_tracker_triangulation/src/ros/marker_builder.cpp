@@ -95,7 +95,10 @@ visualization_msgs::MarkerArray MarkerBuilder::buildWithoutRig(double time) cons
 }
 
 void MarkerBuilder::setRig(const geometry::Rig& rig) {
+  const bool is_same = rig.frames() == rig_.frames();
   rig_ = rig;
+  if (is_same)
+    return;
   must_clear_ = true;
   rays_.assign(rig.cameras.size(), 0);
   drawn_.clear();

@@ -36,7 +36,8 @@ class MarkerBuilder {
   /// Until there is a rig: a text at the world's origin that says what to do (namespace advice).
   visualization_msgs::MarkerArray buildWithoutRig(double time) const;
 
-  /// Draws this rig from now on and deletes the markers of the previous one.
+  /// Draws this rig from now on. Deletes the markers of the previous one, unless it had the same
+  /// frames.
   void setRig(const geometry::Rig& rig);
 
   /// Whether 1 / rate has passed since the last array, or time jumped back.

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstdint>
 #include <sstream>
+#include <utility>
 
 namespace wiimote_tracker {
 namespace {
@@ -101,18 +102,17 @@ MessageTracker::RigChange MessageTracker::takeRig(
   }
   if (change.cameras) {
     bodies_.setRig(rig);
-    tilt_reported_ = false;
     computed_id_ = id;
     rig_id_ = idOf(message, rig);
     useCameras(rig);
-    reported_faults_.clear();
-    reported_cameras_.clear();
+    reported_faults_.useRig(rig_, rig, *estimator_);
     statistics_.setRig(rig);
     if (const std::string sentence = rig.describeFarCamera(); !sentence.empty())
       sink_->onProblem(sentence);
   }
   rig_ = rig;
   tilt_ = tiltOf(rig);
+  tilt_reported_ = tilt_reported_ && tilt_ > kMostTilt;
   zones_.setZones(rig_.zones);
   change.correction = correction_.take(rig_);
   sink_->onRig(rig_);
@@ -141,7 +141,7 @@ void MessageTracker::takeImage(const std::string& camera,
   const ImageFault fault = readImage(message, rig_.cameras[index].camera, &image_);
   if (fault != ImageFault::kNone)
     reportProblem(index, describe(fault, message, rig_.cameras[index].camera),
-                  reported_faults_.emplace(index, fault).second);
+                  reported_faults_.isNew(index, fault));
   if (!isUsable(fault))
     return;
   statistics_.addImage(index, image_, message.frame);
@@ -154,7 +154,7 @@ void MessageTracker::takeImage(const std::string& camera,
   estimator_->add(index, image_);
   if (const auto camera_fault = estimator_->cameraFault(index))
     reportProblem(index, describe(*camera_fault, camera),
-                  reported_cameras_.emplace(index, camera_fault->kind).second);
+                  reported_faults_.isNew(index, camera_fault->kind));
   if (estimator_->counters().resets != resets_)
     restart();
   is_used_[index] = estimator_->counters().dropped == dropped;

@@ -5,6 +5,7 @@
 #include "events/refusals.h"
 #include "events/trigger.h"
 #include "events/zone_watch.h"
+#include "fault_reports.h"
 #include "image_message.h"
 #include "led_labels.h"
 #include "parameters.h"
@@ -30,7 +31,6 @@
 #include <optional>
 #include <set>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -65,7 +65,7 @@ class MessageSink {
   /// The LEDs at the time of a trigger.
   virtual void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) = 0;
 
-  /// A problem: one sentence that says what to do. Each fault of a camera is reported once per rig.
+  /// A problem: one sentence that says what to do. Faults of cameras: see FaultReports.
   virtual void onProblem(const std::string& sentence) = 0;
 };
 
@@ -155,8 +155,7 @@ class MessageTracker {
   events::Trigger trigger_;  // requests: their times [ns]
   events::Refusals refusals_;
   Statistics statistics_;
-  std::set<std::pair<std::size_t, ImageFault>> reported_faults_;  // of this rig's cameras
-  std::set<std::pair<std::size_t, tracking::CameraFault::Kind>> reported_cameras_;  // the same
+  FaultReports reported_faults_;
   std::uint64_t resets_ = 0;
 
   // Of the output.

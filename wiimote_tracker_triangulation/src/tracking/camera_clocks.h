@@ -20,12 +20,10 @@ namespace wiimote_tracker::tracking {
 /// Motion tells differences of clocks only: the median of the known ones is 0.
 class CameraClocks {
  public:
-  /// @param turn_stddevs of each camera, see ClockOffset::estimate().
-  explicit CameraClocks(std::vector<double> turn_stddevs)
-      : turn_stddevs_(std::move(turn_stddevs)),
-        clocks_(turn_stddevs_.size()),
-        sorted_(turn_stddevs_.size()) {}
+  explicit CameraClocks(std::size_t cameras)
+      : turn_stddevs_(cameras), clocks_(cameras), sorted_(cameras) {}
 
+  /// @param turn_stddevs of each camera, see ClockOffset::estimate().
   void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
 
   /// To be subtracted from the times of a camera's images; its variance is for their deviation.

@@ -2,8 +2,11 @@
 
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker::tracking {
 namespace {
@@ -60,22 +63,49 @@ std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std:
   return result;
 }
 
+/// Whether the two are of different places of a camera, rather than of a better calibration.
+bool isMoved(const geometry::Camera& from, const geometry::Camera& to) {
+  constexpr double kTurn = 0.002;      // some pixels [rad]
+  constexpr double kDistance = 0.005;  // [m]
+  const Eigen::AngleAxisd turn(from.world_from_camera.linear().transpose() *
+                               to.world_from_camera.linear());
+  return turn.angle() > kTurn || (to.center() - from.center()).norm() > kDistance;
+}
+
 }  // namespace
 
 CameraGroup::CameraGroup(const geometry::Rig& rig,
                          const std::vector<std::size_t>& members,
                          const std::vector<std::vector<std::size_t>>& partners,
                          const TrackerOptions& options)
-    : options_(options),
-      members_(members),
-      update_(rig, members, options),
-      initiation_(rigOf(rig, members), partnersOf(partners, members), options),
-      clocks_(turnStddevs(rig, members)) {
+    : options_(options), members_(members), clocks_(members.size()) {
+  state_.fits.resize(members_.size(), newFit());
+  state_.unassigned.resize(members_.size());
+  useRig(rig, partners);
+}
+
+CameraFit CameraGroup::newFit() const {
+  return {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo};
+}
+
+void CameraGroup::useRig(const geometry::Rig& rig,
+                         const std::vector<std::vector<std::size_t>>& partners) {
+  const std::vector<GroupCamera> before = std::exchange(cameras_, {});
   for (const std::size_t member : members_)
-    cameras_.emplace_back(rig, member, options);
-  state_.fits.resize(cameras_.size(),
-                     CameraFit(options.ghost_rate, cameras_.size() > 2 ? kFitOfMany : kFitOfTwo));
-  state_.unassigned.resize(cameras_.size());
+    cameras_.emplace_back(rig, member, options_);
+  update_.emplace(rig, members_, options_);
+  initiation_.emplace(rigOf(rig, members_), partnersOf(partners, members_), options_);
+  clocks_.setTurnStddevs(turnStddevs(rig, members_));
+  const auto adapt = [&](State* state) {
+    // The rays of unassigned spots are those of the former cameras.
+    std::fill(state->unassigned.begin(), state->unassigned.end(), UnassignedSpots());
+    for (std::size_t i = 0; i < before.size(); ++i) {
+      if (isMoved(before[i].forRays(), cameras_[i].forRays()))
+        state->fits[i] = newFit();
+    }
+  };
+  adapt(&state_);
+  history_.changeStates(adapt);
 }
 
 bool CameraGroup::isDoubtful() const {
@@ -144,11 +174,11 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
       fit.clock = ClockOffset();
     state_.clocks = image.clocks;
   }
-  update_.apply(camera, image, &state_.fits, &tracks, &state_.pairs);
+  update_->apply(camera, image, &state_.fits, &tracks, &state_.pairs);
   removeMergedPairs(image.time);
   show(image, views);
   collectUnassigned(image);
-  initiation_.apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
+  initiation_->apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
   showStarts(views);
   for (Track& track : tracks) {
     const bool was_confirmed = track.isConfirmed();
@@ -157,7 +187,7 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
       doubtPartnerOf(track.id);
     if (was_confirmed || !track.mayContinue())
       continue;
-    if (Track* former = initiation_.formerTrackOf(track, state_.pairs, &tracks)) {
+    if (Track* former = initiation_->formerTrackOf(track, state_.pairs, &tracks)) {
       former->continueAs(track);
       track.finish();
     }
@@ -217,7 +247,7 @@ void CameraGroup::collectUnassigned(const StoredImage& image) {
   if (isMisfit(image.camera) && state_.fits.size() > 2)
     return;
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    if (update_.trackOfSpot()[spot] != association::kFalseDetection)
+    if (update_->trackOfSpot()[spot] != association::kFalseDetection)
       continue;
     const Eigen::Vector2d& pixel = image.pixels[spot];
     if (const auto sight = geometry::sightFromPixel(cameras_[image.camera].forRays(), pixel)) {
@@ -239,9 +269,9 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
     seen.pixel = image.pixels[spot];
     if (spot >= image.spot_count) {
       seen.use = SpotUse::kMasked;
-    } else if (update_.trackOfSpot()[spot] != association::kFalseDetection) {
+    } else if (update_->trackOfSpot()[spot] != association::kFalseDetection) {
       seen.use = SpotUse::kAssigned;
-      seen.led = state_.tracks[static_cast<std::size_t>(update_.trackOfSpot()[spot])].id;
+      seen.led = state_.tracks[static_cast<std::size_t>(update_->trackOfSpot()[spot])].id;
     }
   }
 }
@@ -249,7 +279,7 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
 /// Writes which spots began a track, also in the views of older images. A view of a newer image is
 /// left alone: the steps are being repeated, and its own one follows.
 void CameraGroup::showStarts(std::vector<CameraView>* views) const {
-  for (const StartSpot& start : initiation_.starts()) {
+  for (const StartSpot& start : initiation_->starts()) {
     CameraView& view = (*views)[members_[start.camera]];
     if (view.time != state_.unassigned[start.camera].time)
       continue;
@@ -258,9 +288,14 @@ void CameraGroup::showStarts(std::vector<CameraView>* views) const {
   }
 }
 
-void CameraGroup::setCovariance(const geometry::Rig& rig) {
-  update_.setCovariance(rig.covariance);
-  clocks_.setTurnStddevs(turnStddevs(rig, members_));
+void CameraGroup::endMergedPairs() {
+  for (const MergedPair& pair : state_.pairs) {
+    for (const std::uint32_t id : pair.ids()) {
+      if (Track* const track = continuing(id, pair.openedAt()))
+        track->noteMeeting(pair.probability());
+    }
+  }
+  state_.pairs.clear();
 }
 
 void CameraGroup::adopt(const Track& track) {

@@ -61,8 +61,12 @@ class CameraGroup {
   const std::vector<std::size_t>& members() const { return members_; }
   const std::vector<Track>& tracks() const { return state_.tracks; }
 
-  /// Takes over the covariance of a rig that is the same otherwise.
-  void setCovariance(const geometry::Rig& rig);
+  /// Goes on with new poses and lenses of the same cameras, whose clocks are the same. A camera
+  /// that was moved is used at once, whether its images fitted before or not.
+  void useRig(const geometry::Rig& rig, const std::vector<std::vector<std::size_t>>& partners);
+
+  /// Before another group adopts the tracks: what is not known of merged ones stays in doubt.
+  void endMergedPairs();
 
   /// Takes over a track from a group of another rig.
   void adopt(const Track& track);
@@ -79,6 +83,7 @@ class CameraGroup {
     std::uint32_t clocks = 0;                 // version of the corrections of their clocks
   };
 
+  CameraFit newFit() const;
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
   void removeMergedPairs(double time);
@@ -91,8 +96,8 @@ class CameraGroup {
   const TrackerOptions& options_;
   std::vector<std::size_t> members_;
   std::vector<GroupCamera> cameras_;
-  ImageUpdate update_;
-  TrackInitiation initiation_;
+  std::optional<ImageUpdate> update_;          // never empty
+  std::optional<TrackInitiation> initiation_;  // never empty
   CameraClocks clocks_;
   State state_;  // before the image of index next_step_
   std::uint64_t next_step_ = 0;

@@ -64,6 +64,13 @@ class History {
     kept.state = state;
   }
 
+  /// Changes all states that rollBack() may restore.
+  template <typename Change>
+  void changeStates(const Change& change) {
+    for (std::uint64_t i = states_.begin(); i < states_.end(); ++i)
+      change(&states_.at(i).state);
+  }
+
   /// Drops what is not needed to repeat the steps since a time [s].
   void forgetBefore(double time) {
     while (states_.size() > 1 && images_.at(states_.at(states_.begin() + 1).before).time < time)

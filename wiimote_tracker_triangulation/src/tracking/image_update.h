@@ -36,9 +36,6 @@ class ImageUpdate {
              std::vector<Track>* tracks,
              std::vector<MergedPair>* pairs);
 
-  /// Replaces the covariance of the rig, which is the same otherwise.
-  void setCovariance(const Eigen::MatrixXd& covariance) { rig_.covariance = covariance; }
-
   /// For each spot of that image its index in `tracks`, or association::kFalseDetection.
   const std::array<int, association::kMaximumSpots>& trackOfSpot() const { return track_of_spot_; }
 

@@ -19,6 +19,17 @@ bool hasSmallerId(const TrackedLed& a, const TrackedLed& b) {
   return a.id < b.id;
 }
 
+/// Whether the two are one device whose clock is the same.
+bool isSameCamera(const geometry::RigCamera& a, const geometry::RigCamera& b) {
+  constexpr double kNoticeable = 0.001;  // more is no better calibration, but another clock [s]
+  using Rule = geometry::TimeOffsetRule;
+  return a.camera.name == b.camera.name && a.camera.identity == b.camera.identity &&
+         a.time_offset_rule == b.time_offset_rule &&
+         (a.time_offset_rule != Rule::kOneEpoch || a.time_offset_epoch == b.time_offset_epoch) &&
+         (a.time_offset_rule == Rule::kNone ||
+          std::abs(a.time_offset - b.time_offset) <= kNoticeable);
+}
+
 }  // namespace
 
 Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
@@ -28,33 +39,42 @@ Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
       newest_arrival_(kNever),
       last_output_(kNever) {
   rig.check();
-  useRig(rig);
+  useRig(rig, association::sharedViews(rig, options_.maximum_range));
 }
 
 Tracker::~Tracker() = default;
 
 void Tracker::setRig(const geometry::Rig& rig) {
   rig.check();
-  if (rig.id() == rig_id_) {
+  const Partners partners = association::sharedViews(rig, options_.maximum_range);
+  if (hasSameGroups(rig, partners)) {
     rig_ = rig;
     uncertainty_.emplace(rig_);
     for (const auto& group : groups_)
-      group->setCovariance(rig_);
+      group->useRig(rig_, partners);
     return;
   }
   updateGroups();
   const auto before = std::exchange(groups_, {});
-  useRig(rig);
+  useRig(rig, partners);
   takeOverTracks(before);
 }
 
-void Tracker::useRig(const geometry::Rig& rig) {
+/// Whether a rig has the same cameras with the same clocks in the same groups.
+bool Tracker::hasSameGroups(const geometry::Rig& rig, const Partners& partners) const {
+  const auto groups = groupsOf(partners);
+  return std::equal(rig.cameras.begin(), rig.cameras.end(), rig_.cameras.begin(),
+                    rig_.cameras.end(), isSameCamera) &&
+         std::equal(
+             groups.begin(), groups.end(), groups_.begin(), groups_.end(),
+             [](const auto& members, const auto& group) { return members == group->members(); });
+}
+
+void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
   rig_ = rig;
-  rig_id_ = rig.id();
   uncertainty_.emplace(rig_);
   groups_.clear();
   places_.resize(rig_.cameras.size());
-  const auto partners = association::sharedViews(rig_, options_.maximum_range);
   for (const std::vector<std::size_t>& members : groupsOf(partners)) {
     for (std::size_t i = 0; i < members.size(); ++i)
       places_[members[i]] = Place{groups_.size(), i};
@@ -68,6 +88,7 @@ void Tracker::useRig(const geometry::Rig& rig) {
 /// Moves each track to the group with the most cameras that may see it.
 void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before) {
   for (const auto& old_group : before) {
+    old_group->endMergedPairs();
     for (const Track& track : old_group->tracks()) {
       const Eigen::Vector3d position = track.filter.position();
       const auto viewers = [&](const std::unique_ptr<CameraGroup>& group) {

@@ -200,6 +200,21 @@ TEST_F(Markers, EveryLedIsDrawnWithItsName) {
   EXPECT_EQ(Marker::ADD, find(array, "point", 0).action);
 }
 
+TEST_F(Markers, OfTheSameCamerasStayWhenTheRigIsAdjusted) {
+  draw(seen_);
+  rig_.cameras[0].camera.world_from_camera.pretranslate(Vector3d(0.0001, 0.0, 0.0));
+  builder_.setRig(rig_);
+  seen_.time += 0.1;
+  const MarkerArray array = draw(seen_);
+  for (const Marker& marker : array.markers)
+    EXPECT_NE(Marker::DELETEALL, marker.action);
+  EXPECT_EQ(2u, find(array, "trail", 0).points.size());
+
+  rig_.world_frame = "room";
+  builder_.setRig(rig_);
+  EXPECT_EQ(Marker::DELETEALL, draw(seen_).markers[0].action);
+}
+
 TEST_F(Markers, ShowMaskedAndUnassignedSpots) {
   rig_.cameras[0].masks = {{{300.0, 200.0}, 25.0}};
   builder_.setRig(rig_);

@@ -37,6 +37,33 @@ TEST(Clocks, ACameraWithAnotherClockIsNamedOnceAndLeftOut) {
   EXPECT_GT(studio.pointsOf("led", 1000.3).size(), 130u);
 }
 
+/// As continuous calibration does every half minute.
+TEST(Clocks, AFaultThatGoesOnIsNotReportedAgainWithEachRig) {
+  Studio studio(parametersOf(Mode::kTracks));
+  double ahead = 0.5;
+  studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
+    const ros::Duration error(camera == 2 ? ahead : 0.0);
+    image->header.stamp += error;
+    image->arrival += error;
+  };
+  const std::string fault = "the clock of the computer of camera_2 is";
+  const auto takeAnotherRig = [&] {
+    studio.rig.cameras[0].camera.world_from_camera.pretranslate(Vector3d(1e-5, 0.0, 0.0));
+    EXPECT_TRUE(studio.tracker.takeRig(toMessage(studio.rig)).cameras);
+  };
+  studio.film(1.0, {onCircle});
+  takeAnotherRig();
+  studio.film(1.0, {onCircle});
+  EXPECT_EQ(1, studio.heard.problemsWith(fault));
+
+  ahead = 0.0;
+  studio.film(2.0, {onCircle});
+  takeAnotherRig();
+  ahead = 0.5;
+  studio.film(1.0, {onCircle});
+  EXPECT_EQ(2, studio.heard.problemsWith(fault)) << "it came back";
+}
+
 TEST(Clocks, AnImageFromAnotherCenturyChangesNothing) {
   Studio studio(parametersOf(Mode::kTracks));
   studio.film(0.5, {onCircle});

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -37,8 +36,8 @@ class Tracker : public Estimator {
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
 
-  /// Tracks that the new cameras may see go on. A rig with the same id only changes the covariance
-  /// of the calibration.
+  /// While the cameras and their clocks are the same, everything goes on, as with each step of a
+  /// continuous calibration. Else only tracks go on that the new cameras may see.
   void setRig(const geometry::Rig& rig) override;
 
   void add(std::size_t camera, const CameraImage& image) override;
@@ -57,7 +56,11 @@ class Tracker : public Estimator {
     double age = 0.0;               // of the last one, if it was late [s]
   };
 
-  void useRig(const geometry::Rig& rig);
+  /// Per camera of a rig those that share its view.
+  using Partners = std::vector<std::vector<std::size_t>>;
+
+  bool hasSameGroups(const geometry::Rig& rig, const Partners& partners) const;
+  void useRig(const geometry::Rig& rig, const Partners& partners);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
   StoredImage stored(std::size_t camera, const CameraImage& image);
   void updateGroups();
@@ -66,7 +69,6 @@ class Tracker : public Estimator {
 
   TrackerOptions options_;
   geometry::Rig rig_;
-  std::string rig_id_;
   std::vector<std::unique_ptr<CameraGroup>> groups_;
   std::vector<Place> places_;  // per camera of the rig
   std::unique_ptr<TimeWatch> time_watch_;

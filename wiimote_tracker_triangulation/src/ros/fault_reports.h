@@ -1,0 +1,38 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_FAULT_REPORTS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_FAULT_REPORTS_H
+
+#include "image_message.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
+
+#include <cstddef>
+#include <set>
+#include <utility>
+
+namespace wiimote_tracker {
+
+/// Which faults of the cameras were reported. Each is reported once, and again when it comes back
+/// after another rig. A fault that goes on is not, since continuous calibration makes a new rig
+/// every half minute.
+class FaultReports {
+ public:
+  bool isNew(std::size_t camera, ImageFault fault) {
+    return of_images_.emplace(camera, fault).second;
+  }
+  bool isNew(std::size_t camera, tracking::CameraFault::Kind fault) {
+    return of_cameras_.emplace(camera, fault).second;
+  }
+
+  /// @param estimator with the new rig
+  void useRig(const geometry::Rig& before,
+              const geometry::Rig& rig,
+              const tracking::Estimator& estimator);
+
+ private:
+  std::set<std::pair<std::size_t, ImageFault>> of_images_;
+  std::set<std::pair<std::size_t, tracking::CameraFault::Kind>> of_cameras_;
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_FAULT_REPORTS_H

@@ -368,7 +368,8 @@ void MessageTracker::publishAt(double time) {
 }
 
 void MessageTracker::publish(const tracking::Snapshot& corrected) {
-  if (!(corrected.time > newest_output_))
+  if (!(corrected.time > newest_output_ &&
+        corrected.time >= newest_output_ + parameters_.output.interval))
     return;
   newest_output_ = corrected.time;
   const auto message = boost::make_shared<TrackedPointArray>(messageOf(corrected));

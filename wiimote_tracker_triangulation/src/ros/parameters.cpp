@@ -129,7 +129,6 @@ void readTracks(ParameterReader* reader, tracking::TrackerOptions* tracks) {
                          reader->nameOf("tracks/maximum_corner") +
                          " in x, y and z: otherwise no LED would be found");
   reader->read("tracks/history", &tracks->history, 0.01, 2.0);
-  reader->read("tracks/output_interval", &tracks->output_interval, 0.0, 1.0);
 }
 
 void readIdentity(ParameterReader* reader, TrackingParameters* p) {
@@ -155,6 +154,7 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
 
 void readOutput(ParameterReader* reader, tracking::Mode mode, OutputOptions* output) {
   reader->read("output/on_update", &output->on_update);
+  reader->read("tracks/output_interval", &output->interval, 0.0, 1.0);
   reader->read("output/rate", &output->rate, 0.0, 1000.0);
   reader->read("output/predict_to_now", &output->predict_to_now);
   reader->read("output/publish_predicted", &output->publish_predicted);

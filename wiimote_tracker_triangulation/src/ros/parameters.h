@@ -19,6 +19,7 @@ namespace wiimote_tracker {
 /// When to publish `points`.
 struct OutputOptions {
   bool on_update = true;           ///< For every image that adds information.
+  double interval = 0.0;           ///< Least time from one message of points to the next [s].
   double rate = 0.0;               ///< At this rate [Hz]; 0: not at a fixed rate.
   bool predict_to_now = false;     ///< Predict to the newest image's arrival, not its exposure.
   bool publish_predicted = false;  ///< Topics and transforms of predicted LEDs and bodies too.

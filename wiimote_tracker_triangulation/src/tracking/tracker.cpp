@@ -187,7 +187,7 @@ void Tracker::updateGroups() {
 }
 
 const Snapshot* Tracker::next() {
-  if (!(newest_time_ > last_output_ && newest_time_ >= last_output_ + options_.output_interval))
+  if (!(newest_time_ > last_output_))
     return nullptr;
   last_output_ = newest_time_;
   updateGroups();

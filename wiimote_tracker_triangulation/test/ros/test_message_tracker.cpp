@@ -131,6 +131,21 @@ TEST_P(InBothModes, PointsNameTheCamerasOfTheirOwnRig) {
   EXPECT_EQ(1, studio.heard.problemsWith("no points for the trigger"));
 }
 
+TEST_P(InBothModes, AnIntervalOfTheOutputThinsOutPointsOnly) {
+  TrackingParameters parameters = parametersOf(GetParam());
+  parameters.output.interval = 0.1;
+  Studio studio(parameters);
+  studio.film(1.0, {onCircle});
+  const auto& arrays = studio.heard.arrays;
+  ASSERT_GE(arrays.size(), 8u);
+  for (std::size_t i = 1; i < arrays.size(); ++i)
+    EXPECT_GE((arrays[i]->header.stamp - arrays[i - 1]->header.stamp).toSec(), 0.1 - 1e-6);
+  std_msgs::Header trigger;
+  trigger.stamp.fromSec(studio.now - 0.055);
+  studio.tracker.takeTrigger(trigger);
+  EXPECT_EQ(1u, studio.heard.triggered.size());
+}
+
 TEST_P(InBothModes, ABadRigIsRefusedAndTheOneBeforeStays) {
   Studio studio(parametersOf(GetParam()));
   RigCalibration bad = toMessage(studio.rig);

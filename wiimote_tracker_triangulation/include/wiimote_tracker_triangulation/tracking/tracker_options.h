@@ -44,8 +44,7 @@ struct TrackerOptions {
   Eigen::Vector3d maximum_corner = Eigen::Vector3d::Constant(1e6);
 
   // Time.
-  double history = 0.2;          ///< Later images are dropped [s, 0.01..2].
-  double output_interval = 0.0;  ///< Least time between snapshots [s, 0..1]; 0: every image.
+  double history = 0.2;  ///< Later images are dropped [s, 0.01..2].
 };
 
 }  // namespace wiimote_tracker::tracking

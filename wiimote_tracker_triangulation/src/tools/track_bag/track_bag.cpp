@@ -251,9 +251,7 @@ void run(const Arguments& arguments) {
                 arguments.smooth ? &smoothed : nullptr);
   leaveOutEarlierResults(recording, topics, parameters, &output);
   if (arguments.smooth) {
-    TrackingParameters all_images = parameters;
-    all_images.estimator.tracks.output_interval = 0.0;
-    Player(all_images, topics, &smoothed).play(recording, own_rig, [](const auto&) {});
+    Player(parameters, topics, &smoothed).play(recording, own_rig, [](const auto&) {});
     smoothed.smooth();
   }
   if (own_rig) {

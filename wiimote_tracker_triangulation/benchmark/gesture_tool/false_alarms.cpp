@@ -18,6 +18,7 @@ FalseAlarms countFalseAlarms(const std::vector<Person>& teachers,
       recognizer.add({sample.gesture, "", sample.path});
   }
 
+  const auto recognize = [&](const gesture::Path& path) { return recognizer.recognize(path); };
   const std::vector<std::vector<double>> rows = gesture::readRows(motion, 4);
   FalseAlarms alarms;
   for (std::size_t marker = 1; marker + 3 <= rows[0].size(); marker += 3) {
@@ -30,9 +31,9 @@ FalseAlarms countFalseAlarms(const std::vector<Person>& teachers,
           row[0], 1e-3 * Eigen::Vector3d(row[marker], row[marker + 1], row[marker + 2])};
       if (!point.position.allFinite())
         continue;
-      alarms.continuous += spotter.add(point, recognizer) ? 1 : 0;
+      alarms.continuous += spotter.add(point, recognize) ? 1 : 0;
       if (const auto path = segmenter.add(point, point.time)) {
-        const auto recognition = recognizer.recognize(*path);
+        const auto recognition = recognize(*path);
         alarms.between_rests += recognition && recognition->accepted() ? 1 : 0;
       }
     }

@@ -20,9 +20,7 @@ double straightness(const Path& path) {
 
 }  // namespace
 
-std::optional<Spotted> Spotter::add(const PathPoint& point,
-                                    const Recognizer& recognizer,
-                                    const std::string& zone) {
+std::optional<Spotted> Spotter::add(const PathPoint& point, const Recognize& recognize) {
   if (!motion_.empty() && !(point.time > motion_.back().time))
     return std::nullopt;
   std::optional<Spotted> found = advance(point.time);
@@ -34,7 +32,7 @@ std::optional<Spotted> Spotter::add(const PathPoint& point,
                 }));
   if (point.time >= next_look_) {
     next_look_ = point.time + options_.interval;
-    look(recognizer, zone);
+    look(recognize);
   }
   if (!found && best_ && point.time - best_->path.back().time >= 0.5 * durationOf(best_->path))
     found = report();
@@ -69,7 +67,7 @@ bool Spotter::isAfterRest(const PathPoint& beginning) const {
          });
 }
 
-void Spotter::look(const Recognizer& recognizer, const std::string& zone) {
+void Spotter::look(const Recognize& recognize) {
   const double now = motion_.back().time;
   for (double duration = options_.shortest; duration <= options_.longest * 1.0001;
        duration *= options_.step) {
@@ -78,7 +76,7 @@ void Spotter::look(const Recognizer& recognizer, const std::string& zone) {
     const auto first = std::find_if(motion_.begin(), motion_.end(),
                                     [&](const auto& p) { return p.time >= now - duration; });
     Path path(first, motion_.end());
-    const std::optional<Recognition> recognition = recognizer.recognize(path, zone);
+    const std::optional<Recognition> recognition = recognize(path);
     if (!recognition || recognition->score < options_.minimum_score)
       continue;
     if (straightness(path) > options_.straight && !isAfterRest(path.front()))

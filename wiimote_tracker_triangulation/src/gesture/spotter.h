@@ -3,8 +3,8 @@
 
 #include "gesture/recognizer.h"
 
+#include <functional>
 #include <optional>
-#include <string>
 
 namespace wiimote_tracker::gesture {
 
@@ -45,10 +45,11 @@ class Spotter {
  public:
   explicit Spotter(const SpotterOptions& options) : options_(options) {}
 
+  /// The gesture nearest to a path, as Recognizer::recognize().
+  using Recognize = std::function<std::optional<Recognition>(const Path&)>;
+
   /// Adds a position. Times must increase; others are ignored.
-  std::optional<Spotted> add(const PathPoint& point,
-                             const Recognizer& recognizer,
-                             const std::string& zone = "");
+  std::optional<Spotted> add(const PathPoint& point, const Recognize& recognize);
 
   /// Advances to `time` [s] without a position (the LED is hidden or off).
   std::optional<Spotted> advance(double time);
@@ -56,7 +57,7 @@ class Spotter {
  private:
   std::optional<Spotted> report();
   bool isAfterRest(const PathPoint& beginning) const;
-  void look(const Recognizer& recognizer, const std::string& zone);
+  void look(const Recognize& recognize);
 
   SpotterOptions options_;
   Path motion_;

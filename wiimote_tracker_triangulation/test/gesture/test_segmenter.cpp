@@ -183,8 +183,12 @@ TEST(Segmenter, ShortOnesAreIgnoredAndLongOnesLoseTheirStart) {
   EXPECT_EQ(found->back().time, 4.0);
 }
 
+Spotter::Recognize with(const Recognizer& recognizer) {
+  return [recognizer](const Path& path) { return recognizer.recognize(path); };
+}
+
 TEST(Spotter, FindsAGestureInContinuousMotion) {
-  const Recognizer recognizer = threeGestures();
+  const Spotter::Recognize recognize = with(threeGestures());
   Spotter spotter{SpotterOptions()};
   // To and fro, then a zigzag, then to and fro again.
   const auto idle = [](double t) {
@@ -205,7 +209,7 @@ TEST(Spotter, FindsAGestureInContinuousMotion) {
 
   std::vector<Spotted> found;
   for (const PathPoint& point : motion) {
-    if (auto spotted = spotter.add(point, recognizer)) {
+    if (auto spotted = spotter.add(point, recognize)) {
       EXPECT_LT(point.time - spotted->path.back().time, 1.5);
       found.push_back(*spotted);
     }
@@ -226,7 +230,7 @@ TEST(Spotter, AStraightStrokeIsAGestureOnlyAfterARest) {
     int found = 0;
     const auto feed = [&](const Path& path) {
       for (const PathPoint& point : path)
-        found += spotter.add(point, recognizer) ? 1 : 0;
+        found += spotter.add(point, with(recognizer)) ? 1 : 0;
     };
     Drawing drawing;
     drawing.duration = 1.0;

@@ -71,7 +71,13 @@ class Bench {
     });
   }
 
-  void publishRig(const geometry::Rig& rig) { rig_.publish(toMessage(rig)); }
+  void publishZones(const std::vector<geometry::Zone>& zones) {
+    geometry::Rig rig;
+    rig.cameras.resize(1);
+    rig.cameras[0].camera.name = "camera";
+    rig.zones = zones;
+    rig_.publish(toMessage(rig));
+  }
 
   void publish(const Vector3d* position) {
     TrackedPointArray array;
@@ -255,13 +261,8 @@ TEST_F(GesturesTest, AreRecordedRecognisedRejectedAndRemoved) {
 }
 
 TEST_F(GesturesTest, ZonesHaveTheirOwn) {
-  geometry::Rig rig;
-  geometry::RigCamera camera;
-  camera.camera.name = "camera";
-  rig.cameras = {camera};
-  rig.zones = {{"kitchen", {0.0, -2.0, 0.0}, {4.0, 2.0, 3.0}},
-               {"studio", {10.0, -2.0, 0.0}, {14.0, 2.0, 3.0}}};
-  bench_->publishRig(rig);
+  bench_->publishZones({{"kitchen", {0.0, -2.0, 0.0}, {4.0, 2.0, 3.0}},
+                        {"studio", {10.0, -2.0, 0.0}, {14.0, 2.0, 3.0}}});
   ASSERT_TRUE(Bench::waitFor([&] { return bench_->record("lights", "kitchen").empty(); }));
   EXPECT_NE(bench_->record("lights", "cellar"), "");
   EXPECT_NE(bench_->record("smile:]"), "") << "the file could not be read again";
@@ -320,21 +321,34 @@ TEST_F(GesturesTest, GoOnWhileAnotherProgramPublishesPoints) {
   EXPECT_TRUE(bench_->remove("circle"));
 }
 
-class ContinuousGesturesTest : public GesturesTest {};
-
-TEST_F(ContinuousGesturesTest, AreFoundInContinuousMotion) {
-  ASSERT_NO_FATAL_FAILURE(recordCircle());
-  const auto straight = [](double s) { return Vector3d(0.5 * s, 0.3 * s, -0.2 * s); };
-  const auto on = [&](const std::function<Vector3d(double)>& curve, const Vector3d& place) {
+struct ContinuousGesturesTest : GesturesTest {
+  static void trace(const std::function<Vector3d(double)>& curve, const Vector3d& place) {
     for (int i = 0; i < 100; ++i) {
       const Vector3d position = place + curve(0.01 * i);
       bench_->publish(&position);
     }
-  };
-  on(straight, {0.0, 0.0, 1.0});
+  }
+};
+
+TEST_F(ContinuousGesturesTest, BelongToTheZoneOfTheirMiddle) {
+  bench_->publishZones({{"kitchen", {1.5, -2.0, 0.0}, {1.66, 2.0, 3.0}}});
+  ASSERT_TRUE(Bench::waitFor([&] { return bench_->record("lights", "kitchen").empty(); }));
+  bench_->draw(circle, {2.0, 0.0, 1.0});
+  EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
+  trace(circle, {2.0, 0.0, 1.0});
+  for (int i = 0; i < 40; ++i)
+    bench_->publish(nullptr);
+  EXPECT_EQ(bench_->nextEvent().zone, "kitchen");
+  EXPECT_TRUE(bench_->remove("lights"));
+}
+
+TEST_F(ContinuousGesturesTest, AreFoundInContinuousMotion) {
+  ASSERT_NO_FATAL_FAILURE(recordCircle());
+  const auto straight = [](double s) { return Vector3d(0.5 * s, 0.3 * s, -0.2 * s); };
+  trace(straight, {0.0, 0.0, 1.0});
   const double begin = bench_->time_;
-  on(circle, {0.5, 0.3, 0.8});
-  on(straight, {0.5, 0.3, 0.8});
+  trace(circle, {0.5, 0.3, 0.8});
+  trace(straight, {0.5, 0.3, 0.8});
   const GestureEvent found = bench_->nextEvent();
   EXPECT_EQ(found.event, GestureEvent::RECOGNISED);
   EXPECT_EQ(found.gesture, "circle");
@@ -342,7 +356,7 @@ TEST_F(ContinuousGesturesTest, AreFoundInContinuousMotion) {
   EXPECT_NEAR(found.begin.toSec(), begin, 0.2);
   EXPECT_NEAR(found.end.toSec(), begin + 1.0, 0.2);
   // It is reported although the light goes out right after it.
-  on(circle, {1.0, 0.6, 0.6});
+  trace(circle, {1.0, 0.6, 0.6});
   for (int i = 0; i < 40; ++i)
     bench_->publish(nullptr);
   const GestureEvent last = bench_->nextEvent();

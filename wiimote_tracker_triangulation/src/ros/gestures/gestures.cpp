@@ -178,7 +178,10 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
   const gesture::PathPoint here{time, vectorOf(point.position)};
   // An example needs a start and an end.
   if (parameters_.continuous && !wanted_) {
-    if (const auto spotted = hand.spotter.add(here, recognizer_, zoneOf({here})))
+    const auto recognize = [this](const auto& path) {
+      return recognizer_.recognize(path, zoneOf(path));
+    };
+    if (const auto spotted = hand.spotter.add(here, recognize))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand);
   }
   const auto path = hand.segmenter.add(here, point.last_observed.toSec());

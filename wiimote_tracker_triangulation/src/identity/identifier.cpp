@@ -115,7 +115,7 @@ void Identifier::decide(double time) {
 
 void Identifier::judge(Led* led, double time) {
   Eigen::Index best = 0;
-  if (led->probabilities.maxCoeff(&best) < options_.decide_at)
+  if (!(led->probabilities.maxCoeff(&best) >= options_.decide_at))
     return;
   const auto label = static_cast<std::size_t>(best);
   if (label == hypotheses_.labels()) {

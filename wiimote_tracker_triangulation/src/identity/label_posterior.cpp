@@ -74,8 +74,7 @@ void LabelPosterior::computeTogether(std::size_t leds) {
   Eigen::Index likeliest = 0;
   const float best = bound_.maxCoeff(&likeliest);
   if ((bound_ > best - kNegligible).count() > kMostCells) {
-    posterior_.setConstant((1.0 - steady_prior_) / static_cast<double>(labels));
-    posterior_.row(labels).setConstant(steady_prior_);
+    setPrior();
     return;
   }
   // Each LED's weights are divided by a reference to avoid overflow and underflow.
@@ -93,8 +92,19 @@ void LabelPosterior::computeTogether(std::size_t leds) {
       addCell(static_cast<std::size_t>(cell / phases), static_cast<std::size_t>(cell % phases),
               leds);
   }
+  // Each column has the same sum, that of all assignments, which underflows if none is possible.
+  if (!(posterior_.colwise().sum().minCoeff() > 0.0)) {
+    setPrior();
+    return;
+  }
   for (Eigen::Index led = 0; led < posterior_.cols(); ++led)
     posterior_.col(led) /= posterior_.col(led).sum();
+}
+
+void LabelPosterior::setPrior() {
+  const auto labels = static_cast<Eigen::Index>(hypotheses_.labels());
+  posterior_.setConstant((1.0 - steady_prior_) / static_cast<double>(labels));
+  posterior_.row(labels).setConstant(steady_prior_);
 }
 
 // The sum over all assignments of distinct labels, or none, is a permanent. It is computed by a

@@ -107,6 +107,24 @@ TEST(LabelPosterior, SynchronousMatchesTheExhaustiveComputation) {
   EXPECT_LT(one, 0.1);
 }
 
+TEST(LabelPosterior, IsThePriorWhereTwoLedsHaveShownOneCodeForLong) {
+  BlinkingOptions options;
+  options.codes = paperCodes(0.1, 0.1);
+  options.leds = {0, 0};
+  options.cameras = 8;
+  options.start = 0.0;
+  options.duration = 20.0;
+  const Hypotheses hypotheses(options.codes, {}, 60.0);
+  Random random(1);
+  const Eigen::MatrixXd posterior =
+      posteriorOf(hypotheses, test::simulateBlinking(options, &random), 2, options.start);
+  for (Eigen::Index led = 0; led < 2; ++led) {
+    for (Eigen::Index label = 0; label < 4; ++label)
+      EXPECT_NEAR(0.99 / 4.0, posterior(label, led), 1e-9);
+    EXPECT_NEAR(0.01, posterior(4, led), 1e-9);
+  }
+}
+
 /// Number of runs with a wrong likeliest label.
 int wrongRuns(const BlinkingOptions& options, const Hypotheses& hypotheses, int runs) {
   int wrong_runs = 0;

@@ -17,14 +17,16 @@ class LabelPosterior {
   LabelPosterior(const Hypotheses& hypotheses, double steady);
 
   /// Asynchronous LEDs are independent. Synchronous LEDs share period and phase, and each label
-  /// occurs at most once: exact sum over all assignments. While too many periods and phases are
-  /// possible, the result for synchronous LEDs is the prior.
+  /// occurs at most once: exact sum over all assignments. The result for synchronous LEDs is the
+  /// prior while too many periods and phases are possible, or when no assignment is, as where two
+  /// LEDs have shown one code for long.
   /// @param leds evidence of the same hypotheses and, if synchronous, of the same origin.
   const Eigen::MatrixXd& compute(const std::vector<const Evidence*>& leds);
 
  private:
   void computeAlone(std::size_t led);
   void computeTogether(std::size_t leds);
+  void setPrior();
   void addCell(std::size_t frequency, std::size_t phase, std::size_t leds);
   double logWeightOfSteady(std::size_t led) const;
 

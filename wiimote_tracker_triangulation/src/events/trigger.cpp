@@ -92,8 +92,6 @@ void Trigger::ask(double time, std::uint64_t request) {
 }
 
 void Trigger::add(const tracking::Snapshot& snapshot) {
-  if (!kept_.empty() && snapshot.time <= kept_.back().time)
-    forget();
   while (kept_.size() > 1 && kept_.at(kept_.begin() + 1).time < snapshot.time - options_.history)
     kept_.popFront();
   tracking::Snapshot& kept = kept_.push();

@@ -62,7 +62,7 @@ class Trigger {
   /// @param request an identifier that is returned with the answer.
   void ask(double time, std::uint64_t request);
 
-  /// Snapshots in strictly increasing time. When time goes back, earlier ones are forgotten.
+  /// Snapshots in strictly increasing time, except after forget().
   void add(const tracking::Snapshot& snapshot);
 
   /// Forgets all snapshots; requests wait for the next one.

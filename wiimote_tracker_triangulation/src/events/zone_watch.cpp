@@ -60,20 +60,25 @@ void ZoneWatch::setZones(const std::vector<Zone>& zones) {
   zones_ = zones;
 }
 
+void ZoneWatch::loseAll() {
+  for (const Led& led : leds_)
+    lose(led, &gone_);
+  leds_.clear();
+}
+
 const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& snapshot) {
   crossings_.swap(gone_);
   gone_.clear();
   for (ZoneCrossing& crossing : crossings_)
     crossing.time = snapshot.time;
 
-  const bool time_went_back = snapshot.time < newest_;
   newest_ = snapshot.time;
   const auto isGone = [&](const Led& led) {
-    return time_went_back || !(snapshot.time - led.time <= options_.timeout);
+    return !(snapshot.time - led.time <= options_.timeout);
   };
   for (const Led& led : leds_) {
     if (isGone(led))
-      lose(led);
+      lose(led, &crossings_);
   }
   leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isGone), leds_.end());
 
@@ -92,7 +97,7 @@ const std::vector<ZoneCrossing>& ZoneWatch::update(const tracking::Snapshot& sna
         break;
       case tracking::TrackState::kLost:
         if (known) {
-          lose(*place);
+          lose(*place, &crossings_);
           leds_.erase(place);
         }
         break;
@@ -130,11 +135,11 @@ void ZoneWatch::step(const Eigen::Vector3d& to, Led* led) {
                    [](const auto& a, const auto& b) { return a.time < b.time; });
 }
 
-void ZoneWatch::lose(const Led& led) {
+void ZoneWatch::lose(const Led& led, std::vector<ZoneCrossing>* crossings) const {
   for (const Zone& zone : zones_) {
     const auto presence = led.presences.find(zone.name);
     if (presence != led.presences.end() && presence->second.inside)
-      crossings_.push_back({zone.name, led.id, false, newest_, led.position});
+      crossings->push_back({zone.name, led.id, false, newest_, led.position});
   }
 }
 

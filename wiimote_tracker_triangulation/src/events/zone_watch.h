@@ -43,8 +43,11 @@ class ZoneWatch {
   /// again; all LEDs leave a removed zone.
   void setZones(const std::vector<geometry::Zone>& zones);
 
+  /// All LEDs leave with the next snapshot, whose time may be earlier.
+  void loseAll();
+
   /// The events of this snapshot: by LED in the order of ids, lost LEDs first, each LED's sorted by
-  /// time. Valid until the next call. When time goes back, all LEDs known before are lost.
+  /// time. Valid until the next call.
   const std::vector<ZoneCrossing>& update(const tracking::Snapshot& snapshot);
 
  private:
@@ -62,13 +65,13 @@ class ZoneWatch {
   };
 
   void step(const Eigen::Vector3d& to, Led* led);
-  void lose(const Led& led);
+  void lose(const Led& led, std::vector<ZoneCrossing>* crossings) const;
 
   ZoneWatchOptions options_;
   std::vector<geometry::Zone> zones_;
   std::vector<Led> leds_;  // sorted by id
   double newest_ = -std::numeric_limits<double>::infinity();
-  std::vector<ZoneCrossing> gone_;  // of removed zones, for the next snapshot
+  std::vector<ZoneCrossing> gone_;  // of removed zones and all LEDs, for the next snapshot
   std::vector<ZoneCrossing> crossings_;
 };
 

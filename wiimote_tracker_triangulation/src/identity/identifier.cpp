@@ -82,13 +82,8 @@ void Identifier::reset() {
 }
 
 void Identifier::decide(double time) {
-  if (decided_ && time < *decided_) {
-    origin_ = time;
-    for (const auto& led : leds_)
-      led->evidence.reset(time);
-  } else if (decided_ && time < *decided_ + options_.interval) {
+  if (decided_ && time < *decided_ + options_.interval)
     return;
-  }
   decided_ = time;
   evidence_.clear();
   for (const auto& led : leds_) {

@@ -238,6 +238,8 @@ void MessageTracker::restart() {
   if (identifier_)
     identifier_->reset();
   labels_.clear();
+  zones_.loseAll();
+  trigger_.forget();
   lost_.clear();
   newest_.time = kNever;
   newest_output_ = kNever;

@@ -160,8 +160,9 @@ TEST_F(ZoneWatchTest, LedsAndZonesAreIndependent) {
   EXPECT_EQ("+box3 -box3 +next3 +box9 -next3", story());
 }
 
-TEST_F(ZoneWatchTest, RestartsWhenTimeJumpsBack) {
+TEST_F(ZoneWatchTest, AfterAllAreLostTimeMayBeEarlier) {
   show(100.0, {led({0.5, 0.5, 0.5})});
+  watch_.loseAll();
   show(1.0, {led({0.5, 0.5, 0.5}, 8)});
   ASSERT_EQ("+box7 -box7 +box8", story());
   EXPECT_EQ(1.0, events_[1].time);

@@ -233,6 +233,32 @@ TEST_P(InBothModes, ABagThatStartsOverResetsAll) {
   EXPECT_EQ("led", last.points[0].label) << "the label is free again";
 }
 
+TEST_P(InBothModes, ABagThatStartsOverEmptiesItsZonesAndHasItsOwnTriggers) {
+  Studio studio(parametersOf(GetParam()));
+  studio.rig.zones = {{"room", {-2.0, -2.0, -2.0}, {2.0, 2.0, 2.0}}};
+  studio.tracker.takeRig(toMessage(studio.rig));
+  studio.film(3.0, {onCircle});
+  const auto count = [&](std::uint8_t event) {
+    return std::count_if(studio.heard.events.begin(), studio.heard.events.end(),
+                         [&](const ZoneEvent& e) { return e.event == event; });
+  };
+  EXPECT_EQ(0, count(ZoneEvent::LEFT));
+  studio.now = 1000.0;
+  studio.film(1.0, {onCircle});
+  EXPECT_EQ(1, count(ZoneEvent::LEFT));
+  EXPECT_EQ(2, count(ZoneEvent::ENTERED));
+  EXPECT_LT(studio.heard.events.back().header.stamp.toSec(), 1001.0);
+
+  std_msgs::Header trigger;
+  trigger.stamp.fromSec(1000.5);
+  studio.tracker.takeTrigger(trigger);
+  ASSERT_EQ(1u, studio.heard.triggered.size());
+  ASSERT_EQ(1u, studio.heard.triggered[0].points.size());
+  trigger.stamp.fromSec(1002.0);
+  studio.tracker.takeTrigger(trigger);
+  EXPECT_EQ(1u, studio.heard.triggered.size()) << "the snapshots of before are forgotten";
+}
+
 TEST_P(InBothModes, ZonesAreEnteredAndLeft) {
   Studio studio(parametersOf(GetParam()));
   studio.rig.zones = {{"right", {0.3, -1.0, -1.0}, {1.0, 1.0, 1.0}}};

@@ -54,14 +54,13 @@ class Identifier {
   void forget(std::uint32_t led);
 
   /// Decides, unless less than the interval has passed since. Call after add().
-  /// @param time now [s], for Identity::since. When time goes back, as with a restarted bag, the
-  /// LEDs keep their labels and all evidence is forgotten.
+  /// @param time now [s], for Identity::since; not before an earlier one, except after reset().
   void decide(double time);
 
   /// Null for an LED without sightings. Valid until the next call that is not const.
   const Identity* identityOf(std::uint32_t led) const;
 
-  /// Forgets all LEDs.
+  /// Forgets all LEDs, as when a bag starts over.
   void reset();
 
   const BlinkCodes& codes() const { return hypotheses_.codes(); }

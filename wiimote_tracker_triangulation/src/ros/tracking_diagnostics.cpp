@@ -148,10 +148,8 @@ std::string TrackingDiagnostics::clockProblem(std::size_t camera) {
   const auto ahead = reported_clocks_.ahead(camera);
   if (!ahead)
     return "";
-  const std::string host = hosts_.of(nodes_[camera]);
-  return format("the clock %sof the driver of %s (%s) is %.3f s %s: run chrony on all computers",
-                host.empty() ? "" : ("of " + host + " ").c_str(), cameras_[camera].c_str(),
-                nodes_[camera].c_str(), std::abs(*ahead),
+  return format("the clock of the driver of %s (%s) is %.3f s %s: run chrony on all computers",
+                cameras_[camera].c_str(), nodes_[camera].c_str(), std::abs(*ahead),
                 *ahead > 0.0 ? "ahead" : "behind, or its network is slow");
 }
 

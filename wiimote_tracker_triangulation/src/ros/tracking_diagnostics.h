@@ -5,7 +5,6 @@
 #include "lens_check.h"
 #include "load_shedding.h"
 #include "message_tracker.h"
-#include "node_hosts.h"
 #include "wiimote_tracker_triangulation/ros/steady_updater.h"
 
 #include <ros/node_handle.h>
@@ -49,7 +48,6 @@ class TrackingDiagnostics {
   LensCheck lenses_;
   std::vector<std::string> cameras_;
   std::vector<std::string> nodes_;  // per camera
-  NodeHosts hosts_;
   SteadyUpdater updater_;
 
   // State of the reported period.

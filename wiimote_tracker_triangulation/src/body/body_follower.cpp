@@ -31,22 +31,22 @@ bool haveSameCameras(const geometry::Rig& before, const geometry::Rig& now) {
 }  // namespace
 
 void BodyFollower::setRig(const geometry::Rig& rig) {
-  const bool keeps_times = time_watch_ && haveSameTimes(rig_, rig);
+  const bool keeps_times = arrival_clocks_ && haveSameTimes(rig_, rig);
   if (tracker_ && keeps_times)
     tracker_->setRig(rig);
   else
     useTracker(rig, constellations_);
   if (!keeps_times || !haveSameCameras(rig_, rig))
-    time_watch_ = std::make_unique<tracking::TimeWatch>(
+    arrival_clocks_ = std::make_unique<tracking::ArrivalClocks>(
         rig.cameras.size(),
-        time_watch_ ? time_watch_->newestUsed() : -std::numeric_limits<double>::infinity());
+        arrival_clocks_ ? arrival_clocks_->newestUsed() : -std::numeric_limits<double>::infinity());
   rig_ = rig;
 }
 
 void BodyFollower::setBodies(const std::vector<Constellation>& constellations) {
   for (const Constellation& constellation : constellations)
     constellation.check();
-  if (time_watch_)
+  if (arrival_clocks_)
     useTracker(rig_, constellations);
   constellations_ = constellations;
   snapshot_ = BodySnapshot();
@@ -64,15 +64,15 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
   const double time = image->stamp + offset;
   if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
     return;
-  switch (time_watch_->check(camera, image->arrival + offset)) {
-    case tracking::TimeWatch::Result::kWrongClock:
+  switch (arrival_clocks_->check(camera, image->arrival + offset)) {
+    case tracking::ArrivalClocks::Result::kWrongClock:
       return;
-    case tracking::TimeWatch::Result::kJumpedBack:
+    case tracking::ArrivalClocks::Result::kJumpedBack:
       tracker_->reset();
       latest_arrival_ = image->arrival;
       last_output_ = -std::numeric_limits<double>::infinity();
       break;
-    case tracking::TimeWatch::Result::kUsable:
+    case tracking::ArrivalClocks::Result::kUsable:
       break;
   }
   const auto isMasked = [&](const tracking::Spot& spot) {

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FOLLOWER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FOLLOWER_H
 
-#include "tracking/time_watch.h"
+#include "tracking/arrival_clocks.h"
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
@@ -61,7 +61,7 @@ class BodyFollower {
   geometry::Rig rig_;
   std::vector<Constellation> constellations_;
   std::unique_ptr<BodyTracker> tracker_;  // only with a rig and constellations
-  std::unique_ptr<tracking::TimeWatch> time_watch_;
+  std::unique_ptr<tracking::ArrivalClocks> arrival_clocks_;
   double latest_arrival_ = 0.0;  // [s]
   double last_output_ = -std::numeric_limits<double>::infinity();
   BodySnapshot snapshot_;

@@ -45,7 +45,7 @@ struct TrackingParameters {
   events::ZoneWatchOptions zones;
   events::TriggerOptions trigger;
   MarkerOptions markers;
-  double clock_tolerance = 0.02;  ///< See ClockWatch [s].
+  double clock_tolerance = 0.02;  ///< See HostClockCheck [s].
 
   /// @throws ParameterError naming the key that is wrong or unknown.
   static TrackingParameters read(ParameterReader* reader);

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H
 
-#include "clock_watch.h"
+#include "host_clock_check.h"
 #include "lens_check.h"
 #include "load_shedding.h"
 #include "message_tracker.h"
@@ -18,7 +18,7 @@ namespace wiimote_tracker {
 /// Publishes on /diagnostics: one status for the tracker and one for each camera.
 class TrackingDiagnostics {
  public:
-  /// `tracker` and `shedding` must live longer. `clock_tolerance`: see ClockWatch [s].
+  /// `tracker` and `shedding` must live longer. `clock_tolerance`: see HostClockCheck [s].
   TrackingDiagnostics(const ros::NodeHandle& nh,
                       const ros::NodeHandle& private_nh,
                       MessageTracker* tracker,
@@ -44,7 +44,7 @@ class TrackingDiagnostics {
 
   MessageTracker* tracker_;
   const LoadShedding* shedding_;
-  ClockWatch clocks_;
+  HostClockCheck clocks_;
   LensCheck lenses_;
   std::vector<std::string> cameras_;
   std::vector<std::string> nodes_;  // per camera
@@ -52,7 +52,7 @@ class TrackingDiagnostics {
 
   // State of the reported period.
   Statistics reported_;
-  ClockWatch reported_clocks_;
+  HostClockCheck reported_clocks_;
   ros::SteadyTime since_ = ros::SteadyTime::now();
   double period_ = 0.0;  // [s]
 };

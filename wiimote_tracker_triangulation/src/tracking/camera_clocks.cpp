@@ -23,9 +23,9 @@ double squared(double x) {
 
 }  // namespace
 
-ClockOffset::Estimate CameraClocks::correctionOf(std::size_t camera,
-                                                 std::uint32_t epoch,
-                                                 bool is_known) {
+ClockRegression::Estimate CameraClocks::correctionOf(std::size_t camera,
+                                                     std::uint32_t epoch,
+                                                     bool is_known) {
   Clock& clock = clocks_[camera];
   if (clock.epoch != epoch || clock.is_known != is_known) {
     if (!clock.is_known || !is_known) {
@@ -39,23 +39,17 @@ ClockOffset::Estimate CameraClocks::correctionOf(std::size_t camera,
   return clock.correction();
 }
 
-/// What is left of a camera's offset after the correction so far.
-std::optional<ClockOffset::Estimate> CameraClocks::remainderOf(std::size_t camera,
-                                                               const CameraFit& fit) const {
-  return fit.isMisfit() ? std::nullopt : fit.clock.estimate(turn_stddevs_[camera]);
-}
-
 double CameraClocks::errorOf(std::size_t camera) const {
   const Clock& clock = clocks_[camera];
   return clock.is_known ? clock.correction().offset : 0.0;
 }
 
 /// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
-ClockOffset::Estimate CameraClocks::commonRemainder(const std::vector<CameraFit>& fits) {
+ClockRegression::Estimate CameraClocks::commonRemainder() {
   double variances = 0.0;
   double count = 0.0;
   const double common = medianOf([&](std::size_t i) -> std::optional<double> {
-    const auto remainder = remainderOf(i, fits[i]);
+    const auto& remainder = remainders_[i];
     if (!remainder)
       return std::nullopt;
     variances += remainder->variance + remainder->bias;
@@ -65,15 +59,19 @@ ClockOffset::Estimate CameraClocks::commonRemainder(const std::vector<CameraFit>
   return {common, count > 0.0 ? variances / (count * count) : 0.0};
 }
 
-void CameraClocks::update(const std::vector<CameraFit>& fits) {
-  if (std::none_of(fits.begin(), fits.end(), [](auto& fit) { return fit.clock.count() >= kSpots; }))
+void CameraClocks::update(const std::vector<CameraFit>& fits,
+                          const std::vector<ClockRegression>& regressions) {
+  if (std::none_of(regressions.begin(), regressions.end(),
+                   [](auto& regression) { return regression.count() >= kSpots; }))
     return;
-  const ClockOffset::Estimate common = commonRemainder(fits);
+  for (std::size_t i = 0; i < fits.size(); ++i)
+    remainders_[i] = fits[i].isMisfit() ? std::nullopt : regressions[i].estimate(turn_stddevs_[i]);
+  const ClockRegression::Estimate common = commonRemainder();
   for (std::size_t i = 0; i < fits.size(); ++i) {
-    const auto remainder = remainderOf(i, fits[i]);
+    const auto& remainder = remainders_[i];
     if (!remainder)
       continue;
-    ClockOffset::Estimate& offset = clocks_[i].offset;
+    ClockRegression::Estimate& offset = clocks_[i].offset;
     const double seen = clocks_[i].correction().offset + remainder->offset - common.offset;
     const double innovation = seen - offset.offset;
     if (squared(innovation) <= 4.0 * remainder->bias)

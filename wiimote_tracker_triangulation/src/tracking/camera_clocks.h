@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
 
 #include "camera_fit.h"
-#include "clock_offset.h"
+#include "clock_regression.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -21,21 +21,21 @@ namespace wiimote_tracker::tracking {
 class CameraClocks {
  public:
   explicit CameraClocks(std::size_t cameras)
-      : turn_stddevs_(cameras), clocks_(cameras), sorted_(cameras) {}
+      : turn_stddevs_(cameras), clocks_(cameras), remainders_(cameras), sorted_(cameras) {}
 
-  /// @param turn_stddevs of each camera, see ClockOffset::estimate().
+  /// @param turn_stddevs of each camera, see ClockRegression::estimate().
   void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
 
   /// To be subtracted from the times of a camera's images; its variance is for their deviation.
   /// @param is_known whether the rig's time offset holds in this epoch of the clock
-  ClockOffset::Estimate correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
+  ClockRegression::Estimate correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
 
   /// By how much the times of a camera with a known offset are too late [s]; 0 if it is little.
   double errorOf(std::size_t camera) const;
 
   /// Corrects the offsets once LEDs have moved enough since the last time.
-  /// @param fits of all cameras to images with the corrections so far
-  void update(const std::vector<CameraFit>& fits);
+  /// @param fits, regressions of all cameras, the latter of images with the corrections so far
+  void update(const std::vector<CameraFit>& fits, const std::vector<ClockRegression>& regressions);
 
   /// Changes with the corrections.
   std::uint32_t version() const { return version_; }
@@ -45,20 +45,21 @@ class CameraClocks {
     std::uint32_t epoch = 0;
     bool is_known = true;
     bool is_used = false;  // the offset corrects the images: it is unknown or large
-    ClockOffset::Estimate offset{0.0, 0.0};
-    ClockOffset::Estimate correction() const {
-      return is_used ? offset : ClockOffset::Estimate{0.0, 0.0};
+    ClockRegression::Estimate offset{0.0, 0.0};
+    ClockRegression::Estimate correction() const {
+      return is_used ? offset : ClockRegression::Estimate{0.0, 0.0};
     }
   };
 
   template <typename ValueOf>
   double medianOf(const ValueOf& value_of);
 
-  std::optional<ClockOffset::Estimate> remainderOf(std::size_t camera, const CameraFit& fit) const;
-  ClockOffset::Estimate commonRemainder(const std::vector<CameraFit>& fits);
+  using Remainders = std::vector<std::optional<ClockRegression::Estimate>>;
+  ClockRegression::Estimate commonRemainder();
 
   std::vector<double> turn_stddevs_;  // per camera
   std::vector<Clock> clocks_;         // the same
+  Remainders remainders_;             // per camera, of the last update()
   std::vector<double> sorted_;        // [s]
   std::uint32_t version_ = 0;
 };

@@ -1,8 +1,6 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
 
-#include "clock_offset.h"
-
 #include <algorithm>
 #include <cstddef>
 
@@ -10,8 +8,7 @@ namespace wiimote_tracker::tracking {
 
 /// How a camera's images fit the LEDs that other cameras see.
 ///
-/// A camera that was moved or exchanged shows spots where no LED is, and none where LEDs are. One
-/// whose images have wrong times shows each LED off along its motion.
+/// A camera that was moved or exchanged shows spots where no LED is, and none where LEDs are.
 class CameraFit {
  public:
   struct Limits {
@@ -56,8 +53,6 @@ class CameraFit {
 
   /// Of the newest image.
   std::size_t unassigned() const { return unassigned_; }
-
-  ClockOffset clock;  ///< Since the last correction of the clocks.
 
  private:
   Limits limits_;

@@ -80,6 +80,7 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
                          const TrackerOptions& options)
     : options_(options), members_(members), clocks_(members.size()) {
   state_.fits.resize(members_.size(), newFit());
+  state_.clock_regressions.resize(members_.size());
   state_.unassigned.resize(members_.size());
   useRig(rig, partners);
 }
@@ -100,8 +101,10 @@ void CameraGroup::useRig(const geometry::Rig& rig,
     // The rays of unassigned spots are those of the former cameras.
     std::fill(state->unassigned.begin(), state->unassigned.end(), UnassignedSpots());
     for (std::size_t i = 0; i < before.size(); ++i) {
-      if (isMoved(before[i].forRays(), cameras_[i].forRays()))
-        state->fits[i] = newFit();
+      if (!isMoved(before[i].forRays(), cameras_[i].forRays()))
+        continue;
+      state->fits[i] = newFit();
+      state->clock_regressions[i] = ClockRegression();
     }
   };
   adapt(&state_);
@@ -147,7 +150,7 @@ void CameraGroup::update(Ids* ids, std::vector<CameraView>* views) {
     step(history_.images().at(next_step_), ids, views);
   }
   if (state_.clocks == clocks_.version())
-    clocks_.update(state_.fits);
+    clocks_.update(state_.fits, state_.clock_regressions);
 }
 
 /// Finds an image of the same camera at nearly the same time. A busy computer delivers delayed
@@ -170,11 +173,11 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   const GroupCamera& camera = cameras_[image.camera];
   std::vector<Track>& tracks = state_.tracks;
   if (image.clocks != state_.clocks) {
-    for (CameraFit& fit : state_.fits)
-      fit.clock = ClockOffset();
+    std::fill(state_.clock_regressions.begin(), state_.clock_regressions.end(), ClockRegression());
     state_.clocks = image.clocks;
   }
-  update_->apply(camera, image, &state_.fits, &tracks, &state_.pairs);
+  update_->apply(camera, image, &state_.fits, &state_.clock_regressions[image.camera], &tracks,
+                 &state_.pairs);
   removeMergedPairs(image.time);
   show(image, views);
   collectUnassigned(image);

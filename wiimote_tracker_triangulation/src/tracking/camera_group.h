@@ -78,9 +78,10 @@ class CameraGroup {
   struct State {
     std::vector<Track> tracks;
     std::vector<MergedPair> pairs;
-    std::vector<UnassignedSpots> unassigned;  // per camera
-    std::vector<CameraFit> fits;              // per camera
-    std::uint32_t clocks = 0;                 // version of the corrections of their clocks
+    std::vector<UnassignedSpots> unassigned;         // per camera
+    std::vector<CameraFit> fits;                     // per camera
+    std::vector<ClockRegression> clock_regressions;  // per camera, since the last correction
+    std::uint32_t clocks = 0;                        // version of the corrections of their clocks
   };
 
   CameraFit newFit() const;

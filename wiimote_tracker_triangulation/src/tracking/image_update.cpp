@@ -20,6 +20,7 @@ ImageUpdate::ImageUpdate(const geometry::Rig& rig,
 void ImageUpdate::apply(const GroupCamera& camera,
                         const StoredImage& image,
                         std::vector<CameraFit>* fits,
+                        ClockRegression* clock,
                         std::vector<Track>* tracks,
                         std::vector<MergedPair>* pairs) {
   camera_ = &camera;
@@ -29,7 +30,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
   collectCandidates();
   assign();
   measureFit(fits);
-  measureClock(&(*fits)[image.camera]);
+  measureClock(clock);
   if ((*fits)[image.camera].isMisfit() && fits->size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
     return;
@@ -145,7 +146,7 @@ bool ImageUpdate::isExplained(const Candidate& candidate) const {
 }
 
 /// Compares the image with the motion of LEDs that two other cameras see.
-void ImageUpdate::measureClock(CameraFit* fit) const {
+void ImageUpdate::measureClock(ClockRegression* clock) const {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
@@ -154,7 +155,7 @@ void ImageUpdate::measureClock(CameraFit* fit) const {
     const auto residual = residualOf(candidate);
     if (!residual || !(track.filter.velocity().norm() >= kLeastSpeed))
       continue;
-    fit->clock.add(candidate.prediction.pixel(), candidate.prediction.velocity(), *residual);
+    clock->add(candidate.prediction.pixel(), candidate.prediction.velocity(), *residual);
   }
 }
 

@@ -3,6 +3,7 @@
 
 #include "association/assign_spots.h"
 #include "camera_fit.h"
+#include "clock_regression.h"
 #include "group_camera.h"
 #include "merged_pair.h"
 #include "stored_image.h"
@@ -30,9 +31,11 @@ class ImageUpdate {
   /// If the image does not fit, all its spots are false detections; but those of one of only two
   /// cameras are used, or it would never be known to fit again.
   /// @param fits one per camera of the group; that of the image's is updated
+  /// @param clock of the image's camera
   void apply(const GroupCamera& camera,
              const StoredImage& image,
              std::vector<CameraFit>* fits,
+             ClockRegression* clock,
              std::vector<Track>* tracks,
              std::vector<MergedPair>* pairs);
 
@@ -61,7 +64,7 @@ class ImageUpdate {
   void assignSpot(std::size_t spot, Candidate* candidate);
   void measureFit(std::vector<CameraFit>* fits) const;
   bool isExplained(const Candidate& candidate) const;
-  void measureClock(CameraFit* fit) const;
+  void measureClock(ClockRegression* clock) const;
   bool isBeside(const Candidate& candidate, double distance) const;
   std::optional<Eigen::Vector2d> residualOf(const Candidate& candidate) const;
   std::optional<std::size_t> nearestUnassigned(const Eigen::Vector2d& pixel, double distance) const;

@@ -3,7 +3,7 @@
 #include "association/shared_views.h"
 #include "camera_group.h"
 #include "ids.h"
-#include "tracking/time_watch.h"
+#include "tracking/arrival_clocks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -80,8 +80,8 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
       places_[members[i]] = Place{groups_.size(), i};
     groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, options_));
   }
-  time_watch_ = std::make_unique<TimeWatch>(rig_.cameras.size(),
-                                            time_watch_ ? time_watch_->newestUsed() : kNever);
+  arrival_clocks_ = std::make_unique<ArrivalClocks>(
+      rig_.cameras.size(), arrival_clocks_ ? arrival_clocks_->newestUsed() : kNever);
   views_.assign(rig_.cameras.size(), CameraView());
 }
 
@@ -111,20 +111,20 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   Place& place = places_[camera];
   CameraGroup& group = *groups_[place.group];
   const bool offset_known = !calibration.hasNewClock(image.clock_epoch);
-  const ClockOffset::Estimate clock =
+  const ClockRegression::Estimate clock =
       group.clocks().correctionOf(place.member, image.clock_epoch, offset_known);
   const double time = image.stamp + offset - clock.offset;
   if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
     ++counters_.dropped;
     return;
   }
-  const TimeWatch::Result result = time_watch_->check(camera, image.arrival + offset);
-  counters_.disordered += time_watch_->isDisordered();
-  if (result == TimeWatch::Result::kWrongClock) {
+  const ArrivalClocks::Result result = arrival_clocks_->check(camera, image.arrival + offset);
+  counters_.disordered += arrival_clocks_->isDisordered();
+  if (result == ArrivalClocks::Result::kWrongClock) {
     ++counters_.dropped;
     return;
   }
-  if (result == TimeWatch::Result::kJumpedBack) {
+  if (result == ArrivalClocks::Result::kJumpedBack) {
     ++counters_.resets;
     for (const auto& each : groups_)
       each->clear();
@@ -258,7 +258,7 @@ void Tracker::addLost() {
 }
 
 std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
-  if (const std::optional<double> ahead = time_watch_->ahead(camera))
+  if (const std::optional<double> ahead = arrival_clocks_->ahead(camera))
     return CameraFault{CameraFault::Kind::kWrongClock, *ahead};
   // More than a driver reads at once after a pause.
   constexpr std::size_t kManyLate = 100;

@@ -1,7 +1,7 @@
 // Parts of the node besides tracking and labels: bad images, clocks, lenses, statistics, load.
 #include "geometry/random_rigs.h"
 #include "ros/camera_info.h"
-#include "ros/clock_watch.h"
+#include "ros/host_clock_check.h"
 #include "ros/image_message.h"
 #include "ros/lens_check.h"
 #include "ros/load_shedding.h"
@@ -148,57 +148,57 @@ TEST(ImageMessage, UnusableImagesAreNamed) {
   says(message, ImageFault::kOtherSize, "4294967295");
 }
 
-TEST(ClockWatch, FindsNothingWhereClocksAgree) {
-  ClockWatch watch(0.02);
-  watch.clear(3);
-  EXPECT_FALSE(watch.ahead(0)) << "nothing known";
+TEST(HostClockCheck, FindsNothingWhereClocksAgree) {
+  HostClockCheck clocks(0.02);
+  clocks.clear(3);
+  EXPECT_FALSE(clocks.ahead(0)) << "nothing known";
   for (int i = 0; i < 100; ++i) {
-    watch.add(0, 0.001 + 0.0001 * i);
-    watch.add(1, 0.5 - 0.0049 * i);  // mostly slow
+    clocks.add(0, 0.001 + 0.0001 * i);
+    clocks.add(1, 0.5 - 0.0049 * i);  // mostly slow
   }
   for (std::size_t camera = 0; camera < 3; ++camera)
-    EXPECT_FALSE(watch.ahead(camera)) << camera;
+    EXPECT_FALSE(clocks.ahead(camera)) << camera;
 }
 
-TEST(ClockWatch, FindsAClockThatIsAhead) {
-  ClockWatch watch(0.02);
-  watch.clear(3);
-  watch.add(0, 0.001);
-  watch.add(1, -0.1);
-  watch.add(2, 0.002);
-  EXPECT_FALSE(watch.ahead(0));
-  ASSERT_TRUE(watch.ahead(1));
-  EXPECT_NEAR(0.1, *watch.ahead(1), 1e-12);
-  EXPECT_FALSE(watch.ahead(2));
+TEST(HostClockCheck, FindsAClockThatIsAhead) {
+  HostClockCheck clocks(0.02);
+  clocks.clear(3);
+  clocks.add(0, 0.001);
+  clocks.add(1, -0.1);
+  clocks.add(2, 0.002);
+  EXPECT_FALSE(clocks.ahead(0));
+  ASSERT_TRUE(clocks.ahead(1));
+  EXPECT_NEAR(0.1, *clocks.ahead(1), 1e-12);
+  EXPECT_FALSE(clocks.ahead(2));
   // Stamps in the future, also without other cameras to compare with.
-  watch.clear(1);
-  watch.add(0, -0.1);
-  ASSERT_TRUE(watch.ahead(0));
+  clocks.clear(1);
+  clocks.add(0, -0.1);
+  ASSERT_TRUE(clocks.ahead(0));
 }
 
-TEST(ClockWatch, FindsTheOneThatIsBehindTheOthers) {
-  ClockWatch watch(0.02);
-  watch.clear(4);
+TEST(HostClockCheck, FindsTheOneThatIsBehindTheOthers) {
+  HostClockCheck clocks(0.02);
+  clocks.clear(4);
   for (std::size_t camera = 0; camera < 4; ++camera)
-    watch.add(camera, camera == 2 ? 0.3 : 0.001);
-  EXPECT_FALSE(watch.ahead(0));
-  ASSERT_TRUE(watch.ahead(2));
-  EXPECT_NEAR(-0.299, *watch.ahead(2), 1e-12);
+    clocks.add(camera, camera == 2 ? 0.3 : 0.001);
+  EXPECT_FALSE(clocks.ahead(0));
+  ASSERT_TRUE(clocks.ahead(2));
+  EXPECT_NEAR(-0.299, *clocks.ahead(2), 1e-12);
   // Of two, it is the one whose images take longer.
-  watch.clear(2);
-  watch.add(0, 0.3);
-  watch.add(1, 0.001);
-  EXPECT_TRUE(watch.ahead(0));
-  EXPECT_FALSE(watch.ahead(1));
+  clocks.clear(2);
+  clocks.add(0, 0.3);
+  clocks.add(1, 0.001);
+  EXPECT_TRUE(clocks.ahead(0));
+  EXPECT_FALSE(clocks.ahead(1));
 }
 
-TEST(ClockWatch, ACommonDelayIsNoClockError) {
-  ClockWatch watch(0.02);
-  watch.clear(3);
+TEST(HostClockCheck, ACommonDelayIsNoClockError) {
+  HostClockCheck clocks(0.02);
+  clocks.clear(3);
   for (std::size_t camera = 0; camera < 3; ++camera)
-    watch.add(camera, 1.7e9);  // a bag without its clock
+    clocks.add(camera, 1.7e9);  // a bag without its clock
   for (std::size_t camera = 0; camera < 3; ++camera)
-    EXPECT_FALSE(watch.ahead(camera));
+    EXPECT_FALSE(clocks.ahead(camera));
 }
 
 TEST(LensCheck, AgreesWithTheSameLensAndWithAnUnknownOne) {

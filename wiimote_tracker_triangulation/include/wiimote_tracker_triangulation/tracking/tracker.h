@@ -16,7 +16,7 @@ namespace wiimote_tracker::tracking {
 
 class CameraGroup;
 class Ids;
-class TimeWatch;
+class ArrivalClocks;
 struct StoredImage;
 
 /// Tracks LEDs in continuous time. Each image updates the tracks that its camera may see, at once
@@ -71,7 +71,7 @@ class Tracker : public Estimator {
   geometry::Rig rig_;
   std::vector<std::unique_ptr<CameraGroup>> groups_;
   std::vector<Place> places_;  // per camera of the rig
-  std::unique_ptr<TimeWatch> time_watch_;
+  std::unique_ptr<ArrivalClocks> arrival_clocks_;
   std::unique_ptr<Ids> ids_;
   std::optional<geometry::CalibrationUncertainty> uncertainty_;  // never empty
   std::vector<CameraView> views_;

@@ -1,4 +1,4 @@
-#include "tracking/time_watch.h"
+#include "tracking/arrival_clocks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-TimeWatch::TimeWatch(std::size_t cameras, double newest_used)
+ArrivalClocks::ArrivalClocks(std::size_t cameras, double newest_used)
     : cameras_(cameras),
       pairs_(cameras * cameras),
       votes_(cameras),
@@ -20,7 +20,7 @@ TimeWatch::TimeWatch(std::size_t cameras, double newest_used)
     camera.furthest = newest_used;
 }
 
-TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
+ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, double arrival) {
   if (awaited_ > 0)
     --awaited_;
   if (comparePairs(camera, arrival))
@@ -46,20 +46,20 @@ TimeWatch::Result TimeWatch::check(std::size_t camera, double arrival) {
 }
 
 /// One image that is older than those before does not set the camera back; two in a row do.
-void TimeWatch::note(double arrival, Camera* camera) {
+void ArrivalClocks::note(double arrival, Camera* camera) {
   const bool is_behind = camera->newest && arrival < *camera->newest - kTolerance;
   if (is_behind ? camera->was_behind : arrival > camera->newest.value_or(-kInfinity))
     camera->newest = arrival;
   camera->was_behind = is_behind;
 }
 
-void TimeWatch::noteProgress(double arrival, bool is_present, Camera* camera) {
+void ArrivalClocks::noteProgress(double arrival, bool is_present, Camera* camera) {
   if (is_present)
     camera->furthest = std::max(camera->furthest, arrival);
   camera->waited = is_present ? 0 : std::min(camera->waited + 1, kLongestBacklog + 1);
 }
 
-void TimeWatch::Pair::add(double lead) {
+void ArrivalClocks::Pair::add(double lead) {
   if (recent[0].count == kWindow) {
     recent[1] = recent[0];
     recent[0] = Leads();
@@ -72,12 +72,12 @@ void TimeWatch::Pair::add(double lead) {
     agrees = 4 * (recent[0].near + recent[1].near) > total;
 }
 
-std::size_t TimeWatch::indexOf(std::size_t a, std::size_t b) const {
+std::size_t ArrivalClocks::indexOf(std::size_t a, std::size_t b) const {
   return std::min(a, b) * cameras_.size() + std::max(a, b);
 }
 
 /// Nothing while one of the two is silent, or if they are one.
-const TimeWatch::Pair* TimeWatch::activePair(std::size_t a, std::size_t b) const {
+const ArrivalClocks::Pair* ArrivalClocks::activePair(std::size_t a, std::size_t b) const {
   const Pair& pair = pairs_[indexOf(a, b)];
   return pair.recent[0].count > 0 && pair.unanswered[0] <= kSilence &&
                  pair.unanswered[1] <= kSilence
@@ -85,14 +85,14 @@ const TimeWatch::Pair* TimeWatch::activePair(std::size_t a, std::size_t b) const
              : nullptr;
 }
 
-bool TimeWatch::doAgree(std::size_t a, std::size_t b) const {
+bool ArrivalClocks::doAgree(std::size_t a, std::size_t b) const {
   const Pair* pair = activePair(a, b);
   return pair && pair->agrees;
 }
 
 /// Compares the camera's new image with the others' newest. @returns whether anything changed that
 /// matters for vote().
-bool TimeWatch::comparePairs(std::size_t camera, double arrival) {
+bool ArrivalClocks::comparePairs(std::size_t camera, double arrival) {
   bool changed = false;
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
     if (other == camera || !cameras_[other].newest)
@@ -117,7 +117,7 @@ bool TimeWatch::comparePairs(std::size_t camera, double arrival) {
   return changed;
 }
 
-void TimeWatch::vote() {
+void ArrivalClocks::vote() {
   const std::size_t n = cameras_.size();
   for (std::size_t i = 0; i < n; ++i) {
     votes_[i] = 1;
@@ -137,7 +137,7 @@ void TimeWatch::vote() {
 
 /// Whether a camera agrees with both. Then these two are not of two groups: when a network becomes
 /// slow, its camera disagrees with one of the others first.
-bool TimeWatch::someAgreesWith(std::size_t a, std::size_t b) const {
+bool ArrivalClocks::someAgreesWith(std::size_t a, std::size_t b) const {
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
     if (doAgree(a, other) && doAgree(b, other))
       return true;
@@ -147,7 +147,7 @@ bool TimeWatch::someAgreesWith(std::size_t a, std::size_t b) const {
 
 /// Whether a camera's image is ahead of most others' and also of its own last one. (If only the
 /// others are delayed, it is not.)
-bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
+bool ArrivalClocks::isOutlier(std::size_t camera, double arrival) const {
   const std::optional<double>& used = cameras_[camera].used;
   if (used && arrival <= *used + kTolerance)
     return false;
@@ -166,7 +166,7 @@ bool TimeWatch::isOutlier(std::size_t camera, double arrival) const {
 /// Whether all trusted cameras that are not silent are back behind the newest image that was used,
 /// or that image came from a camera that is not trusted any more. Images that only waited in a
 /// network are no jump, though they may be so many together that the others seem silent.
-bool TimeWatch::hasJumpedBack(std::size_t camera) const {
+bool ArrivalClocks::hasJumpedBack(std::size_t camera) const {
   if (awaited_ > 0)
     return false;
   const bool is_trusted = cameras_[newest_camera_].trusted;
@@ -182,12 +182,12 @@ bool TimeWatch::hasJumpedBack(std::size_t camera) const {
 }
 
 /// Whether its images go on where they were when the camera was last with the others.
-bool TimeWatch::isBacklog(const Camera& camera) {
+bool ArrivalClocks::isBacklog(const Camera& camera) {
   return camera.furthest > -kInfinity && *camera.newest >= camera.furthest - kTolerance &&
          camera.waited <= kLongestBacklog;
 }
 
-std::optional<double> TimeWatch::ahead(std::size_t camera) const {
+std::optional<double> ArrivalClocks::ahead(std::size_t camera) const {
   if (cameras_[camera].trusted)
     return std::nullopt;
   double sum = 0.0;

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CLOCK_WATCH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CLOCK_WATCH_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_HOST_CLOCK_CHECK_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_HOST_CLOCK_CHECK_H
 
 #include <algorithm>
 #include <cmath>
@@ -13,10 +13,10 @@ namespace wiimote_tracker {
 /// by the camera's computer and is handled at a time of this computer: the difference is the
 /// transport delay plus the clock offset. The shortest of many delays is short and nearly the same
 /// for all cameras.
-class ClockWatch {
+class HostClockCheck {
  public:
   /// `tolerance`: smaller offsets may be transport delays [s].
-  explicit ClockWatch(double tolerance) : tolerance_(tolerance) {}
+  explicit HostClockCheck(double tolerance) : tolerance_(tolerance) {}
 
   void clear(std::size_t cameras) { shortest_.assign(cameras, std::nullopt); }
 
@@ -57,4 +57,4 @@ class ClockWatch {
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CLOCK_WATCH_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_HOST_CLOCK_CHECK_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ARRIVAL_CLOCKS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ARRIVAL_CLOCKS_H
 
 #include <array>
 #include <cstddef>
@@ -18,15 +18,15 @@ namespace wiimote_tracker::tracking {
 /// the recent comparisons are within kTolerance. Images of a camera that come together after a
 /// pause count as one. The largest group of cameras that agree is trusted; none if two groups are
 /// equally large. Two that disagree but both agree with a third are not yet of two groups.
-class TimeWatch {
+class ArrivalClocks {
  public:
   static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
   static constexpr double kJump = 0.1;        ///< Least jump back [s].
 
-  /// @param newest_used newestUsed() of a watch that this one follows, of other cameras. A jump
+  /// @param newest_used newestUsed() of those that these follow, of other cameras. A jump
   /// back behind it is recognised when each camera had time for two images.
-  explicit TimeWatch(std::size_t cameras,
-                     double newest_used = -std::numeric_limits<double>::infinity());
+  explicit ArrivalClocks(std::size_t cameras,
+                         double newest_used = -std::numeric_limits<double>::infinity());
 
   enum class Result {
     kUsable,
@@ -107,4 +107,4 @@ class TimeWatch {
 
 }  // namespace wiimote_tracker::tracking
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TIME_WATCH_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ARRIVAL_CLOCKS_H

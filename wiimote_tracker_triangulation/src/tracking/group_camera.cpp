@@ -27,6 +27,8 @@ double squaredCosineOfView(const geometry::Intrinsics& lens) {
 GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index, const TrackerOptions& options)
     : pixel_stddev_(
           geometry::pixelNoise(rig.cameras[index], options.learnt_noise, options.pixel_stddev)),
+      // Rays also miss each other by errors of calibration and time, however exact the spots are.
+      ray_stddev_(std::max(pixel_stddev_, options.pixel_stddev)),
       masks_(rig.cameras[index].masks),
       for_rays_(rig.rayCamera(rig.cameras[index])),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
@@ -52,6 +54,7 @@ RayOffset GroupCamera::rayOffset(const Eigen::Vector3d& led,
   result.offset =
       depth * (residual.x() / lens.fx * axes.col(0) + residual.y() / lens.fy * axes.col(1));
   result.scale = depth / lens.fx;
+  result.pixel_stddev = ray_stddev_;
   return result;
 }
 

@@ -40,6 +40,7 @@ class GroupCamera {
 
  private:
   double pixel_stddev_;  // [px]
+  double ray_stddev_;    // [px]
   std::vector<geometry::ImageMask> masks_;
   geometry::Camera for_rays_;
   double squared_cosine_;  // of the cone around the view; 0: no limit

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kMemory = 3.0;  // spots of one camera
 
-// Distances of two lights are uniform over what the gate of track initiation allows [px]: from
-// -sqrt(30) to sqrt(30) times 4 px (maximum_pair_chi_squared, birth_pixel_stddev).
+// Distances of two lights are uniform over what the gate of track initiation allows by default
+// [px]: from -sqrt(30) to sqrt(30) times 4 px (maximum_pair_chi_squared, birth_pixel_stddev).
 constexpr double kRange = 44.0;
 
 constexpr double kCorrelationTime = 0.2;  // of distances [s]
@@ -27,6 +27,7 @@ void RayOffset::add(const RayOffset& spot) {
   offset += (spot.offset - offset) / count;
   direction = spot.direction;
   scale = spot.scale;
+  pixel_stddev = spot.pixel_stddev;
 }
 
 double distanceOf(const RayOffset& a, const RayOffset& b) {
@@ -36,6 +37,11 @@ double distanceOf(const RayOffset& a, const RayOffset& b) {
   const double sine = normal.norm();
   const double distance = sine < kLeastSine ? difference.norm() : normal.dot(difference) / sine;
   return distance / std::hypot(a.scale, b.scale);
+}
+
+double stddevOf(const RayOffset& a, const RayOffset& b) {
+  return std::hypot(a.scale * a.pixel_stddev, b.scale * b.pixel_stddev) /
+         std::hypot(a.scale, b.scale);
 }
 
 void RayAgreement::weigh(double distance, double stddev, double time) {

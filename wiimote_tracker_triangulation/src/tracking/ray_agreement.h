@@ -13,6 +13,7 @@ struct RayOffset {
   Eigen::Vector3d direction = Eigen::Vector3d::Zero();  ///< From the camera to the LED, length 1.
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();     ///< Parallel to the image plane [m].
   double scale = 1.0;                                   ///< Of the image, at the LED [m/px].
+  double pixel_stddev = 1.0;                            ///< Of one spot [px].
   double count = 0.0;                                   ///< Of the spots, at most the memory's.
 
   void add(const RayOffset& spot);
@@ -22,6 +23,9 @@ struct RayOffset {
 /// deviation that a pixel error of 1 px in each camera causes: of an LED, an error in pixels.
 /// Motion that the predictions did not expect moves both rays alike and does not count.
 double distanceOf(const RayOffset& a, const RayOffset& b);
+
+/// Standard deviation of this distance by the noise of both cameras [px].
+double stddevOf(const RayOffset& a, const RayOffset& b);
 
 /// Evidence that the two cameras that see a track see one LED, rather than a light each, such as a
 /// reflection: rays of two lights seldom meet for long. The log odds of the two hypotheses, summed

@@ -193,7 +193,7 @@ void Track::weighRays(double time, const TrackerOptions& options) {
     ++count;
   }
   if (count == 2 && rays[0]->count > 0.0 && rays[1]->count > 0.0)
-    agreement_.weigh(distanceOf(*rays[0], *rays[1]), options.pixel_stddev, time);
+    agreement_.weigh(distanceOf(*rays[0], *rays[1]), stddevOf(*rays[0], *rays[1]), time);
   else if (count > 2)
     agreement_.weigh(0.0, options.pixel_stddev, time);
   else

@@ -63,6 +63,22 @@ TEST(TrackerPhantoms, AnLedThatIsHiddenFromTheOtherCamerasIsConfirmedLater) {
   }
 }
 
+/// The calibration tells how inexact the cameras' spots are.
+TEST(TrackerPhantoms, SoIsOneBeforeNoisyCameras) {
+  constexpr double kNoise = 1.5;  // five times that of the options [px]
+  geometry::Rig rig = paperRig();
+  for (geometry::RigCamera& camera : rig.cameras) {
+    camera.inliers = 1000;
+    camera.residual_px = std::sqrt(2.0) * kNoise;
+  }
+  const std::vector<Path> leds = wanderers(2, 4, 0.3);
+  SceneOptions options;
+  options.pixel_noise = kNoise;
+  options.hidden = [](std::size_t camera, std::size_t, double) { return camera >= 2; };
+  const PhantomRows rows = rowsOf(rig, leds, leds, options, 4000, 4);
+  EXPECT_GE(rows.tracked, 2u * 4000 * 85 / 100);  // all but the first second or so of 10 s
+}
+
 TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
   const Eigen::Vector3d place(1.25, 1.25, 1.0);
   geometry::Rig rig = paperRig();

@@ -255,6 +255,23 @@ TEST_F(Rooms, AreJoinedOverTheCamerasThatTheyShare) {
   EXPECT_TRUE(waitForStep(CalibrationStatus::SOLVED));  // and not saved yet
 }
 
+TEST_F(Rooms, KeepTheMasksOfTheFirst) {
+  use(room({2, 3}, secondWorld()));
+  geometry::Rig first = room({0, 1, 2}, Eigen::Isometry3d::Identity());
+  for (geometry::RigCamera& camera : first.cameras)
+    camera.masks = {{{1000.0, 20.0}, 5.0}};
+  geometry::writeRigFile(first, folder_ + "/first.yaml");
+  const auto joined = join("first.yaml");
+  ASSERT_TRUE(joined.success) << joined.message;
+  EXPECT_EQ(joined.rig.cameras[0].masks.size(), 1U);
+  // The images have them, too.
+  EXPECT_TRUE(waitUntil([] {
+    const auto status = status_->get();
+    return status->cameras[0].masks == 1 && status->cameras[1].masks == 1 &&
+           status->cameras[2].masks == 1 && status->cameras[3].masks == 0;
+  }));
+}
+
 TEST_F(Rooms, WithoutASharedCameraAreJoinedOverKnownPlaces) {
   geometry::writeRigFile(room({0, 1}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");
   use(room({2, 3}, secondWorld()));

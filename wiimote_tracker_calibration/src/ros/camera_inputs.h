@@ -91,6 +91,10 @@ class CameraInputs {
 
   /// Light in these regions is ignored from the next image on. Lock the mutex.
   void setMasks(const capture::Masks& masks) { masks_ = masks; }
+  /// Same for one camera.
+  void setMasks(const std::string& camera, const std::vector<geometry::ImageMask>& masks) {
+    masks_[camera] = masks;
+  }
   const capture::Masks& masks() const { return masks_; }
 
   /// Forgets all accelerometer readings. Lock the mutex.

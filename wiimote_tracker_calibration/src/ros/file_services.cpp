@@ -149,14 +149,8 @@ class FileServices {
       const geometry::Rig rig =
           context_.compute(&lock, [&] { return geometry::readRigFile(path); });
       const Reply reply = context_.calibration(lock).load(rig);
-      if (reply.success) {
-        // The lamps of the room belong to the rig.
-        capture::Masks masks = context_.inputs().masks();
-        for (const geometry::RigCamera& camera : rig.cameras)
-          masks[camera.camera.name] = camera.masks;
-        context_.inputs().setMasks(masks);
+      if (reply.success)
         context_.publishRig(session::verdictOf(rig), lock);
-      }
       return reply;
     });
   }

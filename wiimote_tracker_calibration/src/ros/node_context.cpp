@@ -161,10 +161,8 @@ session::Session NodeContext::session(const Lock& lock) const {
 workflow::Reply NodeContext::setSession(const session::Session& session, const Lock&) {
   const workflow::Reply reply = calibration_.restore(session);
   if (reply.success) {
-    capture::Masks masks = inputs_.masks();
     for (std::size_t i = 0; i < session.masks.size(); ++i)
-      masks[session.recording.cameras[i].sightings.name] = session.masks[i];
-    inputs_.setMasks(masks);
+      inputs_.setMasks(session.recording.cameras[i].sightings.name, session.masks[i]);
   }
   return reply;
 }
@@ -207,6 +205,9 @@ void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
   verdict_ = verdict;
   walk_is_wanted_ = false;
   const geometry::Rig& rig = *calibration_.rig();
+  // The lamps of the room belong to the rig.
+  for (const geometry::RigCamera& camera : rig.cameras)
+    inputs_.setMasks(camera.camera.name, camera.masks);
   // The transforms first: whoever receives the rig finds them.
   transforms_.sendTransform(staticTransforms(rig));
   rig_publisher_.publish(toMessage(rig));

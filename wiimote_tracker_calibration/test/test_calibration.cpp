@@ -314,6 +314,7 @@ TEST_F(Workflow, CancelStopsALongTaskFirst) {
   EXPECT_EQ(calibration_.step(), Step::kSolving);
   EXPECT_SAYS(calibration_.undo().message, "the solver runs");
   EXPECT_SAYS(calibration_.begin(Step::kMasking, "").message, "the solver runs");
+  EXPECT_THROW(calibration_.requireIdle(), Error);
   EXPECT_TRUE(calibration_.cancel().success);
   EXPECT_FALSE(calibration_.isBusyWith(Step::kSolving));
   // It takes its time to stop; nothing else begins meanwhile, and nothing is dropped.
@@ -322,6 +323,7 @@ TEST_F(Workflow, CancelStopsALongTaskFirst) {
   EXPECT_TRUE(calibration_.cancel().success);
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
   calibration_.end({false, "it was cancelled"});
+  EXPECT_NO_THROW(calibration_.requireIdle());
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   // So was this cancel, which came after the solver had stopped.
   EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");

@@ -20,6 +20,7 @@
 #include <wiimote_tracker_msgs/StartWave.h>
 #include <opencv2/core.hpp>
 
+#include <future>
 #include <memory>
 #include <mutex>
 #include <new>
@@ -238,6 +239,27 @@ TEST_F(ThrownErrors, AWaveIsRefusedWhenAnotherCalibrationIsStarted) {
   EXPECT_SAYS(reply.message, "what was captured has changed meanwhile");
   EXPECT_TRUE(waitForStep(CalibrationStatus::READY));
   EXPECT_TRUE(replyTo<std_srvs::Trigger>("calibration/cancel").success);
+}
+
+TEST_F(ThrownErrors, NothingElseChangesTheRigWhileTheSolverRuns) {
+  captureAll();
+  ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
+  captureAll();
+  // Until then continuous calibration computes with images from before the start.
+  ros::WallDuration(1.0).sleep();
+  std::promise<std::vector<Reply>> promise;
+  setFault([&] {
+    setFault([] {});
+    promise.set_value({replyTo<std_srvs::Trigger>("calibration/clear_masks"),
+                       replyTo<JoinRig>("calibration/join"),
+                       replyTo<FitRemap>("calibration/known_places/fit")});
+  });
+  const auto solved = call<SolveCalibration>("calibration/solve");
+  ASSERT_TRUE(solved.success) << solved.message;
+  for (const Reply& reply : promise.get_future().get()) {
+    EXPECT_FALSE(reply.success);
+    EXPECT_SAYS(reply.message, "the solver runs");
+  }
 }
 
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {

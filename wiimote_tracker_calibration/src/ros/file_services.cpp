@@ -126,6 +126,7 @@ class FileServices {
     Lock lock(context_.mutex());
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
+      context_.calibration(lock).requireIdle();
       const geometry::Rig second = context_.existingRig("to join", lock);
       const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).points();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
@@ -133,6 +134,7 @@ class FileServices {
       rooms::JoinedRigs joined = context_.compute(&lock, [&] {
         return rooms::joinRigs(geometry::readRigFile(path), second, places, stddev);
       });
+      context_.calibration(lock).requireIdle();
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();
       response->rig = toMessage(joined.rig);

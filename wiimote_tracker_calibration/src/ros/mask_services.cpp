@@ -64,10 +64,12 @@ class MaskServices {
   }
 
   workflow::Reply clear() {
-    const Lock lock(context_.mutex());
-    const std::string message = std::string("no light is masked any more") +
-                                (context_.setMasks({}, lock) ? kNoneToBeSaved : "");
-    return context_.show({true, message}, lock);
+    Lock lock(context_.mutex());
+    return context_.answer(&lock, [&] {
+      context_.calibration(lock).requireIdle();
+      const std::string saved = context_.setMasks({}, lock) ? kNoneToBeSaved : "";
+      return context_.calibration(lock).shown({true, "no light is masked any more" + saved});
+    });
   }
 
   workflow::Reply useMasks(const std::map<std::string, capture::LearnedMasks>& learned,

@@ -176,6 +176,7 @@ class PlaceServices {
     Lock lock(context_.mutex());
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = context_.answer(&lock, [&] {
+      context_.calibration(lock).requireIdle();
       const std::string rig_id = context_.existingRig("to correct", lock).id();
       const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).points();
       std::vector<remap::Model> allowed;
@@ -183,6 +184,7 @@ class PlaceServices {
         allowed.push_back(remap::modelFromName(name));
       const remap::FitResult result =
           context_.compute(&lock, [&] { return remap::fitRemap(points, rig_id, allowed); });
+      context_.calibration(lock).requireIdle();
       context_.requireSameRig(rig_id, lock);
       geometry::Rig rig = *context_.rig(lock);
       rig.remap = result.remap;

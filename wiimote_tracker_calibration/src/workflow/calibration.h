@@ -8,6 +8,7 @@
 #include "workflow/captured.h"
 #include "workflow/reply.h"
 
+#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <cstddef>
@@ -115,6 +116,12 @@ class Calibration {
 
   /// Whether the step is running and was not cancelled.
   bool isBusyWith(Step step) const { return busy_ == step && !stopping_; }
+
+  /// @throws Error: a step is running, or has not stopped yet.
+  void requireIdle() const {
+    if (busy_)
+      throw Error(occupied());
+  }
 
   /// Whether kMeasuring, which is running, needs the LED waved.
   bool isWaved() const { return is_waved_; }

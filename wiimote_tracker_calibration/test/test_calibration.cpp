@@ -72,6 +72,26 @@ TEST_F(Workflow, AnExchangedDeviceIsNamed) {
               "camera_2 was first the device 00:00:00:00:00:01, then 00:00:00:00:00:07");
 }
 
+TEST_F(Workflow, AnExchangedDeviceOfRestoredSamplesIsNamed) {
+  captureAll();
+  Calibration restored{CalibrationOptions()};
+  ASSERT_TRUE(restored.restore(calibration_.session(facts_, {})).success);
+  ASSERT_TRUE(restored.beginWave(cameras_, false, std::nullopt, now_).success);
+  restored.addImage({names_[1], now_ += 0.01, 0, {{500.0, 400.0}}, {}, "00:00:00:00:00:07"});
+  ASSERT_TRUE(restored.endWave().success);
+  EXPECT_SAYS(restored.begin(Step::kSolving, "").message,
+              "camera_2 was first the device 00:00:00:00:00:01, then 00:00:00:00:00:07");
+}
+
+TEST_F(Workflow, TheDataAreOfTheDeviceThatTookThem) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
+  calibration_.addImage({names_[1], now_ += 0.01, 0, {{500.0, 400.0}}, {}, "00:00:00:00:00:01"});
+  facts_[names_[1]].identity = "00:00:00:00:00:07";  // connected later
+  const session::Session session = calibration_.session(facts_, {});
+  EXPECT_EQ(session.recording.cameras[1].sightings.identity, "00:00:00:00:00:01");
+}
+
 TEST_F(Workflow, ABadStartKeepsTheRun) {
   EXPECT_SAYS(calibration_.start(2.5, 2.0, names_).message, "and a square of 2.5 m x 2 m");
   ASSERT_TRUE(capture(kCorners[0]).success);

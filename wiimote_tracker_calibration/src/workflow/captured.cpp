@@ -14,6 +14,9 @@ wave::CameraRecording recordingOf(const Captured& captured,
   if (const auto fact = facts.find(name); fact != facts.end())
     camera.sightings = fact->second;
   camera.sightings.name = name;
+  // The one that is connected now may be another.
+  if (const auto device = captured.devices.find(name); device != captured.devices.end())
+    camera.sightings.identity = device->second;
   for (std::size_t c = 0; c < captured.square.corners().size(); ++c) {
     const auto view = captured.square.corners()[c].find(name);
     if (view != captured.square.corners()[c].end())
@@ -103,6 +106,8 @@ Captured fromSession(const session::Session& session,
   for (const wave::CameraRecording& camera : session.recording.cameras) {
     const square::CameraSightings& seen = camera.sightings;
     captured.cameras.push_back(seen.name);
+    if (!seen.identity.empty())
+      captured.devices[seen.name] = seen.identity;
     captured.restored_facts[seen.name] = {seen.name, seen.identity, seen.intrinsics, {},
                                           {},        seen.gravity};
     for (std::size_t c = 0; c < seen.corners.size(); ++c) {

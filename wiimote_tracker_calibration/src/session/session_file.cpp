@@ -172,6 +172,10 @@ void check(const Session& session) {
     require(!name.empty(), "a camera has no name");
     require(names.insert(name).second, "two cameras are called " + name);
     checkCamera(recording.cameras[i], session.masks[i]);
+    const auto& corners = recording.cameras[i].sightings.corners;
+    require(recording.square || std::none_of(corners.begin(), corners.end(),
+                                             [](const auto& corner) { return corner.has_value(); }),
+            "there is no square, but " + name + " saw a corner of it");
     require(recording.cameras[i].sightings.places.size() ==
                 (recording.square ? recording.square->places.size() : 0),
             "the known places are not as many as " + name + " has pixels for");

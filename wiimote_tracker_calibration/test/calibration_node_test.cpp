@@ -1,7 +1,6 @@
 // Drives the calibration node like a person, with cameras that this test plays.
 
 #include "node_fixture.h"
-#include "run_command.h"
 
 #include <geometry_msgs/PolygonStamped.h>
 #include <std_msgs/String.h>
@@ -373,27 +372,6 @@ TEST_F(Node, WithARigInUseTheConnectionCheckBeginsTheWalk) {
   request.duration = 0.3;
   call<CheckConnection>("calibration/check_connection", request);
   EXPECT_TRUE(waitUntil([] { return !status_->get()->walk.empty(); }));
-}
-
-/// Exit status and output of a node that is to end by itself.
-std::pair<int, std::string> outcomeOf(const std::string& environment,
-                                      const std::string& arguments) {
-  return runCommand(environment +
-                    " timeout 60 rosrun wiimote_tracker_calibration calibration_node "
-                    "__ns:=/refused " +
-                    arguments);
-}
-
-TEST_F(Node, BadParametersAndAMissingMasterEndItWithASentence) {
-  auto outcome = outcomeOf("", "_side_lenght:=2.5");
-  EXPECT_EQ(outcome.first, 1);
-  EXPECT_SAYS(outcome.second, "/refused/calibration/side_lenght");
-  outcome = outcomeOf("", "_side_length:=-1.0 _side_lenght:=2.5");
-  EXPECT_EQ(outcome.first, 1);
-  EXPECT_SAYS(outcome.second, "/refused/calibration/side_length");
-  outcome = outcomeOf("ROS_MASTER_URI=http://localhost:9", "");
-  EXPECT_EQ(outcome.first, 1);
-  EXPECT_SAYS(outcome.second, "no ROS master at http://localhost:9");
 }
 
 }  // namespace

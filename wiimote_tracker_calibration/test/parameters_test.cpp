@@ -4,6 +4,7 @@
 #include "../src/ros/square_frame.h"
 
 #include "expect_says.h"
+#include "run_command.h"
 
 #include <documented_parameters.h>
 #include <tf2_eigen/tf2_eigen.h>
@@ -145,6 +146,27 @@ TEST(Parameters, BadValuesAreRefusedByName) {
       EXPECT_SAYS(std::string(error.what()), "/parameters_test/" + key + "/" + what);
     }
   }
+}
+
+/// Exit status and output of a node that is to end by itself.
+std::pair<int, std::string> outcomeOf(const std::string& environment,
+                                      const std::string& arguments) {
+  return runCommand(environment +
+                    " timeout 60 rosrun wiimote_tracker_calibration calibration_node "
+                    "__ns:=/refused " +
+                    arguments);
+}
+
+TEST(Parameters, ThatAreBadOrAMissingMasterEndTheNodeWithASentence) {
+  auto outcome = outcomeOf("", "_side_lenght:=2.5");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "/refused/calibration/side_lenght");
+  outcome = outcomeOf("", "_side_length:=-1.0 _side_lenght:=2.5");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "/refused/calibration/side_length");
+  outcome = outcomeOf("ROS_MASTER_URI=http://localhost:9", "");
+  EXPECT_EQ(outcome.first, 1);
+  EXPECT_SAYS(outcome.second, "no ROS master at http://localhost:9");
 }
 
 }  // namespace

@@ -6,25 +6,12 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 namespace wiimote_tracker::workflow {
 namespace {
 
 constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
-
-Captured newRun(const std::vector<std::string>& cameras,
-                const std::optional<square::SquareLayout>& layout,
-                const CalibrationOptions& options) {
-  const std::set<std::string> names(cameras.begin(), cameras.end());
-  Captured captured;
-  captured.cameras.assign(names.begin(), names.end());
-  captured.layout = layout;
-  captured.square = SquareRun(captured.cameras, options.capture);
-  captured.world_frame = options.world_frame;
-  return captured;
-}
 
 }  // namespace
 
@@ -40,11 +27,11 @@ Reply Calibration::start(double side_x, double side_y, const std::vector<std::st
   if (std::max(side_x, side_y) > kLongestSide)
     return refuse(format("a square of %g m x %g m is larger than %g m: give its sides in metres",
                          side_x, side_y, kLongestSide));
-  return startWith(newRun(cameras, layout, options_));
+  return startWith(newRun(cameras, layout, options_.capture, options_.world_frame));
 }
 
 Reply Calibration::startWithoutSquare(const std::vector<std::string>& cameras) {
-  return startWith(newRun(cameras, std::nullopt, options_));
+  return startWith(newRun(cameras, std::nullopt, options_.capture, options_.world_frame));
 }
 
 Reply Calibration::startWith(Captured captured) {
@@ -179,6 +166,26 @@ void Calibration::finishCapture() {
     ++captures_;
   }
   shown(*captured_.square.outcome());
+}
+
+Reply Calibration::measureLength(const square::TapedLength& taped, double placement) {
+  if (busy_)
+    return refuse(occupied());
+  just_solved_ = false;
+  return changed(captured_.measureLength(taped, placement));
+}
+
+Reply Calibration::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
+  if (const std::string reason = whyNoPlace(); !reason.empty())
+    return refuse(reason);
+  return changed(captured_.addPlace(known, seen));
+}
+
+Reply Calibration::undo() {
+  if (busy_)
+    return refuse(occupied());
+  just_solved_ = false;
+  return changed(captured_.undo());
 }
 
 Reply Calibration::cancel() {

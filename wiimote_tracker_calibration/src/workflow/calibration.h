@@ -95,8 +95,11 @@ class Calibration {
   /// @param placement of the LED on a corner: standard deviation per axis [m].
   Reply measureLength(const square::TapedLength& taped, double placement);
 
-  /// Takes where cameras saw the LED on a known place, while kMeasuring. Refused while the rig in
-  /// use is not the solution of what was captured: a camera may have moved since the corners were.
+  /// Why no known place can be taken now, and what to do; empty: it can. The rig in use must be the
+  /// solution of what was captured: a camera may have moved since the corners were.
+  std::string whyNoPlace() const { return captured_.whyNoPlace(rig_); }
+
+  /// Takes where cameras saw the LED on a known place, while kMeasuring. Refused as whyNoPlace().
   Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
 
   /// Drops the last length if nothing was captured after it, else the last place to solve with,

@@ -1,11 +1,31 @@
 #include "workflow/captured.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <set>
 
 namespace wiimote_tracker::workflow {
 
 namespace {
+
+// A length farther from that of the sides than this is a mistake [standard deviations].
+constexpr double kMostDeviation = 10.0;
+
+/// @returns whether any was dropped.
+template <typename Condition>
+bool drop(std::vector<square::TapedLength>* lengths, Condition condition) {
+  const auto end = std::remove_if(lengths->begin(), lengths->end(), condition);
+  const bool any = end != lengths->end();
+  lengths->erase(end, lengths->end());
+  return any;
+}
+
+Reply refusal(const std::string& message) {
+  return {false, message};
+}
 
 wave::CameraRecording recordingOf(const Captured& captured,
                                   const std::string& name,
@@ -69,6 +89,98 @@ std::string Captured::whyNotSolvable() const {
   const auto& [name, device] = *other_devices.begin();
   return name + " was first the device " + devices.at(name) + ", then " + device +
          ": check the addresses of the drivers, and start again";
+}
+
+Reply Captured::measureLength(const square::TapedLength& taped, double placement) {
+  if (!layout)
+    return refusal(cameras.empty()
+                       ? "no calibration is started: start one first"
+                       : "this calibration has no square to measure: start one with a square");
+  const std::size_t count = square.corners().size();
+  if (taped.from >= count || taped.to >= count || taped.from == taped.to)
+    return refusal(
+        format("a length is between two captured corners: %zu are captured, and corner "
+               "%zu to corner %zu was asked for",
+               count, taped.from + 1, taped.to + 1));
+  const std::string name = format("corner %zu to corner %zu", taped.from + 1, taped.to + 1);
+  const auto same = [&](const square::TapedLength& other) { return taped.hasCornersOf(other); };
+  if (taped.length == 0.0) {
+    const bool dropped = drop(&layout->lengths, same);
+    return {dropped, (dropped ? "the length from " : "there is no length from ") + name +
+                         (dropped ? " was dropped: solve again" : " to drop")};
+  }
+  if (!(taped.length > 0.0 && std::isfinite(taped.length) && taped.stddev > 0.0 &&
+        std::isfinite(taped.stddev)))
+    return refusal("a length and its standard deviation must be above 0: give them in metres");
+  const double by_sides = layout->lengthBetween(taped.from, taped.to);
+  const double most = kMostDeviation * std::hypot(M_SQRT2 * placement, taped.stddev);
+  if (std::abs(taped.length - by_sides) > most)
+    return refusal(
+        format("%s is %.3f m by the sides, at most %.0f mm more or less, but the tape "
+               "says %.3f m: measure again, in metres, or start again with other sides",
+               name.c_str(), by_sides, 1e3 * most, taped.length));
+  drop(&layout->lengths, same);
+  layout->lengths.push_back(taped);
+  length_is_last = true;
+  return {true, format("%s is %.4f m by tape, %+.1f mm against the sides: solve again",
+                       name.c_str(), taped.length, 1e3 * (taped.length - by_sides))};
+}
+
+void Captured::dropLengthsTo(std::size_t corner) {
+  drop(&layout->lengths, [&](const square::TapedLength& taped) {
+    return taped.from == corner || taped.to == corner;
+  });
+}
+
+std::string Captured::whyNoPlace(const std::optional<geometry::Rig>& rig) const {
+  if (!layout || !square.isComplete())
+    return "a known place is solved together with a square: capture its four corners first";
+  if (!rig || rig->id() != solved_to)
+    return "the rig in use is not the solution of the captured corners: solve first or, if a "
+           "camera was changed since they were captured, calibrate again to use known places";
+  return "";
+}
+
+Reply Captured::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
+  layout->places.push_back(known);
+  places.push_back(seen);
+  length_is_last = false;
+  return {true, format("place %zu at (%.3f, %.3f, %.3f) m is captured by %zu cameras: solve again",
+                       places.size(), known.position.x(), known.position.y(), known.position.z(),
+                       seen.size())};
+}
+
+Reply Captured::undo() {
+  if (length_is_last && !layout->lengths.empty()) {
+    const square::TapedLength last = layout->lengths.back();
+    return measureLength({last.from, last.to, 0.0}, 0.0);
+  }
+  if (!places.empty()) {
+    places.pop_back();
+    layout->places.pop_back();
+    return {true, "the last known place was dropped: solve again"};
+  }
+  if (wave) {
+    wave.reset();
+    return {true, "the wave was dropped: record it again"};
+  }
+  const Reply reply = square.undo();
+  if (reply.success)
+    dropLengthsTo(square.corners().size());
+  return reply;
+}
+
+Captured newRun(const std::vector<std::string>& cameras,
+                const std::optional<square::SquareLayout>& layout,
+                const capture::CornerCaptureOptions& capture,
+                const std::string& world_frame) {
+  const std::set<std::string> names(cameras.begin(), cameras.end());
+  Captured captured;
+  captured.cameras.assign(names.begin(), names.end());
+  captured.layout = layout;
+  captured.square = SquareRun(captured.cameras, capture);
+  captured.world_frame = world_frame;
+  return captured;
 }
 
 session::Session toSession(const Captured& captured,

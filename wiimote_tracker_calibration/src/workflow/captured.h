@@ -5,6 +5,7 @@
 #include "capture/masks.h"
 #include "session/session.h"
 #include "wave/coverage.h"
+#include "workflow/reply.h"
 #include "workflow/square_run.h"
 #include "workflow/wave_recorder.h"
 
@@ -40,11 +41,25 @@ struct Captured {
   /// What it lacks for that, or contradicts itself in, and what to do; empty: it can be solved.
   std::string whyNotSolvable() const;
 
+  /// As Calibration::measureLength().
+  Reply measureLength(const square::TapedLength& taped, double placement);
   /// Drops the lengths to a corner of the layout, where the LED does not lie any more as it lay.
   void dropLengthsTo(std::size_t corner);
-  /// Drops the last known place. @returns false when there is none.
-  bool dropLastPlace();
+
+  /// Why no known place can be taken while this rig is in use, and what to do; empty: it can.
+  std::string whyNoPlace(const std::optional<geometry::Rig>& rig) const;
+  /// Takes where cameras saw the LED on a known place, if whyNoPlace() is empty.
+  Reply addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen);
+
+  /// As Calibration::undo().
+  Reply undo();
 };
+
+/// A run in which nothing is captured yet. @param layout nothing: a run without a square.
+Captured newRun(const std::vector<std::string>& cameras,
+                const std::optional<square::SquareLayout>& layout,
+                const capture::CornerCaptureOptions& capture,
+                const std::string& world_frame);
 
 /// @param live facts of the cameras now; not used for what comes from a samples file.
 session::Session toSession(const Captured& captured,

@@ -10,6 +10,7 @@
 namespace wiimote_tracker {
 namespace {
 
+using wiimote_tracker_msgs::CheckPlace;
 using wiimote_tracker_msgs::MeasureLength;
 
 TEST_F(Node, RequestsWithoutARigAreRefusedWithAdvice) {
@@ -322,9 +323,14 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   // A known place makes the next solution more accurate, as its verdict promised.
   const Eigen::Vector3d place(1.0, 0.8, 1.5);
   putLed(place);
-  wiimote_tracker_msgs::CheckPlace::Request known;
+  CheckPlace::Request known;
+  known.known = pointOf(place + Eigen::Vector3d(1.0, 0.0, 0.0));
+  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", known).message, "from the known place");
+  known.known_stddev = -1.0;
+  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", known).message, "known_stddev");
+  known = CheckPlace::Request();
   known.known = pointOf(place);
-  const auto placed = call<wiimote_tracker_msgs::CheckPlace>("calibration/measure_place", known);
+  const auto placed = call<CheckPlace>("calibration/measure_place", known);
   ASSERT_TRUE(placed.success) << placed.message;
   EXPECT_SAYS(placed.message, "place 1 at (1.000, 0.800, 1.500) m is captured by 4 cameras");
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));

@@ -87,13 +87,13 @@ TEST_F(CalibratedNode, ChecksAKnownPlace) {
   EXPECT_SAYS(response.message, "holds");
   EXPECT_TRUE(waitUntil([&] { return status_->get()->message == response.message; }));
 
+  // Refused before anything is measured.
+  cameras_->switchLed(false);
   CheckPlace::Request to_solve;
   to_solve.known = pointOf(place);
   EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", to_solve).message,
               "capture its four corners first");
-  to_solve.known.x += 0.2;
-  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", to_solve).message,
-              "from the known place");
+  cameras_->switchLed(true);
 
   response = check(place + Eigen::Vector3d(0.05, 0.0, 0.0));
   ASSERT_TRUE(response.success) << response.message;
@@ -123,7 +123,7 @@ TEST_F(CalibratedNode, RefusesAMeasurementWithTheReason) {
   request.duration = 0.001;  // shorter than one image takes
   EXPECT_SAYS(call<CheckPlace>("calibration/check", request).message, "0.05 and 3600 s");
   request.known_stddev = -1.0;
-  EXPECT_SAYS(call<CheckPlace>("calibration/measure_place", request).message, "known_stddev");
+  EXPECT_SAYS(call<CheckPlace>("calibration/check", request).message, "known_stddev");
   cameras_->blind({});
 
   // Cancelled while it waits, longer than anything here takes.

@@ -213,7 +213,9 @@ TEST_F(Workflow, KnownPlacesAreTakenSolvedAndDropped) {
     seen[camera.name] = {*camera.project(known.position), 0.1, 20};
   EXPECT_SAYS(calibration_.addPlace(known, seen).message, "capture its four corners first");
   captureAll();
+  EXPECT_SAYS(calibration_.whyNoPlace(), "solve first");
   ASSERT_TRUE(solve(1.0).success);
+  EXPECT_EQ(calibration_.whyNoPlace(), "");
   const Reply taken = calibration_.addPlace(known, seen);
   EXPECT_TRUE(taken.success);
   EXPECT_SAYS(taken.message, "place 1 at (0.000, 2.500, 2.000) m is captured by 4 cameras");

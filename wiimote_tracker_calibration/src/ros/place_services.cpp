@@ -109,6 +109,9 @@ class PlaceServices {
     setUnknown(response);
     Lock lock(context_.mutex());
     return context_.answer(&lock, [&] {
+      // Before a person holds the LED still for nothing.
+      if (const std::string reason = context_.calibration(lock).whyNoPlace(); !reason.empty())
+        throw Refusal(reason);
       const square::KnownPlace known = knownPlace(request, square::KnownPlace().stddev);
       return measure(
           known, request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {

@@ -1,4 +1,4 @@
-// Beyond the square: waves, masks, hands-free capture and the button, a bag.
+// Waves and masks; hands-free capture, the button of a remote, and a bag.
 
 #include "node_fixture.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 using wiimote_tracker_msgs::StartWave;
 
-class Beyond : public Node {
+class WavesAndMasks : public Node {
  protected:
   static std_srvs::SetBool::Response handsFree(const std::string& node, bool on) {
     std_srvs::SetBool::Request request;
@@ -48,7 +48,7 @@ class Beyond : public Node {
 };
 
 /// As after a step of a clock, or from another computer.
-TEST_F(Beyond, ACaptureIsPossibleAfterOneThatWasStampedLater) {
+TEST_F(WavesAndMasks, ACaptureIsPossibleAfterOneThatWasStampedLater) {
   ros::NodeHandle nh;
   const ros::Publisher goals = nh.advertise<wiimote_tracker_msgs::CaptureCornerActionGoal>(
       "calibration/capture_corner/goal", 10);
@@ -68,7 +68,7 @@ TEST_F(Beyond, ACaptureIsPossibleAfterOneThatWasStampedLater) {
   EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
 }
 
-TEST_F(Beyond, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
+TEST_F(WavesAndMasks, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
   EXPECT_FALSE(call<StartWave>("calibration/start_wave").success);
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/stop_wave").message, "no wave");
   captureAll();
@@ -101,7 +101,7 @@ TEST_F(Beyond, AWaveIsRecordedWithItsCoverageAndSolvedWithTheSquare) {
   }
 }
 
-TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
+TEST_F(WavesAndMasks, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
   const Eigen::Vector3d origin(1.0, 1.2, 0.0);
   cameras_->putLed(origin);
   cameras_->holdWand(true);
@@ -153,7 +153,7 @@ TEST_F(Beyond, AWandOnTheFloorTakesOneRequestToStartAndOneToSolve) {
   }
 }
 
-TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
+TEST_F(WavesAndMasks, LampsAreLearnedMaskedAndStoredInTheRig) {
   const Eigen::Vector3d lamp(0.4, 1.9, 1.4);
   cameras_->setLamps({lamp});
   wiimote_tracker_msgs::LearnMasks::Request request;
@@ -222,7 +222,7 @@ TEST_F(Beyond, LampsAreLearnedMaskedAndStoredInTheRig) {
   cameras_->switchLed(true);
 }
 
-TEST_F(Beyond, TheButtonOfASpareRemoteCaptures) {
+TEST_F(WavesAndMasks, TheButtonOfASpareRemoteCaptures) {
   wiimote_tracker_msgs::StartCalibration::Request request;
   request.side_x = 2.5;
   request.cameras = {"camera_1", "camera_2", "spare"};
@@ -255,7 +255,7 @@ TEST_F(Beyond, TheButtonOfASpareRemoteCaptures) {
   EXPECT_EQ(capturedLater(), 1U);
 }
 
-TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
+TEST_F(WavesAndMasks, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
   captureAll();
   const auto solved = call<SolveCalibration>("calibration/solve");
   ASSERT_TRUE(solved.success) << solved.message;
@@ -277,7 +277,7 @@ TEST_F(Beyond, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
   EXPECT_EQ(geometry::readRigFile(request.path).id(), solved.rig.id);
 }
 
-TEST_F(Beyond, ACaptureThatEndsWithItsServerSaysWhy) {
+TEST_F(WavesAndMasks, ACaptureThatEndsWithItsServerSaysWhy) {
   ros::NodeHandle nh;
   const ros::Publisher cancel =
       nh.advertise<actionlib_msgs::GoalID>("calibration/capture_corner/cancel", 10);
@@ -310,7 +310,7 @@ class BagWriter : public Recorder {
   rosbag::Bag bag_;
 };
 
-TEST_F(Beyond, ABagGivesTheSameRigAsLiveImages) {
+TEST_F(WavesAndMasks, ABagGivesTheSameRigAsLiveImages) {
   // Live: hands-free, and recorded.
   const std::string path = folder_ + "/session.bag";
   cameras_->switchLed(false);

@@ -22,7 +22,7 @@ TEST_F(Workflow, FourCornersMakeARig) {
   EXPECT_EQ(rig.cameras[2].camera.identity, "00:00:00:00:00:02");
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_LT((rig.cameras[i].camera.center() - cameras_[i].center()).norm(), 1e-6);
-  calibration_.saved("saved");
+  calibration_.saved();
   EXPECT_EQ(calibration_.step(), Step::kSaved);
 }
 
@@ -344,7 +344,7 @@ TEST_F(Workflow, CancelStopsALongTaskFirst) {
   EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "not stopped yet");
   EXPECT_TRUE(calibration_.cancel().success);
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
-  calibration_.end({false, "it was cancelled"});
+  calibration_.end();
   EXPECT_NO_THROW(calibration_.requireIdle());
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   // So was this cancel, which came after the solver had stopped.
@@ -354,8 +354,7 @@ TEST_F(Workflow, CancelStopsALongTaskFirst) {
   EXPECT_TRUE(calibration_.isBusyWith(Step::kMeasuring));
   calibration_.setProgress(0.5);
   EXPECT_EQ(calibration_.progress(), 0.5);
-  calibration_.end({true, "measured"});
-  EXPECT_EQ(calibration_.message(), "measured");
+  calibration_.end();
   EXPECT_EQ(calibration_.step(), Step::kComplete);
 }
 

@@ -70,7 +70,7 @@ TEST_F(Workflow, ACancelAfterTheSolverEndedDropsNothing) {
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
   // The same when it failed.
   ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
-  calibration_.end({false, "no solution"});
+  calibration_.end();
   EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
   EXPECT_TRUE(calibration_.cancel().success);
@@ -79,7 +79,7 @@ TEST_F(Workflow, ACancelAfterTheSolverEndedDropsNothing) {
   // Once something else was done it is the run that is meant.
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
-  calibration_.saved("saved");
+  calibration_.saved();
   calibration_.cancel();
   EXPECT_EQ(calibration_.step(), Step::kIdle);
 }

@@ -70,7 +70,8 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   EXPECT_EQ(next().title, "Solving");
   sounds_.heard(calibration_);
-  calibration_.end(calibration_.takeSolution(geometry::Rig()));
+  calibration_.takeSolution(geometry::Rig());
+  calibration_.end();
   EXPECT_EQ(sounds_.heard(calibration_), "solved");
   verdict_.grade = session::Grade::kRedo;
   EXPECT_TRUE(next().request.empty());
@@ -79,7 +80,7 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
   verdict_.grade = session::Grade::kGood;
   EXPECT_EQ(next().request, "save");
-  calibration_.saved("saved");
+  calibration_.saved();
   EXPECT_EQ(next().title, "Ready");
   EXPECT_TRUE(next().request.empty());
 }
@@ -87,7 +88,7 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
 TEST_F(NextStepTest, AMeasuredPlaceNeedsAStillLedAndARecalibratedCameraAWavedOne) {
   ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "").success);
   EXPECT_EQ(next().title, "Hold still");
-  calibration_.end({true, ""});
+  calibration_.end();
   ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "", true).success);
   EXPECT_EQ(next().title, "Wave");
   EXPECT_TRUE(next().request.empty());
@@ -131,7 +132,7 @@ TEST_F(NextStepTest, AWandOnTheFloorIsCapturedWavedAndSolved) {
   EXPECT_EQ(session.recording.wand->led_height, 0.0);
   EXPECT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   EXPECT_EQ(calibration_.step(), Step::kSolving);
-  calibration_.end({false, "no solution"});
+  calibration_.end();
   Calibration fresh{CalibrationOptions()};
   ASSERT_TRUE(fresh.restore(session).success);
   EXPECT_TRUE(fresh.missing().empty());
@@ -155,7 +156,8 @@ TEST_F(NextStepTest, ACornerTakenAgainIsHeard) {
 
 TEST_F(NextStepTest, ARefusalIsHeard) {
   EXPECT_EQ(sounds_.heard(calibration_), "");
-  EXPECT_FALSE(calibration_.endWave().success);
+  EXPECT_FALSE(calibration_.shown(calibration_.endWave()).success);
+  EXPECT_SAYS(calibration_.message(), "no wave is being recorded");
   EXPECT_EQ(sounds_.heard(calibration_), "refused");
   EXPECT_EQ(sounds_.heard(calibration_), "");
 }

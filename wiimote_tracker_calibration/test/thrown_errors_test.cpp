@@ -184,6 +184,24 @@ TEST_F(ThrownErrors, ARefusalIsHeardOnce) {
   EXPECT_EQ(refusals(), before + 2);
   EXPECT_FALSE(replyTo<std_srvs::Trigger>("calibration/stop_wave").success);
   EXPECT_EQ(refusals(), before + 3);
+  LearnMasks::Request masks;
+  masks.duration = 0.001;
+  EXPECT_FALSE(replyTo<LearnMasks>("calibration/learn_masks", masks).success);
+  EXPECT_EQ(refusals(), before + 4);
+  LoadRig::Request elsewhere;
+  elsewhere.path = "/etc/hostname";
+  EXPECT_FALSE(replyTo<LoadRig>("calibration/load", elsewhere).success);
+  EXPECT_EQ(refusals(), before + 5);
+  RecalibrateCamera::Request camera;
+  camera.camera = "camera_9";
+  EXPECT_FALSE(replyTo<RecalibrateCamera>("calibration/recalibrate_camera", camera).success);
+  EXPECT_EQ(refusals(), before + 6);
+  // One that comes after a step has begun.
+  cameras_->switchLed(false);
+  CheckPlace::Request place;
+  place.duration = 0.05;
+  EXPECT_FALSE(replyTo<CheckPlace>("calibration/check", place).success);
+  EXPECT_EQ(refusals(), before + 7);
 }
 
 TEST_F(ThrownErrors, AWandThatCannotBeWavedDropsNothing) {

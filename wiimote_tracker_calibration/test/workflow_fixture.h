@@ -66,12 +66,11 @@ class Workflow : public ::testing::Test {
           session::solveSession(calibration_.session(facts_, {}), session::SolveOptions());
       solution.rig.solved_at = time;
       const Reply reply = calibration_.takeSolution(solution.rig);
-      calibration_.end(reply);
+      calibration_.end();
       return reply;
     } catch (const Error& error) {
-      const Reply failed = {false, error.what()};
-      calibration_.end(failed);
-      return failed;
+      calibration_.end();
+      return refusal(error.what());
     }
   }
 

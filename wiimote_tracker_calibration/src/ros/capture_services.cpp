@@ -50,12 +50,12 @@ class CaptureServices {
         capture_server_(context_.nh(), [this](const auto& goal) { return captureCorner(goal); }) {
     using Self = CaptureServices;
     ros::NodeHandle& nh = context_.nh();
-    services_ = {advertise(nh, "calibration/check_connection", &Self::checkConnection, this),
-                 advertise(nh, "calibration/start", &Self::start, this),
-                 advertise(nh, "calibration/measure_length", &Self::measureLength, this),
-                 advertise(nh, "calibration/hands_free", &Self::handsFree, this),
-                 advertise(nh, "calibration/undo", &Self::undo, this),
-                 advertise(nh, "calibration/cancel", &Self::cancel, this)};
+    services_ = {advertise(context, "calibration/check_connection", &Self::checkConnection, this),
+                 advertise(context, "calibration/start", &Self::start, this),
+                 advertise(context, "calibration/measure_length", &Self::measureLength, this),
+                 advertise(context, "calibration/hands_free", &Self::handsFree, this),
+                 advertise(context, "calibration/undo", &Self::undo, this),
+                 advertise(context, "calibration/cancel", &Self::cancel, this)};
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
       workflow::Calibration& calibration = context_.calibration(lock);
       const workflow::Step before = calibration.step();
@@ -75,63 +75,58 @@ class CaptureServices {
 
  private:
   Reply checkConnection(const wiimote_tracker_msgs::CheckConnection::Request& request,
-                        wiimote_tracker_msgs::CheckConnection::Response* response) {
+                        wiimote_tracker_msgs::CheckConnection::Response* response,
+                        Lock& lock) {
     constexpr double kLongest = capture::CameraMonitor::kMemory;
     const double duration = request.duration == 0.0 ? 1.0 : request.duration;
     if (!(duration >= NodeContext::kShortestLook && duration <= kLongest))
       throw Refusal("the duration must be within 0.05 and 10 s");
-    context_.inputs().discover();
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      context_.beginWalk(lock);
-      context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
-      response->cameras = context_.cameraStatus(duration, lock);
-      if (response->cameras.empty())
-        throw Refusal("no camera is there: start the drivers");
-      std::vector<std::string> problems;
-      for (const auto& [name, input] : context_.inputs().cameras()) {
-        const std::string problem = input.monitor.view(NodeContext::now(), duration).problem;
-        if (!problem.empty())
-          problems.push_back(name + " " + problem);
-      }
-      if (!problems.empty())
-        throw Refusal(joined(problems, "; "));
-      workflow::Calibration& calibration = context_.calibration(lock);
-      calibration.preparation().connection_checked = true;
-      return calibration.shown({true, "all " + std::to_string(response->cameras.size()) +
-                                          " cameras see exactly one spot"});
-    });
+    context_.discover(&lock);
+    context_.beginWalk(lock);
+    context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
+    response->cameras = context_.cameraStatus(duration, lock);
+    if (response->cameras.empty())
+      throw Refusal("no camera is there: start the drivers");
+    std::vector<std::string> problems;
+    for (const auto& [name, input] : context_.inputs().cameras()) {
+      const std::string problem = input.monitor.view(NodeContext::now(), duration).problem;
+      if (!problem.empty())
+        problems.push_back(name + " " + problem);
+    }
+    if (!problems.empty())
+      throw Refusal(joined(problems, "; "));
+    context_.calibration(lock).preparation().connection_checked = true;
+    return {true,
+            "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
   }
 
   Reply start(const wiimote_tracker_msgs::StartCalibration::Request& request,
-              wiimote_tracker_msgs::StartCalibration::Response*) {
-    context_.inputs().discover();
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      const std::vector<std::string> cameras = chooseCameras(request.cameras, lock);
-      const Parameters& parameters = context_.parameters(lock);
-      const bool given = request.side_x != 0.0 || request.side_y != 0.0;
-      const double side_x = given ? request.side_x : parameters.side_length;
-      const double second = given ? request.side_y : parameters.second_side_length;
-      const double side_y = second != 0.0 ? second : side_x;
-      if (!request.without_square && side_x == 0.0)
-        throw Refusal(
-            "the side of the square is 0: measure it, and give side_x in the request or set " +
-            ros::this_node::getName() + "/side_length, in metres");
-      const std::optional<wave::Wand> wand = wandOnFloor(request, parameters);
-      if (wand) {
-        requireUp(cameras, &lock);
-        context_.facts(cameras, lock);  // a wave that cannot begin must not drop what was captured
-      }
-      workflow::Calibration& calibration = context_.calibration(lock);
-      const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
-                                                 : calibration.start(side_x, side_y, cameras);
-      if (reply.success)
-        context_.inputs().restartGravity();
-      if (reply.success && wand)
-        return beginWave(wand, &context_, &lock);
-      return reply;
-    });
+              wiimote_tracker_msgs::StartCalibration::Response*,
+              Lock& lock) {
+    context_.discover(&lock);
+    const std::vector<std::string> cameras = chooseCameras(request.cameras, lock);
+    const Parameters& parameters = context_.parameters(lock);
+    const bool given = request.side_x != 0.0 || request.side_y != 0.0;
+    const double side_x = given ? request.side_x : parameters.side_length;
+    const double second = given ? request.side_y : parameters.second_side_length;
+    const double side_y = second != 0.0 ? second : side_x;
+    if (!request.without_square && side_x == 0.0)
+      throw Refusal(
+          "the side of the square is 0: measure it, and give side_x in the request or set " +
+          ros::this_node::getName() + "/side_length, in metres");
+    const std::optional<wave::Wand> wand = wandOnFloor(request, parameters);
+    if (wand) {
+      requireUp(cameras, &lock);
+      context_.facts(cameras, lock);  // a wave that cannot begin must not drop what was captured
+    }
+    workflow::Calibration& calibration = context_.calibration(lock);
+    const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
+                                               : calibration.start(side_x, side_y, cameras);
+    if (reply.success)
+      context_.inputs().restartGravity();
+    if (reply.success && wand)
+      return beginWave(wand, &context_, &lock);
+    return reply;
   }
 
   /// Waits for an accelerometer of a camera at rest. @throws Refusal: there is none, or none may be
@@ -154,38 +149,31 @@ class CaptureServices {
   }
 
   Reply measureLength(const wiimote_tracker_msgs::MeasureLength::Request& request,
-                      wiimote_tracker_msgs::MeasureLength::Response*) {
+                      wiimote_tracker_msgs::MeasureLength::Response*,
+                      Lock& lock) {
     square::TapedLength taped;
     taped.from = request.from_corner;
     taped.to = request.to_corner;
     taped.length = request.length;
     if (request.stddev != 0.0)
       taped.stddev = request.stddev;
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      return context_.calibration(lock).measureLength(
-          taped, context_.parameters(lock).solve.square.uncertainty.placement);
-    });
+    return context_.calibration(lock).measureLength(
+        taped, context_.parameters(lock).solve.square.uncertainty.placement);
   }
 
-  Reply handsFree(const std_srvs::SetBool::Request& request, std_srvs::SetBool::Response*) {
-    const Lock lock(context_.mutex());
+  Reply handsFree(const std_srvs::SetBool::Request& request,
+                  std_srvs::SetBool::Response*,
+                  Lock& lock) {
     context_.calibration(lock).setHandsFree(request.data);
-    return context_.show(
-        {true, request.data
-                   ? "a corner is captured automatically when the LED is still at a new place"
-                   : "corners are captured on request only"},
-        lock);
+    return {true, request.data
+                      ? "a corner is captured automatically when the LED is still at a new place"
+                      : "corners are captured on request only"};
   }
 
-  Reply undo() {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] { return context_.calibration(lock).undo(); });
-  }
+  Reply undo(Lock& lock) { return context_.calibration(lock).undo(); }
 
-  Reply cancel() {
-    Lock lock(context_.mutex());
-    const Reply reply = context_.answer(&lock, [&] { return context_.calibration(lock).cancel(); });
+  Reply cancel(Lock& lock) {
+    const Reply reply = context_.calibration(lock).cancel();
     context_.notify();
     return reply;
   }
@@ -196,9 +184,8 @@ class CaptureServices {
       Lock lock(context_.mutex());
       workflow::Calibration& calibration = context_.calibration(lock);
       const auto retake = goal.retake ? std::optional<std::size_t>(goal.corner) : std::nullopt;
-      Reply outcome = calibration.beginCapture(retake, NodeContext::now());
+      Reply outcome = context_.show(calibration.beginCapture(retake, NodeContext::now()), lock);
       result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
-      context_.publishStatus(lock);
       if (outcome.success)
         outcome = waitForCapture(&lock);
       result.cameras = context_.cameraStatus(1.0, lock);
@@ -214,8 +201,8 @@ class CaptureServices {
     const bool pressed = message.buttons.size() > kButtonA && message.buttons[kButtonA] != 0;
     if (pressed && !button_was_pressed_) {
       const Lock lock(context_.mutex());
-      context_.calibration(lock).beginCapture(std::nullopt, NodeContext::now());
-      context_.publishStatus(lock);
+      context_.show(context_.calibration(lock).beginCapture(std::nullopt, NodeContext::now()),
+                    lock);
     }
     button_was_pressed_ = pressed;
   }

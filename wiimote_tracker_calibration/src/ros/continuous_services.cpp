@@ -45,9 +45,8 @@ class ContinuousServices {
  public:
   explicit ContinuousServices(NodeContext* context) : context_(*context) {
     using Self = ContinuousServices;
-    const ros::NodeHandle& nh = context_.nh();
-    services_ = {advertise(nh, "calibration/continuous/apply", &Self::apply, this),
-                 advertise(nh, "calibration/continuous/revert", &Self::revert, this)};
+    services_ = {advertise(context, "calibration/continuous/apply", &Self::apply, this),
+                 advertise(context, "calibration/continuous/revert", &Self::revert, this)};
     const Lock lock(context_.mutex());
     policy_ = context_.parameters(lock).continuous_policy;
     options_.recalibrate = context_.parameters(lock).recalibrateOptions();
@@ -172,10 +171,7 @@ class ContinuousServices {
     return newest;
   }
 
-  Reply apply() {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] { return applyProposal(&lock); });
-  }
+  Reply apply(Lock& lock) { return applyProposal(&lock); }
 
   /// The rig before is kept for revert(), the new one in a file beside the rig file.
   Reply applyProposal(Lock* lock) {
@@ -236,25 +232,22 @@ class ContinuousServices {
     return "kept in " + path;
   }
 
-  Reply revert() {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      requireCalibrated(lock);
-      const geometry::Rig& in_use = context_.existingRig("to change", lock);
-      if (changes_.empty() || idWithoutMasks(in_use) != changes_.back().id)
-        throw Refusal(
-            "the rig in use is not one that continuous calibration has made: load the one that "
-            "you want");
-      const geometry::Rig before = continuous::withMasksOf(in_use, changes_.back().before);
-      changes_.pop_back();
-      approach_.reset();  // Perhaps before its first step.
-      reverted_to_ = idWithoutMasks(before);
-      const std::string message = "rig " + before.id() +
-                                  " from before the last change is in use again; until there is "
-                                  "another one, changes are only proposed";
-      context_.setRig(before, message, lock);
-      return Reply{true, message};
-    });
+  Reply revert(Lock& lock) {
+    requireCalibrated(lock);
+    const geometry::Rig& in_use = context_.existingRig("to change", lock);
+    if (changes_.empty() || idWithoutMasks(in_use) != changes_.back().id)
+      throw Refusal(
+          "the rig in use is not one that continuous calibration has made: load the one that "
+          "you want");
+    const geometry::Rig before = continuous::withMasksOf(in_use, changes_.back().before);
+    changes_.pop_back();
+    approach_.reset();  // Perhaps before its first step.
+    reverted_to_ = idWithoutMasks(before);
+    const std::string message = "rig " + before.id() +
+                                " from before the last change is in use again; until there is "
+                                "another one, changes are only proposed";
+    context_.setRig(before, message, lock);
+    return {true, message};
   }
 
   void requireCalibrated(const Lock& lock) const {

@@ -45,24 +45,22 @@ class FileServices {
     }
     std::error_code error;
     if (std::filesystem::exists(path, error) || error) {  // after an error loading says why
-      const Reply reply = loadRig(path);
+      const Reply reply = context_.handle([&](Lock& lock) { return loadRig(path, &lock); });
       if (reply.success)
         ROS_INFO_STREAM(path << ": " << reply.message);
       else
         ROS_ERROR_STREAM(reply.message << "; the node goes on without a rig");
     }
     using Self = FileServices;
-    const ros::NodeHandle& nh = context_.nh();
-    services_ = {advertise(nh, "calibration/save", &Self::save, this),
-                 advertise(nh, "calibration/load", &Self::load, this),
-                 advertise(nh, "calibration/save_samples", &Self::saveSamples, this),
-                 advertise(nh, "calibration/load_samples", &Self::loadSamples, this),
-                 advertise(nh, "calibration/join", &Self::join, this)};
+    services_ = {advertise(context, "calibration/save", &Self::save, this),
+                 advertise(context, "calibration/load", &Self::load, this),
+                 advertise(context, "calibration/save_samples", &Self::saveSamples, this),
+                 advertise(context, "calibration/load_samples", &Self::loadSamples, this),
+                 advertise(context, "calibration/join", &Self::join, this)};
   }
 
  private:
-  Reply save(const SaveRig::Request& request, SaveRig::Response* response) {
-    Lock lock(context_.mutex());
+  Reply save(const SaveRig::Request& request, SaveRig::Response* response, Lock& lock) {
     const geometry::Rig rig = context_.existingRig("to save", lock);
     const double timeout = context_.parameters(lock).set_camera_info_timeout;
     const std::string path = response->path = rigPath(request.path, context_.parameters(lock));
@@ -82,50 +80,41 @@ class FileServices {
     // A correction of the volume, which may have come meanwhile, leaves the id.
     if (const auto& now = context_.rig(lock);
         now && now->id() == rig.id() && now->remap == rig.remap)
-      context_.calibration(lock).saved(message);
-    context_.publishStatus(lock);
+      context_.calibration(lock).saved();
     return {true, message};
   }
 
-  Reply load(const LoadRig::Request& request, LoadRig::Response* response) {
-    std::string note;
-    {
-      const Lock lock(context_.mutex());
-      response->path = rigPath(request.path, context_.parameters(lock));
-      note = nextStart(response->path, context_.parameters(lock));
-    }
-    Reply reply = loadRig(response->path);
+  Reply load(const LoadRig::Request& request, LoadRig::Response* response, Lock& lock) {
+    const std::string path = response->path = rigPath(request.path, context_.parameters(lock));
+    Reply reply = loadRig(path, &lock);
     if (reply.success)
-      reply.message += note;
+      reply.message += nextStart(path, context_.parameters(lock));
     return reply;
   }
 
-  Reply saveSamples(const SaveSamples::Request& request, SaveSamples::Response* response) {
-    Lock lock(context_.mutex());
+  Reply saveSamples(const SaveSamples::Request& request,
+                    SaveSamples::Response* response,
+                    Lock& lock) {
     const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
-    return context_.answer(&lock, [&] {
-      const session::Session session = context_.session(lock);
-      if (session.recording.cameras.empty())
-        throw Refusal("nothing was captured that could be saved: start a calibration first");
-      context_.compute(&lock, [&] { session::writeSessionFile(session, path); });
-      return context_.calibration(lock).shown({true, "what was captured is saved to " + path});
-    });
+    const session::Session session = context_.session(lock);
+    if (session.recording.cameras.empty())
+      throw Refusal("nothing was captured that could be saved: start a calibration first");
+    context_.compute(&lock, [&] { session::writeSessionFile(session, path); });
+    return {true, "what was captured is saved to " + path};
   }
 
-  Reply loadSamples(const LoadSamples::Request& request, LoadSamples::Response* response) {
-    Lock lock(context_.mutex());
+  Reply loadSamples(const LoadSamples::Request& request,
+                    LoadSamples::Response* response,
+                    Lock& lock) {
     const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
-    return context_.answer(&lock, [&] {
-      const session::Session session =
-          context_.compute(&lock, [&] { return session::readSessionFile(path); });
-      return context_.setSession(session, lock);
-    });
+    const session::Session session =
+        context_.compute(&lock, [&] { return session::readSessionFile(path); });
+    return context_.setSession(session, lock);
   }
 
-  Reply join(const JoinRig::Request& request, JoinRig::Response* response) {
-    Lock lock(context_.mutex());
+  Reply join(const JoinRig::Request& request, JoinRig::Response* response, Lock& lock) {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    Reply reply = context_.answer(&lock, [&] {
+    Reply reply = replyOf([&] {
       context_.calibration(lock).requireIdle();
       const geometry::Rig second = context_.existingRig("to join", lock);
       const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).points();
@@ -145,16 +134,12 @@ class FileServices {
     return reply;
   }
 
-  Reply loadRig(const std::string& path) {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      const geometry::Rig rig =
-          context_.compute(&lock, [&] { return geometry::readRigFile(path); });
-      const Reply reply = context_.calibration(lock).load(rig);
-      if (reply.success)
-        context_.publishRig(session::verdictOf(rig), lock);
-      return reply;
-    });
+  Reply loadRig(const std::string& path, Lock* lock) {
+    const geometry::Rig rig = context_.compute(lock, [&] { return geometry::readRigFile(path); });
+    const Reply reply = context_.calibration(*lock).load(rig);
+    if (reply.success)
+      context_.publishRig(session::verdictOf(rig), *lock);
+    return reply;
   }
 
   NodeContext& context_;

@@ -28,9 +28,8 @@ class MaskServices {
  public:
   explicit MaskServices(NodeContext* context)
       : context_(*context),
-        services_(
-            {advertise(context_.nh(), "calibration/learn_masks", &MaskServices::learn, this),
-             advertise(context_.nh(), "calibration/clear_masks", &MaskServices::clear, this)}) {
+        services_({advertise(context, "calibration/learn_masks", &MaskServices::learn, this),
+                   advertise(context, "calibration/clear_masks", &MaskServices::clear, this)}) {
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
       if (learner_)
         learner_->add(image);
@@ -38,12 +37,13 @@ class MaskServices {
   }
 
  private:
-  workflow::Reply learn(const LearnMasks::Request& request, LearnMasks::Response* response) {
+  workflow::Reply learn(const LearnMasks::Request& request,
+                        LearnMasks::Response* response,
+                        Lock& lock) {
     const double duration = request.duration == 0.0 ? 2.0 : request.duration;
     if (!(duration >= NodeContext::kShortestLook && duration <= 60.0))
       throw Refusal("the duration must be within 0.05 and 60 s");
-    context_.inputs().discover();
-    Lock lock(context_.mutex());
+    context_.discover(&lock);
     const Job job = {Step::kMasking, "looking for other lights: keep the LED off",
                      "the masks are as they were"};
     const workflow::Reply reply = context_.run(job, &lock, [&] {
@@ -63,13 +63,10 @@ class MaskServices {
     return reply;
   }
 
-  workflow::Reply clear() {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      context_.calibration(lock).requireIdle();
-      const std::string saved = context_.setMasks({}, lock) ? kNoneToBeSaved : "";
-      return context_.calibration(lock).shown({true, "no light is masked any more" + saved});
-    });
+  workflow::Reply clear(Lock& lock) {
+    context_.calibration(lock).requireIdle();
+    const std::string saved = context_.setMasks({}, lock) ? kNoneToBeSaved : "";
+    return {true, "no light is masked any more" + saved};
   }
 
   workflow::Reply useMasks(const std::map<std::string, capture::LearnedMasks>& learned,

@@ -12,7 +12,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <exception>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -66,41 +65,29 @@ double NodeContext::now() {
   return ros::Time::now().toSec();
 }
 
+workflow::Reply NodeContext::handle(const std::function<workflow::Reply(Lock&)>& handler) {
+  Lock lock(mutex_);
+  return show(replyOf([&] { return handler(lock); }), lock);
+}
+
 workflow::Reply NodeContext::run(const Job& job,
                                  Lock* lock,
                                  const std::function<workflow::Reply()>& work) {
-  const workflow::Reply begun = calibration_.begin(job.step, job.message, job.is_waved);
-  publishStatus(*lock);
-  if (!begun.success)
-    return begun;
-  workflow::Reply reply = {false, "the job failed: try again"};
-  {
-    const AtEnd end{[&] {
-      try {
-        calibration_.end(reply);
-        publishStatus(*lock);
-      } catch (const std::exception&) {
-        // Out of memory. The step has ended nevertheless; the timer publishes the status.
-      }
-    }};
-    reply = replyOf(work);
-    if (!reply.success && isCancelled(job.step, *lock))
-      reply.message = "it was cancelled; " + job.kept;
-  }
+  workflow::Reply reply = calibration_.begin(job.step, job.message, job.is_waved);
+  if (!reply.success)
+    return reply;
+  const AtEnd end{[&] { calibration_.end(); }};
+  show(reply, *lock);
+  reply = replyOf(work);
+  if (!reply.success && isCancelled(job.step, *lock))
+    reply.message = "it was cancelled; " + job.kept;
   return reply;
 }
 
-workflow::Reply NodeContext::answer(Lock* lock, const std::function<workflow::Reply()>& work) {
-  bool is_shown = false;
-  const workflow::Reply reply = replyOf([&] {
-    const workflow::Reply returned = work();
-    is_shown = true;
-    return returned;
-  });
-  if (!is_shown)
-    calibration_.shown(reply);
-  publishStatus(*lock);
-  return reply;
+void NodeContext::discover(Lock* lock) {
+  lock->unlock();
+  const AtEnd relock{[&] { lock->lock(); }};
+  inputs_.discover();
 }
 
 bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>& done) {

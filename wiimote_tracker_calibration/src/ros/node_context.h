@@ -60,10 +60,14 @@ class NodeContext {
 
   CameraInputs& inputs() { return inputs_; }
 
+  /// Handles a request with the mutex locked, and shows the reply in the status. What the handler
+  /// throws becomes a refusal.
+  workflow::Reply handle(const std::function<workflow::Reply(Lock&)>& handler);
+
   // --- All of the following with the mutex locked.
 
   /// Does a job: begins its step, does the work and ends the step, whatever the work throws. The
-  /// calibration refuses everything but `cancel` meanwhile.
+  /// calibration refuses everything but `cancel` meanwhile. @returns the reply to the request.
   workflow::Reply run(const Job& job, Lock* lock, const std::function<workflow::Reply()>& work);
 
   /// Whether the job of this step was cancelled and should return, refusing.
@@ -71,10 +75,6 @@ class NodeContext {
     return !calibration_.isBusyWith(step);
   }
   void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
-
-  /// Does short work, or work that is no step of the calibration, and publishes the status, which
-  /// shows what was thrown. A refusal that is returned was shown already.
-  workflow::Reply answer(Lock* lock, const std::function<workflow::Reply()>& work);
 
   /// Waits until done() is true (checked with the mutex locked at each image, and ten times a
   /// second at least), until now() is beyond `end`, or until the node is to end. Simulated time
@@ -109,6 +109,9 @@ class NodeContext {
       return compute();
     });
   }
+
+  /// Looks for cameras that have appeared, without the lock.
+  void discover(Lock* lock);
 
   /// For tests: called while a request waits or computes. It may throw.
   std::function<void()> fault = [] {};
@@ -198,6 +201,32 @@ class NodeContext {
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
 };
+
+/// Offers a service whose handler has the mutex locked, and whose reply is shown in the status.
+template <typename Unit, typename Request, typename Response>
+ros::ServiceServer advertise(NodeContext* context,
+                             const std::string& name,
+                             workflow::Reply (Unit::*handler)(const Request&, Response*, Lock&),
+                             Unit* unit) {
+  return offer<Request, Response>(
+      context->nh(), name, [=](const Request& request, Response* response) {
+        return context->handle(
+            [&](Lock& lock) { return (unit->*handler)(request, response, lock); });
+      });
+}
+
+/// Same without fields in the request.
+template <typename Unit>
+ros::ServiceServer advertise(NodeContext* context,
+                             const std::string& name,
+                             workflow::Reply (Unit::*handler)(Lock&),
+                             Unit* unit) {
+  using std_srvs::Trigger;
+  return offer<Trigger::Request, Trigger::Response>(
+      context->nh(), name, [=](const Trigger::Request&, Trigger::Response*) {
+        return context->handle([&](Lock& lock) { return (unit->*handler)(lock); });
+      });
+}
 
 }  // namespace wiimote_tracker
 

@@ -75,13 +75,12 @@ class PlaceServices {
  public:
   explicit PlaceServices(NodeContext* context) : context_(*context) {
     using Self = PlaceServices;
-    const ros::NodeHandle& nh = context_.nh();
-    services_ = {advertise(nh, "calibration/check", &Self::check, this),
-                 advertise(nh, "calibration/measure_place", &Self::measurePlace, this),
-                 advertise(nh, "calibration/known_places/add", &Self::add, this),
-                 advertise(nh, "calibration/known_places/undo", &Self::undo, this),
-                 advertise(nh, "calibration/known_places/clear", &Self::clear, this),
-                 advertise(nh, "calibration/known_places/fit", &Self::fit, this)};
+    services_ = {advertise(context, "calibration/check", &Self::check, this),
+                 advertise(context, "calibration/measure_place", &Self::measurePlace, this),
+                 advertise(context, "calibration/known_places/add", &Self::add, this),
+                 advertise(context, "calibration/known_places/undo", &Self::undo, this),
+                 advertise(context, "calibration/known_places/clear", &Self::clear, this),
+                 advertise(context, "calibration/known_places/fit", &Self::fit, this)};
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
       if (capture_)
         capture_->add(image);
@@ -89,47 +88,42 @@ class PlaceServices {
   }
 
  private:
-  Reply check(const CheckPlace::Request& request, CheckPlace::Response* response) {
+  Reply check(const CheckPlace::Request& request, CheckPlace::Response* response, Lock& lock) {
     setUnknown(response);
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      const square::KnownPlace known =
-          knownPlace(request, context_.parameters(lock).solve.square.uncertainty.placement);
-      return measure(
-          known, request.duration, &lock, [&](const auto& measured, const auto& rig, const auto&) {
-            const place::MeasuredPlace place = place::corrected(rig, measured);
-            const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
-            fill(place, check, response);
-            return Reply{true, check.message};
-          });
-    });
+    const square::KnownPlace known =
+        knownPlace(request, context_.parameters(lock).solve.square.uncertainty.placement);
+    return measure(
+        known, request.duration, &lock, [&](const auto& measured, const auto& rig, const auto&) {
+          const place::MeasuredPlace place = place::corrected(rig, measured);
+          const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
+          fill(place, check, response);
+          return Reply{true, check.message};
+        });
   }
 
-  Reply measurePlace(const CheckPlace::Request& request, CheckPlace::Response* response) {
+  Reply measurePlace(const CheckPlace::Request& request,
+                     CheckPlace::Response* response,
+                     Lock& lock) {
     setUnknown(response);
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      // Before a person holds the LED still for nothing.
-      if (const std::string reason = context_.calibration(lock).whyNoPlace(); !reason.empty())
-        throw Refusal(reason);
-      const square::KnownPlace known = knownPlace(request, square::KnownPlace().stddev);
-      return measure(
-          known, request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
-            const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
-            fill(place, check, response);
-            if (!place.rays_agree || check.error > kMostError * check.expected_stddev)
-              throw Refusal(check.message);
-            return context_.calibration(lock).addPlace(known, seen);
-          });
-    });
+    // Before a person holds the LED still for nothing.
+    if (const std::string reason = context_.calibration(lock).whyNoPlace(); !reason.empty())
+      throw Refusal(reason);
+    const square::KnownPlace known = knownPlace(request, square::KnownPlace().stddev);
+    return measure(
+        known, request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
+          const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
+          fill(place, check, response);
+          if (!place.rays_agree || check.error > kMostError * check.expected_stddev)
+            throw Refusal(check.message);
+          return context_.calibration(lock).addPlace(known, seen);
+        });
   }
 
-  Reply add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response) {
+  Reply add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response, Lock& lock) {
     response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
-    Lock lock(context_.mutex());
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     remap::MeasuredPoints& places = context_.knownPlaces(lock);
-    Reply reply = context_.answer(&lock, [&] {
+    Reply reply = replyOf([&] {
       square::KnownPlace known;
       known.position = vectorOf(request.known);
       places.requireNew(known.position);
@@ -154,31 +148,26 @@ class PlaceServices {
     return reply;
   }
 
-  Reply undo() {
-    const Lock lock(context_.mutex());
+  Reply undo(Lock& lock) {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     remap::MeasuredPoints& places = context_.knownPlaces(lock);
     const bool success = places.undo();
-    return context_.show(
-        {success, (success ? "the latest place was dropped, " +
-                                 std::to_string(places.points().size()) + " are left"
-                           : "there is no known place to drop") +
-                      dropped},
-        lock);
+    return {success, (success ? "the latest place was dropped, " +
+                                    std::to_string(places.points().size()) + " are left"
+                              : "there is no known place to drop") +
+                         dropped};
   }
 
-  Reply clear() {
-    const Lock lock(context_.mutex());
+  Reply clear(Lock& lock) {
     context_.knownPlaces(lock).clear();
-    return context_.show({true, "all known places were dropped"}, lock);
+    return {true, "all known places were dropped"};
   }
 
-  Reply fit(const FitRemap::Request& request, FitRemap::Response* response) {
+  Reply fit(const FitRemap::Request& request, FitRemap::Response* response, Lock& lock) {
     response->uncorrected_error = kUnknown;
     response->expected_error = kUnknown;
-    Lock lock(context_.mutex());
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    Reply reply = context_.answer(&lock, [&] {
+    Reply reply = replyOf([&] {
       context_.calibration(lock).requireIdle();
       const std::string rig_id = context_.existingRig("to correct", lock).id();
       const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).points();

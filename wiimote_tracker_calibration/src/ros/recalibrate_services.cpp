@@ -24,7 +24,7 @@ class RecalibrateServices {
  public:
   explicit RecalibrateServices(NodeContext* context)
       : context_(*context),
-        service_(advertise(context_.nh(),
+        service_(advertise(context,
                            "calibration/recalibrate_camera",
                            &RecalibrateServices::recalibrate,
                            this)) {
@@ -41,12 +41,12 @@ class RecalibrateServices {
 
  private:
   workflow::Reply recalibrate(const RecalibrateCamera::Request& request,
-                              RecalibrateCamera::Response* response) {
+                              RecalibrateCamera::Response* response,
+                              Lock& lock) {
     const std::string& camera = request.camera;
     const double duration = request.duration == 0.0 ? kUsualDuration : request.duration;
     if (!(duration > 0.0 && duration <= kLongestDuration))
       throw Refusal("the duration must be within 0 and 300 s: correct it");
-    Lock lock(context_.mutex());
     const geometry::Rig rig = context_.existingRig("with this camera", lock);
     if (rig.find(camera) == nullptr) {
       std::vector<std::string> names;

@@ -20,11 +20,12 @@ class SolveServices {
             "calibration/principal_point_trace",
             1,
             true)),
-        service_(advertise(context_.nh(), "calibration/solve", &SolveServices::solve, this)) {}
+        service_(advertise(context, "calibration/solve", &SolveServices::solve, this)) {}
 
  private:
-  workflow::Reply solve(const SolveCalibration::Request&, SolveCalibration::Response* response) {
-    Lock lock(context_.mutex());
+  workflow::Reply solve(const SolveCalibration::Request&,
+                        SolveCalibration::Response* response,
+                        Lock& lock) {
     const Job job = {Step::kSolving, "solving", "what was captured stays"};
     return context_.run(job, &lock, [&] {
       const session::Session session = context_.session(lock);

@@ -14,22 +14,17 @@ class WaveServices {
  public:
   explicit WaveServices(NodeContext* context)
       : context_(*context),
-        services_({advertise(context_.nh(), "calibration/start_wave", &WaveServices::start, this),
-                   advertise(context_.nh(), "calibration/stop_wave", &WaveServices::stop, this)}) {}
+        services_({advertise(context, "calibration/start_wave", &WaveServices::start, this),
+                   advertise(context, "calibration/stop_wave", &WaveServices::stop, this)}) {}
 
  private:
   workflow::Reply start(const wiimote_tracker_msgs::StartWave::Request& request,
-                        wiimote_tracker_msgs::StartWave::Response*) {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] {
-      return beginWave(wandOf(request.wand_length, request.wand_stddev), &context_, &lock);
-    });
+                        wiimote_tracker_msgs::StartWave::Response*,
+                        Lock& lock) {
+    return beginWave(wandOf(request.wand_length, request.wand_stddev), &context_, &lock);
   }
 
-  workflow::Reply stop() {
-    Lock lock(context_.mutex());
-    return context_.answer(&lock, [&] { return context_.calibration(lock).endWave(); });
-  }
+  workflow::Reply stop(Lock& lock) { return context_.calibration(lock).endWave(); }
 
   NodeContext& context_;
   std::vector<ros::ServiceServer> services_;

@@ -22,11 +22,11 @@ Reply Calibration::start(double side_x, double side_y, const std::vector<std::st
   try {
     layout.check();
   } catch (const square::SquareError& error) {
-    return refuse(error.what());
+    return refusal(error.what());
   }
   if (std::max(side_x, side_y) > kLongestSide)
-    return refuse(format("a square of %g m x %g m is larger than %g m: give its sides in metres",
-                         side_x, side_y, kLongestSide));
+    return refusal(format("a square of %g m x %g m is larger than %g m: give its sides in metres",
+                          side_x, side_y, kLongestSide));
   return startWith(newRun(cameras, layout, options_.capture, options_.world_frame));
 }
 
@@ -36,39 +36,39 @@ Reply Calibration::startWithoutSquare(const std::vector<std::string>& cameras) {
 
 Reply Calibration::startWith(Captured captured) {
   if (busy_)
-    return refuse(occupied());
+    return refusal(occupied());
   const std::size_t count = captured.cameras.size();
   if (count < 2)
-    return refuse("a calibration needs at least two cameras, but there are " +
-                  std::to_string(count) + ": connect the cameras and start again");
+    return refusal("a calibration needs at least two cameras, but there are " +
+                   std::to_string(count) + ": connect the cameras and start again");
   if (const std::string clash = geometry::nameClash(captured.cameras); !clash.empty())
-    return refuse(clash);
+    return refusal(clash);
   captured_ = std::move(captured);
   just_solved_ = false;
   setHandsFree(hands_free_on_);
   step_ = Step::kReady;
   const std::string started = "started with " + std::to_string(count) + " cameras";
   if (!captured_.layout)
-    return accept(started + ": wave a wand of known length");
-  return accept(
-      started +
-      format(" and a square of %g m x %g m: ", captured_.layout->side_x, captured_.layout->side_y) +
-      captured_.square.next());
+    return {true, started + ": wave a wand of known length"};
+  return {true, started +
+                    format(" and a square of %g m x %g m: ", captured_.layout->side_x,
+                           captured_.layout->side_y) +
+                    captured_.square.next()};
 }
 
 Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
   if (busy_)
-    return refuse(occupied());
+    return refusal(occupied());
   if (captured_.cameras.empty())
-    return refuse("no calibration is started: start one first");
+    return refusal("no calibration is started: start one first");
   if (!captured_.layout)
-    return refuse("this calibration was started without a square: wave a wand, or start again");
+    return refusal("this calibration was started without a square: wave a wand, or start again");
   const Reply reply = captured_.square.begin(retake, now);
   if (reply.success) {
     busy_ = Step::kCapturing;
     just_solved_ = false;
   }
-  return shown(reply);
+  return reply;
 }
 
 void Calibration::abandonCapture(const std::string& why) {
@@ -88,45 +88,45 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
                              const std::optional<wave::Wand>& wand,
                              double now) {
   if (busy_)
-    return refuse(occupied());
+    return refusal(occupied());
   if (captured_.cameras.empty())
-    return refuse("no calibration is started: start one first");
+    return refusal("no calibration is started: start one first");
   if (!captured_.layout && !wand)
-    return refuse("without a square one LED gives no scale: wave a wand, and give its length");
+    return refusal("without a square one LED gives no scale: wave a wand, and give its length");
   try {
     if (wand)
       wand->check();
     captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
   } catch (const wave::WaveError& error) {
-    return refuse(error.what());
+    return refusal(error.what());
   }
   busy_ = Step::kWaving;
   just_solved_ = false;
   captured_.length_is_last = false;
   if (captured_.wave->needsFloor())
-    return accept("recording: leave the wand on the floor");
-  return accept(std::string("recording: wave the ") + (wand ? "wand" : "LED") +
-                " through the whole volume, at all heights, at 0.5 m/s or faster");
+    return {true, "recording: leave the wand on the floor"};
+  return {true, std::string("recording: wave the ") + (wand ? "wand" : "LED") +
+                    " through the whole volume, at all heights, at 0.5 m/s or faster"};
 }
 
 Reply Calibration::endWave() {
   if (!isBusyWith(Step::kWaving))
-    return refuse("no wave is being recorded: start one first");
+    return refusal("no wave is being recorded: start one first");
   busy_.reset();
   updateStep();
   const wave::CoverageReport report = captured_.wave->report();
   std::string message =
       format("recorded %.1f s", report.seconds) + " in which two cameras or more saw it move";
   if (!report.enough())
-    return accept(message + "; still missing: " + report.missing.front());
-  return accept(message + (step_ == Step::kComplete
-                               ? ", that is enough: solve"
-                               : ", that is enough; " + captured_.square.next()));
+    return {true, message + "; still missing: " + report.missing.front()};
+  return {true,
+          message + (step_ == Step::kComplete ? ", that is enough: solve"
+                                              : ", that is enough; " + captured_.square.next())};
 }
 
 void Calibration::abandonWave(const std::string& why) {
   if (isBusyWith(Step::kWaving))
-    refuse("the wave was ended: " + why + "; " + endWave().message);
+    shown(refusal("the wave was ended: " + why + "; " + endWave().message));
 }
 
 void Calibration::addImage(const capture::Image& image) {
@@ -138,7 +138,8 @@ void Calibration::addImage(const capture::Image& image) {
   }
   if (isBusyWith(Step::kWaving) && captured_.wave->add(image)) {
     ++captures_;
-    accept("the wand on the floor is captured: lift it, and wave it through the whole volume");
+    shown(
+        {true, "the wand on the floor is captured: lift it, and wave it through the whole volume"});
   }
   captured_.square.add(image);
   finishCapture();
@@ -146,7 +147,7 @@ void Calibration::addImage(const capture::Image& image) {
     return;
   if (hands_free_->add(image, captured_.square.corners())) {
     hands_free_->restart();
-    beginCapture(std::nullopt, image.stamp);
+    shown(beginCapture(std::nullopt, image.stamp));
   }
 }
 
@@ -170,20 +171,20 @@ void Calibration::finishCapture() {
 
 Reply Calibration::measureLength(const square::TapedLength& taped, double placement) {
   if (busy_)
-    return refuse(occupied());
+    return refusal(occupied());
   just_solved_ = false;
   return changed(captured_.measureLength(taped, placement));
 }
 
 Reply Calibration::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
   if (const std::string reason = whyNoPlace(); !reason.empty())
-    return refuse(reason);
+    return refusal(reason);
   return changed(captured_.addPlace(known, seen));
 }
 
 Reply Calibration::undo() {
   if (busy_)
-    return refuse(occupied());
+    return refusal(occupied());
   just_solved_ = false;
   return changed(captured_.undo());
 }
@@ -191,23 +192,24 @@ Reply Calibration::undo() {
 Reply Calibration::cancel() {
   if (busy_ == Step::kCapturing) {
     abandonCapture("it was cancelled");
-    return accept(message_);
+    return {true, message_};
   }
   if (busy_ == Step::kWaving) {
     busy_.reset();
     captured_.wave.reset();
     updateStep();
-    return accept("the wave was stopped and dropped; the corners stay");
+    return {true, "the wave was stopped and dropped; the corners stay"};
   }
   if (busy_) {
     stopping_ = true;
-    return accept("stopping; what was captured before stays");
+    return {true, "stopping; what was captured before stays"};
   }
   if (just_solved_) {
     just_solved_ = false;
-    return accept(
+    return {
+        true,
         "the solver had already finished, and nothing was dropped: cancel again to drop all that "
-        "was captured");
+        "was captured"};
   }
   // The outcome of the last capture stays: the action may still wait for it.
   SquareRun square = captured_.square;
@@ -216,32 +218,31 @@ Reply Calibration::cancel() {
   captured_.square = square;
   hands_free_.reset();
   step_ = Step::kIdle;
-  return accept(rig_ ? "all that was captured was dropped; the rig from before stays in use"
-                     : "all that was captured was dropped");
+  return {true, rig_ ? "all that was captured was dropped; the rig from before stays in use"
+                     : "all that was captured was dropped"};
 }
 
 Reply Calibration::begin(Step step, const std::string& message, bool is_waved) {
   const bool ends_wave =
       step == Step::kSolving && isBusyWith(Step::kWaving) && captured_.wave->report().enough();
   if (busy_ && !ends_wave)
-    return refuse(occupied());
+    return refusal(occupied());
   if (const std::string reason = captured_.whyNotSolvable();
       step == Step::kSolving && !reason.empty())
-    return refuse(reason);
+    return refusal(reason);
   if (ends_wave)
     endWave();
   busy_ = step;
   is_waved_ = is_waved;
   just_solved_ = false;
   progress_ = 0.0;
-  return accept(message);
+  return {true, message};
 }
 
-void Calibration::end(const Reply& outcome) {
+void Calibration::end() {
   just_solved_ = busy_ == Step::kSolving;
   busy_.reset();
   stopping_ = false;
-  shown(outcome);
 }
 
 Reply Calibration::takeSolution(const geometry::Rig& rig) {
@@ -265,23 +266,23 @@ Reply Calibration::restore(const session::Session& session) {
   updateStep();
   for (const std::vector<geometry::ImageMask>& masks : session.masks)
     preparation_.lights_learned |= !masks.empty();
-  return accept("samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
-                std::to_string(captured_.square.corners().size()) + " corners" +
-                (captured_.wave ? " and a wave" : "") +
-                " are loaded: " + (step_ == Step::kComplete ? "solve" : captured_.square.next()));
+  return {true, "samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
+                    std::to_string(captured_.square.corners().size()) + " corners" +
+                    (captured_.wave ? " and a wave" : "") + " are loaded: " +
+                    (step_ == Step::kComplete ? "solve" : captured_.square.next())};
 }
 
 Reply Calibration::load(const geometry::Rig& rig) {
   if (busy_)
-    return refuse(occupied());
+    return refusal(occupied());
   rig_ = rig;
   for (const geometry::RigCamera& camera : rig.cameras)
     preparation_.lights_learned |= !camera.masks.empty();
   if (captured_.cameras.empty() || step_ == Step::kSolved)
     step_ = Step::kSaved;
   const std::string far_camera = rig.describeFarCamera();
-  return accept("rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +
-                " cameras is in use" + (far_camera.empty() ? "" : "; but " + far_camera));
+  return {true, "rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +
+                    " cameras is in use" + (far_camera.empty() ? "" : "; but " + far_camera)};
 }
 
 void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {
@@ -306,11 +307,10 @@ bool Calibration::setMasks(const capture::Masks& masks) {
   return rig_->id() != id;
 }
 
-void Calibration::saved(const std::string& message) {
+void Calibration::saved() {
   if (step_ == Step::kSolved)
     step_ = Step::kSaved;
   just_solved_ = false;
-  message_ = message;
 }
 
 double Calibration::progress() const {
@@ -371,15 +371,7 @@ std::string Calibration::occupied() const {
 Reply Calibration::changed(const Reply& reply) {
   if (reply.success)
     updateStep();
-  return shown(reply);
-}
-
-Reply Calibration::refuse(const std::string& message) {
-  return shown({false, message});
-}
-
-Reply Calibration::accept(const std::string& message) {
-  return shown({true, message});
+  return reply;
 }
 
 Reply Calibration::shown(const Reply& reply) {

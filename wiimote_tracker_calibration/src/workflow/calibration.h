@@ -48,8 +48,9 @@ struct Preparation {
 
 /// The calibration from start to a saved rig, step by step. A request that cannot be done now is
 /// refused with a reason, and changes nothing. While something takes time, and until it has stopped
-/// after a cancel, every request but cancel() is refused. Times [s] are of the clock that stamps
-/// the images.
+/// after a cancel, every request but cancel() is refused. Whoever makes a request shows the reply
+/// with shown(); what comes of images and of time is shown here. Times [s] are of the clock that
+/// stamps the images.
 class Calibration {
  public:
   explicit Calibration(const CalibrationOptions& options) : options_(options) {}
@@ -132,11 +133,11 @@ class Calibration {
   /// Progress of the running step [0..1].
   void setProgress(double progress) { progress_ = progress; }
 
-  /// Ends the running step, and shows the outcome.
-  void end(const Reply& outcome);
+  /// Ends the running step.
+  void end();
 
   /// Uses the result of kSolving, with the zones of the previous rig if the world frames have the
-  /// same name. @returns its verdict, for end().
+  /// same name. @returns its verdict.
   Reply takeSolution(const geometry::Rig& rig);
 
   /// All that was captured so far. @param facts, masks for every camera of the run that is known;
@@ -162,9 +163,9 @@ class Calibration {
   bool setMasks(const capture::Masks& masks);
 
   /// Notes that the rig was written to a file.
-  void saved(const std::string& message);
+  void saved();
 
-  /// Shows what happened outside of this class.
+  /// Makes a reply the message(), and counts it if it is a refusal. @returns it.
   Reply shown(const Reply& reply);
 
   Preparation& preparation() { return preparation_; }
@@ -196,10 +197,8 @@ class Calibration {
   void finishCapture();
   /// Why no step can begin now.
   std::string occupied() const;
-  /// Shows a reply to what changes the captured data.
+  /// Updates the step after what changes the captured data. @returns the reply.
   Reply changed(const Reply& reply);
-  Reply refuse(const std::string& message);
-  Reply accept(const std::string& message);
   /// The step between two requests, by what is captured.
   void updateStep() { step_ = captured_.isComplete() ? Step::kComplete : Step::kReady; }
 

@@ -23,10 +23,6 @@ bool drop(std::vector<square::TapedLength>* lengths, Condition condition) {
   return any;
 }
 
-Reply refusal(const std::string& message) {
-  return {false, message};
-}
-
 wave::CameraRecording recordingOf(const Captured& captured,
                                   const std::string& name,
                                   const CameraFacts& facts) {

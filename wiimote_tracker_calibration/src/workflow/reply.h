@@ -12,6 +12,10 @@ struct Reply {
   std::string message;
 };
 
+inline Reply refusal(const std::string& message) {
+  return {false, message};
+}
+
 }  // namespace wiimote_tracker::workflow
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_REPLY_H

@@ -82,9 +82,9 @@ class CaptureServices {
     if (!(duration >= NodeContext::kShortestLook && duration <= kLongest))
       throw Refusal("the duration must be within 0.05 and 10 s");
     context_.discover(&lock);
-    context_.beginWalk(lock);
+    context_.status(lock).beginWalk();
     context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
-    response->cameras = context_.cameraStatus(duration, lock);
+    response->cameras = context_.status(lock).cameras(duration);
     if (response->cameras.empty())
       throw Refusal("no camera is there: start the drivers");
     std::vector<std::string> problems;
@@ -188,7 +188,7 @@ class CaptureServices {
       result.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
       if (outcome.success)
         outcome = waitForCapture(&lock);
-      result.cameras = context_.cameraStatus(1.0, lock);
+      result.cameras = context_.status(lock).cameras(1.0);
       context_.publishStatus(lock);
       return outcome;
     });
@@ -242,7 +242,7 @@ class CaptureServices {
         feedback.corner = static_cast<std::uint32_t>(calibration.square().currentCorner());
         feedback.progress = calibration.progress();
         feedback.message = calibration.square().capture()->message();
-        feedback.cameras = context_.cameraStatus(1.0, *lock);
+        feedback.cameras = context_.status(*lock).cameras(1.0);
         capture_server_.publishFeedback(feedback);
       }
       return false;

@@ -96,7 +96,7 @@ class ContinuousServices {
     }
     const bool is_news = !proposal_ || proposal_->camera != proposal->camera;
     proposal_ = proposal;
-    context_.setProposal(proposal->camera, proposal->message + kApply, lock);
+    context_.status(lock).setProposal(proposal->camera, proposal->message + kApply);
     if (applies) {
       const Reply applied = applyProposal(&lock);
       ROS_WARN_STREAM(applied.message);
@@ -157,7 +157,7 @@ class ContinuousServices {
 
   void forgetProposal(const Lock& lock) {
     proposal_.reset();
-    context_.setProposal("", "", lock);
+    context_.status(lock).setProposal("", "");
   }
 
   std::optional<continuous::Proposal> newestProposal(const std::vector<Input>& inputs) {

@@ -59,7 +59,7 @@ class HealthMonitor {
           ROS_WARN_STREAM(news);
         warnOfUnknownCameras(*rig, lock);
       }
-      context_.setHealth(texts, lock);
+      context_.status(lock).setHealth(texts);
     }
     diagnostics_.update();
   }
@@ -92,7 +92,7 @@ class HealthMonitor {
     std::vector<std::string> troubles;
     for (const auto& camera : watch_->cameras()) {
       const health::CameraHealth& health = camera.second;
-      const std::string text = context_.health(camera.first, lock);
+      const std::string text = context_.status(lock).health(camera.first);
       if (!text.empty())
         troubles.push_back(camera.first + " " + text);
       status.add(camera.first + " tilt [degrees]",

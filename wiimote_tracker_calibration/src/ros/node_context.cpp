@@ -2,12 +2,8 @@
 
 #include "session/judge.h"
 
-#include "camera_status.h"
-#include "square_frame.h"
 #include "verdict_messages.h"
 
-#include <std_msgs/String.h>
-#include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <algorithm>
@@ -41,25 +37,12 @@ NodeContext::NodeContext(const ros::NodeHandle& nh, const Parameters& parameters
     : nh_(nh),
       parameters_(parameters),
       calibration_(parameters.calibration),
-      status_publisher_(
-          nh_.advertise<wiimote_tracker_msgs::CalibrationStatus>("calibration/status", 1, true)),
       rig_publisher_(
           nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true)),
       verdict_publisher_(
           nh_.advertise<wiimote_tracker_msgs::CalibrationVerdict>("calibration/verdict", 1, true)),
-      square_publisher_(
-          nh_.advertise<geometry_msgs::PolygonStamped>("calibration/square", 1, true)),
-      sound_publisher_(nh_.advertise<std_msgs::String>("calibration/sound", 10)),
-      inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_) {
-  // Before a calibration, too, so that the world is a frame that others can show.
-  transforms_.sendTransform(
-      squareTransform(parameters.calibration.world_frame, parameters.calibration.layout));
-  inputs_.subscribeImages([this](const capture::Image& image, const Lock&) {
-    const CameraInput& camera = inputs_.cameras().at(image.camera);
-    if (isWalked() && camera.width > 0 && camera.height > 0)
-      walk_.add(image, camera.width, camera.height);
-  });
-}
+      inputs_(nh_, parameters.cameras, parameters.button_remote, &mutex_, &changed_),
+      status_(parameters_, calibration_, &nh_, &inputs_, &transforms_) {}
 
 double NodeContext::now() {
   return ros::Time::now().toSec();
@@ -179,18 +162,9 @@ void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, c
   publishStatus(lock);
 }
 
-void NodeContext::beginWalk(const Lock&) {
-  walk_.restart();
-  walk_is_wanted_ = true;
-}
-
-bool NodeContext::isWalked() const {
-  return calibration_.cameras().empty() && (!calibration_.rig() || walk_is_wanted_);
-}
-
 void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
   verdict_ = verdict;
-  walk_is_wanted_ = false;
+  status_.endWalk();
   const geometry::Rig& rig = *calibration_.rig();
   // The lamps of the room belong to the rig.
   for (const geometry::RigCamera& camera : rig.cameras)
@@ -209,65 +183,6 @@ bool NodeContext::setMasks(const capture::Masks& masks, const Lock& lock) {
   known_places_.renameRig(before, calibration_.rig()->id());
   publishRig(verdict_, lock);
   return true;
-}
-
-std::string NodeContext::health(const std::string& camera, const Lock&) const {
-  const auto found = health_.find(camera);
-  const std::string finding = found != health_.end() ? found->second : "";
-  if (proposal_.first != camera || proposal_.second.empty())
-    return finding;
-  return finding + (finding.empty() ? "" : "; ") + proposal_.second;
-}
-
-std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> NodeContext::cameraStatus(
-    double window,
-    const Lock& lock) const {
-  std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameras =
-      wiimote_tracker::cameraStatus(calibration_, inputs_.cameras(), now(), window);
-  for (wiimote_tracker_msgs::CalibrationCameraStatus& camera : cameras) {
-    const auto masks = inputs_.masks().find(camera.name);
-    if (masks != inputs_.masks().end())
-      camera.masks = static_cast<std::uint32_t>(masks->second.size());
-    camera.health = health(camera.name, lock);
-    camera.seen_share = walk_.share(camera.name);
-    camera.seen_with = walk_.seenWith(camera.name);
-  }
-  return cameras;
-}
-
-void NodeContext::publishStatus(const Lock& lock) {
-  wiimote_tracker_msgs::CalibrationStatus status = calibrationStatus(calibration_, verdict_);
-  status.header.stamp = ros::Time::now();
-  status.header.frame_id = parameters_.calibration.world_frame;
-  status.cameras = cameraStatus(1.0, lock);
-  if (isWalked())
-    status.walk = walk_.sentence();
-  status_publisher_.publish(status);
-  publishSquare(lock);
-  publishSound(lock);
-}
-
-void NodeContext::publishSound(const Lock&) {
-  std_msgs::String sound;
-  sound.data = sounds_.heard(calibration_);
-  if (parameters_.sounds && !sound.data.empty())
-    sound_publisher_.publish(sound);
-}
-
-void NodeContext::publishSquare(const Lock&) {
-  std::optional<square::SquareLayout> square = calibration_.layout();
-  std::string world_frame = parameters_.calibration.world_frame;
-  if (!square && calibration_.rig()) {
-    square = squareOf(*calibration_.rig());
-    world_frame = calibration_.rig()->world_frame;
-  }
-  const geometry_msgs::PolygonStamped outline = squareOutline(world_frame, square);
-  if (outline == outline_)
-    return;
-  outline_ = outline;
-  square_publisher_.publish(outline);
-  if (square)
-    transforms_.sendTransform(squareTransform(world_frame, *square));
 }
 
 }  // namespace wiimote_tracker

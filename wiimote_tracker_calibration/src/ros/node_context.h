@@ -1,28 +1,23 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
-#include "capture/walk.h"
 #include "remap/measured_points.h"
 #include "session/verdict.h"
 #include "workflow/calibration.h"
-#include "workflow/sounds.h"
 
 #include "camera_inputs.h"
 #include "parameters.h"
 #include "requests.h"
+#include "status_publisher.h"
 
-#include <geometry_msgs/PolygonStamped.h>
 #include <ros/node_handle.h>
 #include <tf2_ros/static_transform_broadcaster.h>
-#include <wiimote_tracker_msgs/CalibrationCameraStatus.h>
 
 #include <condition_variable>
 #include <functional>
-#include <map>
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -119,8 +114,7 @@ class NodeContext {
   /// A unit may copy them, and change its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
-  /// Forgets what the cameras saw of a carried LED, and collects it also for the rig in use.
-  void beginWalk(const Lock&);
+  StatusPublisher& status(const Lock&) { return status_; }
   /// Drops known places that another rig measured. @returns what to say about that.
   std::string dropPlacesOfOtherRigs(const Lock&);
   /// Measured with the current rig after dropPlacesOfOtherRigs(); before that perhaps with another.
@@ -155,51 +149,21 @@ class NodeContext {
   /// @returns whether there is a rig and it changed.
   bool setMasks(const capture::Masks& masks, const Lock& lock);
 
-  /// What is found of the cameras' health from now on, by their names; empty or none: all is well.
-  void setHealth(const std::map<std::string, std::string>& texts, const Lock&) { health_ = texts; }
-
-  /// What continuous calibration proposes to change, shown with the camera's health; no text:
-  /// nothing.
-  void setProposal(const std::string& camera, const std::string& text, const Lock&) {
-    proposal_ = {camera, text};
-  }
-  /// CalibrationCameraStatus.health of a camera.
-  std::string health(const std::string& camera, const Lock&) const;
-
-  /// What each camera shows over the last `window` seconds, and what it has contributed so far.
-  std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(double window,
-                                                                          const Lock&) const;
-
-  void publishStatus(const Lock& lock);
+  void publishStatus(const Lock&) { status_.publish(verdict_); }
 
  private:
-  /// A walk comes before the start. With a rig in use its LED is tracked instead.
-  bool isWalked() const;
-  /// Publishes what has just happened, for the ears.
-  void publishSound(const Lock&);
-  /// Publishes the square, when its sides have changed.
-  void publishSquare(const Lock&);
-
   ros::NodeHandle nh_;
   std::mutex mutex_;
   std::condition_variable changed_;
   Parameters parameters_;
   workflow::Calibration calibration_;
-  workflow::Sounds sounds_;
-  capture::Walk walk_;
-  bool walk_is_wanted_ = false;  // though there is a rig
   remap::MeasuredPoints known_places_;
   session::Verdict verdict_;  // of the current rig
-  std::map<std::string, std::string> health_;
-  std::pair<std::string, std::string> proposal_;  // Camera and text.
-  ros::Publisher status_publisher_;
   ros::Publisher rig_publisher_;
   ros::Publisher verdict_publisher_;
-  ros::Publisher square_publisher_;
-  ros::Publisher sound_publisher_;
-  geometry_msgs::PolygonStamped outline_;  // of the square, as published
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
+  StatusPublisher status_;
 };
 
 /// Offers a service whose handler has the mutex locked, and whose reply is shown in the status.

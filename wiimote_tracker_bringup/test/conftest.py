@@ -4,4 +4,5 @@ import os
 import sys
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path[:0] = [os.path.join(HERE, '..', folder) for folder in ('evaluation', 'scripts')]
+sys.path[:0] = [os.path.join(HERE, '..', folder) for folder in (
+    'body_motion', 'evaluation', 'python', 'rig_planning', 'scripts')]

@@ -17,8 +17,8 @@ import rospy
 import rostest
 from geometry_msgs.msg import PointStamped
 from live_rig import DEADLINE
-from wiimote_tracker_evaluation import alignment, bound, experiment, scene
-from wiimote_tracker_evaluation.conductor import SETTLE, Conductor
+from wiimote_tracker_bringup import alignment, bound, experiment, scene
+from wiimote_tracker_bringup.conductor import SETTLE, Conductor
 from wiimote_tracker_evaluation.demo import scoring
 from wiimote_tracker_evaluation.demo.recording import LiveRecorder, Recording, truth_row
 

@@ -6,7 +6,7 @@ import threading
 import rospy
 import rostest
 from evaluate_live_rostest import LiveEvaluation, Person
-from wiimote_tracker_evaluation import rigs
+from wiimote_tracker_bringup import rigs
 from wiimote_tracker_evaluation.live.identification import LABEL_TIMEOUT, QUICK_TRIES
 from wiimote_tracker_msgs.srv import SetLedRequest
 

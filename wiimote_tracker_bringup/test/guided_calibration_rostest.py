@@ -24,7 +24,8 @@ import rostest
 from geometry_msgs.msg import Vector3
 from scipy.optimize import least_squares
 from sensor_msgs.msg import CameraInfo
-from wiimote_tracker_evaluation import experiment, reprojection, scene
+from wiimote_tracker_bringup import experiment, scene
+from wiimote_tracker_evaluation import reprojection
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationVerdict, IrBlobArray,
                                       RigCalibration)
 from wiimote_tracker_msgs.srv import (SetLed, SetLedRequest, SolveBoard,

@@ -8,8 +8,8 @@ import unittest
 import numpy as np
 import rospy
 from geometry_msgs.msg import PointStamped
-from wiimote_tracker_evaluation import rigs, scene
-from wiimote_tracker_evaluation.true_rig import true_rig
+from wiimote_tracker_bringup import rigs, scene
+from wiimote_tracker_bringup.true_rig import true_rig
 from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
 
 DEADLINE = 90.0  # [s]

@@ -7,8 +7,8 @@ come from the linear errors of dead reckoning.
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation.motion.inertial import Samples
-from wiimote_tracker_evaluation.motion.poses import Poses
+from wiimote_tracker_body_motion.inertial import Samples
+from wiimote_tracker_body_motion.poses import Poses
 
 START = 1e9  # [s]
 TURN = Rotation.from_euler('zyx', [0.5, -0.2, 0.1])  # body_from_base

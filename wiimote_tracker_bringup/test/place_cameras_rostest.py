@@ -16,8 +16,8 @@ from sensor_msgs.msg import PointCloud2
 from std_srvs.srv import Trigger
 from visualization_msgs.msg import (
     InteractiveMarkerFeedback, InteractiveMarkerInit, MarkerArray)
-from wiimote_tracker_evaluation import scene
-from wiimote_tracker_evaluation.programs import package_file
+from wiimote_tracker_bringup import scene
+from wiimote_tracker_bringup.programs import package_file
 
 
 class PlaceCameras(NodeTest):

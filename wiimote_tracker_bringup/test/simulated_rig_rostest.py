@@ -12,7 +12,7 @@ import rostest
 from geometry_msgs.msg import PointStamped, Vector3
 from live_rig import DEADLINE, NodeTest
 from sensor_msgs.msg import Imu
-from wiimote_tracker_evaluation import scene
+from wiimote_tracker_bringup import scene
 from wiimote_tracker_msgs.msg import IrBlobArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 

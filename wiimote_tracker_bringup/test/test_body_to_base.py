@@ -11,9 +11,9 @@ from geometry_msgs.msg import Vector3
 from sensor_msgs.msg import Imu
 from std_msgs.msg import Header
 
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.motion import (
+from wiimote_tracker_body_motion import (
     body_to_base, evaluate_trajectory, hand_eye, inertial, mount, poses)
+from wiimote_tracker_bringup.errors import ExperimentError
 
 import mount_scene
 from mount_scene import ARM, OFFSET, TURN, error_of

@@ -6,7 +6,8 @@ import pytest
 
 from quick_evaluation import COMPUTED, PAPER_RIG, TIMED, check, evaluate
 
-from wiimote_tracker_evaluation import bound, experiment, scene, sections
+from wiimote_tracker_bringup import bound, experiment, scene
+from wiimote_tracker_evaluation import sections
 
 
 @pytest.fixture(scope='module')

@@ -12,11 +12,11 @@ import pytest
 import rosbag
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import programs, reprojection
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.recordings import (accuracy, body, disturbed,
-                                                   flight as flights, lighthouse, multicamselfcal,
-                                                   ordinary, program)
+from wiimote_tracker_bringup import programs
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation import reprojection
+from wiimote_tracker_evaluation.recordings import (
+    accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, ordinary, program)
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
 HERE = os.path.dirname(os.path.realpath(__file__))

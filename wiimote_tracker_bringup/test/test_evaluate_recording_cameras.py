@@ -14,12 +14,12 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-sys.path[:0] = [HERE, os.path.join(HERE, '..', 'evaluation')]
+sys.path[:0] = [HERE, *(os.path.join(HERE, '..', folder) for folder in (
+    'body_motion', 'evaluation', 'python'))]
 
 import simulated_cameras  # noqa: E402
-from wiimote_tracker_evaluation.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.recordings import (  # noqa: E402
-    cameras, flight, ordinary, time_maps)
+from wiimote_tracker_bringup.errors import ExperimentError  # noqa: E402
+from wiimote_tracker_evaluation.recordings import cameras, flight, ordinary, time_maps  # noqa: E402
 from wiimote_tracker_evaluation.recordings.rig import Rig  # noqa: E402
 
 

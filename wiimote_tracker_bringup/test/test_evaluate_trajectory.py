@@ -10,9 +10,9 @@ import rospy
 from nav_msgs.msg import Odometry
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.motion import comparison, evaluate_trajectory, mount
-from wiimote_tracker_evaluation.motion.poses import Poses
+from wiimote_tracker_body_motion import comparison, evaluate_trajectory, mount
+from wiimote_tracker_body_motion.poses import Poses
+from wiimote_tracker_bringup.errors import ExperimentError
 
 RADIUS, SPEED = 2.0, 0.5  # of the circle [m, m/s]
 

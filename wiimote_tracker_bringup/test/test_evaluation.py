@@ -9,7 +9,7 @@ import pytest
 import yaml
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import alignment, bound, experiment, scene
+from wiimote_tracker_bringup import alignment, bound, experiment, scene
 from wiimote_tracker_evaluation.demo import animation, report, scoring
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -262,7 +262,7 @@ class HandMade:
     """A recording with a known error of every point."""
 
     def __init__(self):
-        from wiimote_tracker_evaluation.conductor import Segment
+        from wiimote_tracker_bringup.conductor import Segment
         from wiimote_tracker_evaluation.demo import recording
         points, truths, self.segments = [], [], []
         now = 1000.0
@@ -350,7 +350,7 @@ def test_stopping_ends_grandchildren_that_left_their_parent(tmp_path):
     program.write_text('''
 import os, sys, time
 sys.path.insert(0, %r)
-from wiimote_tracker_evaluation.processes import Processes, descendants
+from wiimote_tracker_bringup.processes import Processes, descendants
 p = Processes()
 # A shell whose child, in its own session, ignores SIGINT and SIGTERM.
 p.start('shell', ['sh', '-c', "setsid sh -c \\"trap '' INT TERM; echo up > %s; while :; do sleep 1; "
@@ -361,7 +361,7 @@ while not os.path.exists(%r) and time.monotonic() < deadline:
 before = len(descendants())
 p.stop_all(patience=(0.5, 0.5, 5.0))
 print(before, len(descendants()))
-''' % (os.path.join(HERE, '..', 'evaluation'), tmp_path / 'up', str(tmp_path / 'up')))
+''' % (os.path.join(HERE, '..', 'python'), tmp_path / 'up', str(tmp_path / 'up')))
     before, after = subprocess.check_output(['/usr/bin/python3', str(program)],
                                             timeout=60).split()
     assert int(before) >= 2
@@ -373,14 +373,14 @@ def test_a_process_that_ends_is_noticed_and_named(tmp_path):
     program.write_text('''
 import os, sys
 sys.path.insert(0, %r)
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.processes import Processes
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.processes import Processes
 p = Processes()
 p.start('falsifier', ['false'], os.devnull).wait()
 try:
     p.check()
 except ExperimentError as error:
     print(error)
-''' % os.path.join(HERE, '..', 'evaluation'))
+''' % os.path.join(HERE, '..', 'python'))
     said = subprocess.check_output(['/usr/bin/python3', str(program)], timeout=60).decode()
     assert 'falsifier ended unexpectedly (status 1)' in said

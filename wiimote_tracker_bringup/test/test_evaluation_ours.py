@@ -9,9 +9,9 @@ import subprocess
 import numpy as np
 import pytest
 
-from wiimote_tracker_evaluation import (evaluation, light, programs, scene, section,
-                                        statistics)
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup import programs, scene, statistics
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation import evaluation, light, section
 from wiimote_tracker_evaluation.live import circles, dialogue, latency, listener
 from wiimote_tracker_evaluation.ours import cameras, gestures
 from wiimote_tracker_evaluation.sections import identification

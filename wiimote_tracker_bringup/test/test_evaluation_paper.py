@@ -8,10 +8,10 @@ import os
 import numpy as np
 import pytest
 
-from wiimote_tracker_evaluation import position_claims as claims, statistics
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.position_results import (
-    CASES, FACING, FOUR, OURS, TWO, Results)
+from wiimote_tracker_bringup import statistics
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation import position_claims as claims
+from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
 from wiimote_tracker_evaluation.section import Run, Table
 from wiimote_tracker_evaluation.sections import circles, positions
 

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from wiimote_tracker_evaluation import (files, load, processes, programs, progress,
-                                        results_table, rigs, scene, statistics)
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup import files, processes, programs, rigs, scene, statistics
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation import load, progress, results_table
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')

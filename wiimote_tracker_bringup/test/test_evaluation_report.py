@@ -12,9 +12,9 @@ import numpy as np
 import pytest
 import scipy.io
 
-from wiimote_tracker_evaluation import (charts, evaluation, results_table,
-                                        section, sections)
-from wiimote_tracker_evaluation.interruption import Interrupted
+from wiimote_tracker_bringup import charts
+from wiimote_tracker_bringup.interruption import Interrupted
+from wiimote_tracker_evaluation import evaluation, results_table, section, sections
 from wiimote_tracker_evaluation.recordings import formats
 from wiimote_tracker_evaluation.report import data
 from wiimote_tracker_evaluation.sections import recordings

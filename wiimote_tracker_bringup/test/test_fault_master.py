@@ -1,8 +1,8 @@
 """The fault that kills the master starts another one."""
 
+from wiimote_tracker_bringup.processes import Processes, free_port
 from wiimote_tracker_evaluation.faults import of_master
 from wiimote_tracker_evaluation.faults.room import Room
-from wiimote_tracker_evaluation.processes import Processes, free_port
 
 
 class MasterAlone(Room):

@@ -15,8 +15,8 @@ PACKAGE = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..')
     ('launch/drivers', '(default: 10)'),
     ('launch/master_watch', 'no parameters'),
     ('simulation/simulated_hand', '[m]'),
-    ('evaluation/place_cameras', 'needed'),
-    ('evaluation/probe', '[s] (default: 10)'),
+    ('rig_planning/place_cameras', 'needed'),
+    ('body_motion/probe', '[s] (default: 10)'),
 ])
 def test_help_tells_the_parameters(program, words):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program), '__name:=other',
@@ -30,7 +30,7 @@ def test_help_tells_the_parameters(program, words):
 
 @pytest.mark.parametrize('program', [
     'launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
-    'evaluation/place_cameras', 'evaluation/probe'])
+    'rig_planning/place_cameras', 'body_motion/probe'])
 @pytest.mark.parametrize('address, advice', [
     ('', 'ROS_MASTER_URI is empty, but must be such as http://HOST:11311: correct it'),
     ('htp://x', 'ROS_MASTER_URI is htp://x, but must be such as http://HOST:11311: correct it'),
@@ -50,7 +50,7 @@ def test_without_a_master_it_ends_with_what_to_do(program, address, advice):
 
 @pytest.mark.parametrize('program', [
     'launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
-    'evaluation/place_cameras'])
+    'rig_planning/place_cameras'])
 def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
     """As by roslaunch, when another node ends that is required."""
     (tmp_path / 'rospy.py').write_text('import os, signal, time\n'
@@ -64,10 +64,10 @@ def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
 
 
 @pytest.mark.parametrize('program', [
-    'benchmark/benchmark_latency', 'evaluation/body_to_base', 'evaluation/evaluate',
-    'evaluation/evaluate_recording', 'evaluation/evaluate_trajectory', 'evaluation/fault_matrix',
-    'evaluation/lead_demo', 'evaluation/place_cameras', 'evaluation/plan_rig', 'evaluation/probe',
-    'evaluation/results_table'])
+    'benchmark/benchmark_latency', 'body_motion/body_to_base', 'body_motion/evaluate_trajectory',
+    'body_motion/probe', 'evaluation/evaluate', 'evaluation/evaluate_recording',
+    'evaluation/fault_matrix', 'evaluation/lead_demo', 'evaluation/results_table',
+    'rig_planning/place_cameras', 'rig_planning/plan_rig'])
 def test_a_program_names_the_python_package_that_it_lacks(program):
     # The Debian package only suggests it.
     without_scipy = ("import runpy, sys; sys.modules['scipy'] = None; sys.argv = sys.argv[1:]; "

@@ -9,7 +9,7 @@ import time
 import pytest
 import rosgraph
 
-from wiimote_tracker_evaluation.processes import free_port
+from wiimote_tracker_bringup.processes import free_port
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PATIENCE = 60.0  # on a busy computer [s]

@@ -9,8 +9,8 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.motion import pivot, probe
+from wiimote_tracker_body_motion import pivot, probe
+from wiimote_tracker_bringup.errors import ExperimentError
 
 TIP, PLACE = np.array([0.02, -0.01, -0.3]), np.array([1.0, 0.5, 0.0])  # [m]
 STDDEVS = np.array([0.001, 0.001, 0.002, 0.015, 0.015, 0.01])  # of a pose [m, rad]

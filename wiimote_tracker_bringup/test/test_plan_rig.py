@@ -8,11 +8,10 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import bound, rigs, scene
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
-from wiimote_tracker_evaluation.planning import (
-    body, plan, plan_rig, prediction, search)
+from wiimote_tracker_bringup import bound, rigs, scene
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.experiment import NOMINAL_LENS
+from wiimote_tracker_rig_planning import body, plan, plan_rig, prediction, search
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 EXAMPLE = os.path.join(HERE, '../config/plan.yaml')

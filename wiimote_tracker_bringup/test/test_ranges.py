@@ -4,10 +4,11 @@ import pytest
 import rospy
 
 import program_module
-from wiimote_tracker_evaluation import evaluation, ranges
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.motion import body_to_base, evaluate_trajectory, probe
-from wiimote_tracker_evaluation.planning import plan_rig
+from wiimote_tracker_body_motion import body_to_base, evaluate_trajectory, probe
+from wiimote_tracker_bringup import ranges
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation import evaluation
+from wiimote_tracker_rig_planning import plan_rig
 
 TRAJECTORY = evaluate_trajectory.main, ['run.bag', '--estimate', '/odom', '--truth', '/body/pose']
 BASE = body_to_base.main, ['run.bag', '--body', '/body/pose', '--odom', '/odom']

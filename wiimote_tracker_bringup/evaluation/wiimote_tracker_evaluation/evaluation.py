@@ -7,12 +7,13 @@ import time
 import traceback
 from typing import List, Optional
 
-from wiimote_tracker_evaluation import ranges, rigs, sections, stack
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.files import prepare
-from wiimote_tracker_evaluation.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup import ranges, rigs, stack
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import prepare
+from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup.programs import package_file
+from wiimote_tracker_evaluation import sections
 from wiimote_tracker_evaluation.progress import Progress
-from wiimote_tracker_evaluation.programs import package_file
 from wiimote_tracker_evaluation.report import write_report
 from wiimote_tracker_evaluation.section import Run
 

@@ -7,7 +7,7 @@ virtual Wii Remote, whose sensor decides what is seen.
 import numpy as np
 import yaml
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
 
 SENSITIVITIES = ('wii_1', 'wii_2', 'wii_3', 'wii_4', 'wii_5', 'max')
 

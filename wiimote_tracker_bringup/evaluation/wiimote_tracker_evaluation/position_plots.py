@@ -4,8 +4,8 @@ correction (Fig. 2)."""
 import matplotlib.patches
 import numpy as np
 
-from wiimote_tracker_evaluation import charts
-from wiimote_tracker_evaluation.experiment import NOMINAL_LENS
+from wiimote_tracker_bringup import charts
+from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_evaluation.position_results import CASES, FOUR, OURS, TWO
 
 CASE_COLORS = dict(zip(CASES, (charts.RED, charts.ORANGE, charts.BLUE, charts.GREEN,

@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from wiimote_tracker_evaluation.programs import read_csv
+from wiimote_tracker_bringup.programs import read_csv
 from wiimote_tracker_evaluation.sessions import joined, where
 
 CASES = ('C1', 'C2', 'C3', 'C4', 'C5')

@@ -8,8 +8,8 @@ from typing import Dict, List, Optional, Tuple
 
 import numpy as np
 
-from wiimote_tracker_evaluation import statistics
-from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup import statistics
+from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.report import words
 
 Measurement = Tuple[float, Tuple[float, float]]  # value, its 95 % interval

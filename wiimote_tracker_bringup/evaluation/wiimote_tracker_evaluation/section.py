@@ -13,7 +13,7 @@ from typing import Callable, Iterable, List, Optional, Sequence, Tuple
 
 import numpy as np
 
-from wiimote_tracker_evaluation import programs, statistics
+from wiimote_tracker_bringup import programs, statistics
 
 
 @dataclasses.dataclass(eq=False)

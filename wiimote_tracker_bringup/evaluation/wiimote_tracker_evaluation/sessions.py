@@ -5,7 +5,7 @@ import os
 
 import numpy as np
 
-from wiimote_tracker_evaluation import programs
+from wiimote_tracker_bringup import programs
 
 UNITS = {'_mm': 'mm', '_m': 'm', '_m_per_s': 'm/s', '_rad_per_s': 'rad/s', '_deg': 'deg', '_ms': 'ms',
          '_s': 's'}

@@ -8,9 +8,9 @@ import xmlrpc.client
 
 import numpy as np
 
-from wiimote_tracker_evaluation import stack
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.waiting import wait_until
+from wiimote_tracker_bringup import stack
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.waiting import wait_until
 
 EXPOSURES = '/simulation/exposures'
 DEADLINE = 20.0       # for the start of the recorder [s]

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import experiment
-from wiimote_tracker_evaluation.charts import BLUE, INK, ORANGE, RED, SOFT
+from wiimote_tracker_bringup import experiment
+from wiimote_tracker_bringup.charts import BLUE, INK, ORANGE, RED, SOFT
 
 FRAMES, FRAME_RATE = 90, 12  # of the film; [Hz]
 TRAIL = 1.5                  # how long a measured point stays in the picture [s]

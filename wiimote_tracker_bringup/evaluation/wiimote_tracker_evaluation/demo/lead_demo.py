@@ -6,12 +6,12 @@ import os
 import sys
 import time
 
-from wiimote_tracker_evaluation import bound, experiment, scene as scene_module, stack
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.files import prepare
-from wiimote_tracker_evaluation.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.programs import package_file
-from wiimote_tracker_evaluation.terminal import Terminal
+from wiimote_tracker_bringup import bound, experiment, scene as scene_module, stack
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import prepare
+from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup.programs import package_file
+from wiimote_tracker_bringup.terminal import Terminal
 
 LED = 'led'
 CORNER_SEED, ALIGNMENT_SEED = 1, 2
@@ -81,7 +81,7 @@ class Demo:
     def _experiment(self):
         """The LED's tour. Returns the measured segments, and the images used per corner."""
         # Imported late: rospy reads the master's address at import.
-        from wiimote_tracker_evaluation.conductor import Conductor
+        from wiimote_tracker_bringup.conductor import Conductor
         from wiimote_tracker_evaluation.demo.recording import LiveRecorder
         progress = self._progress
         conductor = Conductor(LED, LiveRecorder(), stack.check, progress.passing)

@@ -5,8 +5,8 @@ import json
 
 import numpy as np
 
-from wiimote_tracker_evaluation import experiment
-from wiimote_tracker_evaluation.alignment import KINDS
+from wiimote_tracker_bringup import experiment
+from wiimote_tracker_bringup.alignment import KINDS
 from wiimote_tracker_evaluation.demo.scoring import milli
 
 

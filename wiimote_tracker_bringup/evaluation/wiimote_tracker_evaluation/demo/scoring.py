@@ -4,7 +4,7 @@ from typing import Dict, Tuple
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment, experiment, statistics
+from wiimote_tracker_bringup import alignment, experiment, statistics
 
 
 def milli(value: float) -> float:

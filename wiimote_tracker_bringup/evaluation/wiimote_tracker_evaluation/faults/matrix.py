@@ -6,14 +6,14 @@ import json
 import subprocess
 from typing import List, Optional
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup.processes import Processes
 from wiimote_tracker_evaluation.faults import (
     of_files, of_images, of_load, of_master, of_messages, of_network, of_processes, of_time,
     of_types)
 from wiimote_tracker_evaluation.faults.room import Room
 from wiimote_tracker_evaluation.faults.row import Fault, Result, carry_out
-from wiimote_tracker_evaluation.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
-from wiimote_tracker_evaluation.processes import Processes
 
 FAULTS = [each for module in (of_processes, of_messages, of_types, of_files, of_images, of_time,
                               of_load, of_network, of_master)

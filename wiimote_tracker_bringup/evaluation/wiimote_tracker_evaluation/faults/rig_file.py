@@ -1,6 +1,6 @@
 """Writes rig.yaml from a RigCalibration, independent of the tracker's own writer."""
 
-from wiimote_tracker_evaluation import rigs
+from wiimote_tracker_bringup import rigs
 
 PLANE = ('x', 'y', 'z')
 

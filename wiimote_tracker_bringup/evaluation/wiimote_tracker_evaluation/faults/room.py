@@ -7,17 +7,17 @@ import signal
 import tempfile
 import time
 
-from wiimote_tracker_evaluation import rigs
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup import rigs
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.processes import descendants, free_port
+from wiimote_tracker_bringup.programs import find_program, package_file
+from wiimote_tracker_bringup.true_rig import true_rig
+from wiimote_tracker_bringup.waiting import wait_until
 from wiimote_tracker_evaluation.faults import figures
 from wiimote_tracker_evaluation.faults.far_computer import FarComputer
 from wiimote_tracker_evaluation.faults.listener import Listener, joined
 from wiimote_tracker_evaluation.faults.relay import Relay
 from wiimote_tracker_evaluation.faults.rig_file import write_rig
-from wiimote_tracker_evaluation.processes import descendants, free_port
-from wiimote_tracker_evaluation.programs import find_program, package_file
-from wiimote_tracker_evaluation.true_rig import true_rig
-from wiimote_tracker_evaluation.waiting import wait_until
 
 START = 90.0      # longest time until all LEDs are tracked, on a busy computer [s]
 SETTLED = 2.0     # that the LEDs must be tracked at the start [s]

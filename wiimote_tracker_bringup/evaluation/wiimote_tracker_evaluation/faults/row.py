@@ -4,7 +4,7 @@ import dataclasses
 import time
 from typing import Callable, Dict, List, Optional
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.faults.figures import PIECE, Figures, is_normal, normal_since
 
 BEFORE = 2.0     # measured before the fault [s]

@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment, charts, statistics
+from wiimote_tracker_bringup import alignment, charts, statistics
 from wiimote_tracker_evaluation.live.listener import with_listener
 
 DURATION, QUICK = 15.0, 3.0  # of the measurement [s]

@@ -5,7 +5,7 @@ import time
 import numpy as np
 import yaml
 
-from wiimote_tracker_evaluation import charts
+from wiimote_tracker_bringup import charts
 from wiimote_tracker_evaluation.live.dialogue import SKIP
 from wiimote_tracker_evaluation.live.listener import with_listener
 

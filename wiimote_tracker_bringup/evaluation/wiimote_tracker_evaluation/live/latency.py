@@ -4,7 +4,7 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts
+from wiimote_tracker_bringup import charts
 from wiimote_tracker_evaluation.live.circles import errors_of, path_of
 from wiimote_tracker_evaluation.live.dialogue import SKIP
 from wiimote_tracker_evaluation.live.listener import with_listener

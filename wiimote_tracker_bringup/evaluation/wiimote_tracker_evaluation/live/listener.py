@@ -6,10 +6,10 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.ros_master import master_problem
+from wiimote_tracker_bringup.waiting import wait_until
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
-from wiimote_tracker_evaluation.ros_master import master_problem
-from wiimote_tracker_evaluation.waiting import wait_until
 
 KEPT = 60.0         # [s]
 STILL_TIME = 1.5    # at rest, for a measurement [s]

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, experiment, statistics
+from wiimote_tracker_bringup import charts, experiment, statistics
 from wiimote_tracker_evaluation.live.listener import STILL_TIME, with_listener
 
 FLOOR, AIR = 0.01, 0.03  # the paper's largest placement errors [m]

@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, programs
+from wiimote_tracker_bringup import charts, programs
 
 PROGRAM, EXAMPLES = 'evaluate_gestures', 2
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, statistics
+from wiimote_tracker_bringup import charts, statistics
 from wiimote_tracker_evaluation.sessions import per_session
 
 PROGRAM = 'evaluate_unsynchronised'

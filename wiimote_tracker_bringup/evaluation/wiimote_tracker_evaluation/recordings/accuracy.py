@@ -13,9 +13,9 @@ from typing import Optional
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import alignment, bound
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.motion import pivot
+from wiimote_tracker_body_motion import pivot
+from wiimote_tracker_bringup import alignment, bound
+from wiimote_tracker_bringup.errors import ExperimentError
 
 # Longest time between two samples of the truth to interpolate between [s].
 LONGEST_GAP = 0.02

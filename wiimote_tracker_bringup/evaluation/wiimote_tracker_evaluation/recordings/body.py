@@ -4,7 +4,7 @@ import os
 
 import numpy as np
 
-from wiimote_tracker_evaluation import programs
+from wiimote_tracker_bringup import programs
 from wiimote_tracker_evaluation.recordings import ordinary
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 

@@ -11,7 +11,7 @@ import os
 import numpy as np
 import yaml
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings.lighthouse import read_table
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 

@@ -15,7 +15,7 @@ import rospy
 import yaml
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import alignment, programs, rigs
+from wiimote_tracker_bringup import alignment, programs, rigs
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import accuracy, body, ordinary
 from wiimote_tracker_evaluation.recordings.views import to_nearest
 

@@ -7,9 +7,9 @@ from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 
-from wiimote_tracker_evaluation.errors import ExperimentError
-from wiimote_tracker_evaluation.recordings import (cameras, disturbed, flight, lighthouse,
-                                                   multicamselfcal, time_maps)
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation.recordings import (
+    cameras, disturbed, flight, lighthouse, multicamselfcal, time_maps)
 
 
 @dataclasses.dataclass(eq=False)

@@ -15,7 +15,7 @@ import zlib
 
 import numpy as np
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings.views import (
     LONGEST_GAP, Camera, Truth, Views, to_nearest)
 

@@ -11,8 +11,9 @@ import numpy as np
 import rosbag
 from scipy.optimize import least_squares
 
-from wiimote_tracker_evaluation import programs, reprojection, rigs
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup import programs, rigs
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_evaluation import reprojection
 
 METHOD = ('Lenses and poses by self_calibrate from every other ten frames; the rest are held out, '
           'both ways round; a pixel is predicted from the point that the other cameras see')

@@ -15,8 +15,8 @@ import rospy
 import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
-from wiimote_tracker_evaluation import programs, rigs
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup import programs, rigs
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings.rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 

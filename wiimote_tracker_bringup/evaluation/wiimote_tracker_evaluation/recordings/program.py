@@ -7,14 +7,14 @@ import json
 import os
 import sys
 
-from wiimote_tracker_evaluation import interruption
-from wiimote_tracker_evaluation.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup import interruption
+from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.recordings import formats
 
 
 def drawing(outcome):
     """The errors one by one and as a distribution."""
-    from wiimote_tracker_evaluation import charts  # the Debian package does without matplotlib
+    from wiimote_tracker_bringup import charts  # the Debian package does without matplotlib
     figure, (left, right) = charts.figure(1, 2, height=2.8)
     left.plot(outcome.places, outcome.errors, '.', markersize=2.0, color=charts.BLUE)
     left.set(xlabel=outcome.axis, ylabel=f'error [{outcome.unit}]')

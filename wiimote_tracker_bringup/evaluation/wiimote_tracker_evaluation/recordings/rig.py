@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_evaluation import rigs
+from wiimote_tracker_bringup import rigs
 
 DISTANCE = 3.0  # of a light from cameras in a room [m]
 

@@ -4,7 +4,7 @@ for each section."""
 import os
 import time
 
-from wiimote_tracker_evaluation import programs
+from wiimote_tracker_bringup import programs
 from wiimote_tracker_evaluation.report import data, html, markdown
 
 

@@ -4,7 +4,8 @@ import itertools
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, programs, sessions, statistics
+from wiimote_tracker_bringup import charts, programs, statistics
+from wiimote_tracker_evaluation import sessions
 from wiimote_tracker_evaluation.live import circles as with_a_person
 
 NAME = 'circles'

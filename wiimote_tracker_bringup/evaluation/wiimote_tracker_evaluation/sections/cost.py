@@ -8,9 +8,10 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_evaluation import charts, load, rigs, stack, statistics
+from wiimote_tracker_bringup import charts, rigs, stack, statistics
+from wiimote_tracker_bringup.true_rig import publish, true_rig
+from wiimote_tracker_evaluation import load
 from wiimote_tracker_evaluation.trace import Recorder
-from wiimote_tracker_evaluation.true_rig import publish, true_rig
 
 NAME = 'cost'
 TITLE = 'Cost'

@@ -2,7 +2,7 @@
 
 import json
 
-from wiimote_tracker_evaluation.errors import ExperimentError
+from wiimote_tracker_bringup.errors import ExperimentError
 
 NAME = 'faults'
 TITLE = 'Faults'

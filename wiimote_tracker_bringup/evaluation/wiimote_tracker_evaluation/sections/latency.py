@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from wiimote_tracker_evaluation import alignment, charts, experiment, rigs, stack, statistics
-from wiimote_tracker_evaluation.trace import Recorder
+from wiimote_tracker_bringup import alignment, charts, experiment, rigs, stack, statistics
 from wiimote_tracker_evaluation.live import latency as with_a_person
+from wiimote_tracker_evaluation.trace import Recorder
 
 NAME = 'latency'
 TITLE = 'Latency'

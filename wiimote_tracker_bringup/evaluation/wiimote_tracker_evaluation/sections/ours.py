@@ -1,7 +1,7 @@
 """Subjects beyond the paper: clocks, occlusion, more cameras, bodies, gestures, an accuracy map."""
 
-from wiimote_tracker_evaluation.ours import (bodies, cameras, gestures, occlusion, unsynchronised,
-                                             volume)
+from wiimote_tracker_evaluation.ours import (
+    bodies, cameras, gestures, occlusion, unsynchronised, volume)
 from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 
 NAME = 'ours'

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from wiimote_tracker_evaluation import statistics
+from wiimote_tracker_bringup import statistics
 from wiimote_tracker_evaluation.recordings import formats, program
 
 NAME = 'recordings'

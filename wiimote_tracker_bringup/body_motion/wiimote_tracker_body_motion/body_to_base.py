@@ -1,0 +1,59 @@
+"""body_to_base: where a tracked body sits on a robot, and how their clocks differ."""
+
+import argparse
+import sys
+
+import numpy as np
+
+from wiimote_tracker_body_motion import hand_eye, inertial, mount, poses
+from wiimote_tracker_bringup import files, interruption, ranges
+from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+
+
+def describe(found):
+    """Lines of text."""
+    stddev = found.stddev()
+    values = [('translation', found.translation, stddev[3:6], 1e3, 'mm'),
+              ('roll, pitch, yaw', found.rotation.as_euler('xyz'), stddev[:3], 180.0 / np.pi, 'deg'),
+              ('clock offset', [found.offset], stddev[6:], 1e3, 'ms')]
+    for name, numbers, errors, factor, unit in values:
+        text = ', '.join(f'{factor * number:.2f}' for number in numbers)
+        yield f'{name:17} {text} {unit}, +- ' + ', '.join(f'{factor * e:.2f}' for e in errors)
+    yield f'rosrun tf2_ros static_transform_publisher {found.transform()}'
+
+
+def report(sentence):
+    print(f'body_to_base: {sentence}', file=sys.stderr, flush=True)
+
+
+def main(argv=None):
+    parser = argparse.ArgumentParser(
+        prog='body_to_base', description='Finds where the base of a robot, or an IMU, sits on a '
+        'tracked body, and what to add to its stamps, from a bag of a minute in which it turns '
+        'about two axes or more.')
+    parser.add_argument('bag', help='recording of both topics')
+    parser.add_argument('--body', required=True, metavar='TOPIC', help='/<body>/odometry')
+    base = parser.add_mutually_exclusive_group(required=True)
+    base.add_argument('--odom', metavar='TOPIC', help='poses of the base')
+    base.add_argument('--imu', metavar='TOPIC', help='sensor_msgs/Imu; z of the world points up')
+    parser.add_argument('--largest-offset', type=ranges.within(0.01, 1e10), default=2.0,
+                        metavar='S', help='of the clocks [s] (default: 2)')
+    parser.add_argument('--output', metavar='FILE', default='mount.yaml',
+                        help='default: mount.yaml')
+    arguments = parser.parse_args(argv)
+    try:
+        files.check_distinct([arguments.output], [arguments.bag])
+        solver, source, topic = ((hand_eye, poses, arguments.odom) if arguments.odom else
+                                 (inertial, inertial, arguments.imu))
+        report(f'reads {arguments.bag}')
+        found = solver.solve(poses.read(arguments.bag, arguments.body),
+                             source.read(arguments.bag, topic), arguments.largest_offset, report)
+        print('\n'.join(describe(found)))
+        mount.write(found, arguments.output)
+    except KeyboardInterrupt:
+        interruption.end('body_to_base')
+    except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
+        sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
+                 'two axes')
+    except (ExperimentError, OSError) as error:
+        sys.exit(f'body_to_base: {sentence_of(error)}')

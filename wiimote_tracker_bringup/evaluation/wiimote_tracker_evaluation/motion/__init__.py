@@ -1,5 +1,0 @@
-"""Motions in bags: comparing two of them, and where a tracked body sits on a robot."""
-
-from wiimote_tracker_evaluation.needs import require
-
-require('scipy')

@@ -1,0 +1,39 @@
+"""Files and folders that people name."""
+
+import os
+import shutil
+import tempfile
+from typing import Iterable, Optional
+
+from wiimote_tracker_bringup.errors import ExperimentError
+
+
+def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional[str]]) -> None:
+    """Empty names are no files. Throws ExperimentError if a file to write is also to be read, or to
+    be written as something else."""
+    taken = {os.path.realpath(path) for path in to_read if path}
+    for path in filter(None, to_write):
+        if os.path.realpath(path) in taken:
+            raise ExperimentError(f'two arguments are {path}: write to another file')
+        taken.add(os.path.realpath(path))
+
+
+def keep_copy(path: str) -> None:
+    """Copies a file that is about to be replaced, if there is one, to path + '.bak'."""
+    if os.path.isfile(path):
+        shutil.copyfile(path, path + '.bak')
+
+
+def prepare(folder: str, names: Iterable[str]) -> None:
+    """Makes a folder for results; removes files and folders of an earlier run with these names."""
+    try:
+        os.makedirs(folder, exist_ok=True)
+        tempfile.TemporaryFile(dir=folder).close()
+        for path in (os.path.join(folder, name) for name in names):
+            if os.path.isdir(path) and not os.path.islink(path):
+                shutil.rmtree(path)
+            elif os.path.lexists(path):
+                os.remove(path)
+    except OSError as error:
+        raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '
+                              'with --output')

@@ -187,3 +187,13 @@ def test_a_computer_without_ros(check, monkeypatch, tmp_path):
     os.remove(str(tmp_path / 'rosrun'))
     monkeypatch.setenv('PATH', str(tmp_path))
     assert 'source the setup.bash' in check()[1][-1]
+
+
+def test_without_the_workspace_it_says_to_source_it():
+    program = os.path.join(program_module.PACKAGE, 'launch/check_setup')
+    unsourced = ("import runpy, sys; sys.modules['wiimote_tracker_bringup'] = None; "
+                 f"runpy.run_path({program!r}, run_name='__main__')")
+    done = subprocess.run([sys.executable, '-c', unsourced], stdout=subprocess.PIPE,
+                          stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == 'check_setup: source the setup.bash of your workspace\n'

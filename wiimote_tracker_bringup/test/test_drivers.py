@@ -1,4 +1,4 @@
-"""The list of cameras, as read by the drivers script."""
+"""The list of cameras, and the script that starts their drivers."""
 
 import json
 import os
@@ -6,6 +6,7 @@ import subprocess
 
 import program_module
 import pytest
+from wiimote_tracker_bringup import cameras_file
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 drivers = program_module.load('launch/drivers')
@@ -14,7 +15,7 @@ drivers = program_module.load('launch/drivers')
 def read(tmp_path, text, socket_directory=''):
     path = tmp_path / 'cameras.yaml'
     path.write_text(text)
-    return drivers.read_devices(str(path), socket_directory)
+    return cameras_file.read_devices(str(path), socket_directory)
 
 
 def test_addresses_and_paths_in_the_order_of_the_file(tmp_path):
@@ -23,12 +24,13 @@ def test_addresses_and_paths_in_the_order_of_the_file(tmp_path):
 
 
 def test_the_example_can_be_read():
-    devices = drivers.read_devices(os.path.join(HERE, '../config/cameras.yaml'), '')
+    devices = cameras_file.read_devices(os.path.join(HERE, '../config/cameras.yaml'), '')
     assert [name for name, _ in devices] == [f'wiimote_{i}' for i in (1, 2, 3, 4)]
 
 
 def test_a_rig_description_names_its_cameras_and_sockets():
-    devices = drivers.read_devices(os.path.join(HERE, '../simulation/paper_rig.yaml'), '/tmp/s')
+    devices = cameras_file.read_devices(os.path.join(HERE, '../simulation/paper_rig.yaml'),
+                                        '/tmp/s')
     assert devices[0] == ('wiimote_1', 'virtual:/tmp/s/wiimote_1.sock')
     assert len(devices) == 4
 
@@ -37,11 +39,11 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('cameras:\n  a: {identity: "00:1f:32:00:00:01", driver: {ir_sensitivity: max}}\n'
                     '  b: "00:1f:32:00:00:02"\n')
-    assert drivers.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
-    assert drivers.read_parameters(str(path)) == {'a': {'ir_sensitivity': 'max'}, 'b': {}}
+    assert cameras_file.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
+    assert cameras_file.read_parameters(str(path)) == {'a': {'ir_sensitivity': 'max'}, 'b': {}}
     path.write_text('cameras: {a: {identity: "00:1f:32:00:00:01", driver: max}}')
-    with pytest.raises(drivers.CamerasError, match='"driver" of camera a'):
-        drivers.read_parameters(str(path))
+    with pytest.raises(cameras_file.CamerasError, match='"driver" of camera a'):
+        cameras_file.read_parameters(str(path))
 
 
 @pytest.mark.parametrize('text, complaint', [
@@ -66,7 +68,7 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {a: "00:1F:32:00:00:01"}\ndiscover: true', 'above "cameras:"'),
 ])
 def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
-    with pytest.raises(drivers.CamerasError) as error:
+    with pytest.raises(cameras_file.CamerasError) as error:
         read(tmp_path, text)
     assert complaint in str(error.value)
     assert str(tmp_path) in str(error.value)
@@ -76,12 +78,12 @@ def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
 def test_parameters_of_a_camera_in_the_wrong_place_are_refused(tmp_path, keys):
     path = tmp_path / 'cameras.yaml'
     path.write_text(f'cameras: {{a: {{identity: "00:1f:32:00:00:01", {keys}}}}}')
-    with pytest.raises(drivers.CamerasError, match='camera a has the unknown key .*"driver:"'):
-        drivers.read_parameters(str(path))
+    with pytest.raises(cameras_file.CamerasError, match='camera a has the unknown key .*"driver:"'):
+        cameras_file.read_parameters(str(path))
 
 
 def test_a_rig_description_has_keys_of_its_own():
-    assert drivers.read_parameters(os.path.join(HERE, '../simulation/paper_rig.yaml'))[
+    assert cameras_file.read_parameters(os.path.join(HERE, '../simulation/paper_rig.yaml'))[
         'wiimote_1'] == {}
 
 
@@ -110,25 +112,26 @@ def test_list_wiimotes_has_the_same_rules(tmp_path, text, accepted):
         [program, '--json', '--cameras', str(path), '--virtual', str(tmp_path / 'none.sock')],
         stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, universal_newlines=True).stdout
     try:
-        drivers.read_devices(str(path), '')
-        drivers.read_parameters(str(path))
+        cameras_file.read_devices(str(path), '')
+        cameras_file.read_parameters(str(path))
         ours = True
-    except drivers.CamerasError:
+    except cameras_file.CamerasError:
         ours = False
     theirs = listed != '' and json.loads(listed)['camera_problems'] == []
     assert (ours, theirs) == (accepted, accepted)
 
 
 def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(drivers.CamerasError, match='nothing.yaml cannot be read .*: correct its'):
-        drivers.read_devices(str(tmp_path / 'nothing.yaml'), '')
+    with pytest.raises(cameras_file.CamerasError,
+                       match='nothing.yaml cannot be read .*: correct its'):
+        cameras_file.read_devices(str(tmp_path / 'nothing.yaml'), '')
 
 
 def test_discovered_remotes_keep_their_names(tmp_path, monkeypatch):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: true\ncameras:\n')
-    assert drivers.is_discovering(str(path))
-    assert drivers.read_devices(str(path), '') == []
+    assert cameras_file.is_discovering(str(path))
+    assert cameras_file.read_devices(str(path), '') == []
     # Replaces list_wiimotes by a program that has found a remote.
     finder = tmp_path / 'finder'
     finder.write_text('#!/bin/sh\n[ "$1" = --write ] || exit 2\n'
@@ -137,17 +140,17 @@ def test_discovered_remotes_keep_their_names(tmp_path, monkeypatch):
     finder.chmod(0o755)
     monkeypatch.setattr(drivers.roslib.packages, 'find_node', lambda *_: [str(finder)])
     drivers.discover(str(path), '')
-    assert drivers.read_devices(str(path), '') == [('wiimote_1', '00:1f:32:00:00:01')]
-    assert drivers.is_discovering(str(path))
+    assert cameras_file.read_devices(str(path), '') == [('wiimote_1', '00:1f:32:00:00:01')]
+    assert cameras_file.is_discovering(str(path))
 
 
 def test_discovery_needs_a_file_with_one_line_per_camera(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: true\ncameras:\n  a: "00:1f:32:00:00:01"\n')
     drivers.discover(str(path), '')
-    assert drivers.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
+    assert cameras_file.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
     path.write_text('cameras: {a: "00:1f:32:00:00:01"}\n')  # not one line per camera
-    with pytest.raises(drivers.CamerasError, match='remotes cannot be looked for'):
+    with pytest.raises(cameras_file.CamerasError, match='remotes cannot be looked for'):
         drivers.discover(str(path), '')
 
 
@@ -160,21 +163,21 @@ def test_a_discovered_virtual_remote_keeps_its_socket(tmp_path):
 def test_discovery_must_be_true_or_false(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: maybe\ncameras: {a: "00:1f:32:00:00:01"}')
-    with pytest.raises(drivers.CamerasError, match='"discover" must be true or false'):
-        drivers.is_discovering(str(path))
+    with pytest.raises(cameras_file.CamerasError, match='"discover" must be true or false'):
+        cameras_file.is_discovering(str(path))
     path.write_text('cameras: {a: "00:1f:32:00:00:01"}')
-    assert not drivers.is_discovering(str(path))
+    assert not cameras_file.is_discovering(str(path))
 
 
 def test_too_many_remotes_for_the_adapters_are_named():
     def remotes(number):
         return [(f'wiimote_{i}', f'00:1f:32:00:00:{i:02x}') for i in range(number)]
-    assert drivers.too_many(remotes(7), 1) is None
-    assert '8 remotes' in drivers.too_many(remotes(8), 1)
-    assert drivers.too_many(remotes(14), 2) is None
-    assert drivers.too_many(remotes(15), 2)
-    assert drivers.too_many(remotes(7), 0) is None, 'adapters that cannot be counted'
-    assert drivers.too_many([(f'a{i}', f'virtual:/tmp/{i}') for i in range(30)], 1) is None
+    assert cameras_file.too_many(remotes(7), 1) is None
+    assert '8 remotes' in cameras_file.too_many(remotes(8), 1)
+    assert cameras_file.too_many(remotes(14), 2) is None
+    assert cameras_file.too_many(remotes(15), 2)
+    assert cameras_file.too_many(remotes(7), 0) is None, 'adapters that cannot be counted'
+    assert cameras_file.too_many([(f'a{i}', f'virtual:/tmp/{i}') for i in range(30)], 1) is None
 
 
 def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
@@ -191,7 +194,7 @@ def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
     ({'file': 'f', 'drivr': {'ir_sensitivity': 'wii_3'}}, 'unknown parameter .*/drivr: remove it'),
     ({'driver': 'wii_3'}, "driver is 'wii_3', but must be a map")])
 def test_parameters_without_effect_are_refused(given, complaint):
-    with pytest.raises(drivers.CamerasError, match=complaint):
+    with pytest.raises(cameras_file.CamerasError, match=complaint):
         drivers.check_parameters(given)
     drivers.check_parameters({'file': 'f', 'driver': {'ir_sensitivity': 'wii_3'}})
 

@@ -2,14 +2,13 @@
 
 import os
 
-import program_module
 import roslaunch.config
 import roslaunch.core
+from wiimote_tracker_bringup import cameras_file
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 LAUNCH_FILE = os.path.join(HERE, '../launch/several_machines.launch')
 CONFIG = os.path.join(HERE, '../config')
-drivers = program_module.load('launch/drivers')
 
 
 def load(*arguments):
@@ -50,8 +49,8 @@ def test_the_tracker_takes_its_arguments():
 def test_the_lists_fit_to_one_adapter_each_and_name_no_camera_twice():
     names = []
     for file in ('first_machine.yaml', 'second_machine.yaml'):
-        devices = drivers.read_devices(os.path.join(CONFIG, file), '')
+        devices = cameras_file.read_devices(os.path.join(CONFIG, file), '')
         assert devices
-        assert drivers.too_many(devices, 1) is None
+        assert cameras_file.too_many(devices, 1) is None
         names += [name for name, _ in devices]
     assert len(names) == len(set(names))

@@ -15,7 +15,7 @@ import rospy
 import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
-from wiimote_tracker_bringup import programs, rigs
+from wiimote_tracker_bringup import layout, programs, rigs
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings.rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
@@ -61,31 +61,17 @@ def first_poses(views, folder):
     chosen = both[::max(1, len(both) // INSTANTS)]
     source, path = os.path.join(folder, 'instants'), os.path.join(folder, 'first.yaml')
     os.makedirs(source, exist_ok=True)
-    write_instants(views, [pixels[chosen] for pixels in common], source)
+    layout.write(source, [camera.name for camera in views.cameras],
+                 [2 * [camera.size] for camera in views.cameras], np.array(common)[:, chosen],
+                 [[[camera.focal, 0.0, camera.middle], [0.0, camera.focal, camera.middle],
+                   [0.0, 0.0, 1.0]] for camera in views.cameras],
+                 np.zeros((len(views.cameras), 5)))
     programs.run('wiimote_tracker_calibration/self_calibrate', source, '--fix-intrinsics', source,
                  '--rig', path)
     rig = Rig(path)
     scale = rig.scale(views, times[chosen])
     points = rig.intersections(views, times[chosen]).mean(axis=1)
     return rig.rotations, scale * rig.positions, scale * points[np.isfinite(points[:, 0])]
-
-
-def write_instants(views, pixels, folder):
-    """Synchronised cameras in the layout of MultiCamSelfCal. pixels: n x 2 of each camera."""
-    ones = np.ones(len(pixels[0]))
-    np.savetxt(os.path.join(folder, 'points.dat'),
-               np.concatenate([np.vstack([own.T, ones]) for own in pixels]))
-    np.savetxt(os.path.join(folder, 'Res.dat'), [2 * [camera.size] for camera in views.cameras],
-               '%d')
-    np.savetxt(os.path.join(folder, 'camera_order.txt'), [camera.name for camera in views.cameras],
-               '%s')
-    for number, camera in enumerate(views.cameras):
-        matrix = np.array([[camera.focal, 0.0, camera.middle],
-                           [0.0, camera.focal, camera.middle], [0.0, 0.0, 1.0]])
-        with open(os.path.join(folder, f'basename{number + 1}.rad'), 'w') as file:
-            file.write(''.join(f'K{row + 1}{column + 1} = {float(value)!r}\n'
-                               for (row, column), value in np.ndenumerate(matrix)))
-            file.write(''.join(f'kc{k} = 0\n' for k in range(1, 5)))
 
 
 def made_up_square(rotations, positions, path):

@@ -25,7 +25,7 @@ from geometry_msgs.msg import Vector3
 from scipy.optimize import least_squares
 from sensor_msgs.msg import CameraInfo
 from wiimote_tracker_bringup import experiment, scene
-from wiimote_tracker_evaluation import reprojection
+from wiimote_tracker_evaluation.recordings.rig import camera_of
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationVerdict, IrBlobArray,
                                       RigCalibration)
 from wiimote_tracker_msgs.srv import (SetLed, SetLedRequest, SolveBoard,
@@ -122,7 +122,7 @@ class Screen:
 def triangulated(cameras, pixels):
     """The point with the least reprojection error [m]. cameras: CameraCalibration."""
     def residuals(place):
-        return np.concatenate([reprojection.project(camera, place) - pixel
+        return np.concatenate([camera_of(camera).project(place)[0] - pixel
                                for camera, pixel in zip(cameras, pixels)])
     return least_squares(residuals, [1.25, 1.25, 1.0], method='lm').x
 

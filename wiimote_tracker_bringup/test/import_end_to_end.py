@@ -73,11 +73,11 @@ class ImportEndToEnd(unittest.TestCase):
         shutil.rmtree(self.folder)
 
     def report(self, recording):
-        """Imports a folder, replays the bag, and returns replay_report's JSON."""
+        """Imports a folder, replays the bag, and returns evaluate_recording's JSON."""
         bag, report = (os.path.join(self.folder, name) for name in ('out.bag', 'report.json'))
         status, _, errors = run('import_multicamselfcal', recording, bag)
         self.assertEqual(status, 0, errors)
-        status, self.output, errors = run('replay_report', bag, '--json', report)
+        status, self.output, errors = run('evaluate_recording', 'bag', bag, '--json', report)
         self.assertEqual(status, 0, errors)
         with open(report) as stream:
             return json.load(stream)
@@ -220,21 +220,21 @@ class ImportEndToEnd(unittest.TestCase):
         status, _, errors = run('import_multicamselfcal')
         self.assertEqual(status, 2)
         self.assertIn('usage', errors)
-        status, _, errors = run('replay_report', missing)
+        status, _, errors = run('evaluate_recording', 'bag', missing)
         self.assertEqual(status, 1)
         self.assertIn(missing, errors)
         self.assertNotIn('Traceback', errors)
         with rosbag.Bag(out, 'w'):
             pass
-        status, _, errors = run('replay_report', out)
+        status, _, errors = run('evaluate_recording', 'bag', out)
         self.assertEqual(status, 1)
         self.assertIn('make it with import_multicamselfcal', errors)
-        status, _, errors = run('replay_report', out, '--inlier-px', '0')
+        status, _, errors = run('evaluate_recording', 'bag', out, '--inlier-px', '0')
         self.assertEqual(status, 2)
         self.assertIn('argument --inlier-px: 0 is not within', errors)
         with open(out, 'w') as file:
             file.write('no bag')
-        status, _, errors = run('replay_report', out)
+        status, _, errors = run('evaluate_recording', 'bag', out)
         self.assertEqual(status, 1)
         self.assertIn(out + ' cannot be read', errors)
 

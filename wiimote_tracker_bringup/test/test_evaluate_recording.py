@@ -14,9 +14,9 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import reprojection
 from wiimote_tracker_evaluation.recordings import (
     accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, ordinary, program)
+from wiimote_tracker_evaluation.recordings.rig import cameras_of
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -285,9 +285,9 @@ def test_a_pixel_is_predicted_from_the_other_cameras(tmp_path):
     (tmp_path / 'rig.yaml').write_text('cameras:\n' + ''.join(
         camera_at(name, place, [0.1, 0.0, 0.2])
         for name, place in (('a', (2.0, 0.3, 1.0)), ('b', (0.2, 2.0, 1.5)), ('c', (1.5, 1.5, 0.4)))))
-    cameras = multicamselfcal.cameras_of(str(tmp_path / 'rig.yaml'))
+    cameras = {camera.name: camera for camera in cameras_of(str(tmp_path / 'rig.yaml'))}
     point = [0.3, -0.2, 0.4]
-    pixels = {name: reprojection.project(camera, point) for name, camera in cameras.items()}
+    pixels = {name: camera.project(point)[0] for name, camera in cameras.items()}
     assert multicamselfcal.prediction_error(cameras, pixels, 'a') == pytest.approx(0.0, abs=1e-6)
     pixels['a'] = pixels['a'] + [3.0, -4.0]
     assert multicamselfcal.prediction_error(cameras, pixels, 'a') == pytest.approx(5.0)

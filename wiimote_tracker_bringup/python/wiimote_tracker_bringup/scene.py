@@ -12,10 +12,10 @@ from wiimote_tracker_bringup import rigs
 
 
 class Camera:
-    """Pinhole with radial k1. parameters: fx, fy, cx, cy, k1. rotation: its columns are the image's
-    right, down and forward directions in the world. position [m]. size: width, height [px]."""
+    """parameters: as of project(). rotation: its columns are the image's right, down and forward
+    directions in the world. position [m]. size: width, height [px], for sees()."""
 
-    def __init__(self, name, parameters, rotation, position, size):
+    def __init__(self, name, parameters, rotation, position, size=None):
         self.name = name
         self.parameters = np.asarray(parameters, dtype=float)
         self.rotation = rotation
@@ -35,13 +35,18 @@ class Camera:
 
 def project(parameters: np.ndarray, rotation: np.ndarray, position: np.ndarray,
             points: np.ndarray) -> np.ndarray:
-    """N x 2 pixels of N x 3 world points; parameters fx, fy, cx, cy, k1."""
-    fx, fy, cx, cy, k1 = parameters
+    """N x 2 pixels of N x 3 world points; parameters fx, fy, cx, cy, k1, or also k2, p1, p2, k3."""
+    fx, fy, cx, cy, k1, *others = parameters
     seen = (np.atleast_2d(points) - position) @ rotation
     with np.errstate(divide='ignore', invalid='ignore'):
         plane = np.where(seen[:, 2:] > 0, seen[:, :2] / seen[:, 2:], np.nan)
-    plane = plane * (1.0 + k1 * (plane ** 2).sum(axis=1, keepdims=True))
-    return plane * [fx, fy] + [cx, cy]
+    square = (plane ** 2).sum(axis=1, keepdims=True)
+    distorted = plane * (1.0 + k1 * square)
+    if others:
+        k2, p1, p2, k3 = others
+        distorted = distorted + plane * square ** 2 * (k2 + k3 * square) + (
+            2.0 * plane * (plane @ [p2, p1])[:, None] + square * [p2, p1])
+    return distorted * [fx, fy] + [cx, cy]
 
 
 def look_at(positions: np.ndarray, targets: np.ndarray) -> np.ndarray:

@@ -12,10 +12,10 @@ import os
 import numpy as np
 import rosbag
 import rospy
-import yaml
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, programs, rigs
+from wiimote_tracker_evaluation.recordings import ordinary
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')
@@ -112,13 +112,8 @@ def write_bag(rig, played, path):
 
 def points_of(source, folder, *options):
     """{number of the played frame: position [m]} of track_bag, instant by instant."""
-    table, parameters = (os.path.join(folder, name) for name in ('points.csv', 'instant.yaml'))
-    with open(parameters, 'w') as file:
-        yaml.safe_dump({'instant': {'maximum_leds': 1, 'maximum_speed': 1000.0,
-                                    'maximum_spot_speed': 1e5}}, file)
-    programs.run('wiimote_tracker_triangulation/track_bag', source,
-                 os.path.join(folder, 'tracked.bag'), '--mode', 'instant', '--csv', table,
-                 '--params', parameters, '--results-only', *options)
+    table = os.path.join(folder, 'points.csv')
+    ordinary.track_light(source, folder, 'instant', '--csv', table, *options)
     columns = programs.read_csv(table)
     times = columns['time [s]'] - START
     numbers = np.rint(times * RATE)

@@ -5,15 +5,15 @@ ways round. A pixel of a held-out frame is predicted from the point that the oth
 """
 
 import os
-from types import SimpleNamespace
 
 import numpy as np
 import rosbag
 from scipy.optimize import least_squares
 
-from wiimote_tracker_bringup import programs, rigs
+from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import reprojection
+from wiimote_tracker_evaluation.recordings import reprojection
+from wiimote_tracker_evaluation.recordings.rig import cameras_of, nearest_points
 
 METHOD = ('Lenses and poses by self_calibrate from every other ten frames; the rest are held out, '
           'both ways round; a pixel is predicted from the point that the other cameras see')
@@ -34,7 +34,7 @@ def evaluate(source, folder):
         held_out = split(whole(folder), fitted, half)
         rig = os.path.join(folder, f'half_{half}.yaml')
         programs.run('wiimote_tracker_calibration/self_calibrate', fitted, '--rig', rig)
-        cameras = cameras_of(rig)
+        cameras = {camera.name: camera for camera in cameras_of(rig)}
         for frame, pixels in held_out.items():
             for name in pixels:
                 error = prediction_error(cameras, pixels, name)
@@ -43,11 +43,8 @@ def evaluate(source, folder):
     if not errors:
         raise ExperimentError(f'no frame of {source} was seen by three cameras: a prediction needs '
                               'two others')
-    result = {name: reprojection.figures(list(own.values())) for name, own in sorted(errors.items())}
-    everything = {(frame, name): error for name, own in errors.items()
-                  for frame, error in own.items()}
-    result['all'] = reprojection.figures(list(everything.values()))
-    return result, everything
+    return reprojection.per_camera(dict(sorted(errors.items()))), {
+        (frame, name): error for name, own in errors.items() for frame, error in own.items()}
 
 
 def split(source, target, half):
@@ -65,20 +62,6 @@ def split(source, target, half):
     return held_out
 
 
-def cameras_of(path):
-    """{name: camera} of a rig's file, each as reprojection.project() takes it."""
-    cameras = {}
-    for name, camera in rigs.read(path)['cameras'].items():
-        pose = camera['extrinsics']['transform']
-        fx, _, cx, _, fy, cy = camera['camera_matrix']['data'][:6]
-        cameras[name] = SimpleNamespace(
-            name=name, distortion_model=camera['distortion_model'], fx=fx, fy=fy, cx=cx, cy=cy,
-            distortion=camera['distortion_coefficients']['data'],
-            world_from_camera=SimpleNamespace(position=SimpleNamespace(**pose['translation']),
-                                              orientation=SimpleNamespace(**pose['rotation'])))
-    return cameras
-
-
 def prediction_error(cameras, pixels, name):
     """Distance of a camera's pixel from what the others predict [px]; None with fewer than two."""
     others = [(cameras[other], pixel) for other, pixel in pixels.items() if other != name]
@@ -86,25 +69,20 @@ def prediction_error(cameras, pixels, name):
         return None
 
     def residuals(point):
-        return np.concatenate([behind_is_far(reprojection.project(camera, point)) - pixel
-                               for camera, pixel in others])
+        return np.concatenate([miss(camera, point, pixel) for camera, pixel in others])
     point = least_squares(residuals, crossing(others), method='lm').x
-    return float(np.linalg.norm(behind_is_far(reprojection.project(cameras[name], point)) -
-                                pixels[name]))
+    return float(np.linalg.norm(miss(cameras[name], point, pixels[name])))
 
 
-def behind_is_far(pixel):
-    return np.full(2, 1e6) if pixel is None else pixel
+def miss(camera, point, pixel):
+    """From a pixel to where the camera would see the point; far behind the camera [px]."""
+    return np.nan_to_num(camera.project(point)[0], nan=1e6) - pixel
 
 
 def crossing(views):
     """Where the rays of pinholes come nearest to each other, to start from."""
-    across, right = np.zeros((3, 3)), np.zeros(3)
-    for camera, (u, v) in views:
-        pose = camera.world_from_camera
-        ray = reprojection.rotation_matrix(pose.orientation) @ [
-            (u - camera.cx) / camera.fx, (v - camera.cy) / camera.fy, 1.0]
-        plane = np.eye(3) - np.outer(ray, ray) / (ray @ ray)
-        across += plane
-        right += plane @ [pose.position.x, pose.position.y, pose.position.z]
-    return np.linalg.solve(across, right)
+    rays = []
+    for camera, pixel in views:
+        plane = (pixel - camera.parameters[2:4]) / camera.parameters[:2]
+        rays.append(camera.rotation @ np.append(plane, 1.0))
+    return nearest_points([camera.position for camera, _ in views], np.array(rays))

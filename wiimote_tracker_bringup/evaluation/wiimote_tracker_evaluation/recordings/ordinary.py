@@ -148,6 +148,19 @@ def track(views, rig, folder, smooth=False):
     return columns
 
 
+def track_light(source, folder, mode, *options):
+    """Runs track_bag on a bag with images of one light by synchronised cameras. Returns its bag."""
+    target, parameters = (os.path.join(folder, name) for name in ('light.bag', 'light.yaml'))
+    # Frames may be missing: the light may move by metres between instants, which narrow gates do
+    # not allow.
+    with open(parameters, 'w') as file:
+        yaml.safe_dump({'instant': {'maximum_leds': 1, 'maximum_speed': 1000.0,
+                                    'maximum_spot_speed': 1e5}, 'learnt_noise': False}, file)
+    programs.run('wiimote_tracker_triangulation/track_bag', source, target, '--mode', mode,
+                 '--results-only', '--params', parameters, *options)
+    return target
+
+
 def spot_speed(views):
     """RMS [px/s]."""
     speeds = []

@@ -7,7 +7,7 @@ import json
 import os
 import sys
 
-from wiimote_tracker_bringup import interruption
+from wiimote_tracker_bringup import files, interruption, ranges
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.recordings import formats
 
@@ -43,21 +43,29 @@ def main():
         'made from what they saw alone, and measures the accuracy: lighthouse: of the path, against '
         'motion capture; cameras: of the path, with rates, offsets and read-out times of '
         'unsynchronised cameras; multicamselfcal: of predicted pixels, and of cameras that were '
-        'disturbed and corrected by continuous calibration.')
+        'disturbed and corrected by continuous calibration; bag: of the points that the tracker '
+        'makes of a bag of import_multicamselfcal, by their pixels.')
     parser.add_argument('format', choices=sorted(formats.FORMATS), help='of the recording')
-    parser.add_argument('folder', metavar='DIR', help='the recording')
+    parser.add_argument('recording', help='a folder; for bag, a bag')
     parser.add_argument('--json', metavar='FILE', help='write the figures')
     parser.add_argument('--report', metavar='DIR', help='write a page with plots')
+    parser.add_argument('--inlier-px', metavar='PX', type=ranges.within(1e-6, 1e6),
+                        help='bag: an observation within this of its projected point is an inlier '
+                        '(default: 5)')
     arguments = parser.parse_args()
+    if arguments.inlier_px and arguments.format != 'bag':
+        parser.error('--inlier-px is for bag only')
+    options = {'inlier_px': arguments.inlier_px} if arguments.inlier_px else {}
     try:
-        outcome = formats.measure(arguments.format, arguments.folder)
+        files.check_distinct([arguments.json], [arguments.recording])
+        outcome = formats.measure(arguments.format, arguments.recording, **options)
         for name, value in outcome.rows:
             print(f'{name:35} {value}')
         if arguments.json:
             with open(arguments.json, 'w') as file:
                 json.dump(outcome.result, file, indent=1)
         if arguments.report:
-            title = f'{arguments.format} {os.path.basename(os.path.abspath(arguments.folder))}'
+            title = f'{arguments.format} {os.path.basename(os.path.abspath(arguments.recording))}'
             write_report(title, outcome, arguments.report)
     except KeyboardInterrupt:
         interruption.end('evaluate_recording')

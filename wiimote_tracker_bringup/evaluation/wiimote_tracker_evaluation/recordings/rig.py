@@ -1,11 +1,51 @@
-"""A solved rig's file, as far as scores need it: poses and clock offsets."""
+"""Solved rigs, as far as scores need them."""
 
 import numpy as np
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import rigs
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.scene import Camera
 
 DISTANCE = 3.0  # of a light from cameras in a room [m]
+
+
+def camera_of(message):
+    """A CameraCalibration as a camera. @raise ExperimentError: it has another distortion model."""
+    if message.distortion_model != 'plumb_bob':
+        raise ExperimentError(f'{message.name}: the distortion model {message.distortion_model} is '
+                              'not supported')
+    place, turn = message.world_from_camera.position, message.world_from_camera.orientation
+    distortion = (list(message.distortion) + 5 * [0.0])[:5]
+    return Camera(message.name, [message.fx, message.fy, message.cx, message.cy, *distortion],
+                  Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix(),
+                  [place.x, place.y, place.z])
+
+
+def cameras_of(path):
+    """The cameras of a rig's file, whose lenses are taken for plumb_bob."""
+    cameras = []
+    for name, camera in rigs.read(path)['cameras'].items():
+        pose = camera['extrinsics']['transform']
+        fx, _, cx, _, fy, cy = camera['camera_matrix']['data'][:6]
+        cameras.append(Camera(
+            name, [fx, fy, cx, cy, *camera['distortion_coefficients']['data']],
+            Rotation.from_quat([pose['rotation'][axis] for axis in 'xyzw']).as_matrix(),
+            [pose['translation'][axis] for axis in 'xyz']))
+    return cameras
+
+
+def nearest_points(origins, rays):
+    """... x 3: the points nearest to k rays each, from origins, k x 3, along ... x k x 3; NaN where
+    a ray is."""
+    rays = rays / np.linalg.norm(rays, axis=-1, keepdims=True)
+    across = np.eye(3) - rays[..., :, None] * rays[..., None, :]
+    planes = across.sum(axis=-3)
+    right = (across @ np.asarray(origins)[:, :, None]).sum(axis=-3)
+    seen = np.isfinite(right).all(axis=(-2, -1))
+    points = np.full(seen.shape + (3,), np.nan)
+    points[seen] = np.linalg.solve(planes[seen], right[seen])[..., 0]
+    return points
 
 
 class Rig:
@@ -13,14 +53,12 @@ class Rig:
     stamp, 0 if not solved [s]; residuals k [px]."""
 
     def __init__(self, path):
-        cameras = list(rigs.read(path)['cameras'].values())
         self.path = path
-        poses = [camera['extrinsics']['transform'] for camera in cameras]
-        self.rotations = Rotation.from_quat([[pose['rotation'][axis] for axis in 'xyzw']
-                                             for pose in poses]).as_matrix()
-        self.positions = np.array([[pose['translation'][axis] for axis in 'xyz'] for pose in poses])
-        self.offsets = np.nan_to_num([camera['time_offset'] for camera in cameras])
-        self.residuals = np.array([camera['residual_px'] for camera in cameras])
+        cameras, entries = cameras_of(path), rigs.read(path)['cameras'].values()
+        self.rotations = np.array([camera.rotation for camera in cameras])
+        self.positions = np.array([camera.position for camera in cameras])
+        self.offsets = np.nan_to_num([entry['time_offset'] for entry in entries])
+        self.residuals = np.array([entry['residual_px'] for entry in entries])
 
     def pixel_stddev(self):
         """Of a coordinate [px]."""
@@ -28,18 +66,12 @@ class Rig:
 
     def intersections(self, views, times):
         """Points nearest to the rays of the first two cameras, m x lights x 3 [m]."""
-        planes, right = 0.0, 0.0
-        for camera, offset, rotation, position in list(zip(
-                views.cameras, self.offsets, self.rotations, self.positions))[:2]:
+        rays = []
+        for camera, offset, rotation in list(zip(views.cameras, self.offsets, self.rotations))[:2]:
             plane = (camera.pixels_at(times - offset) - camera.middle) / camera.focal
-            rays = np.concatenate([plane, np.ones(plane.shape[:2] + (1,))], axis=2) @ rotation.T
-            rays /= np.linalg.norm(rays, axis=2, keepdims=True)
-            across = np.eye(3) - rays[..., :, None] * rays[..., None, :]
-            planes, right = planes + across, right + across @ position
-        seen = np.isfinite(right).all(axis=(1, 2))
-        points = np.full(right.shape, np.nan)
-        points[seen] = np.linalg.solve(planes[seen], right[seen][..., None])[..., 0]
-        return points
+            rays.append(np.concatenate([plane, np.ones(plane.shape[:2] + (1,))], axis=2)
+                        @ rotation.T)
+        return nearest_points(self.positions[:2], np.stack(rays, axis=2))
 
     def scale(self, views, times):
         """By which lengths are too short, by the distances between the lights of the body. One light

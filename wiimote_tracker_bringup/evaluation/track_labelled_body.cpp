@@ -22,7 +22,7 @@
 #include <utility>
 #include <vector>
 
-namespace wiimote_tracker::import {
+namespace wiimote_tracker::evaluation {
 namespace {
 
 /// Longest time between two images that tell how the lights move [s].
@@ -240,7 +240,7 @@ int run(const std::string& rig_file,
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::import
+}  // namespace wiimote_tracker::evaluation
 
 int main(int argc, char** argv) {
   using namespace wiimote_tracker;
@@ -255,5 +255,5 @@ int main(int argc, char** argv) {
   parser.positional("IMAGES", &images);
   parser.positional("TABLE", &table);
   parser.option("--pixel-stddev PX", &pixel_stddev, 0.001, 100.0, "noise of a spot");
-  return parser.run(argc, argv, [&] { return import::run(rig, images, table, pixel_stddev); });
+  return parser.run(argc, argv, [&] { return evaluation::run(rig, images, table, pixel_stddev); });
 }

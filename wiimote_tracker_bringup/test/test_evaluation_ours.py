@@ -9,6 +9,7 @@ import subprocess
 import numpy as np
 import pytest
 
+from section_run import section_run
 from wiimote_tracker_bringup import programs, scene, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation import evaluation, light, section
@@ -184,8 +185,7 @@ def test_own_recordings_are_measured_and_each_person_is_recognised_by_the_others
         (tmp_path / 'people' / person).mkdir(parents=True)
         for shape in ('circle', 'to-the-right', 'up'):
             write_drawing(tmp_path / 'people' / person / (shape + '.csv'), shape, random)
-    run = section.Run('ours', 'Ours', RIG, str(tmp_path / 'out'),
-                      gestures=str(tmp_path / 'people'))
+    run = section_run(tmp_path / 'out', rig=RIG, gestures=str(tmp_path / 'people'))
     assert gestures.commands(run) == [], 'nobody is made up'
     gestures.tell(run)
     right, rejected = run.figures

@@ -8,6 +8,7 @@ import os
 import numpy as np
 import pytest
 
+from section_run import section_run
 from wiimote_tracker_bringup import statistics
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation import position_claims as claims
@@ -85,7 +86,7 @@ def make_results(folder, our_error):
 
 def told(section, tmp_path, *data):
     """A section's run, and its figures by name."""
-    run = Run(section.NAME, section.TITLE, '', str(tmp_path / 'section'))
+    run = section_run(tmp_path / 'section', section.NAME)
     section.tell(run, *data)
     return run, {figure.name: figure for figure in run.figures}
 

@@ -12,9 +12,10 @@ import numpy as np
 import pytest
 import scipy.io
 
+from section_run import section_run
 from wiimote_tracker_bringup import charts
 from wiimote_tracker_bringup.interruption import Interrupted
-from wiimote_tracker_evaluation import evaluation, results_table, section, sections
+from wiimote_tracker_evaluation import evaluation, results_table, sections
 from wiimote_tracker_evaluation.recordings import formats
 from wiimote_tracker_evaluation.report import data
 from wiimote_tracker_evaluation.sections import recordings
@@ -155,7 +156,7 @@ def test_the_page_is_self_contained(evaluate, tmp_path):
 
 def test_the_same_figure_is_the_same_svg(tmp_path):
     def drawn():
-        run = section.Run('a', 'A', PAPER_RIG, str(tmp_path))
+        run = section_run(tmp_path)
         figure, axes = charts.figure()
         charts.cumulative(axes, [3.0, 1.0, 2.0], charts.BLUE)
         run.plot('line', figure, '')
@@ -198,7 +199,6 @@ def test_a_measured_figure_among_simulated_ones_is_marked(evaluate, tmp_path):
 def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path, capsys):
     modules = [a_section('bad', a_failing_run), a_section('good', a_good_run)]
     assert evaluate(modules, '--sections', 'good') == 0
-    (tmp_path / 'people' / 'anna').mkdir(parents=True)
     calibrated = tmp_path / 'rig.yaml'
     calibrated.write_text('format: 1\ncameras: {}\n')
     for option, value, words in (
@@ -206,13 +206,22 @@ def test_only_the_chosen_sections_run_and_others_are_refused(evaluate, tmp_path,
             ('--sections', '', "there is no section ''; choose from bad, good"),
             ('--rig', '/nowhere.yaml', 'there is no rig description /nowhere.yaml'),
             ('--rig', str(calibrated), 'describes no simulated rig'),
-            ('--seed', '-1', 'argument --seed: -1 is not within 0 and 2147483647'),
+            ('--seed', '-1', 'argument --seed: -1 is not within 0 and 2147483647')):
+        with pytest.raises(SystemExit) as raised:
+            evaluate(modules, option, value)
+        assert raised.value.code == 2
+        assert words in capsys.readouterr().err
+
+
+def test_files_that_a_section_cannot_use_are_refused(tmp_path, capsys):
+    (tmp_path / 'people' / 'anna').mkdir(parents=True)
+    for option, value, words in (
             ('--led', '/nowhere', 'there is no description of an LED /nowhere'),
             ('--gestures', '/nowhere', '/nowhere needs folders of at least two people'),
             ('--gestures', str(tmp_path / 'people'), 'needs folders of at least two people'),
-            ('--sections=good', '--faults=f', '--faults is for the section faults, which is not')):
+            ('--sections=cost', '--faults=f', '--faults is for the section faults, which is not')):
         with pytest.raises(SystemExit) as raised:
-            evaluate(modules, option, value)
+            evaluation.parse(['--rig', PAPER_RIG, option, value])
         assert raised.value.code == 2
         assert words in capsys.readouterr().err
 
@@ -227,25 +236,31 @@ def test_a_section_that_cannot_be_measured_live_is_refused(evaluate, tmp_path, c
     assert {each['section'] for each in figures(tmp_path)['figures']} == {'live'}
 
 
-def test_results_do_not_replace_what_the_user_gives(evaluate, tmp_path, capsys):
+def test_results_do_not_replace_what_the_user_gives(tmp_path, capsys):
     recording = tmp_path / 'out' / 'recordings' / 'flight' / 'bearings.csv.gz'
     recording.parent.mkdir(parents=True)
     recording.write_bytes(b'')
     for given in (tmp_path / 'out' / 'recordings', recording.parent):
         with pytest.raises(SystemExit):
-            evaluate([a_section('recordings', a_good_run)], '--recordings', str(given))
+            evaluation.parse(['--rig', PAPER_RIG, '--output', str(tmp_path / 'out'),
+                              '--recordings', str(given)])
         assert 'choose another folder with --output' in capsys.readouterr().err
     assert recording.exists()
 
 
-def test_the_users_files_reach_the_sections(evaluate, tmp_path):
-    for person in ('anna', 'ben'):
-        (tmp_path / 'people' / person).mkdir(parents=True)
-    led, people, seen = str(tmp_path / 'led.yaml'), str(tmp_path / 'people'), []
-    (tmp_path / 'led.yaml').write_text('')
-    assert evaluate([a_section('a', lambda run: seen.append((run.led, run.gestures)))],
-                    '--led', led, '--gestures', people) == 0
-    assert seen == [(led, people)]
+def test_a_section_may_have_options(evaluate, capsys):
+    seen = []
+    section = a_section('a', lambda run: seen.append(run.options.mine))
+    section.add_arguments = lambda parser: parser.add_argument('--mine')
+    section.refusal = lambda options: 'not this one' if options.mine == 'wrong' else ''
+    assert evaluate([section], '--mine', 'right') == 0
+    assert seen == ['right']
+    with pytest.raises(SystemExit):
+        evaluate([section], '--mine', 'wrong')
+    assert 'not this one' in capsys.readouterr().err
+    section.is_wanted = lambda options: bool(options.mine)
+    assert evaluate([section, a_section('b', a_good_run)]) == 0
+    assert seen == ['right']
 
 
 def test_recordings_by_others_are_marked_as_measured(tmp_path, capsys):
@@ -274,7 +289,7 @@ def test_recordings_by_others_are_marked_as_measured(tmp_path, capsys):
 
 @pytest.mark.parametrize('title', ['2021-05-01', 'Flüge/über dem Tisch', 20 * 'long'])
 def test_a_recording_may_have_any_name(title, tmp_path):
-    run = section.Run('recordings', 'Recordings', PAPER_RIG, str(tmp_path))
+    run = section_run(tmp_path)
     recordings.tell(run, title, formats.Outcome('Measured', {'tracked': 0.9}, [], {}, 'time [s]',
                                                 np.arange(20.0), 'mm', np.ones(20)))
     data.write_section(run)
@@ -321,13 +336,13 @@ def test_a_second_run_removes_the_results_of_the_first(evaluate, tmp_path):
 
 @pytest.mark.parametrize('value, interval', [(float('nan'), None), (1.0, (0.0, float('inf')))])
 def test_a_figure_is_a_finite_number(value, interval, tmp_path):
-    run = section.Run('a', 'A', PAPER_RIG, str(tmp_path))
+    run = section_run(tmp_path)
     with pytest.raises(ValueError, match='size'):
         run.figure('size', value, 'm', 1, interval)
 
 
 def test_names_are_plain_and_used_once(tmp_path):
-    run = section.Run('a', 'A', PAPER_RIG, str(tmp_path))
+    run = section_run(tmp_path)
     run.figure('size', 1.0, 'm', 1)
     for name, reason in (('size', 'size is there twice'), ('2nd', "'2nd' must be letters"),
                          ('a b', "'a b' must be letters")):

@@ -17,29 +17,28 @@ from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.report import write_report
 from wiimote_tracker_evaluation.section import Run
 
-USED_BY = {'led': 'distance', 'gestures': 'ours', 'recordings': 'recordings', 'faults': 'faults'}
 REPORT_FILES = ('report.html', 'report.md', 'figures.json')
 
 
+def parser_of(module) -> argparse.ArgumentParser:
+    """Of a section's own options."""
+    parser = argparse.ArgumentParser(add_help=False)
+    if hasattr(module, 'add_arguments'):
+        module.add_arguments(parser)
+    return parser
+
+
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
-    names = sections.names()
+    modules = {name: sections.load(name) for name in sections.names()}
+    own = {name: parser_of(module) for name, module in modules.items()}
     parser = argparse.ArgumentParser(
-        prog='evaluate', description="The paper's evaluation, on the simulated rig or, with --live, "
-        'on a real one; writes report.html, report.md, figures.json, tables and plots.')
+        prog='evaluate', parents=list(own.values()),
+        description="The paper's evaluation, on the simulated rig or, with --live, on a real one; "
+        'writes report.html, report.md, figures.json, tables and plots.')
     parser.add_argument('--rig', metavar='FILE',
                         help="description of the rig (default: that of the paper's Fig. 1)")
-    parser.add_argument('--led', metavar='FILE',
-                        help='description of your own LED, for the section distance')
-    parser.add_argument('--gestures', metavar='DIR',
-                        help='recordings of your own gestures, for the section ours: a folder per '
-                             'person with a CSV per gesture')
-    parser.add_argument('--recordings', metavar='DIR',
-                        help='recordings that others made, a folder each, for the section '
-                             'recordings')
-    parser.add_argument('--faults', metavar='FILE',
-                        help='what fault_matrix --json wrote, for the section faults')
     parser.add_argument('--sections', metavar='A,B',
-                        help=f"only these of: {', '.join(names)}")
+                        help=f"only these of: {', '.join(modules)}")
     parser.add_argument('--quick', action='store_true',
                         help='fewer repetitions; takes two minutes, not a quarter of an hour')
     parser.add_argument('--live', action='store_true',
@@ -50,49 +49,48 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                         help='of all random numbers (default: 1)')
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
+    used_by = {option: name for name, its in own.items() for option in vars(its.parse_args([]))}
+    choose_sections(parser, options, modules, used_by)
+    check_files(parser, options, [options.rig] + [getattr(options, option) for option in used_by])
+    for refusal in (module.refusal(options) for module in modules.values()
+                    if hasattr(module, 'refusal')):
+        if refusal:
+            parser.error(refusal)
+    return options
+
+
+def choose_sections(parser, options, modules, used_by) -> None:
+    """Replaces options.sections by a list. modules: by section; used_by: sections by option."""
     chosen = options.sections.split(',') if options.sections is not None else [
-        name for name in names
-        if name not in ('recordings', 'faults') or getattr(options, name)]
+        name for name, module in modules.items()
+        if not hasattr(module, 'is_wanted') or module.is_wanted(options)]
     for name in chosen:
-        if name not in names:
-            parser.error(f"there is no section {name!r}; choose from {', '.join(names)}")
-    for option, section in USED_BY.items():
+        if name not in modules:
+            parser.error(f"there is no section {name!r}; choose from {', '.join(modules)}")
+    for option, section in used_by.items():
         if options.sections is not None and getattr(options, option) and section not in chosen:
             parser.error(f'--{option} is for the section {section}, which is not chosen: leave it '
                          'out, or choose that section, too')
-    options.sections = [name for name in names if name in chosen]
+    options.sections = [name for name in modules if name in chosen]
     if options.live:
-        measured = [name for name in names if hasattr(sections.load(name), 'live')]
+        measured = [name for name, module in modules.items() if hasattr(module, 'live')]
         options.sections = [name for name in measured if name in chosen]
         if not options.sections:
             parser.error('%s cannot be measured live; choose from %s'
                          % (', '.join(chosen), ', '.join(measured)))
-    check_files(parser, options)
-    return options
 
 
-def check_files(parser: argparse.ArgumentParser, options: argparse.Namespace) -> None:
+def check_files(parser: argparse.ArgumentParser, options: argparse.Namespace, to_read) -> None:
     """Refuses what cannot be used; makes the paths of rig and output absolute."""
     if not os.path.isfile(options.rig):
         parser.error(f'there is no rig description {options.rig}')
     if not options.live and not rigs.is_description(options.rig):
         parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml does: a '
                      'calibrated rig.yaml cannot be simulated')
-    if options.led and not os.path.isfile(options.led):
-        parser.error(f'there is no description of an LED {options.led}')
-    if options.gestures and len(folders_in(options.gestures)) < 2:
-        parser.error(f'{options.gestures} needs folders of at least two people: each person is '
-                     "recognised by the others' drawings")
-    if 'recordings' in options.sections and not options.recordings:
-        parser.error('the section recordings needs --recordings DIR')
-    if 'faults' in options.sections and not options.faults:
-        parser.error('the section faults needs --faults FILE')
-    if options.recordings and not os.path.isdir(options.recordings):
-        parser.error(f'there is no folder {options.recordings}')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
-    for given in (options.rig, options.led, options.gestures, options.recordings, options.faults):
-        if given and is_replaced(given, options):
-            parser.error(f'the results in {options.output} would replace {given}; choose another '
+    for path in filter(None, to_read):
+        if is_replaced(path, options):
+            parser.error(f'the results in {options.output} would replace {path}; choose another '
                          'folder with --output')
 
 
@@ -100,10 +98,6 @@ def is_replaced(path: str, options: argparse.Namespace) -> bool:
     """Whether a file or folder of the user is where a section's results go."""
     folders = [os.path.realpath(os.path.join(options.output, name)) for name in options.sections]
     return any(os.path.commonpath([folder, os.path.realpath(path)]) == folder for folder in folders)
-
-
-def folders_in(folder: str) -> List[str]:
-    return [entry for entry in os.scandir(folder) if entry.is_dir()] if os.path.isdir(folder) else []
 
 
 def carry_out(module, run, live):
@@ -128,10 +122,8 @@ def evaluate(options: argparse.Namespace) -> int:
     begin, runs = time.time(), []
     try:
         for module in modules:
-            run = Run(module.NAME, module.TITLE, options.rig,
-                      os.path.join(options.output, module.NAME), options.quick, options.seed,
-                      not options.live, progress.within, options.led, options.gestures,
-                      options.recordings, options.faults)
+            run = Run(module.NAME, module.TITLE, os.path.join(options.output, module.NAME),
+                      options, progress.within)
             runs.append(run)
             run.failure = 'It was interrupted.'  # unless it comes to an end
             progress.begin(module.TITLE)

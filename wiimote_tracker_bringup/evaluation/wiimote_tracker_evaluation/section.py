@@ -1,7 +1,9 @@
 """Input and output of a section of the evaluation.
 
 A section is a module in sections/ with NAME (as in --sections), TITLE, and run(run), which adds its
-results to a Run. A section for a person on a real rig also has live(run).
+results to a Run. A section for a person on a real rig also has live(run). One with options has
+add_arguments(parser), each a path of the user's, and refusal(options): why they cannot be used, else
+empty; if it needs them, also is_wanted(options).
 """
 
 import dataclasses
@@ -53,22 +55,17 @@ class Text:
 class Run:
     """One section in execution.
 
-    quick: shorter. seed: of all random numbers. rig: path of the rig's description. folder: for own
-    files, and those of table() and plot(). simulated: False if a person uses a real rig. led: path
-    of the description of the user's own LED, or None. gestures: folder of the user's own
-    recordings, or None. recordings: folder of recordings by others, or None. faults: what
-    fault_matrix --json wrote, or None.
+    options: all of the command line. quick: shorter. seed: of all random numbers. rig: path of the
+    rig's description. folder: for own files, and those of table() and plot(). simulated: False if a
+    person uses a real rig.
     """
 
     SHOWN_ROWS = 40  # longer tables are linked in the report
 
-    def __init__(self, name, title, rig, folder, quick=False, seed=1, simulated=True,
-                 on_progress=lambda done, of, what: None, led=None, gestures=None,
-                 recordings=None, faults=None):
-        self.name, self.title = name, title
-        self.quick, self.seed, self.rig, self.folder = quick, seed, rig, folder
-        self.simulated, self.led = simulated, led
-        self.gestures, self.recordings, self.faults = gestures, recordings, faults
+    def __init__(self, name, title, folder, options, on_progress=lambda done, of, what: None):
+        self.name, self.title, self.folder, self.options = name, title, folder, options
+        self.quick, self.seed, self.rig = options.quick, options.seed, options.rig
+        self.simulated = not options.live
         self.contents = []   # Text, Plot, Table, in order
         self.figures = []
         self.summaries = []  # sentences for the head of the report

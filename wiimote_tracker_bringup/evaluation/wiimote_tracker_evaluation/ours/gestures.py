@@ -1,6 +1,7 @@
 """Confusion of gestures, of simulated people or of the user's recordings."""
 
 import json
+import os
 
 import numpy as np
 
@@ -9,8 +10,23 @@ from wiimote_tracker_bringup import charts, programs
 PROGRAM, EXAMPLES = 'evaluate_gestures', 2
 
 
+def add_arguments(parser):
+    parser.add_argument('--gestures', metavar='DIR',
+                        help='recordings of your own gestures, for the section ours: a folder per '
+                             'person with a CSV per gesture')
+
+
+def refusal(options):
+    folder = options.gestures
+    if folder and (not os.path.isdir(folder)
+                   or sum(entry.is_dir() for entry in os.scandir(folder)) < 2):
+        return (f'{folder} needs folders of at least two people: each person is recognised by the '
+                "others' drawings")
+    return ''
+
+
 def commands(run):
-    if run.gestures:
+    if run.options.gestures:
         return []
     return [[PROGRAM, '--rig', run.rig, '--output', run.file('drawings'), '--seed', run.seed,
              '--sessions', 10 if run.quick else 40]]
@@ -20,7 +36,7 @@ def tell(run):
     result = recognised(run)
     names, confusion = result['gestures'], np.array(result['confusion'])
     tested, right = int(confusion.sum()), int(np.trace(confusion))
-    if run.gestures:
+    if run.options.gestures:
         run.say(
             '### Gestures\n\n'
             'Your own recordings (`--gestures`), measured, not simulated: %d drawings of %d '
@@ -41,15 +57,15 @@ def tell(run):
     for name, count, words in (
             ('right', right, note),
             ('rejected', result['rejected'], 'Of the same drawings, rejected as no gesture at all')):
-        run.share('gestures_' + name, count, tested, words, simulated=not run.gestures)
+        run.share('gestures_' + name, count, tested, words, simulated=not run.options.gestures)
 
 
 def recognised(run):
     """Result of gesture_tool: each person is recognised by the others' examples."""
-    folder = run.gestures or run.file('drawings')
+    folder = run.options.gestures or run.file('drawings')
     programs.run_programs([['wiimote_tracker_triangulation/gesture_tool', 'evaluate', '--train',
                             folder, '--test', folder, '--json', run.file('gestures.json')]
-                           + ([] if run.gestures else ['--examples', EXAMPLES])],
+                           + ([] if run.options.gestures else ['--examples', EXAMPLES])],
                           run.file('programs.log'))
     with open(run.file('gestures.json')) as file:
         return json.load(file)

@@ -1,5 +1,7 @@
 """Detection distance against the LED's current (Fig. 5)."""
 
+import os
+
 import numpy as np
 
 from wiimote_tracker_bringup import charts, experiment, programs
@@ -18,11 +20,22 @@ SHOWN = (0.05, 2.0)                         # currents of the plot [A]
 SPEED, TIME_LIMIT = 0.25, 0.5               # of the program evaluate_distance [m/s], [s]
 
 
+def add_arguments(parser):
+    parser.add_argument('--led', metavar='FILE',
+                        help='description of your own LED, for the section distance')
+
+
+def refusal(options):
+    if options.led and not os.path.isfile(options.led):
+        return f'there is no description of an LED {options.led}'
+    return ''
+
+
 def run(run):
     sessions = 2 if run.quick else 20
     run.compute([['evaluate_distance', '--rig', run.rig, '--output', run.file('carried.csv'),
                   '--seed', run.seed, '--sessions', sessions]], 'carrying remotes away', 0.0, 0.9)
-    led = read_led(run.led or package_file('evaluation/led.yaml'))
+    led = read_led(run.options.led or package_file('evaluation/led.yaml'))
     tell(run, led, programs.read_csv(run.file('carried.csv')))
 
 

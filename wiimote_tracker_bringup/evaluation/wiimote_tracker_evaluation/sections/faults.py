@@ -10,13 +10,28 @@ TITLE = 'Faults'
 TIMES = ('before', 'during', 'after')
 
 
+def add_arguments(parser):
+    parser.add_argument('--faults', metavar='FILE',
+                        help='what fault_matrix --json wrote, for the section faults')
+
+
+def is_wanted(options):
+    return bool(options.faults)
+
+
+def refusal(options):
+    if NAME in options.sections and not options.faults:
+        return 'the section faults needs --faults FILE'
+    return ''
+
+
 def run(run):
     try:
-        with open(run.faults) as file:
+        with open(run.options.faults) as file:
             results = json.load(file)
         rows = [row(result) for result in results]
     except (OSError, ValueError, KeyError, TypeError):
-        raise ExperimentError(f'{run.faults} is not what fault_matrix --json writes')
+        raise ExperimentError(f'{run.options.faults} is not what fault_matrix --json writes')
     survived = sum(not result['problems'] for result in results)
     run.table('faults', [('fault', '')] + [
         (f'{name}_{time}', unit) for time in TIMES for name, unit in (('rate', '1/s'), ('error', 'mm'))

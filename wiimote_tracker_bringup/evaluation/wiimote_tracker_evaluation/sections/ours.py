@@ -7,6 +7,8 @@ from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 NAME = 'ours'
 TITLE = 'Beyond the paper'
 
+add_arguments, refusal = gestures.add_arguments, gestures.refusal
+
 PARTS = (unsynchronised, occlusion, cameras, volume, bodies)
 
 

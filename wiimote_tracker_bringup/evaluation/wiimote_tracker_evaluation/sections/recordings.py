@@ -6,7 +6,6 @@ import re
 import numpy as np
 
 from wiimote_tracker_bringup import statistics
-from wiimote_tracker_evaluation.recordings import formats, program
 
 NAME = 'recordings'
 TITLE = 'Recordings by others'
@@ -21,9 +20,28 @@ PIXELS = (('median', 'px', 'median', 1.0), ('mean', 'px', 'mean', 1.0), ('rms', 
           ('observations', '', 'observations', 1.0))
 
 
+def add_arguments(parser):
+    parser.add_argument('--recordings', metavar='DIR',
+                        help='recordings that others made, a folder each, for the section '
+                             'recordings')
+
+
+def is_wanted(options):
+    return bool(options.recordings)
+
+
+def refusal(options):
+    if NAME in options.sections and not options.recordings:
+        return 'the section recordings needs --recordings DIR'
+    if options.recordings and not os.path.isdir(options.recordings):
+        return f'there is no folder {options.recordings}'
+    return ''
+
+
 def run(run):
+    from wiimote_tracker_evaluation.recordings import formats  # with rospy, see stack.master()
     run.simulated = False
-    own = os.path.abspath(run.recordings)
+    own = os.path.abspath(run.options.recordings)
     found, outcomes = formats.found_in(own), {}
     for number, (path, name) in enumerate(found.items()):
         title = os.path.relpath(path, own) if path != own else os.path.basename(own)
@@ -57,6 +75,7 @@ def name_of(title):
 
 
 def tell(run, title, outcome):
+    from wiimote_tracker_evaluation.recordings import program
     name = name_of(title)
     run.say(f'### {title}\n\n{outcome.method}.\n\n' + '\n'.join(
         f'- {row}: {value}' for row, value in outcome.rows))

@@ -7,6 +7,7 @@ import numpy as np
 import rosbag
 from scipy.spatial.transform import Rotation, Slerp
 
+from wiimote_tracker_bringup import timeseries
 from wiimote_tracker_bringup.errors import ExperimentError
 
 BACK = 1.0  # by which stamps go back only where a clock was set, or a replay began again [s]
@@ -35,9 +36,9 @@ class Poses:
 
     def at(self, times):
         """Interpolated, linearly and by slerp, at times from the first to the last."""
-        positions = np.stack([np.interp(times, self.times, axis) for axis in self.positions.T], 1)
-        return dataclasses.replace(self, times=times, positions=positions,
-                                   rotations=self._slerp(times))
+        return dataclasses.replace(
+            self, times=times, positions=timeseries.at(self.times, self.positions, times),
+            rotations=self._slerp(times))
 
     @functools.cached_property
     def _slerp(self):
@@ -45,9 +46,7 @@ class Poses:
 
     def covers(self, times, longest_gap):
         """Mask of the times between two poses that are no further apart than longest_gap [s]."""
-        after = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)
-        return ((times >= self.times[0]) & (times <= self.times[-1])
-                & (self.times[after] - self.times[after - 1] <= longest_gap))
+        return timeseries.covers(self.times, times, longest_gap)
 
     def chosen(self, which):
         return dataclasses.replace(self, times=self.times[which], positions=self.positions[which],

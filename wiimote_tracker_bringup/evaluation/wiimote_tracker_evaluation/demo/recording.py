@@ -7,6 +7,8 @@ import rosbag
 import rospy
 from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
 
+from wiimote_tracker_bringup import timeseries
+
 
 class Recording:
     """Times in seconds since 1970, positions in metres, one row per published point.
@@ -35,8 +37,7 @@ class Recording:
         return (self.stamp >= start) & (self.stamp <= end)
 
     def truth_at(self, stamps: np.ndarray) -> np.ndarray:
-        return np.stack([np.interp(stamps, self.truth_stamp, self.truth_position[:, axis])
-                         for axis in range(3)], axis=1)
+        return timeseries.at(self.truth_stamp, self.truth_position, stamps)
 
 
 def point_rows(message):

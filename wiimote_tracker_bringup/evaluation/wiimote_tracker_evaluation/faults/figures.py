@@ -6,6 +6,8 @@ from typing import Dict, List, Optional
 
 import numpy as np
 
+from wiimote_tracker_bringup import timeseries
+
 # A point is wrong if it is farther from every LED than both of these.
 WRONG = 0.05   # [m]
 CLAIMED = 5.0  # its own standard deviations
@@ -63,8 +65,8 @@ def errors(window):
     rows = window.points
     if not len(rows):
         return np.zeros(0), np.zeros(0, dtype=int)
-    distances = [np.linalg.norm(rows[:, 2:5] - np.stack(
-        [np.interp(rows[:, 1], truth[:, 0], truth[:, axis]) for axis in (1, 2, 3)], axis=1), axis=1)
+    distances = [
+        np.linalg.norm(rows[:, 2:5] - timeseries.at(truth[:, 0], truth[:, 1:4], rows[:, 1]), axis=1)
         if len(truth) else np.full(len(rows), np.inf) for truth in window.truth.values()]
     return np.min(distances, axis=0), np.argmin(distances, axis=0)
 

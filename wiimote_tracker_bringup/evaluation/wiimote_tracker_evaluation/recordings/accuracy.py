@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_body_motion import pivot
-from wiimote_tracker_bringup import alignment, bound
+from wiimote_tracker_bringup import alignment, bound, timeseries
 from wiimote_tracker_bringup.errors import ExperimentError
 
 # Longest time between two samples of the truth to interpolate between [s].
@@ -32,13 +32,11 @@ CHI_SQUARED_95 = 7.814727903251178  # of three degrees of freedom
 
 def truth_at(truth, times):
     """Positions n x 3 and velocities n x 3 of the truth; NaN in its gaps."""
-    after = np.clip(np.searchsorted(truth.times, times), 1, len(truth.times) - 1)
-    step = truth.times[after] - truth.times[after - 1]
-    inside = ((step < LONGEST_GAP) & (truth.times[after - 1] <= times) &
-              (times <= truth.times[after]))[:, None]
-    velocity = (truth.positions[after] - truth.positions[after - 1]) / step[:, None]
-    position = truth.positions[after - 1] + velocity * (times - truth.times[after - 1])[:, None]
-    return np.where(inside, position, np.nan), np.where(inside, velocity, np.nan)
+    after = timeseries.following(truth.times, times)
+    velocities = np.diff(truth.positions, axis=0) / np.diff(truth.times)[:, None]
+    known = timeseries.covers(truth.times, times, LONGEST_GAP)[:, None]
+    return (np.where(known, timeseries.at(truth.times, truth.positions, times), np.nan),
+            np.where(known, velocities[after - 1], np.nan))
 
 
 def fit_space(points, true, kind):

@@ -4,8 +4,8 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.timeseries import to_nearest
 from wiimote_tracker_evaluation.recordings import accuracy, body, ordinary
-from wiimote_tracker_evaluation.recordings.views import to_nearest
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '

@@ -16,8 +16,8 @@ import zlib
 import numpy as np
 
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation.recordings.views import (
-    LONGEST_GAP, Camera, Truth, Views, to_nearest)
+from wiimote_tracker_bringup.timeseries import to_nearest
+from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP, Camera, Truth, Views
 
 # Of the sensors on the deck: x forward, y to the left [m].
 SHAPE = np.array([[-0.015, 0.0075, 0.0], [-0.015, -0.0075, 0.0],

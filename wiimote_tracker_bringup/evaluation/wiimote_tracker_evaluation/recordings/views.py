@@ -5,14 +5,10 @@ from typing import List, Optional
 
 import numpy as np
 
+from wiimote_tracker_bringup import timeseries
+
 # Longest time between two images to interpolate between [s].
 LONGEST_GAP = 0.05
-
-
-def to_nearest(times, others):
-    """From each of the times to the nearest of others, two or more that increase [s]."""
-    after = np.clip(np.searchsorted(others, times), 1, len(others) - 1)
-    return np.minimum(np.abs(times - others[after - 1]), np.abs(others[after] - times))
 
 
 @dataclasses.dataclass(eq=False)
@@ -51,11 +47,8 @@ class Camera:
 
     def pixels_at(self, times) -> np.ndarray:
         """m x lights x 2, interpolated; NaN in gaps."""
-        after = np.clip(np.searchsorted(self.times, times), 1, len(self.times) - 1)
-        start, end = self.times[after - 1], self.times[after]
-        inside = (end - start < LONGEST_GAP) & (start <= times) & (times <= end)
-        share = np.where(inside, (times - start) / (end - start), np.nan)[:, None, None]
-        return (1.0 - share) * self.pixels[after - 1] + share * self.pixels[after]
+        known = timeseries.covers(self.times, times, LONGEST_GAP)
+        return np.where(known[:, None, None], timeseries.at(self.times, self.pixels, times), np.nan)
 
 
 @dataclasses.dataclass(eq=False)

@@ -20,7 +20,7 @@ from live_rig import DEADLINE
 from wiimote_tracker_bringup import alignment, bound, experiment, scene
 from wiimote_tracker_bringup.conductor import SETTLE, Conductor
 from wiimote_tracker_evaluation.demo import scoring
-from wiimote_tracker_evaluation.demo.recording import LiveRecorder, Recording, truth_row
+from wiimote_tracker_evaluation.demo.published import LiveRecorder, PublishedPoints, truth_row
 
 DWELL = 0.5  # [s]
 RATE = 100.0  # of images of one camera [Hz]
@@ -57,8 +57,8 @@ class Recorder(LiveRecorder):
         self._ages.append((now - message.header.stamp).to_sec())
 
     def recording(self):
-        return Recording(list(self._points), list(self._truths), list(self._latencies),
-                         list(self._ages))
+        return PublishedPoints(list(self._points), list(self._truths), list(self._latencies),
+                               list(self._ages))
 
 
 class EndToEnd(unittest.TestCase):

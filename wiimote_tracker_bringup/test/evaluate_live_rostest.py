@@ -20,7 +20,7 @@ import rostest
 from std_msgs.msg import Header
 from wiimote_tracker_bringup import experiment, scene
 from wiimote_tracker_bringup.true_rig import publish, true_rig
-from wiimote_tracker_evaluation.ours.cameras import point_bound
+from wiimote_tracker_evaluation.sections.ours.cameras import point_bound
 from wiimote_tracker_msgs.msg import IrBlobArray, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 

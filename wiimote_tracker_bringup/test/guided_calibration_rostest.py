@@ -25,7 +25,7 @@ from geometry_msgs.msg import Vector3
 from scipy.optimize import least_squares
 from sensor_msgs.msg import CameraInfo
 from wiimote_tracker_bringup import experiment, scene
-from wiimote_tracker_evaluation.recordings.rig import camera_of
+from wiimote_tracker_evaluation.recordings.solved_rig import camera_of
 from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationVerdict, IrBlobArray,
                                       RigCalibration)
 from wiimote_tracker_msgs.srv import (SetLed, SetLedRequest, SolveBoard,

@@ -8,7 +8,7 @@ import unittest
 import numpy as np
 import rospy
 from geometry_msgs.msg import PointStamped
-from wiimote_tracker_bringup import rigs, scene
+from wiimote_tracker_bringup import descriptions, scene
 from wiimote_tracker_bringup.true_rig import true_rig
 from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
 
@@ -35,7 +35,7 @@ class LiveRigTest(NodeTest):
     def setUpClass(cls):
         rospy.init_node(cls.__name__.lower() + '_rostest')
         cls.path = rospy.get_param('~description')
-        cls.description = rigs.read(cls.path)
+        cls.description = descriptions.read(cls.path)
         cls.scene = scene.read_scene(cls.path)
         cls.leds = sorted(cls.description['leds'])
         cls.images = collections.Counter()

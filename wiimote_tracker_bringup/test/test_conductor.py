@@ -3,7 +3,7 @@
 import pytest
 
 from wiimote_tracker_bringup.conductor import SETTLE, Conductor
-from wiimote_tracker_evaluation.demo.recording import LiveRecorder
+from wiimote_tracker_evaluation.demo.published import LiveRecorder
 
 ARRIVAL, SPEED = 100.0, 1.0  # [s], [m/s]
 

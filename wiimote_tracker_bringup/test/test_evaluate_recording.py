@@ -16,7 +16,7 @@ from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import (
     accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, ordinary, program)
-from wiimote_tracker_evaluation.recordings.rig import cameras_of
+from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
 HERE = os.path.dirname(os.path.realpath(__file__))

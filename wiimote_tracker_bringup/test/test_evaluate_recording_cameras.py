@@ -20,7 +20,7 @@ sys.path[:0] = [HERE, *(os.path.join(HERE, '..', folder) for folder in (
 import simulated_cameras  # noqa: E402
 from wiimote_tracker_bringup.errors import ExperimentError  # noqa: E402
 from wiimote_tracker_evaluation.recordings import cameras, flight, ordinary, time_maps  # noqa: E402
-from wiimote_tracker_evaluation.recordings.rig import Rig  # noqa: E402
+from wiimote_tracker_evaluation.recordings.solved_rig import Rig  # noqa: E402
 
 
 def hand():

@@ -263,7 +263,7 @@ class HandMade:
 
     def __init__(self):
         from wiimote_tracker_bringup.conductor import Segment
-        from wiimote_tracker_evaluation.demo import recording
+        from wiimote_tracker_evaluation.demo import published
         points, truths, self.segments = [], [], []
         now = 1000.0
         places = ([('test', p) for p in experiment.TEST_POINTS]
@@ -285,7 +285,7 @@ class HandMade:
             points.append((stamp,) + tuple(center + 0.753 * ring + [0, 0, 0.004])
                           + (0.001, 0.001, 0.001, 4, 0.3))
             truths.append((stamp,) + tuple(center + 0.75 * ring))
-        self.recording = recording.Recording(points, truths, np.linspace(0.001, 0.002, 101),
+        self.recording = published.PublishedPoints(points, truths, np.linspace(0.001, 0.002, 101),
                                              np.full(101, 0.02))
 
 

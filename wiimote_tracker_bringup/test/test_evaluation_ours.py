@@ -12,10 +12,11 @@ import pytest
 from section_run import section_run
 from wiimote_tracker_bringup import programs, scene, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import evaluation, light, section
-from wiimote_tracker_evaluation.live import circles, dialogue, latency, listener
-from wiimote_tracker_evaluation.ours import cameras, gestures
+from wiimote_tracker_evaluation import evaluation, section
+from wiimote_tracker_evaluation.live import circles, dialogue, latency, running_tracker
+from wiimote_tracker_evaluation.sections.ours import cameras, gestures
 from wiimote_tracker_evaluation.sections import identification
+from wiimote_tracker_evaluation.sections.distance import light
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
@@ -238,21 +239,21 @@ def test_the_newest_point_lags_in_the_direction_of_motion(way):
 
 
 def seen(positions, tracked=True):
-    return [(0.01 * i, [listener.Led(1, 'led', 0.0, tracked, np.array(position))])
+    return [(0.01 * i, [running_tracker.Led(1, 'led', 0.0, tracked, np.array(position))])
             for i, position in enumerate(positions)]
 
 
 def test_a_place_is_one_led_that_lies_still():
     still = np.tile([1.0, 2.0, 0.5], (100, 1)) + 1e-3 * np.random.RandomState(1).randn(100, 3)
-    place = listener.Listener._place(seen(still))
+    place = running_tracker.RunningTracker._place(seen(still))
     assert place.position == pytest.approx(still.mean(axis=0))
     assert place.scatter == pytest.approx(1e-3 * np.sqrt(3.0), rel=0.2) and place.points == 100
-    assert listener.Listener._place(seen(still[:5])) is None, 'too few'
-    assert listener.Listener._place(seen(still, tracked=False)) is None, 'hidden'
+    assert running_tracker.RunningTracker._place(seen(still[:5])) is None, 'too few'
+    assert running_tracker.RunningTracker._place(seen(still, tracked=False)) is None, 'hidden'
     moved = still + np.linspace(0.0, 0.05, 100)[:, np.newaxis]
-    assert listener.Listener._place(seen(moved)) is None, 'it moves'
+    assert running_tracker.RunningTracker._place(seen(moved)) is None, 'it moves'
     two = [(stamp, leds * 2) for stamp, leds in seen(still)]
-    assert listener.Listener._place(two) is None, 'which one?'
+    assert running_tracker.RunningTracker._place(two) is None, 'which one?'
 
 
 @pytest.mark.parametrize('address, advice', [
@@ -262,7 +263,7 @@ def test_a_place_is_one_led_that_lies_still():
 def test_a_live_measurement_needs_a_master(monkeypatch, address, advice):
     monkeypatch.setenv('ROS_MASTER_URI', address)
     with pytest.raises(ExperimentError, match=advice):
-        listener.Listener()
+        running_tracker.RunningTracker()
 
 
 def test_a_number_is_requested_until_it_is_valid():

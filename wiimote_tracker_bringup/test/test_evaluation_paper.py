@@ -11,8 +11,9 @@ import pytest
 from section_run import section_run
 from wiimote_tracker_bringup import statistics
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import position_claims as claims
-from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
+from wiimote_tracker_evaluation.sections.positions import claims
+from wiimote_tracker_evaluation.sections.positions.results import (
+    CASES, FACING, FOUR, OURS, TWO, Results)
 from wiimote_tracker_evaluation.section import Run, Table
 from wiimote_tracker_evaluation.sections import circles, positions
 

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 import scipy.stats
 
-from wiimote_tracker_bringup import files, processes, programs, rigs, scene, statistics
+from wiimote_tracker_bringup import descriptions, files, processes, programs, scene, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import load, progress, results_table
+from wiimote_tracker_evaluation import progress, results_table
+from wiimote_tracker_evaluation.sections.cost import load
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
@@ -207,24 +208,25 @@ def test_a_table_needs_figures(figures, words, tmp_path, capsys):
 # --- Rigs made from another one
 
 def test_more_cameras_see_the_same_space(tmp_path):
-    description = rigs.with_cameras(rigs.read(PAPER_RIG), 8)
+    description = descriptions.with_cameras(descriptions.read(PAPER_RIG), 8)
     path = str(tmp_path / 'rig.yaml')
-    rigs.write(path, description)
+    descriptions.write(path, description)
     cameras = scene.read_scene(path).cameras
     assert len(cameras) == 8 and len({camera.name for camera in cameras}) == 8
-    assert len(set(rigs.identities(description).values())) == 8
-    distance = [np.linalg.norm((camera.position - rigs.MIDDLE)[:2]) for camera in cameras]
+    assert len(set(descriptions.identities(description).values())) == 8
+    distance = [np.linalg.norm((camera.position - descriptions.MIDDLE)[:2]) for camera in cameras]
     assert np.allclose(distance, distance[0], rtol=1e-4)
     nearest = min(np.linalg.norm(a.position - b.position)
                   for i, a in enumerate(cameras) for b in cameras[:i])
     assert nearest > 0.7 * distance[0]  # 8 on a circle: 2 sin(22.5 deg) = 0.77
     assert not any(scene.read_scene(path).missed(np.array([[1.25, 1.25, 1.0]])))
-    assert list(rigs.with_cameras(description, 2)['cameras']) == ['wiimote_1', 'wiimote_2']
+    assert list(descriptions.with_cameras(description, 2)['cameras']) == [
+        'wiimote_1', 'wiimote_2']
 
 
 def test_the_scaled_rig_sees_its_space_about_the_origin(tmp_path):
     path = str(tmp_path / 'rig.yaml')
-    rigs.write(path, rigs.centred(rigs.read(PAPER_RIG), 0.4))
+    descriptions.write(path, descriptions.centred(descriptions.read(PAPER_RIG), 0.4))
     corners = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (0.0, 0.5)])
     assert not any(scene.read_scene(path).missed(corners))
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup import bound, rigs, scene
+from wiimote_tracker_bringup import bound, descriptions, scene
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_rig_planning import body, plan, plan_rig, prediction, search
@@ -164,13 +164,14 @@ def test_ctrl_c_is_answered_in_a_word(tmp_path, monkeypatch, capsys):
 def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
     room = tmp_path / 'room'
     room.mkdir()
-    rig = rigs.read(PAPER_RIG)
+    rig = descriptions.read(PAPER_RIG)
     rig['cameras'] = dict(zip(['door', 'window', 'desk', 'wall'], rig['cameras'].values()))
     rig['leds']['led']['blink'] = {'codes': 'codes.yaml', 'label': 'led'}
-    rigs.write(str(room / 'rig.yaml'), rig)
+    descriptions.write(str(room / 'rig.yaml'), rig)
     loaded = plan_rig.read_rig(str(room / 'rig.yaml'))
-    rigs.write(str(tmp_path / 'saved.yaml'), rigs.placed(loaded, np.ones((4, 3)), np.eye(4, 3)))
-    saved = rigs.read(str(tmp_path / 'saved.yaml'))
+    descriptions.write(str(tmp_path / 'saved.yaml'),
+                       descriptions.placed(loaded, np.ones((4, 3)), np.eye(4, 3)))
+    saved = descriptions.read(str(tmp_path / 'saved.yaml'))
     rig['leds']['led']['blink']['codes'] = str(room / 'codes.yaml')
     for drawing in rig['drawings'].values():
         drawing['file'] = str(room / drawing['file'])

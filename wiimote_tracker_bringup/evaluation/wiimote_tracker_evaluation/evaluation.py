@@ -7,7 +7,7 @@ import time
 import traceback
 from typing import List, Optional
 
-from wiimote_tracker_bringup import ranges, rigs, stack
+from wiimote_tracker_bringup import descriptions, ranges, stack
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.files import prepare
 from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
@@ -84,7 +84,7 @@ def check_files(parser: argparse.ArgumentParser, options: argparse.Namespace, to
     """Refuses what cannot be used; makes the paths of rig and output absolute."""
     if not os.path.isfile(options.rig):
         parser.error(f'there is no rig description {options.rig}')
-    if not options.live and not rigs.is_description(options.rig):
+    if not options.live and not descriptions.is_description(options.rig):
         parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml does: a '
                      'calibrated rig.yaml cannot be simulated')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)

@@ -8,7 +8,7 @@ from typing import List
 
 import numpy as np
 
-from wiimote_tracker_bringup import rigs
+from wiimote_tracker_bringup import descriptions
 
 
 class Camera:
@@ -80,7 +80,7 @@ class Scene:
 
 def read_scene(path: str) -> Scene:
     """Scene of a rig description. ValueError if a lens has distortion other than k1."""
-    description = rigs.read(path)
+    description = descriptions.read(path)
     cameras = []
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']

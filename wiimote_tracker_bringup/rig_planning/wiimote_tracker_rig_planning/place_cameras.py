@@ -20,7 +20,7 @@ from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Trigger, TriggerResponse
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
-from wiimote_tracker_bringup import files, rigs
+from wiimote_tracker_bringup import descriptions, files
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_bringup.ros_master import require_master
 from wiimote_tracker_rig_planning import cells, handles, plan, plan_rig, prediction, search
@@ -110,12 +110,12 @@ class PlaceCameras:
 
     def _save(self):
         with self._lock:
-            description = rigs.placed(self._rig, self._positions, self._targets)
+            description = descriptions.placed(self._rig, self._positions, self._targets)
             volume = [round(float(v), 3) for v in self._plan.volume]
         try:
             if not self._is_saved:  # a file of before, perhaps with comments
                 files.keep_copy(self._output)
-            rigs.write(self._output, description)
+            descriptions.write(self._output, description)
             self._is_saved = True
         except OSError as error:
             return TriggerResponse(False, f'not saved: {sentence_of(error)}')

@@ -7,7 +7,7 @@ import sys
 import numpy as np
 import yaml
 
-from wiimote_tracker_bringup import bound, files, interruption, ranges, rigs, scene
+from wiimote_tracker_bringup import bound, descriptions, files, interruption, ranges, scene
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_bringup.programs import package_file
@@ -90,7 +90,7 @@ def with_calibration(chosen, names, positions, targets, points):
 
 def description(chosen, positions, targets):
     """A rig for simulated_rig."""
-    example = rigs.read(package_file('simulation/paper_rig.yaml'))
+    example = descriptions.read(package_file('simulation/paper_rig.yaml'))
     like = next(iter(example['cameras'].values()))
     focal_x, focal_y, center_x, center_y, k1 = map(float, NOMINAL_LENS)
     lens = {'fx': focal_x, 'fy': focal_y, 'cx': center_x, 'cy': center_y,
@@ -99,15 +99,15 @@ def description(chosen, positions, targets):
         like, identity=f'00:1f:32:00:00:{number:02x}', intrinsics=dict(lens),
         clock=dict(like['clock'], phase=round(0.0013 * number % 0.01, 4)))
         for number in range(1, len(positions) + 1)}
-    return rigs.placed(
-        rigs.with_leds(dict(example, cameras=cameras), [chosen.corners().mean(axis=0)]),
+    return descriptions.placed(
+        descriptions.with_leds(dict(example, cameras=cameras), [chosen.corners().mean(axis=0)]),
         positions, targets)
 
 
 def read_rig(path):
     """A rig description that can be written to another folder."""
     try:
-        rig = rigs.with_absolute_files(rigs.read(path), os.path.dirname(path))
+        rig = descriptions.with_absolute_files(descriptions.read(path), os.path.dirname(path))
         places_of(rig)
         return rig
     except (AttributeError, KeyError, TypeError, yaml.YAMLError) as error:
@@ -153,7 +153,7 @@ def run(arguments):
     print('\n'.join(describe_sight(chosen, names, positions, targets)))
     if arguments.output:
         files.keep_copy(arguments.output)
-        rigs.write(arguments.output, rig)
+        descriptions.write(arguments.output, rig)
     if arguments.plot:
         picture.draw(chosen, positions, targets, arguments.plot)
 

@@ -25,7 +25,7 @@ RECORDED = (r'(.*)/ir_blobs|(.*)/camera_info|(.*)/imu/data_raw|(.*)/calibration/
             r'/points|/%s/point|/simulation/truth/(.*)|/tf|/tf_static|/diagnostics' % LED)
 
 
-class Progress(Terminal):
+class Steps(Terminal):
     """Numbered steps, with a status below."""
 
     def __init__(self, steps):
@@ -50,7 +50,7 @@ class Demo:
     def __init__(self, output, mode):
         self._output = output
         self._mode = mode
-        self._progress = Progress(8)
+        self._progress = Steps(8)
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
         names = ['rig'] + [camera.name for camera in self._scene.cameras]
         prepare(output, [
@@ -82,7 +82,7 @@ class Demo:
         """The LED's tour. Returns the measured segments, and the images used per corner."""
         # Imported late: rospy reads the master's address at import.
         from wiimote_tracker_bringup.conductor import Conductor
-        from wiimote_tracker_evaluation.demo.recording import LiveRecorder
+        from wiimote_tracker_evaluation.demo.published import LiveRecorder
         progress = self._progress
         conductor = Conductor(LED, LiveRecorder(), stack.check, progress.passing)
 
@@ -147,12 +147,12 @@ class Demo:
                                 f'{len(self._scene.cameras)} cameras')
 
     def _finish(self, segments, corner_samples):
-        from wiimote_tracker_evaluation.demo import animation, recording, report, scoring
+        from wiimote_tracker_evaluation.demo import animation, published, report, scoring
         self._progress.step('Closing the bag, computing the results')
         stack.end(self._recorder)
         if not os.path.exists(self.file('demo.bag')):
             raise ExperimentError('rosbag left no demo.bag; see ' + self.file('nodes.log'))
-        recorded = recording.read_bag(self.file('demo.bag'), LED)
+        recorded = published.read_bag(self.file('demo.bag'), LED)
         try:
             score = scoring.score(recorded, segments)
         except ValueError as error:

@@ -7,7 +7,7 @@ import signal
 import tempfile
 import time
 
-from wiimote_tracker_bringup import rigs
+from wiimote_tracker_bringup import descriptions
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.processes import descendants, free_port
 from wiimote_tracker_bringup.programs import find_program, package_file
@@ -17,7 +17,7 @@ from wiimote_tracker_evaluation.faults import figures
 from wiimote_tracker_evaluation.faults.far_computer import FarComputer
 from wiimote_tracker_evaluation.faults.listener import Listener, joined
 from wiimote_tracker_evaluation.faults.relay import Relay
-from wiimote_tracker_evaluation.faults.rig_file import write_rig
+from wiimote_tracker_evaluation.faults.rig_writer import write_rig
 
 START = 90.0      # longest time until all LEDs are tracked, on a busy computer [s]
 SETTLED = 2.0     # that the LEDs must be tracked at the start [s]
@@ -46,12 +46,14 @@ class Room:
         self._dark = DARK if dark else {}
         self.folder = tempfile.mkdtemp(prefix='wiimote_tracker_faults_')
         self.log = os.path.join(self.folder, 'nodes.log')
-        description = rigs.with_cameras(rigs.read(package_file('simulation/paper_rig.yaml')), cameras)
-        description = dict(rigs.with_leds(description, []), leds=dict(LEDS, **self._dark), truth_rate=50.0)
+        paper = descriptions.read(package_file('simulation/paper_rig.yaml'))
+        description = dict(
+            descriptions.with_leds(descriptions.with_cameras(paper, cameras), []),
+            leds=dict(LEDS, **self._dark), truth_rate=50.0)
         self.cameras = list(description['cameras'])
-        rigs.write(self.file('room.yaml'), description)
-        rigs.write(self.file('cameras.yaml'), {'cameras': {
-            name: identity for name, identity in rigs.identities(description).items()
+        descriptions.write(self.file('room.yaml'), description)
+        descriptions.write(self.file('cameras.yaml'), {'cameras': {
+            name: identity for name, identity in descriptions.identities(description).items()
             if name not in relayed and name not in far}})
         write_rig(self.file('rig.yaml'), true_rig(self.file('room.yaml')))
         self._port = free_port()

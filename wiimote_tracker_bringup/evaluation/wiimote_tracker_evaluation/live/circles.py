@@ -5,15 +5,15 @@ import time
 import numpy as np
 
 from wiimote_tracker_bringup import alignment, charts, statistics
-from wiimote_tracker_evaluation.live.listener import with_listener
+from wiimote_tracker_evaluation.live.running_tracker import with_tracker
 
 DURATION, QUICK = 15.0, 3.0  # of the measurement [s]
 BLOCKS = 10                  # independent parts of the measurement
 
 
-@with_listener
-def live(run, listener, dialogue):
-    listener.wait_for_points()
+@with_tracker
+def live(run, tracker, dialogue):
+    tracker.wait_for_points()
     dialogue.line('Move one LED on a horizontal circle at constant speed: on a turntable, or an '
                   'arm of a motor.')
     radius = dialogue.ask_number('Its radius in metres, when it moves (Enter: skip this):',
@@ -22,11 +22,11 @@ def live(run, listener, dialogue):
         run.say('The circle was skipped.')
         return
     duration = QUICK if run.quick else DURATION
-    begin = listener.now()
-    while listener.now() < begin + duration:
-        dialogue.passing('measuring, %.0f s left' % (begin + duration - listener.now()))
+    begin = tracker.now()
+    while tracker.now() < begin + duration:
+        dialogue.passing('measuring, %.0f s left' % (begin + duration - tracker.now()))
         time.sleep(0.05)
-    tell(run, radius, path_of(listener.since(begin)))
+    tell(run, radius, path_of(tracker.since(begin)))
 
 
 def path_of(seen):

@@ -7,7 +7,7 @@ import yaml
 
 from wiimote_tracker_bringup import charts
 from wiimote_tracker_evaluation.live.dialogue import SKIP
-from wiimote_tracker_evaluation.live.listener import with_listener
+from wiimote_tracker_evaluation.live.running_tracker import with_tracker
 
 TIME_LIMIT = 0.5  # the paper's: time without a new position [s]
 
@@ -35,7 +35,7 @@ class Watch:
         self._subscriber.unregister()
 
 
-@with_listener
+@with_tracker
 def live(run, _, dialogue):
     dialogue.line('Take one remote; hold it towards the LED, in small circles all the time, and walk '
                   'slowly backwards until you hear a beep. Then measure the distance.')

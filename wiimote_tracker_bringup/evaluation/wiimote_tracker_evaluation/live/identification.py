@@ -5,14 +5,14 @@ import time
 import numpy as np
 
 from wiimote_tracker_evaluation.live.dialogue import SKIP
-from wiimote_tracker_evaluation.live.listener import with_listener
+from wiimote_tracker_evaluation.live.running_tracker import with_tracker
 
 TRIES, QUICK_TRIES = 10, 3
 LABEL_TIMEOUT = 10.0  # for labels, after the LEDs are seen [s]
 
 
-@with_listener
-def live(run, listener, dialogue):
+@with_tracker
+def live(run, tracker, dialogue):
     dialogue.line('The tracker needs the codes of your LEDs (argument blink_codes of its launch '
                   'file).')
     names = dialogue.ask('Labels of the LEDs, separated by commas (Enter: skip this):')
@@ -20,11 +20,11 @@ def live(run, listener, dialogue):
     if not labels:
         run.say('Identification was skipped.')
         return
-    listener.wait_for_points()
+    tracker.wait_for_points()
     rows = []
     for number in range(QUICK_TRIES if run.quick else TRIES):
         dialogue.line('   %2d  Switch all LEDs off; then on.' % (number + 1))
-        row = one_try(listener, dialogue, labels)
+        row = one_try(tracker, dialogue, labels)
         if row is None:
             break
         dialogue.line('       ' + (f'all have their labels after {row[1]:.2f} s' if row[0] else
@@ -33,30 +33,30 @@ def live(run, listener, dialogue):
     tell(run, labels, rows)
 
 
-def one_try(listener, dialogue, labels):
+def one_try(tracker, dialogue, labels):
     """Whether all LEDs were labelled, and the time from their first light [s]; None: skipped."""
-    if not wait(dialogue, lambda: not shown(listener)):
+    if not wait(dialogue, lambda: not shown(tracker)):
         return None
-    begin = listener.now()
-    if not wait(dialogue, lambda: first_light(listener, begin) is not None):
+    begin = tracker.now()
+    if not wait(dialogue, lambda: first_light(tracker, begin) is not None):
         return None
-    first = first_light(listener, begin)
-    while listener.now() < first + LABEL_TIMEOUT:
-        if sorted(led.label for led in shown(listener) if led.since > 0.0) == labels:
-            return True, listener.now() - first
+    first = first_light(tracker, begin)
+    while tracker.now() < first + LABEL_TIMEOUT:
+        if sorted(led.label for led in shown(tracker) if led.since > 0.0) == labels:
+            return True, tracker.now() - first
         time.sleep(0.005)
     return False, None
 
 
-def first_light(listener, begin):
+def first_light(tracker, begin):
     """Arrival of the first point after `begin`; None: not yet."""
-    return next((seen.heard for seen in listener.since(begin) if seen.leds), None)
+    return next((seen.heard for seen in tracker.since(begin) if seen.leds), None)
 
 
-def shown(listener):
+def shown(tracker):
     """LEDs of the last moments."""
-    newest = listener.newest()
-    return newest.leds if newest and listener.now() - newest.heard < 0.5 else []
+    newest = tracker.newest()
+    return newest.leds if newest and tracker.now() - newest.heard < 0.5 else []
 
 
 def wait(dialogue, condition):

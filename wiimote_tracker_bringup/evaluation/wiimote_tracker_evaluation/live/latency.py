@@ -7,7 +7,7 @@ import numpy as np
 from wiimote_tracker_bringup import charts
 from wiimote_tracker_evaluation.live.circles import errors_of, path_of
 from wiimote_tracker_evaluation.live.dialogue import SKIP
-from wiimote_tracker_evaluation.live.listener import with_listener
+from wiimote_tracker_evaluation.live.running_tracker import with_tracker
 
 LAPS, QUICK_LAPS = 40, 6
 PATIENCE = 15.0  # for the next lap [s]
@@ -16,11 +16,11 @@ PATIENCE = 15.0  # for the next lap [s]
 class LapsCounter:
     """Triggers, the newest position at the arrival of each, and the tracker's answers."""
 
-    def __init__(self, listener):
+    def __init__(self, tracker):
         import rospy
         from std_msgs.msg import Header
         from wiimote_tracker_msgs.msg import TrackedPointArray
-        self._listener = listener
+        self._tracker = tracker
         self.newest = {}   # by the trigger's stamp [ns]: newest position then [m]
         self.answers = {}  # by the trigger's stamp [ns]: position of the answer [m]
         self._subscribers = [
@@ -29,7 +29,7 @@ class LapsCounter:
 
     def _on_trigger(self, message):
         begin = message.stamp.to_sec()
-        known = [seen for seen in self._listener.since(begin - 1.0)
+        known = [seen for seen in self._tracker.since(begin - 1.0)
                  if seen.heard <= begin and len(seen.leds) == 1]
         if known:
             self.newest[message.stamp.to_nsec()] = known[-1].leds[0].position
@@ -48,23 +48,23 @@ class LapsCounter:
             subscriber.unregister()
 
 
-@with_listener
-def live(run, listener, dialogue):
-    counter = LapsCounter(listener)
+@with_tracker
+def live(run, tracker, dialogue):
+    counter = LapsCounter(tracker)
     try:
-        measure(run, listener, counter, dialogue)
+        measure(run, tracker, counter, dialogue)
     finally:
         counter.close()
 
 
-def measure(run, listener, counter, dialogue):
+def measure(run, tracker, counter, dialogue):
     wanted = QUICK_LAPS if run.quick else LAPS
-    listener.wait_for_points()
+    tracker.wait_for_points()
     dialogue.line(
         'Move one LED on a horizontal circle at constant speed, and let a laps counter publish a '
         'std_msgs/Header on /trigger, stamped with the time, whenever the LED passes it. Waiting for '
         '%d laps (s and Enter: skip this).' % wanted)
-    begin = listener.now()
+    begin = tracker.now()
     last, count = time.monotonic(), 0
     while len(counter.laps()) < wanted + 1:
         if len(counter.laps()) > count:
@@ -73,7 +73,7 @@ def measure(run, listener, counter, dialogue):
             break
         dialogue.passing('%d of %d laps' % (max(count - 1, 0), wanted))
         time.sleep(0.02)
-    tell(run, counter, path_of(listener.since(begin))[1])
+    tell(run, counter, path_of(tracker.since(begin))[1])
 
 
 def tell(run, counter, positions):

@@ -3,7 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_bringup import charts, experiment, statistics
-from wiimote_tracker_evaluation.live.listener import STILL_TIME, with_listener
+from wiimote_tracker_evaluation.live.running_tracker import STILL_TIME, with_tracker
 
 FLOOR, AIR = 0.01, 0.03  # the paper's largest placement errors [m]
 PAPER_LIMIT = 3.0         # its accuracy [cm]
@@ -14,17 +14,17 @@ def targets(side, up):
     return experiment.TEST_POINTS / experiment.SIDE * side * [1.0, 1.0, up]
 
 
-@with_listener
-def live(run, listener, dialogue):
-    points = targets(listener.side(), listener.up())
-    listener.wait_for_points()
+@with_tracker
+def live(run, tracker, dialogue):
+    points = targets(tracker.side(), tracker.up())
+    tracker.wait_for_points()
     dialogue.line('Take one LED to ten places, one after the other, and hold it still until the next '
                   'one is named (s and Enter: skip it).')
     rows, before = [], None
     for number, target in enumerate(points):
         dialogue.line('   %2d  Put the LED at x = %.3f m, y = %.3f m, z = %.3f m.'
                       % ((number + 1,) + tuple(target)))
-        place = listener.still(dialogue, before)
+        place = tracker.still(dialogue, before)
         if place is None:
             continue
         before = place.position

@@ -14,7 +14,7 @@ import rosbag
 import rospy
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup import alignment, programs, rigs
+from wiimote_tracker_bringup import alignment, descriptions, programs
 from wiimote_tracker_evaluation.recordings import ordinary
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
@@ -70,7 +70,7 @@ def figures(known, number, played, folder):
     for rig, path in zip((known, disturbed, None), files):
         write_bag(rig, played, path)
     programs.run('wiimote_tracker_calibration/keep_calibrated', files[1], corrected)
-    content = rigs.read(corrected)
+    content = descriptions.read(corrected)
     found = content['cameras'][camera.name]
     pose, true = found['extrinsics']['transform'], known.cameras[number].world_from_camera
     left = rotation_of(true.orientation).inv() * Rotation.from_quat(

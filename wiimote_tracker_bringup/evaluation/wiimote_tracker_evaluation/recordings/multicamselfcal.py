@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import reprojection
-from wiimote_tracker_evaluation.recordings.rig import cameras_of, nearest_points
+from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of, nearest_points
 
 METHOD = ('Lenses and poses by self_calibrate from every other ten frames; the rest are held out, '
           'both ways round; a pixel is predicted from the point that the other cameras see')

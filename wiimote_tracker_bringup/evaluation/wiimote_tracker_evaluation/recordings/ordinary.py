@@ -15,9 +15,9 @@ import rospy
 import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
-from wiimote_tracker_bringup import layout, programs, rigs
+from wiimote_tracker_bringup import descriptions, layout, programs
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation.recordings.rig import Rig
+from wiimote_tracker_evaluation.recordings.solved_rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 
 # The first poses come from this many instants at most.
@@ -117,11 +117,11 @@ def lenses_of(views, rig, folder):
     """A file of the rig whose covariance is that of its lenses, whose principal points are off by
     views.accuracy: poses are aligned later."""
     path = os.path.join(folder, 'lenses.yaml')
-    content = rigs.read(rig.path)
+    content = descriptions.read(rig.path)
     variances = np.zeros((len(views.cameras), PER_CAMERA))
     variances[:, PRINCIPAL_POINT] = views.accuracy ** 2
     content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())
-    rigs.write(path, content)
+    descriptions.write(path, content)
     return path
 
 

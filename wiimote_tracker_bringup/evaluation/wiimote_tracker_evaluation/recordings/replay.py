@@ -12,7 +12,7 @@ from wiimote_tracker_msgs.msg import TrackedPoint
 
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import ordinary, reprojection
-from wiimote_tracker_evaluation.recordings.rig import camera_of
+from wiimote_tracker_evaluation.recordings.solved_rig import camera_of
 
 METHOD = ('Points by track_bag, instant by instant (published) and as tracks, and those that were '
           'shipped with the recording; reprojection errors over all observations of the instants '

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_bringup import alignment, charts, experiment, rigs, stack, statistics
+from wiimote_tracker_bringup import alignment, charts, descriptions, experiment, stack, statistics
 from wiimote_tracker_evaluation.live import latency as with_a_person
 from wiimote_tracker_evaluation.trace import Recorder
 
@@ -78,7 +78,8 @@ def measure(run, number, laps):
 
     def progress(part, what):
         run.progress(number + part, len(CASES), what)
-    description = rigs.with_cameras(rigs.centred(rigs.read(run.rig), SIDE / experiment.SIDE), cameras)
+    description = descriptions.with_cameras(
+        descriptions.centred(descriptions.read(run.rig), SIDE / experiment.SIDE), cameras)
     progress(0.0, 'starting %d virtual Wii Remotes' % cameras)
     _, conductor = stack.launch_rig(run, name, description, side_length=SIDE, origin=SIDE / 2.0)
     conductor.move(CENTRE, CARRY_SPEED)
@@ -86,7 +87,7 @@ def measure(run, number, laps):
     conductor.start(SIDE)
     for corner, place in enumerate(experiment.placed_corners(run.seed)):
         progress(0.15 + 0.1 * corner, 'calibrating')
-        conductor.capture(SIDE / experiment.SIDE * (place - rigs.MIDDLE), CARRY_SPEED)
+        conductor.capture(SIDE / experiment.SIDE * (place - descriptions.MIDDLE), CARRY_SPEED)
     conductor.solve()
     recorder = Recorder(run, list(description['cameras']), name)
     crossings = count_laps(conductor, laps, lambda lap: progress(

@@ -10,7 +10,7 @@ from typing import Callable, Sequence
 import numpy as np
 
 from wiimote_tracker_bringup import alignment, statistics
-from wiimote_tracker_evaluation.position_results import FOUR, TWO
+from wiimote_tracker_evaluation.sections.positions.results import FOUR, TWO
 from wiimote_tracker_evaluation.sessions import by_session
 
 DRAWS = 4000

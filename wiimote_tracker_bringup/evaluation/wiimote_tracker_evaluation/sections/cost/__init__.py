@@ -8,9 +8,9 @@ import sys
 
 import numpy as np
 
-from wiimote_tracker_bringup import charts, rigs, stack, statistics
+from wiimote_tracker_bringup import charts, descriptions, stack, statistics
 from wiimote_tracker_bringup.true_rig import publish, true_rig
-from wiimote_tracker_evaluation import load
+from wiimote_tracker_evaluation.sections.cost import load
 from wiimote_tracker_evaluation.trace import Recorder
 
 NAME = 'cost'
@@ -76,7 +76,8 @@ class FullStack:
 
     def __init__(self, run, cameras):
         self._run, self._number = run, cameras
-        description = rigs.with_leds(rigs.with_cameras(rigs.read(run.rig), cameras), PLACES, False)
+        description = descriptions.with_leds(
+            descriptions.with_cameras(descriptions.read(run.rig), cameras), PLACES, False)
         self._cameras, self._leds = list(description['cameras']), list(description['leds'])
         path, self._conductor = stack.launch_rig(run, '%d_cameras' % cameras, description,
                                                  labels=','.join(self._leds))

@@ -10,7 +10,7 @@ from wiimote_tracker_msgs.msg import TrackedPoint, TrackedPointArray
 from wiimote_tracker_bringup import timeseries
 
 
-class Recording:
+class PublishedPoints:
     """Times in seconds since 1970, positions in metres, one row per published point.
 
     stamp N, position N x 3, stddev N x 3, rays N, residual N [px];
@@ -54,7 +54,7 @@ def truth_row(message):
     return (message.header.stamp.to_sec(), message.point.x, message.point.y, message.point.z)
 
 
-def read_bag(path: str, led: str) -> Recording:
+def read_bag(path: str, led: str) -> PublishedPoints:
     """Reads a bag with /points and /simulation/truth/<led>."""
     points, truths, latencies, ages = [], [], [], []
     truth_topic = '/simulation/truth/' + led
@@ -67,7 +67,7 @@ def read_bag(path: str, led: str) -> Recording:
             if not message.latest_arrival.is_zero():
                 latencies.append((received - message.latest_arrival).to_sec())
             ages.append((received - message.header.stamp).to_sec())
-    return Recording(points, truths, latencies, ages)
+    return PublishedPoints(points, truths, latencies, ages)
 
 
 class LiveRecorder:

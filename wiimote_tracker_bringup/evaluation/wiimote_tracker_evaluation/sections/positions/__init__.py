@@ -7,10 +7,10 @@ import numpy as np
 
 from wiimote_tracker_bringup import programs, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import position_claims as claims
-from wiimote_tracker_evaluation import position_plots as plots
 from wiimote_tracker_evaluation.live import positions as with_a_person
-from wiimote_tracker_evaluation.position_results import CASES, FACING, FOUR, OURS, TWO, Results
+from wiimote_tracker_evaluation.sections.positions import claims, plots
+from wiimote_tracker_evaluation.sections.positions.results import (
+    CASES, FACING, FOUR, OURS, TWO, Results)
 from wiimote_tracker_evaluation.sessions import parts_of, unit_of
 
 NAME = 'positions'

@@ -1,6 +1,6 @@
 """Writes rig.yaml from a RigCalibration, independent of the tracker's own writer."""
 
-from wiimote_tracker_bringup import rigs
+from wiimote_tracker_bringup import descriptions
 
 PLANE = ('x', 'y', 'z')
 
@@ -14,7 +14,7 @@ def write_rig(path, rig):
         'camera_order': [camera.name for camera in rig.cameras],
         'cameras': {camera.name: _camera(camera, rig.header.frame_id) for camera in rig.cameras},
         'zones': [], 'covariance': {'rows': 0, 'cols': 0, 'data': []}, 'complete': True}
-    rigs.write(path, content)
+    descriptions.write(path, content)
 
 
 def _camera(camera, world):

@@ -1,6 +1,10 @@
-"""Subjects beyond the paper: clocks, occlusion, more cameras, bodies, gestures, an accuracy map."""
+"""Subjects beyond the paper: clocks, occlusion, more cameras, bodies, gestures, an accuracy map.
 
-from wiimote_tracker_evaluation.ours import (
+One module per subject: PROGRAM, QUICK and FULL, the CAPTION of its table, and tell(run, table);
+gestures have commands(run) and tell(run).
+"""
+
+from wiimote_tracker_evaluation.sections.ours import (
     bodies, cameras, gestures, occlusion, unsynchronised, volume)
 from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 

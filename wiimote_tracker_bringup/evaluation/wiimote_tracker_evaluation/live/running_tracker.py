@@ -23,7 +23,7 @@ Led = collections.namedtuple('Led', 'id label since tracked position')
 Place = collections.namedtuple('Place', 'position scatter points')  # mean, standard deviation [m]
 
 
-class Listener:
+class RunningTracker:
     """Points and rig of a running tracker. @raise ExperimentError: there is no ROS master."""
 
     def __init__(self):
@@ -132,14 +132,14 @@ class Listener:
                      len(rows))
 
 
-def with_listener(measure):
-    """Makes measure(run, listener, dialogue) the live(run) of a section."""
+def with_tracker(measure):
+    """Makes measure(run, tracker, dialogue) the live(run) of a section."""
     @functools.wraps(measure)
     def live(run, dialogue=None):
-        listener = Listener()
+        tracker = RunningTracker()
         try:
-            run.simulated = listener.is_simulated()
-            measure(run, listener, dialogue or Dialogue())
+            run.simulated = tracker.is_simulated()
+            measure(run, tracker, dialogue or Dialogue())
         finally:
-            listener.close()
+            tracker.close()
     return live

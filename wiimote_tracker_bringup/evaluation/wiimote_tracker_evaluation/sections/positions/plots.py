@@ -6,7 +6,7 @@ import numpy as np
 
 from wiimote_tracker_bringup import charts
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
-from wiimote_tracker_evaluation.position_results import CASES, FOUR, OURS, TWO
+from wiimote_tracker_evaluation.sections.positions.results import CASES, FOUR, OURS, TWO
 
 CASE_COLORS = dict(zip(CASES, (charts.RED, charts.ORANGE, charts.BLUE, charts.GREEN,
                                charts.PURPLE)))

@@ -7,7 +7,8 @@ import numpy as np
 from wiimote_tracker_bringup import charts, experiment, programs
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_bringup.scene import read_scene
-from wiimote_tracker_evaluation.light import SENSITIVITIES, detection_distance, read_led
+from wiimote_tracker_evaluation.sections.distance.light import (
+    SENSITIVITIES, detection_distance, read_led)
 from wiimote_tracker_evaluation.live import distance as with_a_person
 from wiimote_tracker_evaluation.sessions import by_session, where
 

@@ -117,63 +117,12 @@ def content_of(value, interval, name='rms'):
 README = f'Before.\n{results_table.BEGIN}\nold\n{results_table.END}\nAfter.\n'
 
 
-def test_table_is_written_between_its_marks_and_agrees_with_itself():
+def test_table_is_written_between_its_marks():
     content = content_of(9.1234, [8.0, 10.0])
     text = results_table.written(README, content)
     assert text.startswith('Before.\n') and text.endswith('\nAfter.\n') and 'old' not in text
     assert '|rms|9.12 mm|8 … 10|simulated, in process|' in text
     assert results_table.written(text, content) == text
-    assert results_table.disagreements(text, content) == ([], [])
-
-
-@pytest.mark.parametrize('fresh, agrees', [
-    (content_of(10.1, [9.5, 10.6]), True), (content_of(12.0, [11.0, 13.0]), False),
-    (content_of(10.5, [9.9, 11.0]), False),  # touching intervals differ: the probability is 1 in 90
-    (content_of(9.12, None), True), (content_of(9.0, [8.0, 10.0], 'other'), False),
-    # The interval of a short run is long towards the other value, or away from it.
-    (content_of(12.0, [8.5, 12.1]), True), (content_of(12.0, [11.9, 15.5]), False)])
-def test_table_disagrees_when_the_difference_exceeds_the_uncertainty(fresh, agrees):
-    text = results_table.written(README, content_of(9.1234, [8.0, 10.0]))
-    assert (results_table.disagreements(text, fresh) == ([], [])) == agrees
-
-
-def test_numbers_that_depend_on_the_machine_are_not_checked(tmp_path, capsys):
-    content, other = content_of(9.0, [8.0, 10.0]), content_of(20.0, [19.0, 21.0])
-    for each in (content, other):
-        each['figures'][0]['end_to_end'] = True
-    readme, figures_file = tmp_path / 'README.md', tmp_path / 'figures.json'
-    readme.write_text(results_table.written(README, content), encoding='utf-8')
-    figures_file.write_text(json.dumps(other), encoding='utf-8')
-    assert results_table.main([str(figures_file), str(readme), '--check']) == 0
-    said = capsys.readouterr().out
-    assert 'depends on the machine' in said and 'the table says 9 (8 … 10)' in said
-    other['figures'][0]['end_to_end'] = False
-    figures_file.write_text(json.dumps(other), encoding='utf-8')
-    assert results_table.main([str(figures_file), str(readme), '--check']) == 1
-
-
-def table_of(random, truths, spread):
-    """A run whose figures scatter about the truth as their 95 % intervals state."""
-    content = content_of(0.0, None)
-    half = statistics.NORMAL_QUANTILE * spread
-    content['figures'] = [dict(content['figures'][0], name=f'f{i}', value=value, interval=[
-        value - half, value + half]) for i, value in enumerate(truths + spread * random.randn(
-            len(truths)))]
-    return content
-
-
-def test_a_fresh_run_of_another_length_agrees_at_the_nominal_rate():
-    random, truths, runs = np.random.RandomState(2), 10.0 + np.arange(20.0), 300
-    agreed, found = 0, 0
-    for _ in range(runs):
-        text = results_table.written(README, table_of(random, truths, 0.1))
-        agreed += results_table.disagreements(text, table_of(random, truths, 0.4))[0] == []
-        moved = truths + 6.0 * np.hypot(0.1, 0.4) * (np.arange(20) == 7)
-        found += results_table.disagreements(text, table_of(random, moved, 0.4))[0] != []
-    # 95 % of agreeing runs must pass, and more because of rounding. One figure with an error of six
-    # standard deviations hardly ever passes by chance.
-    assert agreed / runs > 0.95 - 3.0 * np.sqrt(0.95 * 0.05 / runs)
-    assert found / runs > 0.98
 
 
 @pytest.mark.parametrize('text', ['no marks', README + README, README.replace('begin', 'x')])

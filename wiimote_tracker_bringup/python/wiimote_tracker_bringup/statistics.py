@@ -3,7 +3,7 @@
 from typing import Callable, Sequence, Tuple
 
 import numpy as np
-from scipy.special import ndtr, ndtri, stdtrit
+from scipy.special import ndtr, stdtrit
 
 CONFIDENCE = 0.95
 NORMAL_QUANTILE = 1.959963984540054  # of CONFIDENCE, both sides
@@ -47,12 +47,6 @@ def wilson(successes: int, trials: int) -> Tuple[float, float]:
         share * (1.0 - share) / trials + z2 / (4.0 * trials ** 2))
     return (0.0 if successes == 0 else float(middle - half),
             1.0 if successes == trials else float(middle + half))
-
-
-def agreement(statements: int) -> float:
-    """Allowed difference of two measurements in combined half widths, if all of this number of
-    pairs are to agree with CONFIDENCE (Bonferroni)."""
-    return float(ndtri(1.0 - 0.5 * (1.0 - CONFIDENCE) / statements) / NORMAL_QUANTILE)
 
 
 def rms(values: Sequence[float]) -> float:

@@ -27,7 +27,7 @@ def test_a_bag_that_does_not_exist(tmp_path, monkeypatch):
     (0, 50, [], 'check that the rig')])
 def test_what_a_bag_of_others_lacks(points, by_two, observed, words):
     result = {'instants': 100, 'instants_seen_by_two': by_two, 'points': points,
-              'triangulation': 'mean', 'inlier_px': 5.0, 'points_in_tracks': 0,
+              'method': 'mean', 'inlier_px': 5.0, 'points_in_tracks': 0,
               'tracks_confirmed': 0, 'tracked_instants_with_an_outlier': 0}
     result['published'] = result['tracks'] = {'all': reprojection.figures(observed)}
     rows = dict(replay.rows_of(result))

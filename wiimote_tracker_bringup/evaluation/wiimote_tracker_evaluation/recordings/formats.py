@@ -3,13 +3,13 @@
 import dataclasses
 import os
 import tempfile
-from typing import Callable, Dict, List, Optional, Tuple
+from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import (
-    cameras, disturbed, flight, lighthouse, multicamselfcal, replay, reprojection, time_maps)
+    cameras, disturbed, flight, lighthouse, multicamselfcal, reprojection, time_maps)
 
 
 @dataclasses.dataclass(eq=False)
@@ -63,37 +63,26 @@ def of_synchronised(source, folder):
                    np.array(list(errors.values())))
 
 
-def of_bag(source, folder, inlier_px=reprojection.INLIER_PX):
-    result, published = replay.evaluate(source, folder, inlier_px)
-    errors = sorted((instant, error) for own in published.values() for instant, error in own.items())
-    times, errors = np.reshape(errors, (-1, 2)).T
-    return Outcome(replay.METHOD, result, list(replay.rows_of(result)),
-                   {'pixels': result['published']['all']}, 'time [s]',
-                   1e-9 * (times - times.min(initial=np.inf)), 'px', errors)
-
-
 @dataclasses.dataclass(eq=False)
 class Format:
-    """sign: a file that only folders of this format have; None: it is no folder. measure: of a
-    recording, with a folder for files of its own, to an Outcome."""
+    """sign: a file that only recordings of this format have. measure: of a recording, with a folder
+    for files of its own, to an Outcome."""
 
-    sign: Optional[str]
+    sign: str
     measure: Callable[[str, str], Outcome]
 
 
 FORMATS = {
-    'bag': Format(None, of_bag),
     'cameras': Format('detections.csv', of_cameras),
     'lighthouse': Format('bearings.csv.gz', lambda source, folder: of_flight(
         lighthouse.read(source), folder)),
     'multicamselfcal': Format('Res.dat', of_synchronised)}
 
 
-def measure(name: str, source: str, **options) -> Outcome:
-    """options: of the format. @raise ExperimentError: the recording is damaged, or does not
-    suffice."""
+def measure(name: str, source: str) -> Outcome:
+    """@raise ExperimentError: the recording is damaged, or does not suffice."""
     with tempfile.TemporaryDirectory() as folder:
-        outcome = FORMATS[name].measure(source, folder, **options)
+        outcome = FORMATS[name].measure(source, folder)
     outcome.result['method'] = outcome.method
     return outcome
 
@@ -107,6 +96,6 @@ def found_in(folder: str) -> Dict[str, str]:
             if each.sign in files:
                 found[path] = name
     if not found:
-        signs = ' or '.join(sorted(filter(None, (each.sign for each in FORMATS.values()))))
+        signs = ' or '.join(sorted(each.sign for each in FORMATS.values()))
         raise ExperimentError(f'{folder} has no recording: a folder with {signs} is one')
     return dict(sorted(found.items()))

@@ -1,9 +1,10 @@
-"""A bag of import_multicamselfcal through the tracker, instant by instant and as tracks: how well the
-points explain the pixels, camera by camera, beside the solution that was shipped with it."""
+"""A bag of import_multicamselfcal through the tracker, instant by instant and as tracks: how well
+the points explain the pixels, camera by camera, beside the solution that was shipped with it."""
 
 import copy
 import itertools
 import os
+import tempfile
 
 import genpy
 import numpy as np
@@ -14,9 +15,6 @@ from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import ordinary, reprojection
 from wiimote_tracker_evaluation.recordings.solved_rig import camera_of
 
-METHOD = ('Points by track_bag, instant by instant (published) and as tracks, and those that were '
-          'shipped with the recording; reprojection errors over all observations of the instants '
-          'with a point')
 # The cameras were synchronised, the tracker takes each image by itself: in tracks, what all of an
 # instant's images say comes out when their times differ by this much from camera to camera [ns].
 BETWEEN_CAMERAS = 1000
@@ -45,8 +43,8 @@ class Bag:
                     elif topic.endswith('/ir_blobs'):
                         blobs.append(message)
         except rosbag.ROSBagException as error:
-            raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair it '
-                                  'with rosbag reindex') from error
+            raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair '
+                                  'it with rosbag reindex') from error
         if self.rig is None or not blobs:
             raise ExperimentError(f'{path} holds no /calibration/rig or no ir_blobs: make it with '
                                   'import_multicamselfcal')
@@ -75,45 +73,46 @@ def positions(arrays, states=(TrackedPoint.TENTATIVE, TrackedPoint.TRACKED)):
     return found
 
 
-def track(recorded, mode, folder):
+def track(recorded, mode):
     """What track_bag makes of a Bag: TrackedPointArrays."""
-    source = os.path.join(folder, 'in.bag')
-    with rosbag.Bag(source, 'w') as bag:
-        bag.write('/calibration/rig', recorded.rig, recorded.start)
-        for instant in recorded.instants:
-            for number, blobs in enumerate(instant):
-                image = copy.copy(blobs)
-                image.header = copy.copy(blobs.header)
-                if mode == 'tracks':
-                    image.header.stamp += genpy.Duration(0, number * BETWEEN_CAMERAS)
-                    image.arrival = image.header.stamp
-                bag.write(f'/{image.camera}/ir_blobs', image, image.arrival)
-    with rosbag.Bag(ordinary.track_light(source, folder, mode)) as bag:
-        return [message for _, message, _ in bag.read_messages(topics='/points')]
+    with tempfile.TemporaryDirectory() as folder:
+        source = os.path.join(folder, 'in.bag')
+        with rosbag.Bag(source, 'w') as bag:
+            bag.write('/calibration/rig', recorded.rig, recorded.start)
+            for instant in recorded.instants:
+                for number, blobs in enumerate(instant):
+                    image = copy.copy(blobs)
+                    image.header = copy.copy(blobs.header)
+                    if mode == 'tracks':
+                        image.header.stamp += genpy.Duration(0, number * BETWEEN_CAMERAS)
+                        image.arrival = image.header.stamp
+                    bag.write(f'/{image.camera}/ir_blobs', image, image.arrival)
+        with rosbag.Bag(ordinary.track_light(source, folder, mode)) as bag:
+            return [message for _, message, _ in bag.read_messages(topics='/points')]
 
 
-def evaluate(path, folder, inlier_px):
-    """Figures, and the errors of the published points [px] by camera and instant [ns]."""
+def evaluate(path, inlier_px=reprojection.INLIER_PX):
+    """Figures, and the published points."""
     recorded = Bag(path)
-    arrays, tracked = (track(recorded, mode, folder) for mode in ('instant', 'tracks'))
+    arrays, tracked = (track(recorded, mode) for mode in ('instant', 'tracks'))
     points, in_tracks = positions(arrays), positions(tracked, [TrackedPoint.TRACKED])
 
     def errors(rig, located):
         return reprojection.errors([camera_of(camera) for camera in rig.cameras], located,
                                    recorded.pixels)
-    published, of_tracks = errors(recorded.rig, points), errors(recorded.rig, in_tracks)
+    of_tracks = errors(recorded.rig, in_tracks)
     result = {
         'instants': len(recorded.instants),
         'instants_seen_by_two': sum(len(seen) >= 2 for seen in recorded.pixels.values()),
         'points': len(points),
-        'triangulation': arrays[0].method,
+        'method': arrays[0].method,
         'inlier_px': inlier_px,
         'points_in_tracks': len(in_tracks),
         'tracks_confirmed': len({p.id for array in tracked for p in array.points
                                  if p.state == TrackedPoint.TRACKED}),
         'published_points': [{'time': 1e-9 * instant, 'position': list(points[instant])}
                              for instant in sorted(points)],
-        'published': reprojection.per_camera(published, inlier_px),
+        'published': reprojection.per_camera(errors(recorded.rig, points), inlier_px),
         'tracks': reprojection.per_camera(of_tracks, inlier_px),
         'tracked_instants_with_an_outlier': len({
             instant for own in of_tracks.values() for instant, error in own.items()
@@ -128,11 +127,11 @@ def evaluate(path, folder, inlier_px):
         result['published_to_shipped_mm'] = {
             'median': float(np.median(apart)), 'p95': float(np.percentile(apart, 95))
         } if apart else None
-    return result, published
+    return result
 
 
 def remark(result):
-    """Why the figures say little of a bag that others made, and what to do; empty if they do not."""
+    """Why the figures say little of a bag that others made, and what to do; else empty."""
     if result['points'] == 0:
         return ('no instant has a point: check that the rig of the bag is that of its images, and '
                 'in metres')
@@ -148,10 +147,12 @@ def remark(result):
 
 def rows_of(result):
     """What is printed and reported: name, value."""
-    yield 'instants', '{instants}, {instants_seen_by_two} seen by two cameras or more'.format(**result)
-    yield 'points instant by instant', '{points} ({triangulation})'.format(**result)
+    yield 'instants', ('{instants}, {instants_seen_by_two} seen by two cameras or more'
+                       .format(**result))
+    yield 'points instant by instant', '{points} ({method})'.format(**result)
     yield 'points in tracks', ('{points_in_tracks} in {tracks_confirmed} tracks, '
-                               '{tracked_instants_with_an_outlier} with an outlier'.format(**result))
+                               '{tracked_instants_with_an_outlier} with an outlier'
+                               .format(**result))
     if remark(result):
         yield 'note', remark(result)
     for camera in result['published']:

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from wiimote_tracker_bringup import statistics
+from wiimote_tracker_bringup import charts, statistics
 
 NAME = 'recordings'
 TITLE = 'Recordings by others'
@@ -74,12 +74,21 @@ def name_of(title):
     return name if name[0].isalpha() else 'recording_' + name
 
 
+def drawing(outcome):
+    """The errors one by one and as a distribution."""
+    figure, (left, right) = charts.figure(1, 2, height=2.8)
+    left.plot(outcome.places, outcome.errors, '.', markersize=2.0, color=charts.BLUE)
+    left.set(xlabel=outcome.axis, ylabel=f'error [{outcome.unit}]')
+    charts.cumulative(right, outcome.errors, charts.BLUE)
+    right.set(xlabel=f'error [{outcome.unit}]', ylabel='share of points')
+    return figure
+
+
 def tell(run, title, outcome):
-    from wiimote_tracker_evaluation.recordings import program
     name = name_of(title)
     run.say(f'### {title}\n\n{outcome.method}.\n\n' + '\n'.join(
         f'- {row}: {value}' for row, value in outcome.rows))
-    run.plot('errors_of_' + name, program.drawing(outcome), f'Errors of {title}.')
+    run.plot('errors_of_' + name, drawing(outcome), f'Errors of {title}.')
     statistic, word = (np.mean, 'mean') if outcome.unit == 'mm' else (np.median, 'median')
     in_order = outcome.errors[np.argsort(outcome.places, kind='stable')]
     run.estimate(f'{name}_{word}', statistics.blocks(in_order, PARTS), statistic, outcome.unit,

@@ -107,7 +107,7 @@ def carry_out(module, run, live):
         run.failure = ''
     except Exception as error:  # other sections continue
         kind = '' if isinstance(error, ExperimentError) else f'{type(error).__name__}: '
-        run.failure = f'{kind}{error}{stack.complaint(run)}'
+        run.failure = f'{kind}{error}{stack.complaint(run.folder)}'
         with open(run.file('failure.txt'), 'w') as file:
             traceback.print_exc(file=file)
     finally:

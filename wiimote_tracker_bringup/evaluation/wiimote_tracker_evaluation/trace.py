@@ -64,7 +64,7 @@ class Recorder:
         self._cameras = cameras
         topics = ['/points', '/triggered_points', EXPOSURES] + [
             f'/{camera}/ir_blobs' for camera in cameras]
-        self._process = stack.record(run, self._path, *topics)
+        self._process = stack.record(run.folder, self._path, *topics)
         wait_until_connected('/record', topics)
 
     def read(self):

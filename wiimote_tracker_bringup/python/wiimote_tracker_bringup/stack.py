@@ -34,10 +34,10 @@ def master(log):
     rospy.init_node('evaluation', disable_signals=True)
 
 
-def launch(run, file, **arguments):
-    """Starts a launch file of this package (relative path) for a section; ends what the section has
-    launched before. Returns an empty folder for its files."""
-    log = run.file('nodes.log')
+def launch(output, file, **arguments):
+    """Starts a launch file of this package (relative path) with its nodes.log in the folder output;
+    ends what was launched before. Returns an empty folder for its files."""
+    log = os.path.join(output, 'nodes.log')
     master(log)
     stop()
     folder = tempfile.mkdtemp(dir=_scratch)
@@ -53,7 +53,8 @@ def launch_rig(run, name, description, **arguments):
     a Conductor, once all cameras send images."""
     path = run.file(name + '_rig.yaml')
     descriptions.write(path, dict(description, seed=run.seed))
-    launch(run, 'evaluation/full_stack.launch', description=path, folder='{folder}', **arguments)
+    launch(run.folder, 'evaluation/full_stack.launch', description=path, folder='{folder}',
+           **arguments)
     # Imported late: rospy reads the master's address at import.
     from wiimote_tracker_bringup.conductor import Conductor
     conductor = Conductor('led', None, check)
@@ -61,17 +62,18 @@ def launch_rig(run, name, description, **arguments):
     return path, conductor
 
 
-def start(run, command):
-    """Starts a command beside the launch file; end() or the end of the launch file stops it."""
-    process = _processes.start(command[0], command, run.file('nodes.log'))
+def start(output, command):
+    """Starts a command beside the launch file, with the same log; end() or the end of the launch
+    file stops it."""
+    process = _processes.start(command[0], command, os.path.join(output, 'nodes.log'))
     _launched.append(process)
     return process
 
 
-def record(run, path, *what):
+def record(output, path, *what):
     """Starts rosbag as start() does. what: topics or options that choose them."""
     # Not "rosbag record", a wrapper that can end before the bag is closed.
-    return start(run, ['rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
+    return start(output, ['rosrun', 'rosbag', 'record', '--quiet', '--tcpnodelay', '--buffsize=0',
                        '--output-name=' + path, *what])
 
 
@@ -81,10 +83,10 @@ def end(process):
     _processes.stop(process)
 
 
-def complaint(run):
-    """The last fatal message of a section's node, to add to a sentence; empty without one."""
+def complaint(output):
+    """The last fatal message of a node in nodes.log, to add to a sentence; empty without one."""
     try:
-        with open(run.file('nodes.log'), errors='replace') as file:
+        with open(os.path.join(output, 'nodes.log'), errors='replace') as file:
             said = [line for line in file if 'FATAL' in line]
     except OSError:
         return ''

@@ -72,11 +72,11 @@ class Demo:
         self._progress.step('Starting four virtual Wii Remotes, drivers, calibration, tracker')
         self._progress.line('Starting rviz.' if has_display() else
                             'No display: instead of rviz there will be a film, tracks.gif.')
-        stack.launch(self, 'launch/simulated_rig.launch', socket_directory='{folder}/remotes',
-                     camera_info_directory='{folder}/cameras', rig_file=self.file('rig.yaml'),
-                     side_length=experiment.SIDE, labels=LED, mode=self._mode, hand='false',
+        stack.launch(self._output, 'launch/simulated_rig.launch',
+                     socket_directory='{folder}/remotes', camera_info_directory='{folder}/cameras',
+                     rig_file=self.file('rig.yaml'), side_length=experiment.SIDE, labels=LED, mode=self._mode, hand='false',
                      rviz=str(has_display()).lower())
-        self._recorder = stack.record(self, self.file('demo.bag'), '--regex', RECORDED)
+        self._recorder = stack.record(self._output, self.file('demo.bag'), '--regex', RECORDED)
 
     def _experiment(self):
         """The LED's tour. Returns the measured segments, and the images used per corner."""

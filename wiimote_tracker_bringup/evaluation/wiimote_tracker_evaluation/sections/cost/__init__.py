@@ -93,7 +93,7 @@ class FullStack:
         self._conductor.wait_for_leds(leds)
         recorder = Recorder(self._run, self._cameras,
                             '%d_%d_%d' % (self._number, leds, busy))
-        hogs = [stack.start(self._run, [sys.executable, '-c', 'while True: pass'])
+        hogs = [stack.start(self._run.folder, [sys.executable, '-c', 'while True: pass'])
                 for _ in range(busy)]
         begin = rospy.get_time()
         shares = load.measure(self._processes, seconds, stack.check)

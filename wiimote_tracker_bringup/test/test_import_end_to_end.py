@@ -1,6 +1,7 @@
-#!/usr/bin/env python3
-"""Recordings in foreign layouts go through importer and nodelet. The result is compared with the
-recordings' own files and with the truth, by code that shares nothing with either.
+"""Recordings in foreign layouts go through importer and tracker, without a ROS master.
+
+The result is compared with the recordings' own files and with the truth, by code that shares
+nothing with either.
 """
 
 import json
@@ -8,7 +9,6 @@ import math
 import os
 import shutil
 import subprocess
-import sys
 import tempfile
 import unittest
 
@@ -308,8 +308,3 @@ class Room:
                 stream.write('\n')
                 for i, value in enumerate(self.kc[c]):
                     stream.write(f'kc{i + 1} = {value:.17g}\n')
-
-
-if __name__ == '__main__':
-    import rostest
-    rostest.rosrun(PACKAGE, 'import_end_to_end', ImportEndToEnd, sys.argv)

@@ -87,8 +87,5 @@ def main(argv=None):
         run(parser.parse_args(argv))
     except KeyboardInterrupt:
         interruption.end('evaluate_trajectory')
-    except ImportError as error:
-        sys.exit(f'evaluate_trajectory: {error}; a plot needs matplotlib: apt install '
-                 'python3-matplotlib')
     except (ExperimentError, OSError, ValueError, np.linalg.LinAlgError) as error:
         sys.exit(f'evaluate_trajectory: {sentence_of(error)}')

@@ -1,10 +1,14 @@
 """Style of the report's plots: small and plain, text as text."""
 
-import matplotlib
+import numpy as np
+
+from wiimote_tracker_bringup.needs import require
+
+require('matplotlib')
+import matplotlib  # noqa: E402
 matplotlib.use('Agg')
 import matplotlib.pyplot as plt  # noqa: E402
 import matplotlib.ticker  # noqa: E402
-import numpy as np  # noqa: E402
 
 INK, SOFT = '#1c2430', '#8a94a3'
 BLUE, ORANGE, GREEN, RED, PURPLE = '#1f5fa8', '#d97a1e', '#3a8a4d', '#b8323a', '#7653a6'

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from wiimote_tracker_bringup.needs import require
 from wiimote_tracker_rig_planning import prediction
 
 ACROSS = 40  # points along an edge
@@ -9,6 +10,7 @@ ACROSS = 40  # points along an edge
 
 def draw(chosen, positions, targets, path):
     """Writes it. Grey: seen by fewer than two cameras, or a body that is not located in some heading."""
+    require('matplotlib')
     import matplotlib
     matplotlib.use('Agg')
     from matplotlib import pyplot

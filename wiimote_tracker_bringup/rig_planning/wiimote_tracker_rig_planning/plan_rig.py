@@ -176,7 +176,5 @@ def main(argv=None):
         run(parser.parse_args(argv))
     except KeyboardInterrupt:
         interruption.end('plan_rig')
-    except ImportError as error:
-        sys.exit(f'plan_rig: {error}; a picture needs matplotlib: apt install python3-matplotlib')
     except (ExperimentError, OSError, ValueError) as error:
         sys.exit(f'plan_rig: {sentence_of(error)}')

@@ -105,7 +105,11 @@ class ThrownErrors : public Node {
          }},
         {"check", true, [=] { return replyTo<CheckPlace>("calibration/check", place); }},
         {"known_places/add", true,
-         [=] { return replyTo<AddKnownPlace>("calibration/known_places/add", known); }},
+         [=] {
+           const Reply reply = replyTo<AddKnownPlace>("calibration/known_places/add", known);
+           call<std_srvs::Trigger>("calibration/known_places/clear");
+           return reply;
+         }},
         {"known_places/fit", false,
          [] { return replyTo<FitRemap>("calibration/known_places/fit"); }},
         {"recalibrate_camera", false,

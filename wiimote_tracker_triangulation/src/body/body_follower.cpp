@@ -58,13 +58,12 @@ void BodyFollower::useTracker(const geometry::Rig& rig,
                                     : std::make_unique<BodyTracker>(rig, constellations, options_);
 }
 
-void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
-  const geometry::RigCamera& calibration = rig_.cameras[camera];
-  const double offset = calibration.timeOffsetIn(image->clock_epoch).value_or(0.0);
-  const double time = image->stamp + offset;
-  if (!tracker_ || !std::isfinite(time) || !std::isfinite(image->arrival))
+void BodyFollower::take(std::size_t camera, double clock_error, tracking::CameraImage* image) {
+  if (!tracker_)
     return;
-  switch (arrival_clocks_->check(camera, image->arrival + offset)) {
+  const geometry::RigCamera& calibration = rig_.cameras[camera];
+  const tracking::ImageTimes times = tracking::timesOf(calibration, *image);
+  switch (arrival_clocks_->check(camera, times)) {
     case tracking::ArrivalClocks::Result::kWrongClock:
       return;
     case tracking::ArrivalClocks::Result::kJumpedBack:
@@ -83,7 +82,7 @@ void BodyFollower::take(std::size_t camera, tracking::CameraImage* image) {
     if (!isMasked(spot))
       pixels_.push_back(spot.pixel);
   }
-  if (!tracker_->add(camera, time, pixels_))
+  if (!tracker_->add(camera, times.exposure - clock_error, pixels_))
     return;
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
   auto taken = tracker_->taken().begin();  // of each spot that is not masked

@@ -42,7 +42,8 @@ class BodyFollower {
   const std::vector<Constellation>& constellations() const { return constellations_; }
 
   /// Tracks bodies in an image and removes their spots from it. Requires a rig.
-  void take(std::size_t camera, tracking::CameraImage* image);
+  /// @param clock_error by how much its stamp is too late, see Estimator::clockError() [s]
+  void take(std::size_t camera, double clock_error, tracking::CameraImage* image);
 
   /// See BodyTracker.
   void addInertial(std::size_t body, const InertialSample& sample);

@@ -146,7 +146,7 @@ void MessageTracker::takeImage(const std::string& camera,
     return;
   statistics_.addImage(index, image_, message.frame);
 
-  bodies_.take(index, &image_);
+  bodies_.take(index, estimator_->clockError(index, image_.clock_epoch), &image_);
   publishBodies();
   if (clocksOutputs(index, image_.arrival))
     publishTicksUntil(image_.arrival);

@@ -10,6 +10,11 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
+ImageTimes timesOf(const geometry::RigCamera& camera, const CameraImage& image) {
+  const double offset = camera.timeOffsetIn(image.clock_epoch).value_or(0.0);
+  return {image.stamp + offset, image.arrival + offset};
+}
+
 ArrivalClocks::ArrivalClocks(std::size_t cameras, double newest_used)
     : cameras_(cameras),
       pairs_(cameras * cameras),
@@ -20,14 +25,20 @@ ArrivalClocks::ArrivalClocks(std::size_t cameras, double newest_used)
     camera.furthest = newest_used;
 }
 
-ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, double arrival) {
+ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, const ImageTimes& times) {
+  disordered_ = false;
+  if (!std::isfinite(times.exposure) || !std::isfinite(times.arrival))
+    return Result::kWrongClock;
+  return checkArrival(camera, times.arrival);
+}
+
+ArrivalClocks::Result ArrivalClocks::checkArrival(std::size_t camera, double arrival) {
   if (awaited_ > 0)
     --awaited_;
   if (comparePairs(camera, arrival))
     vote();
   const bool is_outlier = isOutlier(camera, arrival);
   note(arrival, &cameras_[camera]);
-  disordered_ = false;
   if (!cameras_[camera].trusted || is_outlier)
     return Result::kWrongClock;
   cameras_[camera].used = arrival;

@@ -1,6 +1,9 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ARRIVAL_CLOCKS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ARRIVAL_CLOCKS_H
 
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
+
 #include <array>
 #include <cstddef>
 #include <limits>
@@ -8,6 +11,14 @@
 #include <vector>
 
 namespace wiimote_tracker::tracking {
+
+/// When an image was exposed and when it arrived, both with the rig's time offset [s].
+struct ImageTimes {
+  double exposure;
+  double arrival;
+};
+
+ImageTimes timesOf(const geometry::RigCamera& camera, const CameraImage& image);
 
 /// Judges each camera's clock by the others', and detects that time jumped back for all, as when a
 /// bag is played in a loop.
@@ -34,8 +45,9 @@ class ArrivalClocks {
     kJumpedBack   ///< Usable, after a reset.
   };
 
-  /// @param arrival of an image, by the clock of its camera's computer [s]
-  Result check(std::size_t camera, double arrival);
+  /// Checks an image, whose arrival is by the clock of its camera's computer. One whose times are
+  /// not finite is of a wrong clock, too.
+  Result check(std::size_t camera, const ImageTimes& times);
 
   /// How far the clock of a camera that is not trusted is ahead of those that are [s]; NaN when
   /// none is trusted. Nothing for a trusted camera.
@@ -87,6 +99,7 @@ class ArrivalClocks {
   std::size_t indexOf(std::size_t a, std::size_t b) const;
   const Pair* activePair(std::size_t a, std::size_t b) const;
   bool doAgree(std::size_t a, std::size_t b) const;
+  Result checkArrival(std::size_t camera, double arrival);
   static void note(double arrival, Camera* camera);
   static void noteProgress(double arrival, bool is_present, Camera* camera);
   static bool isBacklog(const Camera& camera);

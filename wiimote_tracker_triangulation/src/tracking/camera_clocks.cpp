@@ -28,15 +28,27 @@ ClockRegression::Estimate CameraClocks::correctionOf(std::size_t camera,
                                                      bool is_known) {
   Clock& clock = clocks_[camera];
   if (clock.epoch != epoch || clock.is_known != is_known) {
-    if (!clock.is_known || !is_known) {
-      clock.offset = {0.0, is_known ? 0.0 : squared(kUnknown)};
-      clock.is_used = !is_known;
-    }
-    clock.epoch = epoch;
-    clock.is_known = is_known;
+    clock = clock.in(epoch, is_known);
     ++version_;
   }
   return clock.correction();
+}
+
+/// What is known of the clock in an epoch, which may be another one.
+CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t another_epoch,
+                                            bool is_known_there) const {
+  if (is_known && is_known_there)
+    return {another_epoch, true, is_used, offset};
+  if (epoch == another_epoch && is_known == is_known_there)
+    return *this;
+  return {another_epoch,
+          is_known_there,
+          !is_known_there,
+          {0.0, is_known_there ? 0.0 : squared(kUnknown)}};
+}
+
+double CameraClocks::errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
+  return clocks_[camera].in(epoch, is_known).correction().offset;
 }
 
 double CameraClocks::errorOf(std::size_t camera) const {

@@ -107,18 +107,8 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 
 void Tracker::add(std::size_t camera, const CameraImage& image) {
   const geometry::RigCamera& calibration = rig_.cameras.at(camera);
-  const double offset = calibration.timeOffsetIn(image.clock_epoch).value_or(0.0);
-  Place& place = places_[camera];
-  CameraGroup& group = *groups_[place.group];
-  const bool offset_known = !calibration.hasNewClock(image.clock_epoch);
-  const ClockRegression::Estimate clock =
-      group.clocks().correctionOf(place.member, image.clock_epoch, offset_known);
-  const double time = image.stamp + offset - clock.offset;
-  if (!std::isfinite(time) || !std::isfinite(image.arrival)) {
-    ++counters_.dropped;
-    return;
-  }
-  const ArrivalClocks::Result result = arrival_clocks_->check(camera, image.arrival + offset);
+  const ImageTimes times = timesOf(calibration, image);
+  const ArrivalClocks::Result result = arrival_clocks_->check(camera, times);
   counters_.disordered += arrival_clocks_->isDisordered();
   if (result == ArrivalClocks::Result::kWrongClock) {
     ++counters_.dropped;
@@ -131,6 +121,11 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     views_.assign(views_.size(), CameraView());
     newest_time_ = newest_arrival_ = last_output_ = kNever;
   }
+  Place& place = places_[camera];
+  CameraGroup& group = *groups_[place.group];
+  const ClockRegression::Estimate clock = group.clocks().correctionOf(
+      place.member, image.clock_epoch, !calibration.hasNewClock(image.clock_epoch));
+  const double time = times.exposure - clock.offset;
   StoredImage stored_image = stored(camera, image);
   stored_image.time = time;
   stored_image.stamp_stddev = std::hypot(stored_image.stamp_stddev, std::sqrt(clock.variance));
@@ -275,6 +270,12 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
   if (std::abs(error) >= kNoticeable)
     return CameraFault{CameraFault::Kind::kCorrectedClock, error};
   return std::nullopt;
+}
+
+double Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
+  const Place& place = places_.at(camera);
+  return groups_[place.group]->clocks().errorIn(place.member, clock_epoch,
+                                                !rig_.cameras[camera].hasNewClock(clock_epoch));
 }
 
 }  // namespace wiimote_tracker::tracking

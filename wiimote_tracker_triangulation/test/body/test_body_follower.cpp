@@ -51,7 +51,7 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
     const std::size_t camera = static_cast<std::size_t>(i) % 4;
     tracking::CameraImage image =
         exactImage(rig.cameras[camera].camera, points, 1000.0 + 0.0025 * i);
-    follower.take(camera, &image);
+    follower.take(camera, 0.0, &image);
     const BodySnapshot* snapshot = follower.next();
     ASSERT_TRUE(snapshot);
     EXPECT_GT(snapshot->time, last);
@@ -70,7 +70,7 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
   int lost = 0;
   for (int i = 0; i < 400; ++i) {
     tracking::CameraImage image = exactImage(rig.cameras[0].camera, {}, 1000.5 + 0.0025 * i);
-    follower.take(0, &image);
+    follower.take(0, 0.0, &image);
     const BodySnapshot* snapshot = follower.next();
     ASSERT_TRUE(snapshot);
     lost += static_cast<int>(countLost(*snapshot));
@@ -84,7 +84,7 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
     const std::size_t camera = static_cast<std::size_t>(i) % 4;
     tracking::CameraImage image =
         exactImage(rig.cameras[camera].camera, points, 900.0 + 0.0025 * i);
-    follower.take(camera, &image);
+    follower.take(camera, 0.0, &image);
   }
   const BodySnapshot* snapshot = follower.next();
   ASSERT_TRUE(snapshot);
@@ -108,7 +108,7 @@ class AtRest : public testing::Test {
     for (int i = 0; i < images; ++i, ++shown_) {
       const std::size_t camera = static_cast<std::size_t>(shown_) % 4;
       image = exactImage(rig_.cameras[camera].camera, points_, 1000.0 + 0.0025 * shown_);
-      follower_.take(camera, &image);
+      follower_.take(camera, clock_error_, &image);
     }
     return image;
   }
@@ -116,6 +116,7 @@ class AtRest : public testing::Test {
   geometry::Rig rig_ = tracking::test::paperRig();
   BodyFollower follower_{BodyTrackerOptions()};
   std::vector<Vector3d> points_;
+  double clock_error_ = 0.0;  // of all cameras [s]
   int shown_ = 0;
 };
 
@@ -198,12 +199,19 @@ TEST_F(AtRest, StampsAreCorrectedByTheRigsOffsets) {
   EXPECT_EQ(follower_.next()->time, 1000.0 + 0.0025 * 8 + 0.25);
 }
 
+TEST_F(AtRest, TheErrorOfAClockIsTakenFromItsStamps) {
+  follower_.setRig(rig_);
+  clock_error_ = 0.003;
+  show(9);
+  EXPECT_EQ(follower_.next()->time, 1000.0 + 0.0025 * 8 - 0.003);
+}
+
 TEST_F(AtRest, TheLatestArrivalIsThatOfAllImages) {
   follower_.setRig(rig_);
   show(8);
   tracking::CameraImage early = exactImage(rig_.cameras[0].camera, points_, 1000.02);
   early.arrival = 1000.021;  // the one before took 10 ms
-  follower_.take(0, &early);
+  follower_.take(0, 0.0, &early);
   EXPECT_EQ(follower_.next()->latest_arrival, 1000.0 + 0.0025 * 7 + 0.01);
 }
 
@@ -214,7 +222,7 @@ TEST_F(AtRest, AnImageWithoutATimeIsLeftAlone) {
   for (const bool of_exposure : {false, true}) {
     tracking::CameraImage image = exactImage(rig_.cameras[0].camera, points_, 1000.1);
     (of_exposure ? image.stamp : image.arrival) = std::numeric_limits<double>::quiet_NaN();
-    follower_.take(0, &image);
+    follower_.take(0, 0.0, &image);
     EXPECT_EQ(image.spots.size(), 3u);
     EXPECT_FALSE(follower_.next());
   }

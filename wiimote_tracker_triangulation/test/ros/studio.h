@@ -50,6 +50,10 @@ struct Heard : MessageSink {
     arrays.push_back(array);
     view_count = views.size();
   }
+  void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& array,
+                const std::vector<bool>& /*bridged*/) override {
+    bodies.push_back(array);
+  }
   void onZoneEvent(const ZoneEvent& event) override { events.push_back(event); }
   void onTriggeredPoints(const TrackedPointArray& array) override { triggered.push_back(array); }
   void onProblem(const std::string& sentence) override { problems.push_back(sentence); }
@@ -62,6 +66,7 @@ struct Heard : MessageSink {
   }
 
   std::vector<TrackedPointArrayConstPtr> arrays;
+  std::vector<wiimote_tracker_msgs::TrackedBodyArray> bodies;
   std::vector<ZoneEvent> events;
   std::vector<TrackedPointArray> triggered;
   std::vector<std::string> problems;

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <string>
@@ -242,6 +243,34 @@ TEST(ImuOfABody, IsMissedOnlyUntilTheBodyIsLost) {
   EXPECT_EQ(std::set<std::string>{"wand"}, studio.tracker.bodiesWithoutSamples());
   studio.film(2.0, {});
   EXPECT_TRUE(studio.tracker.bodiesWithoutSamples().empty());
+}
+
+/// Free LEDs show the offset of a camera that has reconnected; the body is in no view.
+TEST(Bodies, AreAtTheTimesThatMotionHasCorrected) {
+  constexpr double kLate = 0.002;  // stamps of camera 2, which exposes at 6 ms of each period [s]
+  Studio studio(parametersOf(Mode::kTracks));
+  for (geometry::RigCamera& camera : studio.rig.cameras) {
+    camera.time_offset = 0.0;
+    camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  }
+  studio.tracker.takeRig(toMessage(studio.rig));
+  studio.tracker.setBodies({{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}}});
+  studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
+    if (camera != 2)
+      return;
+    image->header.stamp += ros::Duration(kLate);
+    image->arrival += ros::Duration(kLate);
+    image->clock_epoch = 1;
+  };
+  studio.film(8.0, {onCircle, besideCircle});
+  const auto& bodies = studio.heard.bodies;
+  ASSERT_GT(bodies.size(), 2000u);
+  for (std::size_t i = bodies.size() - 300; i < bodies.size(); ++i) {
+    const double phase = std::remainder(bodies[i].header.stamp.toSec() - 1000.0, kPeriod);
+    const double nearest = std::min({std::abs(phase), std::abs(phase - 0.003),
+                                     std::abs(phase + 0.004)});  // 6 ms before the next period
+    EXPECT_LT(nearest, 0.001) << i;
+  }
 }
 
 }  // namespace

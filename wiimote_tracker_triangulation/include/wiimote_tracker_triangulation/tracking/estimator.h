@@ -61,6 +61,12 @@ class Estimator {
     return std::nullopt;
   }
 
+  /// By how much a camera's stamps in an epoch of its clock are too late, beside the rig's time
+  /// offset [s], as far as motion has shown it.
+  virtual double clockError(std::size_t /*camera*/, std::uint32_t /*clock_epoch*/) const {
+    return 0.0;
+  }
+
   /// Predicts all LEDs to a time [s] not before the newest image, for output at a fixed rate.
   /// False, and nothing is written, when the estimator cannot predict, has seen no image or is past
   /// that time.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -46,10 +47,18 @@ void BodyFollower::setRig(const geometry::Rig& rig) {
 void BodyFollower::setBodies(const std::vector<Constellation>& constellations) {
   for (const Constellation& constellation : constellations)
     constellation.check();
+  if (constellations == constellations_)
+    return;
+  std::vector<std::optional<BodyEstimate>> last(constellations.size());
+  for (std::size_t b = 0; b < snapshot_.bodies.size(); ++b) {
+    const auto same = std::find(constellations.begin(), constellations.end(), constellations_[b]);
+    if (same != constellations.end())
+      last[static_cast<std::size_t>(same - constellations.begin())] = snapshot_.bodies[b];
+  }
   if (arrival_clocks_)
     useTracker(rig_, constellations);
   constellations_ = constellations;
-  snapshot_ = BodySnapshot();
+  snapshot_.bodies = std::move(last);
 }
 
 void BodyFollower::useTracker(const geometry::Rig& rig,

@@ -114,6 +114,15 @@ void Constellation::check() const {
     throw Error(describe(*this, symmetry));
 }
 
+bool operator==(const ImuMount& a, const ImuMount& b) {
+  return a.topic == b.topic && a.body_from_imu.matrix() == b.body_from_imu.matrix() &&
+         a.clock_offset == b.clock_offset;
+}
+
+bool operator==(const Constellation& a, const Constellation& b) {
+  return a.name == b.name && a.leds == b.leds && a.labels == b.labels && a.imu == b.imu;
+}
+
 std::string Constellation::labelOf(std::size_t led) const {
   return labels.empty() ? std::to_string(led) : labels[led];
 }

@@ -146,16 +146,23 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
     ROS_INFO("%zu rigid bodies are tracked.", bodies.size());
 }
 
+/// The same for an IMU whose body and topic stay.
 void Triangulation::subscribeToImus(const std::vector<body::Constellation>& bodies) {
-  imu_subscribers_.clear();
+  std::map<std::string, ros::Subscriber> subscribers;
   for (const body::Constellation& body : bodies) {
     if (!body.imu)
       continue;
-    imu_subscribers_[body.name] = subscribe<sensor_msgs::Imu>(
-        nh_, body.imu->topic, kImageQueue, [this, name = body.name](const auto& event) {
-          tracker_.takeInertial(name, *event.getConstMessage());
-        });
+    const auto old = imu_subscribers_.find(body.name);
+    const bool stays =
+        old != imu_subscribers_.end() && old->second.getTopic() == nh_.resolveName(body.imu->topic);
+    subscribers[body.name] =
+        stays ? old->second
+              : subscribe<sensor_msgs::Imu>(nh_, body.imu->topic, kImageQueue,
+                                            [this, name = body.name](const auto& event) {
+                                              tracker_.takeInertial(name, *event.getConstMessage());
+                                            });
   }
+  imu_subscribers_ = std::move(subscribers);
 }
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,

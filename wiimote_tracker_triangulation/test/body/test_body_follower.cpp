@@ -96,10 +96,9 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
 class AtRest : public testing::Test {
  protected:
   AtRest() {
-    const Constellation three{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
-    for (const Vector3d& led : three.leds)
+    for (const Vector3d& led : three_.leds)
       points_.push_back(Eigen::Translation3d(1.0, 1.4, 1.2) * led);
-    follower_.setBodies({three});
+    follower_.setBodies({three_});
   }
 
   /// @returns what is left of the last image.
@@ -113,6 +112,7 @@ class AtRest : public testing::Test {
     return image;
   }
 
+  const Constellation three_{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
   geometry::Rig rig_ = tracking::test::paperRig();
   BodyFollower follower_{BodyTrackerOptions()};
   std::vector<Vector3d> points_;
@@ -187,6 +187,37 @@ TEST_F(AtRest, IsLostInANewRigWhileItIsHidden) {
   follower_.setRig(rig_);
   show(1);
   EXPECT_EQ(countLost(*follower_.next()), 1);
+}
+
+TEST_F(AtRest, IsFollowedOnWhenTheSameBodiesAreSet) {
+  follower_.setRig(rig_);
+  show(60);
+  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  follower_.setBodies({three_});
+  show(1);
+  const BodySnapshot* snapshot = follower_.next();
+  ASSERT_TRUE(snapshot->bodies[0]);
+  EXPECT_TRUE(snapshot->bodies[0]->tracked);
+  EXPECT_EQ(snapshot->bodies[0]->first_seen, first_seen);
+}
+
+/// As when learn_body has learnt another one.
+TEST_F(AtRest, IsLostOnceAndFoundAgainWhenAnotherBodyComesFirst) {
+  follower_.setRig(rig_);
+  show(60);
+  ASSERT_TRUE(follower_.next()->bodies[0]);
+  follower_.setBodies({{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}}, three_});
+  std::ptrdiff_t lost = 0;
+  for (int i = 0; i < 40; ++i) {
+    show(1);
+    const BodySnapshot* snapshot = follower_.next();
+    ASSERT_EQ(snapshot->bodies.size(), 2u);
+    EXPECT_FALSE(snapshot->bodies[0]);
+    lost += countLost(*snapshot);
+    EXPECT_EQ(lost, 1) << i;
+  }
+  show(1);
+  EXPECT_TRUE(follower_.next()->bodies[1]);
 }
 
 TEST_F(AtRest, StampsAreCorrectedByTheRigsOffsets) {

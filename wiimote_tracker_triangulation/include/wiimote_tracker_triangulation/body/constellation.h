@@ -40,6 +40,10 @@ struct Constellation {
   void check() const;
 };
 
+/// Whether all values are the same.
+bool operator==(const ImuMount& a, const ImuMount& b);
+bool operator==(const Constellation& a, const Constellation& b);
+
 /// From one LED to the nearest other one [m].
 double distanceToNearest(const std::vector<Eigen::Vector3d>& leds, std::size_t led);
 

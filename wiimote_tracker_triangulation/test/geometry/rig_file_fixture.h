@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_RIG_FILE_FIXTURE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_RIG_FILE_FIXTURE_H
 
-#include "random_rigs.h"
+#include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 

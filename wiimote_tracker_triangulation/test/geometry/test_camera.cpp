@@ -1,7 +1,7 @@
 // The camera model, compared with OpenCV's, and the limits of its validity.
 #include "expect_derivatives.h"
+#include "geometry/random_rigs.h"
 #include "opencv_camera.h"
-#include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"

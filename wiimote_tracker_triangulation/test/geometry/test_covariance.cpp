@@ -1,8 +1,8 @@
 // Whether the covariance is consistent with the errors that noisy pixels cause and with the
 // Cramer-Rao bound. The bound uses OpenCV's projection, numerical derivatives and an inverse
 // written here, so it shares no code with the estimator.
+#include "geometry/random_rigs.h"
 #include "opencv_camera.h"
-#include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 

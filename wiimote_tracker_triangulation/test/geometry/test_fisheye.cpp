@@ -1,6 +1,6 @@
 // The equidistant lens, compared with OpenCV's cv::fisheye, and the limits of its validity.
 #include "expect_derivatives.h"
-#include "random_rigs.h"
+#include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"

@@ -1,7 +1,7 @@
 // The id depends on everything that moves a point and on nothing else; rotations survive round
 // trips.
+#include "geometry/random_rigs.h"
 #include "geometry/rotation.h"
-#include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 

@@ -1,5 +1,5 @@
+#include "geometry/random_rigs.h"
 #include "opencv_camera.h"
-#include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <gtest/gtest.h>

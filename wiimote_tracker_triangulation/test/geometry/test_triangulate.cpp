@@ -1,6 +1,6 @@
 // Points from exact pixels, against OpenCV, and what must be refused.
+#include "geometry/random_rigs.h"
 #include "opencv_camera.h"
-#include "random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <gtest/gtest.h>

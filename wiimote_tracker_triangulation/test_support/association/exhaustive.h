@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ASSOCIATION_EXHAUSTIVE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ASSOCIATION_EXHAUSTIVE_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H
 
 #include "association/simulated_views.h"
 #include "wiimote_tracker_triangulation/association/associate_views.h"
@@ -43,4 +43,4 @@ Division divisionOf(const Association& association, std::size_t cameras);
 
 }  // namespace wiimote_tracker::association::test
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ASSOCIATION_EXHAUSTIVE_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H

@@ -1,4 +1,4 @@
-#include "textbook_imm.h"
+#include "motion/textbook_imm.h"
 
 #include <Eigen/LU>
 

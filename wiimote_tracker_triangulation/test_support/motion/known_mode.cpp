@@ -1,4 +1,4 @@
-#include "known_mode.h"
+#include "motion/known_mode.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

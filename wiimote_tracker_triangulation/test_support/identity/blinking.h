@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_BLINKING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_BLINKING_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_IDENTITY_BLINKING_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_IDENTITY_BLINKING_H
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
@@ -107,4 +107,4 @@ inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
 
 }  // namespace wiimote_tracker::identity::test
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_BLINKING_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_IDENTITY_BLINKING_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_MOTION_TEXTBOOK_IMM_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_MOTION_TEXTBOOK_IMM_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_TEXTBOOK_IMM_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_TEXTBOOK_IMM_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
@@ -72,4 +72,4 @@ class TextbookImm {
 
 }  // namespace wiimote_tracker::motion::test
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_MOTION_TEXTBOOK_IMM_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_TEXTBOOK_IMM_H

@@ -16,12 +16,10 @@ constexpr std::size_t kMaskSize = 64;
 PointSearch::PointSearch(const geometry::Rig& rig,
                          std::vector<std::vector<std::size_t>> partners,
                          const AssociationOptions& options)
-    : options_(options), partners_(std::move(partners)) {
+    : options_(options), cameras_(rig.rayCameras()), partners_(std::move(partners)) {
   triangulation_.method = geometry::TriangulationMethod::kMaximumLikelihood;
   triangulation_.pixel_stddev = options.pixel_stddev;
   triangulation_.minimum_angle = options.minimum_angle;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    cameras_.push_back(camera.camera);
   reserve(kMaskSize);
 }
 

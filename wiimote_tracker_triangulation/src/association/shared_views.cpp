@@ -39,17 +39,17 @@ bool seesAny(const geometry::Camera& camera,
 }  // namespace
 
 std::vector<std::vector<std::size_t>> sharedViews(const geometry::Rig& rig, double range) {
-  const std::size_t count = rig.cameras.size();
+  const std::vector<geometry::Camera> cameras = rig.rayCameras();
+  const std::size_t count = cameras.size();
   std::vector<std::vector<Eigen::Vector3d>> points;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    points.push_back(pointsInView(camera.camera, range));
+  for (const geometry::Camera& camera : cameras)
+    points.push_back(pointsInView(camera, range));
   std::vector<std::vector<std::size_t>> shared(count);
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
-      const geometry::Camera& camera_a = rig.cameras[a].camera;
-      const geometry::Camera& camera_b = rig.cameras[b].camera;
-      const bool near = (camera_a.center() - camera_b.center()).norm() <= 2.0 * range;
-      if (!near || (!seesAny(camera_b, points[a], range) && !seesAny(camera_a, points[b], range)))
+      const bool near = (cameras[a].center() - cameras[b].center()).norm() <= 2.0 * range;
+      if (!near ||
+          (!seesAny(cameras[b], points[a], range) && !seesAny(cameras[a], points[b], range)))
         continue;
       shared[a].push_back(b);
       shared[b].push_back(a);

@@ -25,10 +25,8 @@ struct Sums {
 
 enum class Pixels { kSeen, kInView };
 
-bool isUsed(Pixels pixels, const LedEstimate& led, const geometry::Rig& rig, std::size_t camera) {
-  return pixels == Pixels::kInView
-             ? rig.cameras[camera].camera.sees(led.position)
-             : std::find(led.cameras.begin(), led.cameras.end(), camera) != led.cameras.end();
+bool isSeen(const LedEstimate& led, std::size_t camera) {
+  return std::find(led.cameras.begin(), led.cameras.end(), camera) != led.cameras.end();
 }
 
 Sums sumsOf(const geometry::Rig& rig,
@@ -43,10 +41,11 @@ Sums sumsOf(const geometry::Rig& rig,
     bool has_pixels = false;
     for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
       const LedEstimate& led = estimate.leds[i];
-      if (!isUsed(pixels, led, rig, c))
+      if (pixels == Pixels::kSeen && !isSeen(led, c))
         continue;
       auto projection = geometry::rayProjection(rig, c, led.position);
-      if (!projection)
+      if (!projection || (pixels == Pixels::kInView &&
+                          !rig.cameras[c].camera.intrinsics.isInImage(projection->pixel)))
         continue;
       has_pixels = true;
       const Eigen::Vector3d arm = estimate.world_from_body.linear() * constellation.leds[i];

@@ -42,9 +42,7 @@ InstantFuser::~InstantFuser() = default;
 
 void InstantFuser::setRig(const geometry::Rig& rig) {
   rig.check();
-  parts_->cameras.clear();
-  for (const geometry::RigCamera& camera : rig.cameras)
-    parts_->cameras.push_back(camera.camera);
+  parts_->cameras = rig.rayCameras();
   parts_->synchronizer.setRig(rig);
   parts_->locator = std::make_unique<Locator>(rig, parts_->options);
   parts_->uncertainty.emplace(rig);

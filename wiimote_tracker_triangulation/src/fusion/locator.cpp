@@ -21,15 +21,13 @@ association::AssociationOptions associationOptions(const geometry::Rig& rig,
 
 Locator::Locator(const geometry::Rig& rig, const InstantFuserOptions& options)
     : options_(options),
+      ray_cameras_(rig.rayCameras()),
       associator_(rig,
                   association::sharedViews(rig, options.maximum_range),
                   associationOptions(rig, options)),
       sights_(rig.cameras.size()),
       spot_of_sight_(rig.cameras.size()),
-      views_(rig.cameras.size()) {
-  for (const geometry::RigCamera& camera : rig.cameras)
-    ray_cameras_.push_back(rig.rayCamera(camera));
-}
+      views_(rig.cameras.size()) {}
 
 void Locator::locate(const std::vector<InstantView>& views) {
   associate(views);

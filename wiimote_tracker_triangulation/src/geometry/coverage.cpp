@@ -132,10 +132,7 @@ double coveredShare(const std::vector<CoverageCell>& cells) {
 }
 
 std::optional<CameraTurn> bestTurn(const Rig& rig, const CellGrid& grid) {
-  std::vector<Camera> cameras;
-  cameras.reserve(rig.cameras.size());
-  for (const RigCamera& camera : rig.cameras)
-    cameras.push_back(rig.rayCamera(camera));
+  const std::vector<Camera> cameras = rig.rayCameras();
   const std::vector<Eigen::Vector3d> places = somePlaces(grid, cameras.size());
   const auto share = [&](auto count) {
     return static_cast<double>(count) / static_cast<double>(places.size());

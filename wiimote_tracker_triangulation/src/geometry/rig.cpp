@@ -83,6 +83,13 @@ Camera Rig::rayCamera(const RigCamera& rig_camera) const {
   return camera;
 }
 
+std::vector<Camera> Rig::rayCameras() const {
+  std::vector<Camera> result;
+  for (const RigCamera& camera : cameras)
+    result.push_back(rayCamera(camera));
+  return result;
+}
+
 std::vector<std::string> Rig::frames() const {
   std::vector<std::string> frames{world_frame};
   for (const RigCamera& camera : cameras)

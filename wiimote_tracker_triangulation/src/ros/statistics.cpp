@@ -43,9 +43,7 @@ std::string describeLights(const CameraStatistics& statistics, const std::string
 }
 
 void Statistics::setRig(const geometry::Rig& rig) {
-  for_rays_.clear();
-  for (const geometry::RigCamera& camera : rig.cameras)
-    for_rays_.push_back(rig.rayCamera(camera));
+  for_rays_ = rig.rayCameras();
   frames_.assign(for_rays_.size(), std::nullopt);
   clear();
 }

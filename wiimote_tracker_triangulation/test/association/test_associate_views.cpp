@@ -207,5 +207,20 @@ TEST(SharedViews, AreOnlyCamerasWithCommonVolume) {
   EXPECT_EQ(expected, shared);
 }
 
+TEST(SharedViews, AreThoseOfTheRaysOfTheRig) {
+  geometry::Rig rig;
+  for (const double x : {0.0, 1.0}) {
+    geometry::RigCamera camera;
+    camera.camera.intrinsics.fx = camera.camera.intrinsics.fy = 20000.0;
+    camera.camera.world_from_camera =
+        geometry::lookAt({x, 0.0, 0.0}, {x, 1.0, 0.0}, Vector3d::UnitZ());
+    rig.cameras.push_back(camera);
+  }
+  EXPECT_TRUE(sharedViews(rig, kRange)[0].empty()) << "the lenses are long";
+  rig.ray_model = geometry::RayModel::kImageCenter;
+  rig.virtual_hfov = 0.7;  // [rad]
+  EXPECT_EQ(std::vector<std::size_t>{1}, sharedViews(rig, kRange)[0]);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::association::test

@@ -110,6 +110,9 @@ struct Rig {
   /// (width / 2) / tan(virtual_hfov / 2) in both axes when virtual_hfov is not NaN.
   Camera rayCamera(const RigCamera& camera) const;
 
+  /// Of all cameras. Whoever asks where their spots are, or what they see, needs these.
+  std::vector<Camera> rayCameras() const;
+
   /// Hash (16 hexadecimal digits) over everything that changes a triangulated point: world frame,
   /// ray model, and each camera's name, identity, intrinsics, pose, time offset and masks, in the
   /// order of cameras. The correction of the volume is not included: it names the id it belongs to.

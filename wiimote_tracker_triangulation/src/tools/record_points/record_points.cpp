@@ -1,6 +1,6 @@
 // Writes the tracker's points to tables while it runs.
 
-#include "ros/bodies/trajectory_files.h"
+#include "ros/measurements/trajectory_files.h"
 #include "ros/measurements/writer.h"
 
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
@@ -50,11 +50,12 @@ class Recorder {
     if (tables_.empty() && tum.empty())
       throw ParameterError("set " + reader.nameOf("csv") + " or " + reader.nameOf("matlab") +
                            ", c3d, trc or tum: the file to write");
-    trajectories_ = TrajectoryFiles(tum);
+    trajectories_ = measurements::TrajectoryFiles(tum);
     topic_ = nh.resolveName("points");
     subscribers_ = {subscribe(&nh, "points", false), subscribe(&nh, "triggered_points", true)};
     if (!tum.empty())
-      subscribers_.push_back(nh.subscribe("bodies", 10000, &TrajectoryFiles::add, &trajectories_));
+      subscribers_.push_back(
+          nh.subscribe("bodies", 10000, &measurements::TrajectoryFiles::add, &trajectories_));
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
   }
 
@@ -106,7 +107,7 @@ class Recorder {
   }
 
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
-  TrajectoryFiles trajectories_{""};
+  measurements::TrajectoryFiles trajectories_{""};
   std::string topic_;
   std::size_t messages_ = 0;
   std::vector<ros::Subscriber> subscribers_;

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
 
 #include "recording.h"
-#include "ros/bodies/trajectory_files.h"
+#include "ros/measurements/trajectory_files.h"
 #include "ros/measurements/writer.h"
 #include "ros/message_tracker.h"
 #include "smoothed_tracks.h"
@@ -104,7 +104,7 @@ class Output : public MessageSink {
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
   std::vector<std::string> table_parts_;
-  TrajectoryFiles trajectories_;
+  measurements::TrajectoryFiles trajectories_;
   std::set<std::string> earlier_topics_;
   std::set<std::string> earlier_frames_;
   ros::Time now_;

@@ -153,7 +153,7 @@ void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
   const std::string& folder = arguments.output.trajectories;
   for (const body::Constellation& body : bodies.known) {
     if (!folder.empty())
-      to_write.push_back(TrajectoryFiles::pathOf(folder, body.name));
+      to_write.push_back(measurements::TrajectoryFiles::pathOf(folder, body.name));
   }
   measurements::checkDistinct(to_write,
                               {arguments.input, arguments.parameters, arguments.rig, bodies.file});

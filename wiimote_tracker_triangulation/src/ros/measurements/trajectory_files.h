@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_TRAJECTORY_FILES_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_TRAJECTORY_FILES_H
 
 #include "ros/measurements/part_file.h"
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <string>
 
-namespace wiimote_tracker {
+namespace wiimote_tracker::measurements {
 
 /// The poses of each tracked body in a file <folder>/<body>.tum, as the TUM RGB-D benchmark defines
 /// it and evo reads it: one line `time x y z qx qy qz qw` a pose, [s since 1970] and [m]. All throw
@@ -27,9 +27,9 @@ class TrajectoryFiles {
 
  private:
   std::string folder_;
-  std::map<std::string, measurements::OutputFile> files_;  // by body
+  std::map<std::string, OutputFile> files_;  // by body
 };
 
-}  // namespace wiimote_tracker
+}  // namespace wiimote_tracker::measurements
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_TRAJECTORY_FILES_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_TRAJECTORY_FILES_H

@@ -1,4 +1,4 @@
-#include "trajectory_files.h"
+#include "ros/measurements/trajectory_files.h"
 
 #include "ros/measurements/writer.h"
 
@@ -7,7 +7,7 @@
 #include <locale>
 #include <sstream>
 
-namespace wiimote_tracker {
+namespace wiimote_tracker::measurements {
 
 using wiimote_tracker_msgs::TrackedBody;
 
@@ -24,7 +24,7 @@ void TrajectoryFiles::add(const wiimote_tracker_msgs::TrackedBodyArray& bodies) 
     std::ostringstream line;
     line.imbue(std::locale::classic());
     line.precision(9);
-    line << measurements::secondsOf(bodies.header.stamp);
+    line << secondsOf(bodies.header.stamp);
     const geometry_msgs::Point& p = body.pose.pose.position;
     const geometry_msgs::Quaternion& q = body.pose.pose.orientation;
     for (const double value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})
@@ -46,7 +46,7 @@ void TrajectoryFiles::finish() {
 
 void TrajectoryFiles::removeParts() const {
   for (const auto& [body, file] : files_)
-    ::unlink(measurements::partOf(pathOf(folder_, body)).c_str());
+    ::unlink(partOf(pathOf(folder_, body)).c_str());
 }
 
-}  // namespace wiimote_tracker
+}  // namespace wiimote_tracker::measurements

@@ -219,7 +219,7 @@ void MessageTracker::publishBodies() {
 void MessageTracker::findBodiesByLabels(const tracking::Snapshot& snapshot) {
   labelled_.clear();
   for (const tracking::TrackedLed& led : snapshot.leds) {
-    const LedLabel label = labels_.of(led.id);
+    const identity::LedLabel label = labels_.of(led.id);
     if (label.identified && led.state == tracking::TrackState::kTracked)
       labelled_.push_back({label.name, led.position, led.position_covariance});
   }

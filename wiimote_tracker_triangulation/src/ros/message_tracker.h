@@ -6,8 +6,8 @@
 #include "events/trigger.h"
 #include "events/zone_watch.h"
 #include "fault_reports.h"
+#include "identity/led_labels.h"
 #include "image_message.h"
-#include "led_labels.h"
 #include "parameters.h"
 #include "point_message.h"
 #include "statistics.h"
@@ -115,7 +115,7 @@ class MessageTracker {
 
   const tracking::Counters& counters() const { return estimator_->counters(); }  ///< With a rig.
   Statistics& statistics() { return statistics_; }
-  LedLabels& labels() { return labels_; }
+  identity::LedLabels& labels() { return labels_; }
 
  private:
   void reportProblem(std::size_t camera, const std::string& sentence, bool is_new);
@@ -150,7 +150,7 @@ class MessageTracker {
   VolumeCorrection correction_;
   std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
   identity::SnapshotSightings sightings_;
-  LedLabels labels_;
+  identity::LedLabels labels_;
   events::ZoneWatch zones_;
   events::Trigger trigger_;  // requests: their times [ns]
   events::Refusals refusals_;

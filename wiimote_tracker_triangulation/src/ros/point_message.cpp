@@ -22,10 +22,10 @@ static_assert(static_cast<int>(tracking::TrackState::kTentative) == TrackedPoint
 TrackedPoint trackedPoint(const tracking::TrackedLed& led,
                           double time,
                           const geometry::Rig& rig,
-                          const LedLabels& labels) {
+                          const identity::LedLabels& labels) {
   TrackedPoint point;
   point.id = led.id;
-  const LedLabel label = labels.of(led.id);
+  const identity::LedLabel label = labels.of(led.id);
   point.label = label.name;
   point.label_confidence = static_cast<float>(label.confidence);
   point.label_since = timeOf(label.since);
@@ -49,7 +49,7 @@ TrackedPoint trackedPoint(const tracking::TrackedLed& led,
 
 TrackedPointArray pointMessage(const tracking::Snapshot& snapshot,
                                const geometry::Rig& rig,
-                               const LedLabels& labels) {
+                               const identity::LedLabels& labels) {
   TrackedPointArray message;
   message.header.stamp = timeOf(snapshot.time);
   message.header.frame_id = rig.world_frame;

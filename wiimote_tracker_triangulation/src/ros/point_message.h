@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_POINT_MESSAGE_H
 
-#include "led_labels.h"
+#include "identity/led_labels.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -17,13 +17,13 @@ namespace wiimote_tracker {
 /// the snapshot does not tell.
 wiimote_tracker_msgs::TrackedPointArray pointMessage(const tracking::Snapshot& snapshot,
                                                      const geometry::Rig& rig,
-                                                     const LedLabels& labels);
+                                                     const identity::LedLabels& labels);
 
 /// @param time of the LED's snapshot [s].
 wiimote_tracker_msgs::TrackedPoint trackedPoint(const tracking::TrackedLed& led,
                                                 double time,
                                                 const geometry::Rig& rig,
-                                                const LedLabels& labels);
+                                                const identity::LedLabels& labels);
 
 geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPointArray& array,
                                          const wiimote_tracker_msgs::TrackedPoint& point);

@@ -14,10 +14,10 @@ using tracking::TrackState;
 // From a new rig until the images of its cameras can be judged.
 const ros::WallDuration kFirstImages(1.0);
 
-std::string doubtfulLabels(const LedLabels& labels) {
+std::string doubtfulLabels(const identity::LedLabels& labels) {
   std::string names;
   for (const auto& [label, place] : labels.places()) {
-    if (place.confidence < LedLabels::kDoubtful)
+    if (place.confidence < identity::LedLabels::kDoubtful)
       names += (names.empty() ? "" : ", ") + label;
   }
   return names;

@@ -44,7 +44,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
                 parameters_.allLabels(),
                 parameters_.blinkingLabels()),
       diagnostics_(nh, private_nh, &tracker_, &shedding_, parameters_.clock_tolerance) {
-  parameters_.label_places = placesFile(parameters_.label_places, nh_.getNamespace());
+  parameters_.label_places = identity::placesFile(parameters_.label_places, nh_.getNamespace());
   if (parameters_.identity.codes)
     ROS_INFO("%s.", describeIdentity(parameters_).c_str());
   const std::string missing_bodies = describeMissingFile(parameters_.bodies.file);
@@ -111,7 +111,8 @@ void Triangulation::onImage(const std::string& camera,
   if (const auto bodies = learning_.change())
     useBodies(*bodies);
   if (!std::exchange(has_former_places_, true))  // now, since their ages count from here
-    tracker_.labels().setFormerPlaces(readPlaces(parameters_.label_places, kLongestRestart));
+    tracker_.labels().setFormerPlaces(
+        identity::readPlaces(parameters_.label_places, kLongestRestart));
   if (isShed(event.getReceiptTime()))
     return;
   const IrBlobArray& image = *event.getConstMessage();
@@ -238,10 +239,10 @@ void Triangulation::keepPlaces() {
           "another file in label_places.",
           file.c_str());
   }
-  const LedLabels::Places* places = tracker_.labels().placesToKeep();
+  const identity::LedLabels::Places* places = tracker_.labels().placesToKeep();
   if (!file.empty() && places)
-    places_kept_ =
-        std::async(std::launch::async, [file, copy = *places] { return writePlaces(file, copy); });
+    places_kept_ = std::async(std::launch::async,
+                              [file, copy = *places] { return identity::writePlaces(file, copy); });
 }
 
 }  // namespace wiimote_tracker

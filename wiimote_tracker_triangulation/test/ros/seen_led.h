@@ -53,7 +53,7 @@ inline tracking::Snapshot someSnapshot(const geometry::Rig& rig, double time = 1
 
 inline wiimote_tracker_msgs::TrackedPointArray messageOf(const tracking::Snapshot& snapshot,
                                                          const geometry::Rig& rig) {
-  LedLabels labels({"led"});
+  identity::LedLabels labels({"led"});
   labels.update(snapshot.time, snapshot.leds);
   return pointMessage(snapshot, rig, labels);
 }

@@ -1,5 +1,5 @@
 // The labels of the LEDs: by order, by place, by blinking.
-#include "ros/led_labels.h"
+#include "identity/led_labels.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker {
+namespace wiimote_tracker::identity {
 namespace {
 
 using tracking::TrackedLed;
@@ -311,7 +311,7 @@ TEST(LedLabels, StayDoubtfulWhenTheyAreGivenAgain) {
 }
 
 /// One camera sees LED `id` for 2 s from `start` on: blinking as word 0 of two, or steady.
-void see(identity::Identifier* identifier, std::uint32_t id, double start, bool steady) {
+void see(Identifier* identifier, std::uint32_t id, double start, bool steady) {
   for (double time = start; time < start + 2.0; time += 0.01) {
     const double phase = std::fmod((time - start) / 0.184, 1.0);
     identifier->add(id, {0, time, 0.0, steady || phase >= 0.125});  // 01111111
@@ -337,8 +337,8 @@ TEST(LedLabels, AreDoubtfulAfterTheLedsMayHaveChangedPlaces) {
 }
 
 TEST(LedLabels, ComeFromBlinking) {
-  identity::Identifier identifier(
-      identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
+  Identifier identifier(cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001),
+                        {});
   LedLabels labels({"lamp"});
   const std::vector<TrackedLed> both = {led(0, TrackState::kTracked), led(1, TrackState::kTracked)};
   labels.update(kTime, both, &identifier);
@@ -364,8 +364,8 @@ TEST(LedLabels, ComeFromBlinking) {
 }
 
 TEST(LedLabels, FollowTheEvidence) {
-  identity::Identifier identifier(
-      identity::cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001), {});
+  Identifier identifier(cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001),
+                        {});
   LedLabels labels({"lamp"});
   see(&identifier, 0, 100.0, true);
   identifier.decide(102.0);
@@ -391,4 +391,4 @@ TEST(LedLabels, MayAllComeFromIds) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker
+}  // namespace wiimote_tracker::identity

@@ -1,4 +1,4 @@
-#include "led_labels.h"
+#include "identity/led_labels.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,9 +7,8 @@
 #include <system_error>
 #include <utility>
 
-namespace wiimote_tracker {
+namespace wiimote_tracker::identity {
 
-using identity::Identity;
 namespace fs = std::filesystem;
 
 namespace {
@@ -51,7 +50,7 @@ bool mayBeThatOf(const LedLabels::Place& place, std::uint32_t id) {
 
 void LedLabels::update(double time,
                        const std::vector<tracking::TrackedLed>& leds,
-                       const identity::Identifier* identifier) {
+                       const Identifier* identifier) {
   agePlaces(time);
   is_updated_ = true;
   doubtful_.clear();
@@ -105,7 +104,7 @@ void LedLabels::agePlaces(double time) {
   }
 }
 
-void LedLabels::takeIdentity(std::uint32_t id, const identity::Identifier& identifier) {
+void LedLabels::takeIdentity(std::uint32_t id, const Identifier& identifier) {
   const Identity* identity = identifier.identityOf(id);
   const auto given = given_.find(id);
   if (identity && identity->label)
@@ -248,4 +247,4 @@ LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldes
   return in.eof() ? places : LedLabels::Places();
 }
 
-}  // namespace wiimote_tracker
+}  // namespace wiimote_tracker::identity

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_LABELS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_LABELS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LED_LABELS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LED_LABELS_H
 
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker {
+namespace wiimote_tracker::identity {
 
 struct LedLabel {
   std::string name;
@@ -43,7 +43,7 @@ class LedLabels {
   /// not blink take labels of the list.
   void update(double time,
               const std::vector<tracking::TrackedLed>& leds,
-              const identity::Identifier* identifier = nullptr);
+              const Identifier* identifier = nullptr);
 
   /// The label of an LED of the last snapshot, or of one that was lost there or by clear().
   LedLabel of(std::uint32_t id) const;
@@ -77,7 +77,7 @@ class LedLabels {
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
  private:
-  void takeIdentity(std::uint32_t id, const identity::Identifier& identifier);
+  void takeIdentity(std::uint32_t id, const Identifier& identifier);
   void agePlaces(double time);
   void giveFreeLabel(double time, const tracking::TrackedLed& led);
   void setConfidence(double confidence, LedLabel* given);
@@ -108,6 +108,6 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places);
 /// older by the file's age.
 LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest);
 
-}  // namespace wiimote_tracker
+}  // namespace wiimote_tracker::identity
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_LABELS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LED_LABELS_H

@@ -1,6 +1,6 @@
 #include "led_publishers.h"
 
-#include "point_message.h"
+#include "tracker/point_message.h"
 
 #include <boost/make_shared.hpp>
 

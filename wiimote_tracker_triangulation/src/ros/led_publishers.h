@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
 
-#include "parameters.h"
+#include "tracker/parameters.h"
 
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
 
+#include "tracker/parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
@@ -16,12 +17,6 @@
 #include <vector>
 
 namespace wiimote_tracker {
-
-struct MarkerOptions {
-  double rate = 20.0;                 ///< Most arrays per second [Hz, > 0].
-  double image_plane_distance = 0.5;  ///< Along the optical axis [m, > 0].
-  double trail_duration = 10.0;       ///< [s, >= 0].
-};
 
 /// Markers for rviz of a rig, its cameras' spots, and the LEDs, in the world frame. Namespaces:
 /// camera (its name), housing, frustum, image_plane, mask, blob (one id per camera, in the order of

@@ -4,7 +4,7 @@
 #include "host_clock_check.h"
 #include "lens_check.h"
 #include "load_shedding.h"
-#include "message_tracker.h"
+#include "tracker/message_tracker.h"
 #include "wiimote_tracker_triangulation/ros/steady_updater.h"
 
 #include <ros/node_handle.h>

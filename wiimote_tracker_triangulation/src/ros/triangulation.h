@@ -8,8 +8,8 @@
 #include "led_publishers.h"
 #include "load_shedding.h"
 #include "marker_builder.h"
-#include "message_tracker.h"
-#include "parameters.h"
+#include "tracker/message_tracker.h"
+#include "tracker/parameters.h"
 #include "tracking_diagnostics.h"
 
 #include <ros/ros.h>

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_SEEN_LED_H
 
 #include "geometry/random_rigs.h"
-#include "ros/point_message.h"
+#include "ros/tracker/point_message.h"
 
 #include <Eigen/Core>
 

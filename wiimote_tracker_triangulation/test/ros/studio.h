@@ -4,7 +4,7 @@
 
 #include "geometry/random_rigs.h"
 #include "ros/blob_image.h"
-#include "ros/message_tracker.h"
+#include "ros/tracker/message_tracker.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 

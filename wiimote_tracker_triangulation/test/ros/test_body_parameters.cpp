@@ -1,5 +1,5 @@
 // The file of bodies that the parameters name.
-#include "ros/bodies/body_parameters.h"
+#include "ros/tracker/body_parameters.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

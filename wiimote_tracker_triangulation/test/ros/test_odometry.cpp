@@ -1,7 +1,7 @@
 // Odometry and twist of bodies and LEDs from the tracker's messages.
 #include "geometry/random_rigs.h"
-#include "ros/bodies/body_message.h"
-#include "ros/point_message.h"
+#include "ros/tracker/body_message.h"
+#include "ros/tracker/point_message.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // The shipped YAML equals the defaults in the code; wrong values are refused by name.
 #include "ros/coverage/coverage_display.h"
 #include "ros/gestures/gesture_parameters.h"
-#include "ros/parameters.h"
+#include "ros/tracker/parameters.h"
 #include "wiimote_tracker_triangulation/ros/parameter_file.h"
 
 #include <documented_parameters.h>

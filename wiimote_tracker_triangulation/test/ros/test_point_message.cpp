@@ -1,8 +1,8 @@
 // Point messages of a snapshot, and the correction of the volume before them.
 #include "seen_led.h"
 
-#include "ros/point_message.h"
-#include "ros/volume_correction.h"
+#include "ros/tracker/point_message.h"
+#include "ros/tracker/volume_correction.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>

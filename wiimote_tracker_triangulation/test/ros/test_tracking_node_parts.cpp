@@ -2,10 +2,10 @@
 #include "geometry/random_rigs.h"
 #include "ros/camera_info.h"
 #include "ros/host_clock_check.h"
-#include "ros/image_message.h"
 #include "ros/lens_check.h"
 #include "ros/load_shedding.h"
-#include "ros/statistics.h"
+#include "ros/tracker/image_message.h"
+#include "ros/tracker/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "body_diagnostics.h"
 
-#include "body_parameters.h"
+#include "../tracker/body_parameters.h"
 
 #include <wiimote_tracker_msgs/text.h>
 

@@ -1,7 +1,7 @@
 #include "body_learning.h"
 
+#include "../tracker/body_parameters.h"
 #include "body/bodies_file.h"
-#include "body_parameters.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <wiimote_tracker_msgs/text.h>

@@ -1,6 +1,6 @@
 #include "body_publishers.h"
 
-#include "body_message.h"
+#include "../tracker/body_message.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <boost/make_shared.hpp>

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
 
-#include "../parameters.h"
+#include "../tracker/parameters.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 
 #include <ros/node_handle.h>

@@ -1,8 +1,8 @@
 #include "output.h"
 
-#include "ros/bodies/body_message.h"
 #include "ros/measurements/part_file.h"
-#include "ros/point_message.h"
+#include "ros/tracker/body_message.h"
+#include "ros/tracker/point_message.h"
 
 #include <fcntl.h>
 #include <sys/file.h>

@@ -4,7 +4,7 @@
 #include "recording.h"
 #include "ros/measurements/trajectory_files.h"
 #include "ros/measurements/writer.h"
-#include "ros/message_tracker.h"
+#include "ros/tracker/message_tracker.h"
 #include "smoothed_tracks.h"
 
 #include <rosbag/bag.h>

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H
 
 #include "motion/smoother.h"
-#include "ros/message_tracker.h"
+#include "ros/tracker/message_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 

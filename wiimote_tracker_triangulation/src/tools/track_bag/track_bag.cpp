@@ -3,7 +3,7 @@
 #include "output.h"
 #include "recording.h"
 #include "ros/measurements/part_file.h"
-#include "ros/message_tracker.h"
+#include "ros/tracker/message_tracker.h"
 #include "smoothed_tracks.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MESSAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MESSAGE_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
 
 #include "body/body_follower.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
@@ -50,4 +50,4 @@ std::optional<body::InertialSample> inertialSample(const sensor_msgs::Imu& messa
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MESSAGE_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H

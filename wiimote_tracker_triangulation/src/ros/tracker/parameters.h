@@ -1,10 +1,9 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_PARAMETERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_PARAMETERS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_PARAMETERS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_PARAMETERS_H
 
-#include "bodies/body_parameters.h"
+#include "body_parameters.h"
 #include "events/trigger.h"
 #include "events/zone_watch.h"
-#include "marker_builder.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
@@ -27,6 +26,13 @@ struct OutputOptions {
   bool body_transforms = true;     ///< Publish the transforms of bodies.
 };
 
+/// See MarkerBuilder.
+struct MarkerOptions {
+  double rate = 20.0;                 ///< Most arrays per second [Hz, > 0].
+  double image_plane_distance = 0.5;  ///< Along the optical axis [m, > 0].
+  double trail_duration = 10.0;       ///< [s, >= 0].
+};
+
 /// How LEDs that blink are identified.
 struct IdentityOptions {
   std::optional<identity::BlinkCodes> codes;  ///< Nothing: no LED blinks.
@@ -37,7 +43,7 @@ struct IdentityOptions {
 /// Parameters of the node and of track_bag; meaning and ranges: config/triangulation.yaml.
 struct TrackingParameters {
   std::vector<std::string> labels = {"led"};
-  std::string label_places;  ///< For placesFile; empty: none. Only the node uses it.
+  std::string label_places;  ///< For identity::placesFile; empty: none. Only the node uses it.
   IdentityOptions identity;
   tracking::EstimatorOptions estimator;  ///< With codes: adapted by forBlinking.
   BodyParameters bodies;
@@ -63,4 +69,4 @@ std::string methodWord(const tracking::EstimatorOptions& options);
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_PARAMETERS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_PARAMETERS_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_IMAGE_MESSAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_IMAGE_MESSAGE_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMAGE_MESSAGE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMAGE_MESSAGE_H
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
@@ -43,4 +43,4 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_IMAGE_MESSAGE_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMAGE_MESSAGE_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
@@ -41,4 +41,4 @@ std::vector<std::string> labelWarnings(const std::vector<body::Constellation>& b
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PARAMETERS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H

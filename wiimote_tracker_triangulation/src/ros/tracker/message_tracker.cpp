@@ -1,6 +1,6 @@
 #include "message_tracker.h"
 
-#include "bodies/body_message.h"
+#include "body_message.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/tracking/make_estimator.h"

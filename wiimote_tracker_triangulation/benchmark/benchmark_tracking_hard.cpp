@@ -4,7 +4,7 @@
 #include "motion/smoother.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -16,8 +16,8 @@
 namespace wiimote_tracker {
 namespace {
 
+using estimators::Mode;
 using geometry::test::Accuracy;
-using tracking::Mode;
 using tracking::test::Path;
 using tracking::test::SceneImage;
 
@@ -45,10 +45,10 @@ struct Track {
 std::map<std::uint32_t, Track> trackHard(const geometry::Rig& rig,
                                          const std::vector<SceneImage>& images,
                                          const Path& path,
-                                         const tracking::EstimatorOptions& options,
+                                         const estimators::EstimatorOptions& options,
                                          Accuracy* errors) {
   std::map<std::uint32_t, Track> tracks;
-  const auto estimator = tracking::makeEstimator(rig, options);
+  const auto estimator = estimators::makeEstimator(rig, options);
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
     while (const tracking::Snapshot* snapshot = estimator->next()) {
@@ -106,7 +106,7 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
     rig.cameras.resize(cameras);
     for (const auto& [speed, acceleration] : kMotions) {
       Accuracy tracks, smoothed, singles, instants;
-      tracking::EstimatorOptions default_options, single, instant;
+      estimators::EstimatorOptions default_options, single, instant;
       single.tracks.motion = singleMode(speed, acceleration);
       instant.mode = Mode::kInstant;
       for (int i = 0; i < settings.runs; ++i) {

@@ -2,7 +2,7 @@
 #include "benchmark_sections.h"
 #include "tracking/paths.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -14,7 +14,7 @@ namespace wiimote_tracker {
 namespace {
 
 using Eigen::Vector3d;
-using tracking::Mode;
+using estimators::Mode;
 using tracking::test::Path;
 using tracking::test::SceneImage;
 
@@ -72,9 +72,9 @@ std::vector<SceneImage> recording(const Path& path, const Stamping& stamping, un
 }
 
 void track(const std::vector<SceneImage>& images, const Path& path, Mode mode, Errors* errors) {
-  tracking::EstimatorOptions options;
+  estimators::EstimatorOptions options;
   options.mode = mode;
-  const auto estimator = tracking::makeEstimator(tracking::test::paperRig(), options);
+  const auto estimator = estimators::makeEstimator(tracking::test::paperRig(), options);
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
     while (const tracking::Snapshot* snapshot = estimator->next()) {

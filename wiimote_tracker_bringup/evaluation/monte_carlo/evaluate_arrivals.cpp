@@ -4,7 +4,7 @@
 #include "remote_camera.h"
 #include "room.h"
 
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 #include <wiimote_tracker_msgs/median.h>
@@ -153,7 +153,7 @@ Score follow(const simulation::Description& description,
                         static_cast<std::uint32_t>(optics.size() + 1));
     sensors.emplace_back("wii_3");
   }
-  const auto estimator = tracking::makeEstimator(trueRig(description), {});
+  const auto estimator = estimators::makeEstimator(trueRig(description), {});
   Score score;
   tracking::CameraImage image;
   for (const Frame& frame : frames) {

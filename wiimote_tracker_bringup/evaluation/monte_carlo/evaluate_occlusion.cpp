@@ -47,13 +47,13 @@ class Occlusions {
 
 struct Method {
   const char* name;
-  tracking::Mode mode;
+  estimators::Mode mode;
   bool takes_predicted;  // points seen by fewer than two cameras
 };
 
-constexpr Method kMethods[] = {{"tracks", tracking::Mode::kTracks, true},
-                               {"tracked", tracking::Mode::kTracks, false},
-                               {"instants", tracking::Mode::kInstant, true}};
+constexpr Method kMethods[] = {{"tracks", estimators::Mode::kTracks, true},
+                               {"tracked", estimators::Mode::kTracks, false},
+                               {"instants", estimators::Mode::kInstant, true}};
 
 struct Score {
   double squared = 0.0;  // of the errors [m^2]
@@ -70,7 +70,7 @@ Score follow(const geometry::Rig& rig,
              const Path& path,
              const Method& method) {
   constexpr double kFresh = 0.025;  // greatest age of a fresh point [s]
-  tracking::EstimatorOptions options;
+  estimators::EstimatorOptions options;
   options.mode = method.mode;
   Score score;
   double last = kSettled;

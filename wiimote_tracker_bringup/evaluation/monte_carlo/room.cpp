@@ -127,11 +127,11 @@ double medianLateness(const std::vector<RoomImage>& images) {
 }
 
 void trackImages(const geometry::Rig& rig,
-                 const tracking::EstimatorOptions& options,
+                 const estimators::EstimatorOptions& options,
                  const std::vector<RoomImage>& images,
                  const std::function<void(double time, const tracking::Snapshot& snapshot)>& take) {
   const double lateness = medianLateness(images);
-  const auto estimator = tracking::makeEstimator(rig, options);
+  const auto estimator = estimators::makeEstimator(rig, options);
   for (const RoomImage& image : images) {
     estimator->add(image.camera, image.image);
     while (const tracking::Snapshot* snapshot = estimator->next())

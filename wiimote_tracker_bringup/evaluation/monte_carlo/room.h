@@ -7,8 +7,8 @@
 
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <Eigen/Core>
 
@@ -86,7 +86,7 @@ double medianLateness(const std::vector<RoomImage>& images);
 /// Tracks the images. `take` gets each snapshot, with its time without the median lateness of the
 /// images' stamps [s].
 void trackImages(const geometry::Rig& rig,
-                 const tracking::EstimatorOptions& options,
+                 const estimators::EstimatorOptions& options,
                  const std::vector<RoomImage>& images,
                  const std::function<void(double time, const tracking::Snapshot& snapshot)>& take);
 

@@ -20,8 +20,8 @@
 namespace wiimote_tracker::studio {
 
 using Eigen::Vector3d;
+using estimators::Mode;
 using geometry::Rig;
-using tracking::Mode;
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::TrackedPointArray;

@@ -1,10 +1,10 @@
 // Track initiation, accuracy and reports.
 #include "geometry/accuracy.h"
 #include "tracking/tracker_runs.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -262,11 +262,12 @@ TEST(Tracker, CovarianceFollowsTheNoiseThatCamerasLearnt) {
 }
 
 TEST(Tracker, MakeEstimatorMakesBothKinds) {
-  EstimatorOptions options;
-  EXPECT_TRUE(dynamic_cast<Tracker*>(makeEstimator(paperRig(), options).get()));
-  options.mode = Mode::kInstant;
-  EXPECT_TRUE(dynamic_cast<fusion::InstantFuser*>(makeEstimator(paperRig(), options).get()));
-  EXPECT_THROW(makeEstimator(geometry::Rig(), options), geometry::Error);
+  estimators::EstimatorOptions options;
+  EXPECT_TRUE(dynamic_cast<Tracker*>(estimators::makeEstimator(paperRig(), options).get()));
+  options.mode = estimators::Mode::kInstant;
+  EXPECT_TRUE(
+      dynamic_cast<fusion::InstantFuser*>(estimators::makeEstimator(paperRig(), options).get()));
+  EXPECT_THROW(estimators::makeEstimator(geometry::Rig(), options), geometry::Error);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ constexpr double kNear = 0.5;       // points farther off are not of the LED [m]
 struct Method {
   std::string name;
   geometry::Rig rig;
-  tracking::EstimatorOptions options;
+  estimators::EstimatorOptions options;
 };
 
 simulation::Description describe(const simulation::Description& description,
@@ -58,14 +58,14 @@ std::optional<geometry::Rig> solve(const PaperSession& session, const Solver& so
 
 std::vector<Method> methodsOf(const simulation::Description& described,
                               const PaperSession& session) {
-  tracking::EstimatorOptions tracks;
-  tracking::EstimatorOptions instants;
-  instants.mode = tracking::Mode::kInstant;
-  tracking::EstimatorOptions paper = instants;
+  estimators::EstimatorOptions tracks;
+  estimators::EstimatorOptions instants;
+  instants.mode = estimators::Mode::kInstant;
+  estimators::EstimatorOptions paper = instants;
   paper.instant.triangulation.method = geometry::TriangulationMethod::kMeanClosest;
   std::vector<Method> methods;
   const auto add = [&](const std::string& name, const std::optional<geometry::Rig>& rig,
-                       const tracking::EstimatorOptions& options) {
+                       const estimators::EstimatorOptions& options) {
     if (rig)
       methods.push_back({name, *rig, options});
   };

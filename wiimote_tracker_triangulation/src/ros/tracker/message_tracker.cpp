@@ -1,9 +1,9 @@
 #include "message_tracker.h"
 
 #include "body_message.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <wiimote_tracker_msgs/text.h>
 #include <boost/make_shared.hpp>
@@ -94,7 +94,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
   const std::string id = rig.id();
   RigChange change;
   if (!estimator_) {
-    estimator_ = tracking::makeEstimator(rig, parameters_.estimator);
+    estimator_ = estimators::makeEstimator(rig, parameters_.estimator);
     change.cameras = true;
   } else if (id != computed_id_ || !isSame(rig.covariance, rig_.covariance)) {
     estimator_->setRig(rig);

@@ -140,7 +140,7 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
   reader->read("identity/steady", &identity.identifier.steady, 1e-9, 0.5);
   if (file.empty())
     return;
-  if (p->estimator.mode != tracking::Mode::kTracks)
+  if (p->estimator.mode != estimators::Mode::kTracks)
     throw ParameterError(key + " needs " + reader->nameOf("mode") +
                          " tracks: mode instant cannot follow an LED that is off");
   try {
@@ -152,7 +152,7 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
   p->estimator.tracks = identity::forBlinking(*identity.codes, p->estimator.tracks);
 }
 
-void readOutput(ParameterReader* reader, tracking::Mode mode, OutputOptions* output) {
+void readOutput(ParameterReader* reader, estimators::Mode mode, OutputOptions* output) {
   reader->read("output/on_update", &output->on_update);
   reader->read("tracks/output_interval", &output->interval, 0.0, 1.0);
   reader->read("output/rate", &output->rate, 0.0, 1000.0);
@@ -164,15 +164,15 @@ void readOutput(ParameterReader* reader, tracking::Mode mode, OutputOptions* out
     throw ParameterError(reader->nameOf("output/rate") + " is 0 while " +
                          reader->nameOf("output/on_update") +
                          " is false, so nothing would be published: set one of them");
-  if (output->predict_to_now && mode != tracking::Mode::kTracks)
+  if (output->predict_to_now && mode != estimators::Mode::kTracks)
     throw ParameterError(reader->nameOf("output/predict_to_now") + " needs " +
                          reader->nameOf("mode") + " tracks: mode instant cannot predict");
 }
 
 }  // namespace
 
-std::string methodWord(const tracking::EstimatorOptions& options) {
-  if (options.mode == tracking::Mode::kTracks)
+std::string methodWord(const estimators::EstimatorOptions& options) {
+  if (options.mode == estimators::Mode::kTracks)
     return "track";
   return methodNames()[static_cast<std::size_t>(options.instant.triangulation.method)];
 }
@@ -210,11 +210,11 @@ TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   reader->read("labels", &p.labels);
   checkLabels(reader->nameOf("labels"), p.labels);
   reader->read("label_places", &p.label_places);
-  tracking::EstimatorOptions& estimator = p.estimator;
-  const bool tracks = estimator.mode == tracking::Mode::kTracks;
+  estimators::EstimatorOptions& estimator = p.estimator;
+  const bool tracks = estimator.mode == estimators::Mode::kTracks;
   const std::string mode =
       reader->choice("mode", tracks ? "tracks" : "instant", {"tracks", "instant"});
-  estimator.mode = mode == "tracks" ? tracking::Mode::kTracks : tracking::Mode::kInstant;
+  estimator.mode = mode == "tracks" ? estimators::Mode::kTracks : estimators::Mode::kInstant;
   reader->read("pixel_stddev", &estimator.tracks.pixel_stddev, 0.001, 100.0);
   reader->read("learnt_noise", &estimator.tracks.learnt_noise);
   estimator.instant.triangulation.pixel_stddev = estimator.tracks.pixel_stddev;

@@ -4,8 +4,8 @@
 #include "body_parameters.h"
 #include "events/trigger.h"
 #include "events/zone_watch.h"
+#include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
-#include "wiimote_tracker_triangulation/tracking/make_estimator.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
@@ -45,7 +45,7 @@ struct TrackingParameters {
   std::vector<std::string> labels = {"led"};
   std::string label_places;  ///< For identity::placesFile; empty: none. Only the node uses it.
   IdentityOptions identity;
-  tracking::EstimatorOptions estimator;  ///< With codes: adapted by forBlinking.
+  estimators::EstimatorOptions estimator;  ///< With codes: adapted by forBlinking.
   BodyParameters bodies;
   OutputOptions output;
   events::ZoneWatchOptions zones;
@@ -65,7 +65,7 @@ struct TrackingParameters {
 std::string describeIdentity(const TrackingParameters& parameters);
 
 /// "track", or the triangulation method.
-std::string methodWord(const tracking::EstimatorOptions& options);
+std::string methodWord(const estimators::EstimatorOptions& options);
 
 }  // namespace wiimote_tracker
 

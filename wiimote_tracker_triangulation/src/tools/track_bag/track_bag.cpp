@@ -192,7 +192,7 @@ void leaveOutEarlierResults(const Recording& recording,
 
 /// @throws BagError: the outputs are not of the images' times.
 void checkForSmoothing(const TrackingParameters& parameters) {
-  if (parameters.estimator.mode != tracking::Mode::kTracks)
+  if (parameters.estimator.mode != estimators::Mode::kTracks)
     throw BagError("--smooth needs tracks: set mode to tracks");
   if (parameters.output.predict_to_now)
     throw BagError("--smooth cannot predict: set output/predict_to_now to false");

@@ -77,10 +77,11 @@ void BodyTracker::find(std::size_t camera, const std::vector<Eigen::Vector2d>& p
       if (!match || match->margin < options_.minimum_margin)
         continue;
       listMatchedSpots(b, *match, found);
-      if (bodies_[b] && isSamePose(constellations_[b].leds, match->world_from_body,
-                                   bodies_[b]->filter.state().worldFromBody()))
-        updateByMatch(b, camera, pixels);
-      else if (!start(b, *match, time))
+      const bool is_where_predicted =
+          bodies_[b] && isSamePose(constellations_[b].leds, match->world_from_body,
+                                   bodies_[b]->filter.state().worldFromBody());
+      const bool goes_on = is_where_predicted && (updateByMatch(b, camera, pixels) || tracked);
+      if (!goes_on && !start(b, *match, time))
         continue;
       for (const int p : match->point_of_led) {
         if (p != kUnseen)
@@ -141,8 +142,8 @@ void BodyTracker::listMatchedSpots(std::size_t body,
 }
 
 /// The body is found where it is predicted: updates it with spots of this image that it did not
-/// take because the prediction is too uncertain to tell its LEDs apart.
-void BodyTracker::updateByMatch(std::size_t body,
+/// take because the prediction is too uncertain to tell its LEDs apart. @returns whether it is seen
+bool BodyTracker::updateByMatch(std::size_t body,
                                 std::size_t camera,
                                 const std::vector<Eigen::Vector2d>& pixels) {
   LastImage& image = images_[camera];
@@ -164,8 +165,10 @@ void BodyTracker::updateByMatch(std::size_t body,
                                           pixels.begin())] = true;
     update(body, led, spot.pixel, cameras_[camera], &image);
   }
-  if (isSeen(body, image))
+  const bool is_seen = isSeen(body, image);
+  if (is_seen)
     bodies_[body]->last_observed = image.time;
+  return is_seen;
 }
 
 /// @returns false, and does nothing, if the matched spots are too few or do not fit one pose.

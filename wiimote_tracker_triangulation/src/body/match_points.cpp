@@ -5,7 +5,6 @@
 #include <cmath>
 
 namespace wiimote_tracker::body {
-namespace {}  // namespace
 
 bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
                 const Eigen::Isometry3d& a,

@@ -109,6 +109,14 @@ bool Camera::sees(const Eigen::Vector3d& point) const {
   return pixel && intrinsics.isInImage(*pixel);
 }
 
+bool haveSamePlace(const Camera& a, const Camera& b) {
+  constexpr double kTurn = 0.002;      // some pixels [rad]
+  constexpr double kDistance = 0.005;  // [m]
+  const Eigen::AngleAxisd turn(a.world_from_camera.linear().transpose() *
+                               b.world_from_camera.linear());
+  return turn.angle() < kTurn && (b.center() - a.center()).norm() < kDistance;
+}
+
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& position,
                          const Eigen::Vector3d& target,
                          const Eigen::Vector3d& up) {

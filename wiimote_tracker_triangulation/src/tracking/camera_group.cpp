@@ -2,8 +2,6 @@
 
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
-#include <Eigen/Geometry>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -63,15 +61,6 @@ std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std:
   return result;
 }
 
-/// Whether the two are of different places of a camera, rather than of a better calibration.
-bool isMoved(const geometry::Camera& from, const geometry::Camera& to) {
-  constexpr double kTurn = 0.002;      // some pixels [rad]
-  constexpr double kDistance = 0.005;  // [m]
-  const Eigen::AngleAxisd turn(from.world_from_camera.linear().transpose() *
-                               to.world_from_camera.linear());
-  return turn.angle() > kTurn || (to.center() - from.center()).norm() > kDistance;
-}
-
 }  // namespace
 
 CameraGroup::CameraGroup(const geometry::Rig& rig,
@@ -79,36 +68,27 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
                          const std::vector<std::vector<std::size_t>>& partners,
                          const TrackerOptions& options)
     : options_(options), members_(members), clocks_(members.size()) {
-  state_.fits.resize(members_.size(), newFit());
+  state_.fits.resize(members_.size(),
+                     {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo});
   state_.clock_regressions.resize(members_.size());
   state_.unassigned.resize(members_.size());
   useRig(rig, partners);
 }
 
-CameraFit CameraGroup::newFit() const {
-  return {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo};
-}
-
 void CameraGroup::useRig(const geometry::Rig& rig,
                          const std::vector<std::vector<std::size_t>>& partners) {
-  const std::vector<GroupCamera> before = std::exchange(cameras_, {});
+  cameras_.clear();
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member, options_);
   update_.emplace(rig, members_, options_);
   initiation_.emplace(rigOf(rig, members_), partnersOf(partners, members_), options_);
   clocks_.setTurnStddevs(turnStddevs(rig, members_));
-  const auto adapt = [&](State* state) {
-    // The rays of unassigned spots are those of the former cameras.
+  // The rays of unassigned spots are those of the former cameras.
+  const auto forgetRays = [](State* state) {
     std::fill(state->unassigned.begin(), state->unassigned.end(), UnassignedSpots());
-    for (std::size_t i = 0; i < before.size(); ++i) {
-      if (!isMoved(before[i].forRays(), cameras_[i].forRays()))
-        continue;
-      state->fits[i] = newFit();
-      state->clock_regressions[i] = ClockRegression();
-    }
   };
-  adapt(&state_);
-  history_.changeStates(adapt);
+  forgetRays(&state_);
+  history_.changeStates(forgetRays);
 }
 
 bool CameraGroup::isDoubtful() const {

@@ -61,8 +61,7 @@ class CameraGroup {
   const std::vector<std::size_t>& members() const { return members_; }
   const std::vector<Track>& tracks() const { return state_.tracks; }
 
-  /// Goes on with new poses and lenses of the same cameras, whose clocks are the same. A camera
-  /// that was moved is used at once, whether its images fitted before or not.
+  /// Goes on with slightly better poses and lenses of the same cameras, whose clocks are the same.
   void useRig(const geometry::Rig& rig, const std::vector<std::vector<std::size_t>>& partners);
 
   /// Before another group adopts the tracks: what is not known of merged ones stays in doubt.
@@ -84,7 +83,6 @@ class CameraGroup {
     std::uint32_t clocks = 0;                        // version of the corrections of their clocks
   };
 
-  CameraFit newFit() const;
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
   void removeMergedPairs(double time);

@@ -19,8 +19,8 @@ bool hasSmallerId(const TrackedLed& a, const TrackedLed& b) {
   return a.id < b.id;
 }
 
-/// Whether the two are one device whose clock is the same.
-bool isSameCamera(const geometry::RigCamera& a, const geometry::RigCamera& b) {
+/// Whether the two are one device with one clock.
+bool haveSameClock(const geometry::RigCamera& a, const geometry::RigCamera& b) {
   constexpr double kNoticeable = 0.001;  // more is no better calibration, but another clock [s]
   using Rule = geometry::TimeOffsetRule;
   return a.camera.name == b.camera.name && a.camera.identity == b.camera.identity &&
@@ -28,6 +28,10 @@ bool isSameCamera(const geometry::RigCamera& a, const geometry::RigCamera& b) {
          (a.time_offset_rule != Rule::kOneEpoch || a.time_offset_epoch == b.time_offset_epoch) &&
          (a.time_offset_rule == Rule::kNone ||
           std::abs(a.time_offset - b.time_offset) <= kNoticeable);
+}
+
+bool isSameCamera(const geometry::RigCamera& a, const geometry::RigCamera& b) {
+  return haveSameClock(a, b) && geometry::haveSamePlace(a.camera, b.camera);
 }
 
 }  // namespace
@@ -60,7 +64,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
   takeOverTracks(before);
 }
 
-/// Whether a rig has the same cameras with the same clocks in the same groups.
+/// Whether a rig has the same cameras at the same places, with the same clocks in the same groups.
 bool Tracker::hasSameGroups(const geometry::Rig& rig, const Partners& partners) const {
   const auto groups = groupsOf(partners);
   return std::equal(rig.cameras.begin(), rig.cameras.end(), rig_.cameras.begin(),

@@ -512,13 +512,13 @@ std::pair<std::string, bool> run(const std::string& command) {
 
 TEST(Triangulation, SaysThatTwoNodesPublishTheImagesOfACamera) {
   FILE* replay = popen(
-      "python3 -c \"import rospy; from wiimote_tracker_msgs.msg import IrBlobArray;"
+      "exec timeout 60 python3 -c \"import rospy; from wiimote_tracker_msgs.msg import IrBlobArray;"
       "rospy.init_node('replay'); images = rospy.Publisher('camera_0/ir_blobs', IrBlobArray,"
       "queue_size=1); rospy.spin()\"",
       "r");
   ASSERT_NE(replay, nullptr);
   EXPECT_TRUE(g_bench->waitForLog("/camera_0/ir_blobs has 2 publishers"));
-  run("rosnode kill /replay");
+  EXPECT_FALSE(run("rosnode kill /replay").second);
   pclose(replay);
 }
 

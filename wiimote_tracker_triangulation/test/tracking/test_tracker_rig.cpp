@@ -100,6 +100,36 @@ TEST(TrackerRig, AKnockedCameraStaysLeftOutUntilItsPlaceIsCalibrated) {
   EXPECT_GE(seen, 3) << "it is used again";
 }
 
+/// As after a new square: the old places would be wrong in the new world.
+TEST(TrackerRig, NoLedIsTrackedInAnotherWorldBeforeItIsSeenThere) {
+  geometry::Rig shifted = paperRig();
+  for (geometry::RigCamera& camera : shifted.cameras)
+    camera.camera.world_from_camera.pretranslate(Eigen::Vector3d(1.0, 0.0, 0.0));
+  Scene scene(paperRig(), wanderers(3, 1), {}, 3);
+  Tracker tracker(paperRig(), exactOptions());
+  const auto addUntil = [&](double end, const Eigen::Vector3d& shift) {
+    for (double time = 0.0; time < end;) {
+      const SceneImage& image = scene.next();
+      time = image.true_time - SceneOptions().start;
+      tracker.add(image.camera, image.image);
+      while (const Snapshot* snapshot = tracker.next()) {
+        for (const TrackedLed& led : snapshot->leds) {
+          if (led.state != TrackState::kTracked)
+            continue;
+          const bool is_right =
+              std::any_of(scene.leds().begin(), scene.leds().end(), [&](const Path& path) {
+                return (led.position - shift - path(snapshot->time)).norm() < 0.05;
+              });
+          EXPECT_TRUE(is_right) << time;
+        }
+      }
+    }
+  };
+  addUntil(1.0, Eigen::Vector3d::Zero());
+  tracker.setRig(shifted);
+  addUntil(1.5, Eigen::Vector3d(1.0, 0.0, 0.0));
+}
+
 TEST(TrackerRig, AStepLosesNoTrackAndNoLateImage) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(3, 12), {}, 1200);
   constexpr std::size_t kStep = 600;

@@ -197,7 +197,7 @@ class BodyTracker {
   void listMatchedSpots(std::size_t body,
                         const Match& match,
                         const association::Association& found);
-  void updateByMatch(std::size_t body,
+  bool updateByMatch(std::size_t body,
                      std::size_t camera,
                      const std::vector<Eigen::Vector2d>& pixels);
   bool start(std::size_t body, const Match& match, double time);

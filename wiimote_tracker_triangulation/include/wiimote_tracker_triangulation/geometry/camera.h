@@ -76,6 +76,10 @@ struct Camera {
   bool sees(const Eigen::Vector3d& point) const;
 };
 
+/// Whether a camera stands where it stood: a better calibration turns it by less than 0.002 rad and
+/// moves it by less than 5 mm.
+bool haveSamePlace(const Camera& a, const Camera& b);
+
 /// World-from-camera rotation and position of a camera at `position` [m] whose optical axis passes
 /// through `target` [m], image x axis horizontal. `up` need not be a unit vector.
 /// @throws InvalidRigError when the optical axis would be parallel to `up`.

@@ -36,8 +36,8 @@ class Tracker : public Estimator {
   Tracker(const Tracker&) = delete;
   Tracker& operator=(const Tracker&) = delete;
 
-  /// While the cameras and their clocks are the same, everything goes on, as with each step of a
-  /// continuous calibration. Else only tracks go on that the new cameras may see.
+  /// While cameras, their places and clocks are the same, everything goes on, as with each step of
+  /// a continuous calibration. Else only tracks go on that the new cameras may see.
   void setRig(const geometry::Rig& rig) override;
 
   void add(std::size_t camera, const CameraImage& image) override;

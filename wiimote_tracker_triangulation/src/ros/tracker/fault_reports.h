@@ -11,9 +11,9 @@
 
 namespace wiimote_tracker {
 
-/// Which faults of the cameras were reported. Each is reported once, and again when it comes back
-/// after another rig. A fault that goes on is not, since continuous calibration makes a new rig
-/// every half minute.
+/// Which faults of the cameras were reported. Each is reported once. A camera that does not fit the
+/// others is reported again when that was over before another rig came; not when it goes on, since
+/// continuous calibration makes a new rig every half minute.
 class FaultReports {
  public:
   bool isNew(std::size_t camera, ImageFault fault) {

@@ -107,7 +107,8 @@ MessageTracker::RigChange MessageTracker::takeRig(
     useCameras(rig);
     reported_faults_.useRig(rig_, rig, *estimator_);
     statistics_.setRig(rig);
-    if (const std::string sentence = rig.describeFarCamera(); !sentence.empty())
+    const std::string sentence = rig.describeFarCamera();
+    if (!std::exchange(far_reported_, !sentence.empty()) && far_reported_)
       sink_->onProblem(sentence);
   }
   rig_ = rig;
@@ -370,8 +371,9 @@ void MessageTracker::publishAt(double time) {
 }
 
 void MessageTracker::publish(const tracking::Snapshot& corrected) {
+  constexpr double kRounding = 1e-6;  // of a time since 1970 [s]
   if (!(corrected.time > newest_output_ &&
-        corrected.time >= newest_output_ + parameters_.output.interval))
+        corrected.time >= newest_output_ + parameters_.output.interval - kRounding))
     return;
   newest_output_ = corrected.time;
   const auto message = boost::make_shared<TrackedPointArray>(messageOf(corrected));

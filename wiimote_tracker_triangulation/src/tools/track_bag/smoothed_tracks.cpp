@@ -1,5 +1,7 @@
 #include "smoothed_tracks.h"
 
+#include <wiimote_tracker_msgs/interruption.h>
+
 #include <algorithm>
 #include <limits>
 
@@ -71,6 +73,7 @@ bool SmoothedTracks::mayBeMerged(const tracking::SeenSpot& spot,
 
 void SmoothedTracks::smooth() {
   for (auto& [id, track] : tracks_) {
+    throwIfInterrupted();
     std::stable_sort(track.observations.begin(), track.observations.end(),
                      [](auto& a, auto& b) { return a.time < b.time; });
     track.states = motion::smooth(options_.motion, track.observations, track.places);

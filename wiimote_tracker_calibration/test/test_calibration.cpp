@@ -191,19 +191,23 @@ TEST_F(Workflow, LengthsAreTakenReplacedAndDropped) {
 
 TEST_F(Workflow, UndoDropsALengthThatWasTakenLast) {
   captureAll();
-  const auto measure = [&](std::size_t to) {
-    return calibration_.measureLength({0, to, 2.5, 0.001}, 0.005).success;
+  const auto measure = [&](std::size_t to, double length = 2.5) {
+    return calibration_.measureLength({0, to, length, 0.001}, 0.005).success;
   };
-  ASSERT_TRUE(measure(1));
-  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
-  ASSERT_TRUE(calibration_.endWave().success);
-  ASSERT_TRUE(measure(3));
+  const auto begin = [&] {
+    return calibration_.beginWave(cameras_, false, std::nullopt, now_).success;
+  };
+  const auto record = [&] { return begin() && calibration_.endWave().success; };
+  ASSERT_TRUE(measure(1) && record() && measure(3));
   EXPECT_SAYS(calibration_.undo().message, "the length from corner 1 to corner 4 was dropped");
-  EXPECT_TRUE(calibration_.wave());
-  ASSERT_TRUE(measure(3));
-  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
-  ASSERT_TRUE(calibration_.endWave().success);
+  EXPECT_SAYS(calibration_.undo().message, "the wave was dropped") << "taken after the other";
+  ASSERT_TRUE(record() && measure(3) && measure(3, 0.0));
   EXPECT_SAYS(calibration_.undo().message, "the wave was dropped");
+  ASSERT_TRUE(measure(3) && record() && measure(1));
+  EXPECT_SAYS(calibration_.undo().message, "the length from corner 1 to corner 2 was dropped");
+  EXPECT_SAYS(calibration_.undo().message, "the wave was dropped");
+  ASSERT_TRUE(measure(1) && begin() && calibration_.cancel().success);
+  EXPECT_SAYS(calibration_.undo().message, "the length from corner 1 to corner 2 was dropped");
 }
 
 TEST_F(Workflow, KnownPlacesAreTakenSolvedAndDropped) {

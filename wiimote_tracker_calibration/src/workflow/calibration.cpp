@@ -102,7 +102,6 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
   }
   busy_ = Step::kWaving;
   just_solved_ = false;
-  captured_.length_is_last = false;
   if (captured_.wave->needsFloor())
     return {true, "recording: leave the wand on the floor"};
   return {true, std::string("recording: wave the ") + (wand ? "wand" : "LED") +
@@ -113,6 +112,7 @@ Reply Calibration::endWave() {
   if (!isBusyWith(Step::kWaving))
     return refusal("no wave is being recorded: start one first");
   busy_.reset();
+  captured_.latest_lengths = 0;
   updateStep();
   const wave::CoverageReport report = captured_.wave->report();
   std::string message =
@@ -163,7 +163,7 @@ void Calibration::finishCapture() {
   updateStep();
   if (captured_.square.outcome()->success) {
     captured_.dropLengthsTo(captured_.square.currentCorner());
-    captured_.length_is_last = false;
+    captured_.latest_lengths = 0;
     ++captures_;
   }
   shown(*captured_.square.outcome());

@@ -16,10 +16,14 @@ constexpr double kMostDeviation = 10.0;
 
 /// @returns whether any was dropped.
 template <typename Condition>
-bool drop(std::vector<square::TapedLength>* lengths, Condition condition) {
-  const auto end = std::remove_if(lengths->begin(), lengths->end(), condition);
-  const bool any = end != lengths->end();
-  lengths->erase(end, lengths->end());
+bool dropLengths(Condition condition, Captured* captured) {
+  std::vector<square::TapedLength>& lengths = captured->layout->lengths;
+  const auto latest = lengths.end() - static_cast<std::ptrdiff_t>(captured->latest_lengths);
+  captured->latest_lengths -=
+      static_cast<std::size_t>(std::count_if(latest, lengths.end(), condition));
+  const auto end = std::remove_if(lengths.begin(), lengths.end(), condition);
+  const bool any = end != lengths.end();
+  lengths.erase(end, lengths.end());
   return any;
 }
 
@@ -101,7 +105,7 @@ Reply Captured::measureLength(const square::TapedLength& taped, double placement
   const std::string name = format("corner %zu to corner %zu", taped.from + 1, taped.to + 1);
   const auto same = [&](const square::TapedLength& other) { return taped.hasCornersOf(other); };
   if (taped.length == 0.0) {
-    const bool dropped = drop(&layout->lengths, same);
+    const bool dropped = dropLengths(same, this);
     return {dropped, (dropped ? "the length from " : "there is no length from ") + name +
                          (dropped ? " was dropped: solve again" : " to drop")};
   }
@@ -115,17 +119,18 @@ Reply Captured::measureLength(const square::TapedLength& taped, double placement
         format("%s is %.3f m by the sides, at most %.0f mm more or less, but the tape "
                "says %.3f m: measure again, in metres, or start again with other sides",
                name.c_str(), by_sides, 1e3 * most, taped.length));
-  drop(&layout->lengths, same);
+  dropLengths(same, this);
   layout->lengths.push_back(taped);
-  length_is_last = true;
+  ++latest_lengths;
   return {true, format("%s is %.4f m by tape, %+.1f mm against the sides: solve again",
                        name.c_str(), taped.length, 1e3 * (taped.length - by_sides))};
 }
 
 void Captured::dropLengthsTo(std::size_t corner) {
-  drop(&layout->lengths, [&](const square::TapedLength& taped) {
+  const auto ends_there = [&](const square::TapedLength& taped) {
     return taped.from == corner || taped.to == corner;
-  });
+  };
+  dropLengths(ends_there, this);
 }
 
 std::string Captured::whyNoPlace(const std::optional<geometry::Rig>& rig) const {
@@ -140,14 +145,14 @@ std::string Captured::whyNoPlace(const std::optional<geometry::Rig>& rig) const 
 Reply Captured::addPlace(const square::KnownPlace& known, const capture::CapturedCorner& seen) {
   layout->places.push_back(known);
   places.push_back(seen);
-  length_is_last = false;
+  latest_lengths = 0;
   return {true, format("place %zu at (%.3f, %.3f, %.3f) m is captured by %zu cameras: solve again",
                        places.size(), known.position.x(), known.position.y(), known.position.z(),
                        seen.size())};
 }
 
 Reply Captured::undo() {
-  if (length_is_last && !layout->lengths.empty()) {
+  if (latest_lengths > 0) {
     const square::TapedLength last = layout->lengths.back();
     return measureLength({last.from, last.to, 0.0}, 0.0);
   }

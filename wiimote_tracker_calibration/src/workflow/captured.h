@@ -25,7 +25,7 @@ struct Captured {
   std::vector<std::string> cameras;            ///< Empty: nothing is started.
   std::optional<square::SquareLayout> layout;  ///< Nothing: a run without a square.
   SquareRun square;
-  bool length_is_last = false;                  ///< Whether a length was measured after all else.
+  std::size_t latest_lengths = 0;  ///< The last so many layout->lengths were taken after all else.
   std::vector<capture::CapturedCorner> places;  ///< Of layout->places.
   std::optional<WaveRecorder> wave;             ///< The wave that is being recorded, or was.
   std::string world_frame;

@@ -67,7 +67,10 @@ TEST_F(RigStorage, ARigOfOtherCamerasIsNotReplacedWithoutAWord) {
   rig.cameras[1].camera.name = "hall_2";
   const std::string path = folder_ + "/cameras/rig.yaml";
   EXPECT_TRUE(saveRig(rig, path).empty());
-  rig.cameras[1].camera.identity = "00:1f:32:00:00:01";  // replaced
+  rig.cameras[0].camera.identity = "00:1f:32:00:00:00";  // they were unknown
+  rig.cameras[1].camera.identity = "00:1f:32:00:00:01";
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  rig.cameras[0].camera.identity = "00:1f:32:00:00:03";  // replaced
   EXPECT_TRUE(saveRig(rig, path).empty());
   rig.cameras[0].camera.name = "attic_1";
   rig.cameras[1].camera.identity = "00:1f:32:00:00:02";

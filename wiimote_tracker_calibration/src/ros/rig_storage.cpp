@@ -52,7 +52,9 @@ std::vector<std::string> describeLost(const geometry::Rig& rig, const std::strin
   std::vector<std::string> cameras;
   for (const geometry::RigCamera& lost : old.cameras) {
     const geometry::RigCamera* same = rig.find(lost.camera.name);
-    if (!same || same->camera.identity != lost.camera.identity)
+    const std::string& identity = lost.camera.identity;  // empty: unknown
+    if (!same ||
+        (!identity.empty() && !same->camera.identity.empty() && identity != same->camera.identity))
       cameras.push_back(lost.camera.name);
   }
   if (!cameras.empty() && cameras.size() == old.cameras.size())

@@ -280,6 +280,20 @@ TEST_F(ThrownErrors, NothingElseChangesTheRigWhileTheSolverRuns) {
   }
 }
 
+TEST_F(ThrownErrors, AChangedRigLeavesTheMasksOfLoadedSamples) {
+  captureAll();
+  ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
+  NodeContext& context = node->context();
+  const Lock lock(context.mutex());
+  session::Session samples = context.session(lock);
+  samples.masks[0] = {{{1000.0, 20.0}, 5.0}};
+  ASSERT_TRUE(context.setSession(samples, lock).success);
+  const geometry::Rig rig = context.existingRig("to change", lock);
+  context.setRig(rig, "changed", lock);
+  EXPECT_EQ(context.session(lock).masks[0].size(), 1U);
+  context.setMasks({}, lock);
+}
+
 TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
   // Images come until the node ends, after this test.
   const auto thrown = std::make_shared<bool>(false);

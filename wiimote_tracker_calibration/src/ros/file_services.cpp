@@ -34,6 +34,12 @@ std::string nextStart(const std::string& path, const Parameters& parameters) {
   return "; the next start loads " + parameters.rig_file + ": save without a name to replace that";
 }
 
+/// The images of a rig from a file get its masks: the lamps of the room belong to the rig.
+void useMasks(const geometry::Rig& rig, CameraInputs* inputs) {
+  for (const geometry::RigCamera& camera : rig.cameras)
+    inputs->setMasks(camera.camera.name, camera.masks);
+}
+
 class FileServices {
  public:
   /// Loads and publishes the last saved rig, if there is one.
@@ -127,6 +133,7 @@ class FileServices {
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();
       response->rig = toMessage(joined.rig);
+      useMasks(joined.rig, &context_.inputs());
       context_.setRig(joined.rig, joined.message, lock);
       return Reply{true, joined.message};
     });
@@ -137,8 +144,10 @@ class FileServices {
   Reply loadRig(const std::string& path, Lock* lock) {
     const geometry::Rig rig = context_.compute(lock, [&] { return geometry::readRigFile(path); });
     const Reply reply = context_.calibration(*lock).load(rig);
-    if (reply.success)
+    if (reply.success) {
+      useMasks(rig, &context_.inputs());
       context_.publishRig(session::verdictOf(rig), *lock);
+    }
     return reply;
   }
 

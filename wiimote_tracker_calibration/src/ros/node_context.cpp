@@ -166,9 +166,6 @@ void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
   verdict_ = verdict;
   status_.endWalk();
   const geometry::Rig& rig = *calibration_.rig();
-  // The lamps of the room belong to the rig.
-  for (const geometry::RigCamera& camera : rig.cameras)
-    inputs_.setMasks(camera.camera.name, camera.masks);
   // The transforms first: whoever receives the rig finds them.
   transforms_.sendTransform(staticTransforms(rig));
   rig_publisher_.publish(toMessage(rig));

@@ -141,8 +141,7 @@ class NodeContext {
   /// Replaces the rig by a changed one, such as with a recalibrated camera or a correction of the
   /// volume, and publishes it. It is not saved yet.
   void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
-  /// Publishes the current rig, the transforms of its cameras, and its verdict. The images of its
-  /// cameras get its masks.
+  /// Publishes the current rig, the transforms of its cameras, and its verdict.
   void publishRig(const session::Verdict& verdict, const Lock&);
 
   /// Sets the masks of the images and of the rig, which is then published.

@@ -31,7 +31,7 @@ using geometry::kRotation;
 using geometry::kTimeOffset;
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
-constexpr double kLargestNoise = 3.0;      // six times the usual, Options::pixel [px]
+constexpr double kRefuseRatio = 6.0;       // of the estimated noise to Options::pixel
 // Standard deviation of the path along its longest axis [m].
 constexpr double kMinimumExtent = 0.1;
 // Largest standard deviation of a predicted pixel due to the camera's uncertainty, the others being
@@ -109,7 +109,7 @@ void checkOthers(const geometry::Rig& rig, const SeenPath& path) {
               "they see it, and switch off other lights");
 }
 
-void checkFit(const Fit& fit) {
+void checkFit(const Fit& fit, const Options& options) {
   const std::string& name = fit.camera.name;
   const auto found = fit.matches.size();
   if (fit.contradictory > found)
@@ -134,7 +134,7 @@ void checkFit(const Fit& fit) {
     throw Error(
         "the LED stayed on a line or in a plane: wave it through the whole volume, up and down "
         "and near and far");
-  if (fit.pixel_stddev > kLargestNoise)
+  if (fit.pixel_stddev > kRefuseRatio * options.pixel)
     throw Error("the images of " + name + " are " + format("%.1f px", fit.pixel_stddev) +
                 " off what the others saw: its starting intrinsics are wrong, or the "
                 "others were moved too; calibrate all of them again");
@@ -293,7 +293,7 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   geometry::Camera start = rig.cameras[index].camera;
   start.intrinsics = prior.lens;
   const Fit fit = resect(path, images, start, prior, options);
-  checkFit(fit);
+  checkFit(fit, options);
 
   Recalibration result;
   result.rig = rig;

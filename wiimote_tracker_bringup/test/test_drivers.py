@@ -101,6 +101,7 @@ ONE = 'cameras:\n  a: "00:1f:32:00:00:01"\n'
     (ONE + '  b: "00:1F:32:00:00:01"\n', False), ('cameras:\n  a: /dev/ttyUSB0\n', False),
     ('cameras:\n  a: /tmp/x\n', False), ('cameras:\n  a: "virtual:"\n', False),
     ('cameras:\n  a: "00:1f:32:00:00"\n', False), ('cameras:\n  a: 11:22:33:44:55:06\n', False),
+    ('cameras:\n  a: 10:22:33:44:55:66\n', True),
     ('cameras:\n  a:\n    driver: {ir_mode: full}\n', False),
     ('cameras:\n  a:\n    identity: "00:1f:32:00:00:01"\n    drivr: {}\n', False),
     ('cameras:\n  a:\n    identity: "00:1f:32:00:00:01"\n    driver: full\n', False)])

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <regex>
 #include <set>
 #include <sstream>
 
@@ -91,6 +92,11 @@ void checkCamera(const YAML::Node& camera, const std::vector<std::string>& lines
   }
 }
 
+/// Whether PyYAML, by which `drivers` reads the list, takes it for a number, also of base 60.
+bool isNumber(const std::string& text) {
+  return std::regex_match(text, std::regex("[1-9][0-9]*(:[0-5]?[0-9])*"));
+}
+
 bool isDevice(const std::string& text) {
   try {
     transport::parseDeviceName(text);
@@ -138,8 +144,7 @@ CameraList::CameraList(const std::string& text) : lines_(linesOf(text)) {
     camera.size = camera.device.size() + (quoted ? 2 : 0);
     if (line.compare(camera.begin + (quoted ? 1 : 0), camera.device.size(), camera.device) != 0)
       refuse(device.Mark(), lines_, "write the address in quotes on one line");
-    if (!quoted && camera.device[0] != '0' &&
-        camera.device.find_first_not_of("0123456789:") == std::string::npos)
+    if (!quoted && isNumber(camera.device))
       refuse(device.Mark(), lines_, "write the address in quotes: YAML takes it for a number");
     indent_.assign(static_cast<std::size_t>(mark.column), ' ');
     cameras_.push_back(camera);

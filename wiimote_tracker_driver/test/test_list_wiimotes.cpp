@@ -1,5 +1,4 @@
-// list_wiimotes: its view of a computer with a simulated /sys and /etc, the list of cameras, and
-// access to a virtual remote.
+// list_wiimotes: a computer with a simulated /sys and /etc, the list of cameras, a virtual remote.
 #include "contains.h"
 #include "temporary_folder.h"
 #include "tools/list_wiimotes/camera_list.h"

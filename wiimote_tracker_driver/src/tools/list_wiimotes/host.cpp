@@ -146,8 +146,7 @@ std::vector<std::string> notes(const KernelRemote& remote) {
     return {};
   return {
       "the kernel's driver hid-wiimote shares this remote, as is usual: if the driver's "
-      "diagnostics "
-      "show gaps, see \"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver"};
+      "diagnostics show gaps, see \"Kernel driver\" in doc/quirks.md of wiimote_tracker_driver"};
 }
 
 std::string modelOf(const KernelRemote& remote) {

@@ -270,8 +270,7 @@ int main(int argc, char** argv) {
                 "lens is renamed");
   parser.option("--camera-info FOLDER", &arguments.camera_info,
                 "where <camera>.yaml is (default: $ROS_HOME/camera_info, or ~/.ros/camera_info if "
-                "ROS_HOME is "
-                "not set)");
+                "ROS_HOME is not set)");
   return parser.run(argc, argv, [&] {
     check(&arguments);
     if (arguments.replace.empty())

@@ -21,9 +21,9 @@ def test_no_rig(tmp_path):
 
 def test_a_bag_of_another_version_is_refused_in_words(bag, tmp_path):
     with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as old:
-        for topic, message, time in read(bag):
+        for topic, message, received in read(bag):
             definition = message._full_text.replace('uint64 frame\n', '')
-            old.write(topic, message, time, connection_header={
+            old.write(topic, message, received, connection_header={
                 'topic': topic, 'type': message._type, 'message_definition': definition,
                 'md5sum': '0' * 32 if topic.endswith('/ir_blobs') else message._md5sum})
     sentence = refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')

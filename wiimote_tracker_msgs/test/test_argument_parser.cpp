@@ -114,7 +114,7 @@ TEST_F(ArgumentParserTest, ends_by_the_signal_that_interrupts_the_program) {
     throwIfInterrupted();
     return 0;
   };
-  EXPECT_EXIT(run({"a", "b"}, program), testing::KilledBySignal(SIGINT), "");
+  EXPECT_EXIT(parser_.run(Words{"a", "b"}, program), testing::KilledBySignal(SIGINT), "");
 }
 
 TEST_F(ArgumentParserTest, a_program_ends_with_its_own_status) {

@@ -271,16 +271,6 @@ void CameraGroup::showStarts(std::vector<CameraView>* views) const {
   }
 }
 
-void CameraGroup::endMergedPairs() {
-  for (const MergedPair& pair : state_.pairs) {
-    for (const std::uint32_t id : pair.ids()) {
-      if (Track* const track = continuing(id, pair.openedAt()))
-        track->noteMeeting(pair.probability());
-    }
-  }
-  state_.pairs.clear();
-}
-
 void CameraGroup::adopt(const Track& track) {
   state_.tracks.push_back(track);
   state_.tracks.back().forgetCameras();

@@ -64,9 +64,6 @@ class CameraGroup {
   /// Goes on with slightly better poses and lenses of the same cameras, whose clocks are the same.
   void useRig(const geometry::Rig& rig, const std::vector<std::vector<std::size_t>>& partners);
 
-  /// Before another group adopts the tracks: what is not known of merged ones stays in doubt.
-  void endMergedPairs();
-
   /// Takes over a track from a group of another rig.
   void adopt(const Track& track);
 

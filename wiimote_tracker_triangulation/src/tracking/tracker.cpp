@@ -92,7 +92,6 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
 /// Moves each track to the group with the most cameras that may see it.
 void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before) {
   for (const auto& old_group : before) {
-    old_group->endMergedPairs();
     for (const Track& track : old_group->tracks()) {
       const Eigen::Vector3d position = track.filter.position();
       const auto viewers = [&](const std::unique_ptr<CameraGroup>& group) {

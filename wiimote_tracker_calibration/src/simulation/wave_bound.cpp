@@ -20,11 +20,18 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-// As WaveBound::covariance: the parameters of a rig's covariance that a wave estimates.
+// As WaveBound::covariance: the parameters of a rig's covariance that a wave estimates, in its
+// order but for the time offset.
 constexpr Eigen::Index kPerCamera = 12;
-constexpr Eigen::Index kTimeOffset = 11;
-// Stands for a parameter that is given.
+constexpr Eigen::Index kPose = 6;
+constexpr Eigen::Index kFx = 6, kFy = 7, kCx = 8, kCy = 9, kK1 = 10;
+constexpr Eigen::Index kWaveTimeOffset = 11;
+// Standard deviations: of a parameter that is given, of a clock's offset [s], of a control point
+// [m], and of the wand's length while it moves [m] (as in adjustment.cpp).
 constexpr double kGiven = 1e-9;
+constexpr double kClockStddev = 0.05;
+constexpr double kAnywhere = 10.0;
+constexpr double kStick = 0.0002;
 
 /// B-spline of a degree on whole-numbered knots, by Cox and de Boor's recursion.
 double basis(int degree, double knot, double t) {
@@ -46,7 +53,7 @@ Slopes slopesOf(const geometry::Camera& camera,
                 const Eigen::Vector3d& velocity = Eigen::Vector3d::Zero()) {
   const geometry::Projection projection = geometry::projectionOf(camera, point).value();
   Slopes slopes;
-  slopes.by_camera << projection.by_parameters.leftCols<kTimeOffset>(),
+  slopes.by_camera << projection.by_parameters.leftCols<kWaveTimeOffset>(),
       projection.by_point * velocity;
   slopes.by_point = projection.by_point;
   return slopes;
@@ -93,51 +100,58 @@ class Information {
     }
   }
 
-  /// Priors of the cameras and the corners, and the corners' pixels.
-  void addSquareAndLenses() {
+  void addLensPriors() {
     const square::Uncertainty& u = scene_.uncertainty;
     for (std::size_t i = 0; i < wave_.cameras.size(); ++i) {
       const geometry::Intrinsics& lens = wave_.cameras[i].intrinsics;
       const Eigen::Index at = cameraColumn(i);
-      add({{at + 6, 0.5 / lens.fx}, {at + 7, 0.5 / lens.fy}}, u.focal);
-      add({{at + 6, 1.0 / lens.fx}, {at + 7, -1.0 / lens.fy}}, u.aspect);
-      add(principalPoint(i, 8), u.principal_point);
-      add(principalPoint(i, 9), u.principal_point);
-      add({{at + 10, 1.0}}, u.k1);
-      add({{at + kTimeOffset, 1.0}}, i == 0 ? kGiven : 0.05);
-      // Without square the first camera is the world.
-      for (Eigen::Index k = 0; !scene_.square && i == 0 && k < 6; ++k)
-        add({{at + k, 1.0}}, kGiven);
-      for (std::size_t c = 0; scene_.square && c < 4; ++c) {
+      add({{at + kFx, 0.5 / lens.fx}, {at + kFy, 0.5 / lens.fy}}, u.focal);
+      add({{at + kFx, 1.0 / lens.fx}, {at + kFy, -1.0 / lens.fy}}, u.aspect);
+      add(principalPoint(i, kCx), u.principal_point);
+      add(principalPoint(i, kCy), u.principal_point);
+      add({{at + kK1, 1.0}}, u.k1);
+    }
+  }
+
+  /// Times are by the first camera's clock.
+  void addClockPriors() {
+    for (std::size_t i = 0; i < wave_.cameras.size(); ++i)
+      add({{cameraColumn(i) + kWaveTimeOffset, 1.0}}, i == 0 ? kGiven : kClockStddev);
+  }
+
+  /// Without square the first camera is the world.
+  void addFirstCamera() {
+    for (Eigen::Index k = 0; k < kPose; ++k)
+      add({{cameraColumn(0) + k, 1.0}}, kGiven);
+  }
+
+  void addCornerPixels() {
+    for (std::size_t i = 0; i < wave_.cameras.size(); ++i) {
+      for (std::size_t c = 0; c < wave_.corners.size(); ++c) {
         const Slopes slopes = slopesOf(wave_.cameras[i], wave_.corners[c]);
         for (Eigen::Index r = 0; r < 2; ++r) {
           Row row;
-          append(at, slopes.by_camera.row(r), &row);
+          append(cameraColumn(i), slopes.by_camera.row(r), &row);
           append(cornerColumn(c), slopes.by_point.row(r).head<2>(), &row);
-          add(row, u.pixel);
+          add(row, scene_.uncertainty.pixel);
         }
       }
     }
-    for (Eigen::Index k = 0; k < 8; ++k)
-      add({{cornerColumn(0) + k, 1.0}}, u.placement);
   }
 
-  /// A principal point less the part of the mean of all that makes errors with a shared offset
-  /// independent: the inverse square root of their joint covariance is I - share * ones.
-  Row principalPoint(std::size_t camera, Eigen::Index coordinate) const {
-    const auto count = static_cast<double>(wave_.cameras.size());
-    const square::Uncertainty& u = scene_.uncertainty;
-    const double all = std::hypot(u.principal_point, std::sqrt(count) * u.shared_principal_point);
-    const double share = (1.0 - u.principal_point / all) / count;
-    Row row;
-    for (std::size_t i = 0; i < wave_.cameras.size(); ++i)
-      row.emplace_back(cameraColumn(i) + coordinate, (i == camera ? 1.0 : 0.0) - share);
-    return row;
+  void addCornerPriors() {
+    for (Eigen::Index column = cornerColumn(0); column < cornerColumn(4); ++column)
+      add({{column, 1.0}}, scene_.uncertainty.placement);
+  }
+
+  /// For those that nobody saw.
+  void addControlPointPriors() {
+    for (Eigen::Index column = controlColumn(0, 0); column < size(); ++column)
+      add({{column, 1.0}}, kAnywhere);
   }
 
   void addWand() {
     add({{wandColumn(), 1.0}}, Wand().stddev);
-    const double kStick = 0.0002;
     for (Eigen::Index i = 0; leds_ == 2 && i < intervals_; ++i) {
       const double time = start_ + spacing_ * static_cast<double>(i);
       const double path_time = time + wave_.views.front().path_time - wave_.views.front().time;
@@ -150,20 +164,15 @@ class Information {
     }
   }
 
-  /// Covariance of the cameras.
-  Eigen::MatrixXd inverse() {
-    // Control points that nobody saw.
-    const Eigen::Index size = controlColumn(intervals_ > 0 ? intervals_ + 3 : 0, 0);
-    for (Eigen::Index k = controlColumn(0, 0); k < size; ++k)
-      add({{k, 1.0}}, 10.0);
-    Eigen::SparseMatrix<double> matrix(size, size);
+  Eigen::MatrixXd camerasCovariance() const {
+    Eigen::SparseMatrix<double> matrix(size(), size());
     matrix.setFromTriplets(entries_.begin(), entries_.end());
     // Parameters of very different units.
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
     const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(scaled);
     const Eigen::Index first = cornerColumn(0);
-    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(size, first);
+    const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(size(), first);
     const Eigen::MatrixXd columns = solver.solve(unit);
     return scale.head(first).asDiagonal() * columns.topRows(first) * scale.head(first).asDiagonal();
   }
@@ -178,6 +187,23 @@ class Information {
   Eigen::Index wandColumn() const { return cornerColumn(4); }
   Eigen::Index controlColumn(Eigen::Index control, Eigen::Index led) const {
     return wandColumn() + 1 + 3 * (leds_ * control + led);
+  }
+
+  /// Number of columns.
+  Eigen::Index size() const { return controlColumn(intervals_ > 0 ? intervals_ + 3 : 0, 0); }
+
+  /// Row of the prior of a principal point's coordinate. All of them have the covariance
+  /// s^2 I + S^2 1 1^T: an error s of each, an offset S that they share. These rows are its inverse
+  /// square root times s: I - share 1 1^T.
+  Row principalPoint(std::size_t camera, Eigen::Index coordinate) const {
+    const auto count = static_cast<double>(wave_.cameras.size());
+    const square::Uncertainty& u = scene_.uncertainty;
+    const double all = std::hypot(u.principal_point, std::sqrt(count) * u.shared_principal_point);
+    const double share = (1.0 - u.principal_point / all) / count;
+    Row row;
+    for (std::size_t i = 0; i < wave_.cameras.size(); ++i)
+      row.emplace_back(cameraColumn(i) + coordinate, (i == camera ? 1.0 : 0.0) - share);
+    return row;
   }
 
   /// Derivatives by the control points, from those by the path's position at a time.
@@ -235,9 +261,9 @@ Eigen::MatrixXd byCameras(const std::vector<geometry::Camera>& cameras,
         geometry::pointByParameters(rig, points[p], geometry::camerasSeeing(rig, points[p]))
             .value();
     for (std::size_t i = 0; i < cameras.size(); ++i)
-      result.block<3, kTimeOffset>(3 * static_cast<Eigen::Index>(p),
-                                   kPerCamera * static_cast<Eigen::Index>(i)) =
-          slopes.middleCols<kTimeOffset>(geometry::firstParameter(i));
+      result.block<3, kWaveTimeOffset>(3 * static_cast<Eigen::Index>(p),
+                                       kPerCamera * static_cast<Eigen::Index>(i)) =
+          slopes.middleCols<kWaveTimeOffset>(geometry::firstParameter(i));
   }
   return result;
 }
@@ -256,9 +282,16 @@ WaveBound waveBound(const WaveScene& scene,
                     const std::vector<Eigen::Vector3d>& points) {
   Information information(scene, wave);
   information.addViews(pixel);
-  information.addSquareAndLenses();
+  information.addLensPriors();
+  information.addClockPriors();
+  information.addCornerPriors();
+  if (scene.square)
+    information.addCornerPixels();
+  else
+    information.addFirstCamera();
   information.addWand();
-  const Eigen::MatrixXd covariance = information.inverse();
+  information.addControlPointPriors();
+  const Eigen::MatrixXd covariance = information.camerasCovariance();
   return {covariance, rmsOf(byCameras(wave.cameras, points), covariance, points)};
 }
 

@@ -238,8 +238,8 @@ TEST(DriftWatch, TwoCamerasAreNamedBoth) {
   ASSERT_TRUE(watch.drifts()[0]);
   ASSERT_TRUE(watch.drifts()[1]);
   EXPECT_GE(watch.drifts()[0]->ratio, 1.0);
-  EXPECT_EQ(watch.drifts()[0]->together, "camera_2");
-  EXPECT_EQ(watch.drifts()[1]->together, "camera_1");
+  EXPECT_EQ(watch.drifts()[0]->or_camera, "camera_2");
+  EXPECT_EQ(watch.drifts()[1]->or_camera, "camera_1");
   // Of three pixels those across the epipolar line are seen: here nearly all.
   EXPECT_NEAR(watch.drifts()[0]->bias.norm(), 3.0, 0.5);
 }
@@ -315,7 +315,7 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   WavedLed scene(drawTruth(rig, random), 700);
   track(&scene, 0.0, 90.0, &watch, &random);
   EXPECT_TRUE(watch.takeNews().empty());
-  for (const auto& camera : watch.cameras()) {
+  for (const auto& camera : watch.healths()) {
     EXPECT_EQ(camera.second.text, "");
     EXPECT_TRUE(camera.second.tilt) << camera.first;
     EXPECT_TRUE(camera.second.drift) << camera.first;
@@ -328,15 +328,15 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   ASSERT_EQ(news.size(), 1u) << (news.empty() ? "" : news.back());
   EXPECT_SAYS(news.front(), "camera_3 ");
   EXPECT_SAYS(news.front(), "recalibrate");
-  const std::string text = watch.cameras().at("camera_3").text;
+  const std::string text = watch.healths().at("camera_3").text;
   EXPECT_SAYS(text, "tilted by");
   EXPECT_SAYS(text, "; put it back, or recalibrate this camera; drifted");
   EXPECT_EQ(text.find("put it back"), text.rfind("put it back")) << text;
-  EXPECT_EQ(watch.cameras().at("camera_1").text, "");
+  EXPECT_EQ(watch.healths().at("camera_1").text, "");
 
   scene.truth[2] = before;
   track(&scene, 180.0, 300.0, &watch, &random);
-  EXPECT_EQ(watch.cameras().at("camera_3").text, "");
+  EXPECT_EQ(watch.healths().at("camera_3").text, "");
 }
 
 TEST(HealthWatch, NoticesAnotherDevice) {
@@ -357,12 +357,12 @@ TEST(HealthWatch, NoticesAnotherDevice) {
   ASSERT_EQ(news.size(), 1u);
   EXPECT_SAYS(news.front(), "camera_2 is another device (00:1e:35:ff:ff:ff)");
   addFrom("00:1e:35:00:00:02");
-  EXPECT_EQ(watch.cameras().at("camera_2").text, "");
+  EXPECT_EQ(watch.healths().at("camera_2").text, "");
   // Cameras that are not in the rig are nobody's concern.
   image.camera = "elsewhere";
   addFrom("x");
   watch.addAcceleration("elsewhere", 0.0, {0.0, 0.0, 9.81});
-  EXPECT_EQ(watch.cameras().size(), 4u);
+  EXPECT_EQ(watch.healths().size(), 4u);
 }
 
 }  // namespace

@@ -185,11 +185,11 @@ void DriftWatch::judgePairs(const std::vector<bool>& active) {
       if (!pair)
         continue;
       for (const std::size_t i : {a, b}) {
-        const bool fits_the_others = drifts_[i] && drifts_[i]->together.empty();
+        const bool fits_the_others = drifts_[i] && drifts_[i]->or_camera.empty();
         if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
           continue;
         drifts_[i] = pair;
-        drifts_[i]->together = cameras_[i == a ? b : a].rays.name;
+        drifts_[i]->or_camera = cameras_[i == a ? b : a].rays.name;
       }
     }
   }

@@ -2,6 +2,7 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -23,8 +24,8 @@ std::string tiltText(const Tilt& tilt) {
 /// @param advise whether to say what to do
 std::string driftText(const Drift& drift, bool advise) {
   const std::string size = format("%.1f px (+- %.1f px)", drift.bias.norm(), drift.stddev);
-  if (!drift.together.empty())
-    return "drifted, or " + drift.together + " did: their rays miss each other by " + size +
+  if (!drift.or_camera.empty())
+    return "drifted, or " + drift.or_camera + " did: their rays miss each other by " + size +
            " on average" +
            (advise ? "; see which of both was moved, put it back or recalibrate it" : "");
   return "drifted: its images are " + size + " on average off what the other cameras see" +
@@ -36,77 +37,84 @@ std::string driftText(const Drift& drift, bool advise) {
 HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
     : drift_(rig, options.drift) {
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
-    const std::string& name = rig_camera.camera.name;
-    order_.push_back(name);
-    healths_[name];
-    Camera& camera = cameras_[name];
+    Watched& camera = cameras_.emplace_back();
+    camera.name = rig_camera.camera.name;
     camera.calibrated_identity = rig_camera.camera.identity;
     if (rig_camera.gravity && rig_camera.gravity->norm() > 0.0)
       camera.tilt.emplace(*rig_camera.gravity, options.tilt);
   }
 }
 
+std::map<std::string, CameraHealth> HealthWatch::healths() const {
+  std::map<std::string, CameraHealth> healths;
+  for (const Watched& camera : cameras_)
+    healths[camera.name] = camera.health;
+  return healths;
+}
+
+HealthWatch::Watched* HealthWatch::find(const std::string& name) {
+  const auto found = std::find_if(cameras_.begin(), cameras_.end(),
+                                  [&](const Watched& camera) { return camera.name == name; });
+  return found == cameras_.end() ? nullptr : &*found;
+}
+
 void HealthWatch::addImage(const capture::Image& image) {
-  const auto found = cameras_.find(image.camera);
-  if (found == cameras_.end())
+  Watched* const seen_by = find(image.camera);
+  if (!seen_by)
     return;
-  Camera& camera = found->second;
-  const bool other = !image.identity.empty() && !camera.calibrated_identity.empty() &&
-                     image.identity != camera.calibrated_identity;
+  const bool other = !image.identity.empty() && !seen_by->calibrated_identity.empty() &&
+                     image.identity != seen_by->calibrated_identity;
   const std::string other_device = other ? image.identity : "";
-  if (other_device != camera.other_device) {
-    camera.other_device = other_device;
-    describe(image.camera);
+  if (other_device != seen_by->other_device) {
+    seen_by->other_device = other_device;
+    describe(seen_by);
   }
   if (!drift_.add(image))
     return;
-  for (std::size_t i = 0; i < order_.size(); ++i) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const std::optional<Drift>& drift = drift_.drifts()[i];
     // Without a new judgement the last one stays.
     if (!drift)
       continue;
-    healths_[order_[i]].drift = drift;
-    cameras_[order_[i]].drift_alarm.judge(drift->ratio);
-    describe(order_[i]);
+    cameras_[i].health.drift = drift;
+    cameras_[i].drift_alarm.judge(drift->ratio);
+    describe(&cameras_[i]);
   }
 }
 
 void HealthWatch::addAcceleration(const std::string& name,
                                   double time,
                                   const Eigen::Vector3d& specific_force) {
-  const auto found = cameras_.find(name);
-  if (found == cameras_.end() || !found->second.tilt)
-    return;
+  Watched* const camera = find(name);
   // The accelerometer of another device cannot be compared.
-  if (!found->second.other_device.empty())
+  if (!camera || !camera->tilt || !camera->other_device.empty())
     return;
-  const auto tilt = found->second.tilt->add(time, specific_force);
+  const auto tilt = camera->tilt->add(time, specific_force);
   if (!tilt)
     return;
-  healths_[name].tilt = tilt;
-  found->second.tilt_alarm.judge(tilt->ratio);
-  describe(name);
+  camera->health.tilt = tilt;
+  camera->tilt_alarm.judge(tilt->ratio);
+  describe(camera);
 }
 
 std::vector<std::string> HealthWatch::takeNews() {
   return std::exchange(news_, {});
 }
 
-void HealthWatch::describe(const std::string& name) {
-  const Camera& camera = cameras_.at(name);
-  CameraHealth& health = healths_.at(name);
+void HealthWatch::describe(Watched* camera) {
+  CameraHealth& health = camera->health;
   const bool was_well = health.text.empty();
   std::vector<std::string> findings;
-  if (!camera.other_device.empty())
-    findings.push_back("is another device (" + camera.other_device + ") than was calibrated (" +
-                       camera.calibrated_identity + "): recalibrate this camera");
-  if (camera.tilt_alarm.on())
+  if (!camera->other_device.empty())
+    findings.push_back("is another device (" + camera->other_device + ") than was calibrated (" +
+                       camera->calibrated_identity + "): recalibrate this camera");
+  if (camera->tilt_alarm.on())
     findings.push_back(tiltText(*health.tilt) + (findings.empty() ? kAdvice : ""));
-  if (camera.drift_alarm.on())  // of several findings the first one says what to do
+  if (camera->drift_alarm.on())  // of several findings the first one says what to do
     findings.push_back(driftText(*health.drift, findings.empty()));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
-    news_.push_back(name + " " + health.text);
+    news_.push_back(camera->name + " " + health.text);
 }
 
 }  // namespace wiimote_tracker::health

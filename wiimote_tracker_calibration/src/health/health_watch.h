@@ -42,26 +42,28 @@ class HealthWatch {
                        double time,
                        const Eigen::Vector3d& specific_force);
 
-  /// By name, all cameras of the rig.
-  const std::map<std::string, CameraHealth>& cameras() const { return healths_; }
+  /// Of all cameras of the rig, by name.
+  std::map<std::string, CameraHealth> healths() const;
 
   /// New findings since the last call, one sentence per camera.
   std::vector<std::string> takeNews();
 
  private:
-  struct Camera {
+  struct Watched {
+    std::string name;
     std::string calibrated_identity;
     std::string other_device;  // Empty: the one that was calibrated.
     std::optional<TiltWatch> tilt;
     Alarm tilt_alarm;
     Alarm drift_alarm;
+    CameraHealth health;
   };
 
-  void describe(const std::string& name);
+  /// Null: not in the rig.
+  Watched* find(const std::string& name);
+  void describe(Watched* camera);
 
-  std::vector<std::string> order_;  // Of the rig.
-  std::map<std::string, Camera> cameras_;
-  std::map<std::string, CameraHealth> healths_;
+  std::vector<Watched> cameras_;  // In the rig's order.
   DriftWatch drift_;
   std::vector<std::string> news_;
 };

@@ -53,7 +53,7 @@ class HealthMonitor {
       }
       std::map<std::string, std::string> texts;
       if (watch_) {
-        for (const auto& camera : watch_->cameras())
+        for (const auto& camera : watch_->healths())
           texts[camera.first] = camera.second.text;
         for (const std::string& news : watch_->takeNews())
           ROS_WARN_STREAM(news);
@@ -90,7 +90,7 @@ class HealthMonitor {
       return;
     }
     std::vector<std::string> troubles;
-    for (const auto& camera : watch_->cameras()) {
+    for (const auto& camera : watch_->healths()) {
       const health::CameraHealth& health = camera.second;
       const std::string text = context_.status(lock).health(camera.first);
       if (!text.empty())

@@ -109,7 +109,7 @@ bool Camera::sees(const Eigen::Vector3d& point) const {
   return pixel && intrinsics.isInImage(*pixel);
 }
 
-bool haveSamePlace(const Camera& a, const Camera& b) {
+bool haveSamePose(const Camera& a, const Camera& b) {
   constexpr double kTurn = 0.002;      // some pixels [rad]
   constexpr double kDistance = 0.005;  // [m]
   const Eigen::AngleAxisd turn(a.world_from_camera.linear().transpose() *

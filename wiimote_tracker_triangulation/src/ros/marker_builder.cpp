@@ -98,7 +98,7 @@ void MarkerBuilder::setRig(const geometry::Rig& rig) {
   const bool is_same = rig.frames() == rig_.frames();
   const bool has_same_places =
       std::equal(rig.cameras.begin(), rig.cameras.end(), rig_.cameras.begin(), rig_.cameras.end(),
-                 [](const auto& a, const auto& b) { return haveSamePlace(a.camera, b.camera); });
+                 [](const auto& a, const auto& b) { return haveSamePose(a.camera, b.camera); });
   rig_ = rig;
   if (!has_same_places)
     trails_.clear();  // they may be of another world

@@ -31,7 +31,7 @@ bool haveSameClock(const geometry::RigCamera& a, const geometry::RigCamera& b) {
 }
 
 bool isSameCamera(const geometry::RigCamera& a, const geometry::RigCamera& b) {
-  return haveSameClock(a, b) && geometry::haveSamePlace(a.camera, b.camera);
+  return haveSameClock(a, b) && geometry::haveSamePose(a.camera, b.camera);
 }
 
 }  // namespace

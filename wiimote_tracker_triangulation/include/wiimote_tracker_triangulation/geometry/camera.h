@@ -76,9 +76,9 @@ struct Camera {
   bool sees(const Eigen::Vector3d& point) const;
 };
 
-/// Whether a camera stands where it stood: a better calibration turns it by less than 0.002 rad and
-/// moves it by less than 5 mm.
-bool haveSamePlace(const Camera& a, const Camera& b);
+/// Whether two poses of a camera are so alike, to 0.002 rad and 5 mm, that another calibration of a
+/// camera that was not moved explains the difference.
+bool haveSamePose(const Camera& a, const Camera& b);
 
 /// World-from-camera rotation and position of a camera at `position` [m] whose optical axis passes
 /// through `target` [m], image x axis horizontal. `up` need not be a unit vector.

@@ -51,7 +51,7 @@ State stood(const WaveScene& scene, const SimulatedWave& wave) {
   state.cameras = wave.cameras;
   state.trajectory = Trajectory(0.0, 1.0, 0.05, 2);
   state.wand_length = recording.wand->length;
-  standOnFloor({recording, optionsFor(scene), spots}, &state);
+  useFloorAsWorld({recording, optionsFor(scene), spots}, &state);
   return state;
 }
 

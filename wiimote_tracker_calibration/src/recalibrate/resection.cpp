@@ -4,7 +4,7 @@
 #include "adjust/moving_pixel.h"
 #include "adjust/prior.h"
 #include "bundle/start.h"
-#include "square/lens_prior.h"
+#include "square/lens_priors.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -221,7 +221,7 @@ class ResectionProblem {
  private:
   static ceres::CostFunction* lensCost(const Prior& prior) {
     if (!prior.lens_covariance)
-      return square::lensPrior(prior.lens, prior.uncertainty).cost();
+      return square::marginalLensPrior(prior.lens, prior.uncertainty).cost();
     const geometry::Intrinsics& lens = prior.lens;
     Eigen::VectorXd mean(adjust::kLensSize);
     mean << lens.fx, lens.fy, lens.cx, lens.cy, lens.distortion[0];

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIOR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIOR_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H
 
 #include "adjust/lens_prior.h"
 #include "adjust/prior.h"
@@ -19,8 +19,10 @@ inline bool sharesOffset(const geometry::Intrinsics& start) {
   return start.cx == common.cx && start.cy == common.cy;
 }
 
-/// Prior of a lens around its starting values, nothing being known of the other cameras' lenses.
-inline adjust::LensPrior lensPrior(const geometry::Intrinsics& start, const Uncertainty& stated) {
+/// Prior of one camera's lens around its starting values. The variance of the shared offset is in
+/// it: marginal over the offset, for a camera by itself.
+inline adjust::LensPrior marginalLensPrior(const geometry::Intrinsics& start,
+                                           const Uncertainty& stated) {
   const double shared = sharesOffset(start) ? stated.shared_principal_point : 0.0;
   return {start, stated.focal, stated.aspect, std::hypot(stated.principal_point, shared),
           stated.k1};
@@ -41,14 +43,14 @@ inline std::optional<ceres::ResidualBlockId> addSharedOffset(const Uncertainty& 
   return std::nullopt;
 }
 
-/// Adds lensPrior() to a problem that has the shared offset.
+/// Adds the prior of a lens given the shared offset to a problem that estimates the offset.
 /// @param lens block of CameraBlocks.
-inline ceres::ResidualBlockId addLensPrior(const geometry::Intrinsics& start,
-                                           const Uncertainty& stated,
-                                           double* lens,
-                                           double* offset,
-                                           ceres::Problem* problem) {
-  adjust::LensPrior own = lensPrior(start, stated);
+inline ceres::ResidualBlockId addLensPriorGivenOffset(const geometry::Intrinsics& start,
+                                                      const Uncertainty& stated,
+                                                      double* lens,
+                                                      double* offset,
+                                                      ceres::Problem* problem) {
+  adjust::LensPrior own = marginalLensPrior(start, stated);
   own.principal_point = stated.principal_point;
   return sharesOffset(start)
              ? problem->AddResidualBlock(adjust::SharedLensPrior{own}.cost(), nullptr, lens, offset)
@@ -57,4 +59,4 @@ inline ceres::ResidualBlockId addLensPrior(const geometry::Intrinsics& start,
 
 }  // namespace wiimote_tracker::square
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIOR_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H

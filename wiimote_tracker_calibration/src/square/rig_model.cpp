@@ -5,7 +5,7 @@
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
 #include "adjust/gravity.h"
-#include "square/lens_prior.h"
+#include "square/lens_priors.h"
 #include "square/square_terms.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
@@ -114,8 +114,8 @@ class RigModel::Problem {
     problem_.SetParameterBlockConstant(blocks.distortion.data());
     problem_.AddParameterBlock(&blocks.time_offset, 1);
     problem_.SetParameterBlockConstant(&blocks.time_offset);
-    addLensPrior(sightings.intrinsics, uncertainty, blocks.lens.data(), shared_offset_.data(),
-                 &problem_);
+    addLensPriorGivenOffset(sightings.intrinsics, uncertainty, blocks.lens.data(),
+                            shared_offset_.data(), &problem_);
     if (sightings.gravity)
       problem_.AddResidualBlock(
           adjust::GravityError{sightings.gravity->normalized(), model_.up(),
@@ -242,7 +242,7 @@ double RigModel::reprojectionError(const RigState& state, std::size_t camera) co
 }
 
 double RigModel::lensDeviation(const RigState& state, std::size_t camera) const {
-  return lensPrior(sightings_[camera].intrinsics, uncertainty_)
+  return marginalLensPrior(sightings_[camera].intrinsics, uncertainty_)
       .deviation(state.cameras[camera].intrinsics);
 }
 

@@ -6,7 +6,7 @@
 #include "adjust/path.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
-#include "square/lens_prior.h"
+#include "square/lens_priors.h"
 #include "square/square_terms.h"
 #include "wave/error.h"
 
@@ -103,7 +103,7 @@ class WaveProblem {
     }
   }
 
-  double misfit() {
+  double noiseRatio() {
     return std::sqrt(squaresOf(matches_) / residuals() / redundancy().value_or(1.0));
   }
 
@@ -202,8 +202,8 @@ class WaveProblem {
   void addCamera(std::size_t i) {
     adjust::CameraBlocks& camera = cameras_[i];
     const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
-    known_.push_back(square::addLensPrior(start, options_.uncertainty, camera.lens.data(),
-                                          shared_offset_.data(), &problem_));
+    known_.push_back(square::addLensPriorGivenOffset(
+        start, options_.uncertainty, camera.lens.data(), shared_offset_.data(), &problem_));
     if (i > 0)  // the first one's is held at 0: it cannot disagree
       addPrior(0.0, options_.offset, &camera.time_offset);
     problem_.SetParameterBlockConstant(camera.distortion.data());
@@ -286,7 +286,7 @@ Refinement refine(const Task& task,
   WaveProblem problem(task, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
   problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
-  return {problem.redundancy(), problem.misfit()};
+  return {problem.redundancy(), problem.noiseRatio()};
 }
 
 Agreement agreementOf(const Task& task, const std::vector<Match>& matches, State solution) {

@@ -19,7 +19,7 @@ struct Refinement {
   std::optional<double> redundancy;
   /// Square root of the mean whitened squared residual of the matches over the redundancy, if that
   /// is known: then 1 when the matches' standard deviations are right.
-  double misfit;
+  double noise_ratio;
 };
 
 /// How well corners, wand, floor and priors agree with a solution of plain least squares.

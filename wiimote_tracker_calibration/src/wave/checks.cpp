@@ -1,7 +1,7 @@
 #include "checks.h"
 
 #include "capture/moving_spots.h"
-#include "square/lens_prior.h"
+#include "square/lens_priors.h"
 #include "square/usable_cameras.h"
 #include "wave/error.h"
 
@@ -186,7 +186,7 @@ void checkLenses(const Task& task, const geometry::Rig& rig) {
   std::string worst_camera;
   for (std::size_t i = 0; i < task.recording.cameras.size(); ++i) {
     const square::CameraSightings& start = task.recording.cameras[i].sightings;
-    const double deviation = square::lensPrior(start.intrinsics, task.options.uncertainty)
+    const double deviation = square::marginalLensPrior(start.intrinsics, task.options.uncertainty)
                                  .deviation(rig.cameras[i].camera.intrinsics);
     if (deviation > worst) {
       worst = deviation;

@@ -39,14 +39,16 @@ constexpr double kGate = 5.0;
 constexpr int kFinalRounds = 8;
 // The estimated noise has converged when a round changes it by less.
 constexpr double kNoiseSettled = 0.01;
-// A jump of a clock: the least size, which is more than clocks wander during a wave [s]; the least
-// share of the squared residuals that it explains, and the largest that may be left without it;
-// rounds in which its size is found, and by how much it grows then, since the path no longer
-// follows the clock: 2 where two cameras share the path, 1.02 with 64.
+// Least jump of a clock [s]: more than clocks wander during a wave.
 constexpr double kLeastJump = 0.004;
+// Least share of the squared residuals that a jump explains, and the largest that is left without
+// it.
 constexpr double kLeastExplained = 0.1;
 constexpr double kMostLeft = 0.9;
+// Rounds in which the size of a jump is found.
 constexpr int kJumpRounds = 4;
+// Least factor by which a true jump grows in these rounds: by 2 where two cameras share the path,
+// by 1.02 where 64 do.
 constexpr double kLeastGrowth = 1.01;
 // Starts that are tried where no square gives one.
 constexpr int kAttempts = 5;
@@ -88,7 +90,7 @@ Recording prepared(Recording recording) {
 }
 
 /// Without square the world has its origin in the first camera, and z up by its accelerometer.
-void standInFirstCamera(const Recording& recording, std::vector<geometry::Camera>* cameras) {
+void useFirstCameraAsWorld(const Recording& recording, std::vector<geometry::Camera>* cameras) {
   const std::optional<Eigen::Vector3d>& gravity = recording.cameras.front().sightings.gravity;
   Eigen::Isometry3d world_from_first = Eigen::Isometry3d::Identity();
   if (gravity)
@@ -111,11 +113,18 @@ bool contradicts(const Agreement& agreement) {
                                     adjust::kThreeNines);
 }
 
-/// @throws WaveError: a clock jumped, and without the jump everything fits better.
-void checkClocks(const Task& task,
-                 const Gate& gate,
-                 const std::function<bool()>& keep_going,
-                 State state) {
+struct ClockJump {
+  std::size_t camera;  // Index in the recording.
+  double size;         // [s]
+};
+
+/// The jump of a clock without which everything fits better. The path follows a clock that jumps
+/// and hides a part of the jump. So the largest step is removed, the path is fitted again, and the
+/// step is measured again: a true one grows.
+std::optional<ClockJump> findJump(const Task& task,
+                                  const Gate& gate,
+                                  const std::function<bool()>& keep_going,
+                                  State state) {
   // Images before or after a jump may be far off.
   Gate wide = gate;
   wide.limit = kWideGates[0] / gate.pixel_stddev;
@@ -134,8 +143,7 @@ void checkClocks(const Task& task,
   const auto camera = static_cast<std::size_t>(worst - steps.begin());
   const double apparent = std::abs(worst->size);
   if (worst->explained < kLeastExplained * before || apparent < kLeastJump)
-    return;
-  // The path follows a jump in part; without it, the path shows all of it.
+    return std::nullopt;
   Task corrected = task;
   Matching matching;
   for (int round = 0; round < kJumpRounds; ++round) {
@@ -144,21 +152,43 @@ void checkClocks(const Task& task,
       frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
     matching = matchSpots(corrected.recording, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
-      return;  // not a step: the camera would fit nowhere
+      return std::nullopt;  // not a step: the camera would fit nowhere
     refine(corrected, matching.matches, kInfinity, keep_going, &state);
     steps = stepsOf(task.recording);
   }
   if (std::abs(steps[camera].size) < kLeastGrowth * apparent ||
       squared(stepsOf(corrected.recording)) > kMostLeft * before ||
       contradicts(agreementOf(corrected, matching.matches, state)))
-    return;
-  const std::vector<CameraRecording>& cameras = task.recording.cameras;
-  const bool two = cameras.size() == 2;
-  throw WaveError("the clock of " + cameras[two ? 0 : camera].sightings.name +
-                  (two ? " or " + cameras[1].sightings.name : "") +
+    return std::nullopt;
+  return ClockJump{camera, steps[camera].size};
+}
+
+[[noreturn]] void refuse(const ClockJump& jump, const Recording& recording) {
+  // Of two cameras either clock may have jumped.
+  const bool two = recording.cameras.size() == 2;
+  const auto name = [&](std::size_t camera) { return recording.cameras[camera].sightings.name; };
+  throw WaveError("the clock of " + (two ? name(0) + " or " + name(1) : name(jump.camera)) +
                   format(" jumped by about %.0f ms during the wave: check the time of its computer "
                          "and its driver, and wave again",
-                         1e3 * std::abs(steps[camera].size)));
+                         1e3 * std::abs(jump.size)));
+}
+
+WaveSolution summarise(const Task& task,
+                       const State& state,
+                       const Matching& matching,
+                       const Refinement& refinement,
+                       double pixel_stddev) {
+  WaveSolution solution = solutionOf(task, state, matching);
+  solution.pixel_stddev = pixel_stddev;
+  // The fit follows the noise in part: divided by the redundancy, the residuals tell all of it.
+  for (geometry::RigCamera& camera : solution.rig.cameras) {
+    camera.residual_px /= std::sqrt(refinement.redundancy.value_or(1.0));
+    camera.residual_m /= std::sqrt(refinement.redundancy.value_or(1.0));
+  }
+  const Agreement agreement = agreementOf(task, matching.matches, state);
+  solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
+  solution.contradicts = contradicts(agreement);
+  return solution;
 }
 
 /// Alternates matching and adjusting until neither changes.
@@ -173,13 +203,13 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   };
   Matching matching;
   Refinement refinement{};
-  // Returns the misfit.
+  // Returns the noise over that of the gate.
   const auto matchAndRefine = [&](const Gate& gate, double loss_scale) {
     matching = matchSpots(task.recording, state, gate);
     checkMatching(task.recording, matching);
     refinement = refine(task, matching.matches, loss_scale, keep_going, &state);
     // Without redundancy it is no reason to expect less noise.
-    return refinement.redundancy ? refinement.misfit : std::max(1.0, refinement.misfit);
+    return refinement.redundancy ? refinement.noise_ratio : std::max(1.0, refinement.noise_ratio);
   };
   const double stamp = std::hypot(options.stamp, options.wander);
   for (std::size_t round = 0; round < std::size(kWideGates); ++round)
@@ -188,28 +218,19 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   double pixel_stddev = options.pixel;
   for (int round = 0; round < kFinalRounds; ++round) {
     const std::vector<Match> before = std::move(matching.matches);
-    const double misfit = matchAndRefine({pixel_stddev, stamp, kGate}, kInfinity);
-    if (round > 0 && sameSpots(matching.matches, before) && std::abs(misfit - 1.0) < kNoiseSettled)
+    const double ratio = matchAndRefine({pixel_stddev, stamp, kGate}, kInfinity);
+    if (round > 0 && sameSpots(matching.matches, before) && std::abs(ratio - 1.0) < kNoiseSettled)
       break;
-    pixel_stddev *= misfit;
+    pixel_stddev *= ratio;
   }
-  checkClocks(task, {pixel_stddev, stamp, kGate}, keep_going, state);
+  if (const auto jump = findJump(task, {pixel_stddev, stamp, kGate}, keep_going, state))
+    refuse(*jump, task.recording);
   checkNoise(options, pixel_stddev);
   if (!task.floor.empty()) {
-    standOnFloor(task, &state);
+    useFloorAsWorld(task, &state);
     refinement = refine(task, matching.matches, kInfinity, keep_going, &state);
   }
-  WaveSolution solution = solutionOf(task, state, matching);
-  solution.pixel_stddev = pixel_stddev;
-  // The fit follows the noise in part: divided by the redundancy, the residuals tell all of it.
-  for (geometry::RigCamera& camera : solution.rig.cameras) {
-    camera.residual_px /= std::sqrt(refinement.redundancy.value_or(1.0));
-    camera.residual_m /= std::sqrt(refinement.redundancy.value_or(1.0));
-  }
-  const Agreement agreement = agreementOf(task, matching.matches, state);
-  solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
-  solution.contradicts = contradicts(agreement);
-  return solution;
+  return summarise(task, state, matching, refinement, pixel_stddev);
 }
 
 /// From a start to a solution that passed all checks.
@@ -217,7 +238,7 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, Reporter* reporter) {
   const Recording& recording = task.recording;
   reporter->report("following the LED", kStartDone);
   if (!recording.square)
-    standInFirstCamera(recording, &poses.cameras);
+    useFirstCameraAsWorld(recording, &poses.cameras);
   State state;
   state.trajectory = startPath(recording, task.options, &poses);
   state.cameras = poses.cameras;

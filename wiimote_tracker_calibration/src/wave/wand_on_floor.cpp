@@ -225,7 +225,7 @@ void checkStart(const Task& task, const State& state) {
     throw WaveError(*found.mislaid);  // another start may tell otherwise
 }
 
-void standOnFloor(const Task& task, State* state) {
+void useFloorAsWorld(const Task& task, State* state) {
   Found found = findWand(task, *state, kBySolution);
   if (found.mislaid)
     throw WandMislaid(*found.mislaid);

@@ -12,7 +12,7 @@ namespace wiimote_tracker::wave {
 FloorSpots takeFloor(Recording* recording);
 
 /// Whether the wand is far from how it must lie, by rough cameras in metres, before the adjustment.
-/// @throws WaveError: see standOnFloor().
+/// @throws WaveError: see useFloorAsWorld().
 void checkStart(const Task& task, const State& state);
 
 /// Moves the state, known up to a rigid motion, into the world of the wand on the floor, which it
@@ -20,7 +20,7 @@ void checkStart(const Task& task, const State& state);
 /// is the mean up of the accelerometers.
 /// @throws WandMislaid: the spots are not those of the wand, its ends are about as far from the
 /// first camera, or it was not level. WaveContradiction: the accelerometers contradict one another.
-void standOnFloor(const Task& task, State* state);
+void useFloorAsWorld(const Task& task, State* state);
 
 }  // namespace wiimote_tracker::wave
 

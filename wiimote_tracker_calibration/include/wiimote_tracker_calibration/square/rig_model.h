@@ -13,7 +13,8 @@
 
 namespace wiimote_tracker::square {
 
-/// Prior standard deviations, > 0 unless stated otherwise.
+/// Standard deviations of the measurements (pixel, gravity) and of the priors (the rest), > 0
+/// unless stated otherwise.
 struct Uncertainty {
   double pixel = 0.2;            ///< Of a captured corner in an image, per axis [px].
   double placement = 0.005;      ///< Of the LED put on a corner, per horizontal axis [m].

@@ -1,5 +1,7 @@
 #include "motion/textbook_imm.h"
 
+#include "motion/modes.h"
+
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -15,6 +17,7 @@ using Eigen::VectorXd;
 constexpr int kResting = 2;  // fixed, swaying; then the moving modes
 constexpr int kMoving = 5;
 constexpr int kModes = kResting + kMoving;
+static_assert(kModes == motion::kModes, "this reference needs each mode of the filter, too");
 
 MatrixXd blocks(double pp, double vv, double aa) {
   VectorXd diagonal(9);

@@ -269,50 +269,50 @@ TEST(CornerCapture, ImagesBeforeTheStartAndOfOtherCamerasAreIgnored) {
 
 TEST(CameraMonitor, RateAndSpotOfACameraThatSeesTheLed) {
   CameraMonitor monitor;
-  EXPECT_FALSE(monitor.view(0.0).connected);
-  EXPECT_SAYS(monitor.view(0.0).problem, "sends no images");
+  EXPECT_FALSE(monitor.summary(0.0).connected);
+  EXPECT_SAYS(monitor.summary(0.0).problem, "sends no images");
   for (int i = 0; i <= 300; ++i)
     monitor.add(i * kPeriod, one(i, 7), i * kPeriod);
-  const CameraView view = monitor.view(3.0);
-  EXPECT_TRUE(view.connected);
-  EXPECT_TRUE(view.sees_led);
-  EXPECT_NEAR(view.rate, 100.0, 1e-6);
-  EXPECT_EQ(view.pixel, Eigen::Vector2d(300, 7));
-  EXPECT_EQ(view.problem, "");
-  EXPECT_FALSE(monitor.view(4.5).connected);  // the images stopped
-  EXPECT_TRUE(monitor.view(4.5, 2.0).connected);
+  const CameraSummary summary = monitor.summary(3.0);
+  EXPECT_TRUE(summary.connected);
+  EXPECT_TRUE(summary.sees_led);
+  EXPECT_NEAR(summary.rate, 100.0, 1e-6);
+  EXPECT_EQ(summary.pixel, Eigen::Vector2d(300, 7));
+  EXPECT_EQ(summary.problem, "");
+  EXPECT_FALSE(monitor.summary(4.5).connected);  // the images stopped
+  EXPECT_TRUE(monitor.summary(4.5, 2.0).connected);
   monitor.add(3.01, {}, 3.01);
-  EXPECT_FALSE(monitor.view(3.01).sees_led);
+  EXPECT_FALSE(monitor.summary(3.01).sees_led);
 }
 
 TEST(CameraMonitor, SaysWhatIsWrong) {
   CameraMonitor two;
   two.add(0.0, {Eigen::Vector2d(1, 1), Eigen::Vector2d(2, 2)}, 0.0);
-  EXPECT_EQ(two.view(0.0).blobs, 2U);
-  EXPECT_SAYS(two.view(0.0).problem, "sees 2 spots");
+  EXPECT_EQ(two.summary(0.0).blobs, 2U);
+  EXPECT_SAYS(two.summary(0.0).problem, "sees 2 spots");
   CameraMonitor none;
   none.add(0.0, {}, 0.0);
-  EXPECT_SAYS(none.view(0.0).problem, "sees no spot");
+  EXPECT_SAYS(none.summary(0.0).problem, "sees no spot");
   CameraMonitor flicker;
   for (int i = 0; i < 50; ++i)
     flicker.add(i * kPeriod, i % 2 == 0 ? Blobs() : one(1, 1), i * kPeriod);
-  EXPECT_FALSE(flicker.view(0.5).sees_led);
-  EXPECT_SAYS(flicker.view(0.5).problem, "50 % of its images only");
-  EXPECT_TRUE(std::isnan(flicker.view(0.5).pixel.x()));
+  EXPECT_FALSE(flicker.summary(0.5).sees_led);
+  EXPECT_SAYS(flicker.summary(0.5).problem, "50 % of its images only");
+  EXPECT_TRUE(std::isnan(flicker.summary(0.5).pixel.x()));
 }
 
 TEST(CameraMonitor, NamesMissingStamps) {
   CameraMonitor monitor;
   monitor.add(0.0, {{100.0, 100.0}}, 1.7e9);
-  EXPECT_SAYS(monitor.view(1.7e9).problem, "without stamps");
+  EXPECT_SAYS(monitor.summary(1.7e9).problem, "without stamps");
 }
 
 TEST(CameraMonitor, NamesAClockThatIsBehind) {
   CameraMonitor monitor;
   for (int i = 0; i <= 50; ++i)
     monitor.add(i * kPeriod, one(1, 1), i * kPeriod + 7.0);
-  EXPECT_SAYS(monitor.view(7.6).problem, "7.0 s old by their stamps");
-  EXPECT_SAYS(monitor.view(20.0).problem, "sends no images");
+  EXPECT_SAYS(monitor.summary(7.6).problem, "7.0 s old by their stamps");
+  EXPECT_SAYS(monitor.summary(20.0).problem, "sends no images");
 }
 
 TEST(CameraMonitor, ForgetsWhatAShortBagShowedBeforeItStartedOver) {
@@ -320,8 +320,8 @@ TEST(CameraMonitor, ForgetsWhatAShortBagShowedBeforeItStartedOver) {
   for (int i = 0; i <= 300; ++i)
     monitor.add(i * kPeriod, one(1, 1), i * kPeriod);
   monitor.add(0.5, one(1, 1), 0.5);
-  EXPECT_TRUE(monitor.view(1.0).connected);
-  EXPECT_FALSE(monitor.view(2.0).connected) << "the images stopped";
+  EXPECT_TRUE(monitor.summary(1.0).connected);
+  EXPECT_FALSE(monitor.summary(2.0).connected) << "the images stopped";
 }
 
 TEST(Image, SpotsOutsideOfItAreRemoved) {

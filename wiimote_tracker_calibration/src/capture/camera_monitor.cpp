@@ -6,8 +6,8 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-// Least share of images with exactly one spot: at the edge of the field of view the LED is missed
-// now and then.
+// Least share of images with exactly one spot: at the edge of the field of summary the LED is
+// missed now and then.
 constexpr double kShareWithOneSpot = 0.9;
 
 }  // namespace
@@ -45,8 +45,8 @@ void CameraMonitor::add(double time, const Blobs& blobs, double arrival) {
     images_.pop_front();
 }
 
-CameraView CameraMonitor::view(double now, double window) const {
-  CameraView view;
+CameraSummary CameraMonitor::summary(double now, double window) const {
+  CameraSummary summary;
   std::size_t count = 0;
   std::size_t with_one_spot = 0;
   double first = 0.0;
@@ -60,28 +60,29 @@ CameraView CameraMonitor::view(double now, double window) const {
   }
   if (count == 0) {
     if (!images_.empty() && (images_.back().time <= 0.0 || arrival_ >= now - window))
-      view.problem = stampProblem(images_.back().time, arrival_ - images_.back().time);
-    if (view.problem.empty())
-      view.problem = kSendsNoImages;
-    return view;
+      summary.problem = stampProblem(images_.back().time, arrival_ - images_.back().time);
+    if (summary.problem.empty())
+      summary.problem = kSendsNoImages;
+    return summary;
   }
 
-  view.connected = true;
+  summary.connected = true;
   const double duration = images_.back().time - first;
   if (duration > 0.0)
-    view.rate = static_cast<double>(count - 1) / duration;
-  view.blobs = images_.back().blobs;
-  if (view.blobs != 1) {
-    view.problem = spotCountProblem(view.blobs);
+    summary.rate = static_cast<double>(count - 1) / duration;
+  summary.blobs = images_.back().blobs;
+  if (summary.blobs != 1) {
+    summary.problem = spotCountProblem(summary.blobs);
   } else if (static_cast<double>(with_one_spot) < kShareWithOneSpot * static_cast<double>(count)) {
-    view.problem = "sees exactly one spot in " + std::to_string(100 * with_one_spot / count) +
-                   " % of its images only: bring the LED nearer or turn it towards the camera, and "
-                   "remove other lights";
+    summary.problem =
+        "sees exactly one spot in " + std::to_string(100 * with_one_spot / count) +
+        " % of its images only: bring the LED nearer or turn it towards the camera, and "
+        "remove other lights";
   } else {
-    view.sees_led = true;
-    view.pixel = first_blob_;
+    summary.sees_led = true;
+    summary.pixel = first_blob_;
   }
-  return view;
+  return summary;
 }
 
 }  // namespace wiimote_tracker::capture

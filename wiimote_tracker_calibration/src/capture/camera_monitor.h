@@ -12,7 +12,7 @@
 namespace wiimote_tracker::capture {
 
 /// The recent images of one camera, summarised.
-struct CameraView {
+struct CameraSummary {
   bool connected = false;                                  ///< Images arrive.
   double rate = std::numeric_limits<double>::quiet_NaN();  ///< [Hz]; NaN until two images came.
   std::size_t blobs = 0;                                   ///< In the latest image.
@@ -33,7 +33,7 @@ class CameraMonitor {
   void add(double time, const Blobs& blobs, double arrival);
 
   /// Summary of the images of the last `window` seconds (up to kMemory).
-  CameraView view(double now, double window = 1.0) const;
+  CameraSummary summary(double now, double window = 1.0) const;
 
  private:
   struct Image {

@@ -69,21 +69,21 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
     waved = calibration.wave()->report().cameras;
   std::vector<CalibrationCameraStatus> result;
   for (const auto& entry : cameras) {
-    const capture::CameraView view = entry.second.monitor.view(now, window);
+    const capture::CameraSummary summary = entry.second.monitor.summary(now, window);
     CalibrationCameraStatus status;
     status.name = entry.first;
     status.identity = entry.second.identity;
-    status.connected = view.connected;
-    status.rate = view.rate;
-    status.blobs = static_cast<std::uint32_t>(view.blobs);
-    status.sees_led = view.sees_led;
-    status.x = view.pixel.x();
-    status.y = view.pixel.y();
+    status.connected = summary.connected;
+    status.rate = summary.rate;
+    status.blobs = static_cast<std::uint32_t>(summary.blobs);
+    status.sees_led = summary.sees_led;
+    status.x = summary.pixel.x();
+    status.y = summary.pixel.y();
     status.image_coverage = kNan;
     status.speed = kNan;
     status.wave_seconds = kNan;
-    if (!view.connected || !isRight(view.blobs, calibration))
-      status.problem = view.problem;
+    if (!summary.connected || !isRight(summary.blobs, calibration))
+      status.problem = summary.problem;
     addContribution(calibration, &status);
     addWave(waved, &status);
     result.push_back(status);

@@ -89,7 +89,7 @@ class CaptureServices {
       throw Refusal("no camera is there: start the drivers");
     std::vector<std::string> problems;
     for (const auto& [name, input] : context_.inputs().cameras()) {
-      const std::string problem = input.monitor.view(NodeContext::now(), duration).problem;
+      const std::string problem = input.monitor.summary(NodeContext::now(), duration).problem;
       if (!problem.empty())
         problems.push_back(name + " " + problem);
     }

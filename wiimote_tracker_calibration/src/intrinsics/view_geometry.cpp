@@ -15,8 +15,8 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-// Largest misfit, as a share of the board's size: distortion bends the mapping by some percent.
-constexpr double kLargestMisfit = 0.06;
+// Largest error_px, as a share of the board's size: distortion bends the mapping by some percent.
+constexpr double kLargestError = 0.06;
 
 Eigen::Vector2d mapped(const cv::Mat& homography, const Eigen::Vector3d& point) {
   const cv::Matx33d h(homography.ptr<double>());
@@ -81,8 +81,8 @@ ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::
     if (const auto& pixel = view.pixels[static_cast<std::size_t>(led)])
       sum += (mapped(homography, board.position(led)) - *pixel).squaredNorm();
   }
-  const double misfit = std::sqrt(sum / static_cast<double>(plane.size()));
-  if (!(misfit / std::max(geometry.size(), 1.0) < kLargestMisfit))
+  const double error_px = std::sqrt(sum / static_cast<double>(plane.size()));
+  if (!(error_px / std::max(geometry.size(), 1.0) < kLargestError))
     throw Error(name +
                 " is no 4 x 4 grid: check that each LED of the board is where its "
                 "number says, and that the board is flat");

@@ -206,7 +206,7 @@ class ResectionProblem {
   }
 
   /// Root mean square of the whitened residuals of the matches.
-  double misfit() {
+  double noiseRatio() {
     ceres::Problem::EvaluateOptions options;
     options.residual_blocks = matches_;
     double half_sum = 0.0;
@@ -266,7 +266,7 @@ Fit resect(const SeenPath& path,
     matchSpots(path, images, 0.0, options.wander, &fit);
     ResectionProblem problem(fit, prior);
     problem.solve(&fit);
-    const double ratio = problem.misfit();
+    const double ratio = problem.noiseRatio();
     fit.pixel_stddev *= ratio;
     if (std::abs(ratio - 1.0) < kNoiseTolerance &&
         std::abs(fit.time_offset - offset) < kOffsetTolerance)

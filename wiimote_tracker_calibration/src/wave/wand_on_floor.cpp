@@ -37,7 +37,8 @@ struct Measured {
   std::array<Eigen::Vector3d, 2> leds;
   double length = 0.0;    ///< [m]
   double error_px = 0.0;  ///< Larger of the LEDs' reprojection errors.
-  double misfit = 0.0;    ///< Larger of the errors, of spots and length, over kBySolution's limit.
+  double error_over_limit =
+      0.0;  ///< Larger of the errors, of spots and length, over kBySolution's limit.
 };
 
 /// Nothing where the spots have no common point.
@@ -58,8 +59,9 @@ std::optional<Measured> measure(const std::vector<geometry::Camera>& cameras,
     result.error_px = std::max(result.error_px, point->reprojection_error);
   }
   result.length = (result.leds[1] - result.leds[0]).norm();
-  result.misfit = std::max(result.error_px / kBySolution.spot,
-                           std::abs(result.length - length) / (kBySolution.length * length));
+  result.error_over_limit =
+      std::max(result.error_px / kBySolution.spot,
+               std::abs(result.length - length) / (kBySolution.length * length));
   return result;
 }
 
@@ -76,7 +78,7 @@ FloorSpots inOneOrder(const std::vector<geometry::Camera>& cameras,
     swapped[i] = {(*seen[i])[1], (*seen[i])[0]};
     const auto other = measure(cameras, swapped, length);
     const auto as_is = measure(cameras, spots, length);
-    if (other && (!as_is || other->misfit < as_is->misfit))
+    if (other && (!as_is || other->error_over_limit < as_is->error_over_limit))
       spots = swapped;
   }
   return spots;

@@ -369,6 +369,12 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   rig.cameras[2].time_offset_epoch = 5;
   rig.cameras[3].masks = {{{1000.0, 20.0}, 5.0}};
   load(rig);
+  const Eigen::Vector3d place(1.25, 1.25, 1.0);
+  putLed(place);
+  AddKnownPlace::Request known;
+  known.known = pointOf(place);
+  const auto measured = call<AddKnownPlace>("calibration/known_places/add", known);
+  ASSERT_TRUE(measured.success) << measured.message;
   cameras_->waveLed(true);
   ASSERT_TRUE(
       waitUntil([] { return health("camera_3").find("continuous/apply") != std::string::npos; }));
@@ -388,6 +394,8 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   EXPECT_LT(continuous::movementOf(rig, result, middle), 0.00022);
   EXPECT_EQ(result.cameras[2].time_offset_epoch, 0U);
   EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.002);
+  // What was measured stays.
+  EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message, "1 known point");
   // Back, once, though the masks were cleared meanwhile; they stay so.
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
   rig.cameras[3].masks.clear();

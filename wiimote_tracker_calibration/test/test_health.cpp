@@ -339,6 +339,28 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   EXPECT_EQ(watch.healths().at("camera_3").text, "");
 }
 
+TEST(HealthWatch, FindingsStayWhenTheRigIsAdjustedAndEndWhenItIsSolvedAnew) {
+  Random random(33);
+  geometry::Rig rig = paperRigWith(calibratedByWave());
+  rig.solved_at = WavedLed::kClock;
+  HealthWatch watch(rig, {});
+  WavedLed scene(drawTruth(rig, random), 701);
+  scene.truth[2] = turned(scene.truth[2], Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
+  track(&scene, 0.0, 90.0, &watch, &random);
+  ASSERT_EQ(watch.takeNews().size(), 1u);
+  const std::string text = watch.healths().at("camera_3").text;
+
+  rig.cameras[0].camera.world_from_camera.translation().x() += 0.0002;
+  EXPECT_TRUE(watch.follow(rig));
+  EXPECT_EQ(watch.healths().at("camera_3").text, text);
+  track(&scene, 90.0, 120.0, &watch, &random);
+  EXPECT_TRUE(watch.takeNews().empty());
+  EXPECT_SAYS(watch.healths().at("camera_3").text, "tilted by");
+
+  rig.solved_at += 100.0;
+  EXPECT_FALSE(watch.follow(rig));
+}
+
 TEST(HealthWatch, NoticesAnotherDevice) {
   Random random(32);
   const geometry::Rig rig = paperRigWith(calibratedByWave());

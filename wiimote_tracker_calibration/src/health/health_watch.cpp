@@ -35,7 +35,7 @@ std::string driftText(const Drift& drift, bool advise) {
 }  // namespace
 
 HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
-    : drift_(rig, options.drift) {
+    : options_(options), solved_at_(rig.solved_at), drift_(rig, options.drift) {
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     Watched& camera = cameras_.emplace_back();
     camera.name = rig_camera.camera.name;
@@ -43,6 +43,19 @@ HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
     if (rig_camera.gravity && rig_camera.gravity->norm() > 0.0)
       camera.tilt.emplace(*rig_camera.gravity, options.tilt);
   }
+}
+
+bool HealthWatch::follow(const geometry::Rig& rig) {
+  const bool is_same =
+      std::equal(cameras_.begin(), cameras_.end(), rig.cameras.begin(), rig.cameras.end(),
+                 [](const Watched& watched, const geometry::RigCamera& now) {
+                   return watched.name == now.camera.name &&
+                          watched.calibrated_identity == now.camera.identity;
+                 });
+  if (!is_same || rig.solved_at != solved_at_)
+    return false;
+  drift_ = DriftWatch(rig, options_.drift);
+  return true;
 }
 
 std::map<std::string, CameraHealth> HealthWatch::healths() const {

@@ -34,6 +34,10 @@ class HealthWatch {
  public:
   HealthWatch(const geometry::Rig& rig, const HealthOptions& options);
 
+  /// Goes on with a rig that was changed since it was solved, as by continuous calibration: what
+  /// was found of its cameras stays. @returns false if it was solved anew: nothing has changed.
+  bool follow(const geometry::Rig& rig);
+
   /// One image of any camera.
   void addImage(const capture::Image& image);
 
@@ -63,6 +67,8 @@ class HealthWatch {
   Watched* find(const std::string& name);
   void describe(Watched* camera);
 
+  HealthOptions options_;
+  double solved_at_;              // [s]
   std::vector<Watched> cameras_;  // In the rig's order.
   DriftWatch drift_;
   std::vector<std::string> news_;

@@ -147,6 +147,7 @@ class ContinuousServices {
       return;
     const geometry::Rig rig = continuous::appliedRig(*next, before);
     in_use_ = changes_.back().id = idWithoutMasks(rig);
+    context_.knownPlaces(lock).renameRig(before.id(), rig.id());
     const bool is_reached = approach_->isReached();
     if (is_reached)
       approach_.reset();

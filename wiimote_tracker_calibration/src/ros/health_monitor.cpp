@@ -46,10 +46,7 @@ class HealthMonitor {
       const std::string id = rig ? rig->id() : "";
       if (id != rig_id_) {
         rig_id_ = id;
-        watch_.reset();
-        unknown_cameras_.clear();
-        if (rig)
-          watch_.emplace(*rig, context_.parameters(lock).health);
+        useRig(rig, lock);
       }
       std::map<std::string, std::string> texts;
       if (watch_) {
@@ -62,6 +59,15 @@ class HealthMonitor {
       context_.status(lock).setHealth(texts);
     }
     diagnostics_.update();
+  }
+
+  void useRig(const std::optional<geometry::Rig>& rig, const Lock& lock) {
+    if (rig && watch_ && watch_->follow(*rig))
+      return;
+    watch_.reset();
+    unknown_cameras_.clear();
+    if (rig)
+      watch_.emplace(*rig, context_.parameters(lock).health);
   }
 
   /// Judging drift takes longer than images may wait.

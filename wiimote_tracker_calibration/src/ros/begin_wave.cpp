@@ -8,20 +8,21 @@ namespace wiimote_tracker {
 
 namespace {
 
-/// The cameras of a session with their starting intrinsics, and with poses if its square determines
-/// them. @returns whether they have poses.
-bool knownCameras(session::Session session,
+/// The cameras of a recording with their starting intrinsics, and with poses if its square
+/// determines them. @returns whether they have poses.
+bool knownCameras(const wave::Recording& recording,
                   const session::SolveOptions& options,
                   std::vector<geometry::Camera>* cameras) {
-  for (wave::CameraRecording& recording : session.recording.cameras) {
-    recording.frames.clear();
-    cameras->push_back(recording.sightings.camera());
+  std::vector<square::CameraSightings> sightings = recording.sightings();
+  for (square::CameraSightings& camera : sightings) {
+    cameras->push_back(camera.camera());
+    if (!options.use_gravity)
+      camera.gravity.reset();
   }
-  session.recording.wand.reset();
-  if (!session.recording.square)
+  if (!recording.square)
     return false;
   try {
-    const geometry::Rig rig = session::solveSession(session, options).rig;
+    const geometry::Rig rig = square::solveSquare(*recording.square, sightings, options.square).rig;
     for (geometry::Camera& camera : *cameras) {
       const geometry::RigCamera* solved = rig.find(camera.name);
       if (solved == nullptr)
@@ -51,11 +52,10 @@ workflow::Reply beginWave(const std::optional<wave::Wand>& wand, NodeContext* co
   workflow::Calibration& calibration = context->calibration(*lock);
   const std::vector<std::string> names = calibration.cameras();
   const std::size_t corners = calibration.square().corners().size();
-  session::SolveOptions options = context->parameters(*lock).solve;
-  options.correct_principal_points = false;
+  const session::SolveOptions options = context->parameters(*lock).solve;
   std::vector<geometry::Camera> cameras;
   const bool posed =
-      context->compute(lock, [&] { return knownCameras(captured, options, &cameras); });
+      context->compute(lock, [&] { return knownCameras(captured.recording, options, &cameras); });
   if (calibration.cameras() != names || calibration.square().corners().size() != corners)
     throw Refusal("what was captured has changed meanwhile: start the wave again");
   return calibration.beginWave(cameras, posed, wand, NodeContext::now());

@@ -158,6 +158,19 @@ TEST_F(JoinRigs, ExactRigsMakeAnExactOne) {
   EXPECT_LT((joined.rig.covariance.topLeftCorner(64, 64) - first_.covariance).norm(), 1e-15);
 }
 
+TEST_F(JoinRigs, WhatIsLostIsNamed) {
+  EXPECT_EQ(joinRigs(first_, second_).message.find("left out"), std::string::npos);
+  first_.zones = {{"door", Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
+  first_.remap.emplace();
+  second_.zones = {{"desk", Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
+  const JoinedRigs joined = joinRigs(first_, second_);
+  EXPECT_SAYS(joined.message, "the zones of the second rig (desk) are left out");
+  EXPECT_SAYS(joined.message, "corrections of the volume are left out");
+  EXPECT_FALSE(joined.rig.remap);
+  ASSERT_EQ(joined.rig.zones.size(), 1U);
+  EXPECT_EQ(joined.rig.zones[0].name, "door");
+}
+
 TEST_F(JoinRigs, TheVerdictIsNoBetterThanThoseOfBoth) {
   first_.verdict = "good; points are known to 2 mm";
   second_.verdict = "good";

@@ -48,6 +48,7 @@ JoinedRigs finish(const geometry::Rig& first,
                std::sqrt(motion.chi_squared / motion.degrees_of_freedom));
   else
     result.message += "; a second shared camera would check that it did not move in between";
+  result.message += lostByJoining(first, second);
   result.rig.verdict = joinedVerdict(first, second, result.message);
   return result;
 }

@@ -162,7 +162,7 @@ JoinedRooms joinRooms(const geometry::Rig& first,
           second.cameras.size(), first.cameras.size(), result.passages,
           result.passages == 1 ? "passage" : "passages", left_out.c_str(),
           100.0 * result.position_stddev, result.rotation_stddev / kDegree) +
-      adviceFor(problem, fit, middle);
+      adviceFor(problem, fit, middle) + lostByJoining(first, second);
   result.rig.verdict = joinedVerdict(first, second, result.message);
   return result;
 }

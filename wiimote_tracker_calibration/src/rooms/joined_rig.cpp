@@ -3,6 +3,7 @@
 #include "session/grade.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::rooms {
 
@@ -86,6 +88,7 @@ geometry::Rig joinedRig(const geometry::Rig& first,
   const Eigen::Isometry3d& moved = motion.first_from_second;
   const Eigen::Index errors = motion.by_errors.cols();
   geometry::Rig rig = first;
+  rig.remap.reset();
   const Eigen::Index known = first.covariance.rows();
   // The result's errors by those of both rigs and of what they share.
   Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(known + second.covariance.rows(), errors);
@@ -119,6 +122,20 @@ geometry::Rig joinedRig(const geometry::Rig& first,
   rig.method = first.method + " joined with " + second.method;
   rig.check();
   return rig;
+}
+
+std::string lostByJoining(const geometry::Rig& first, const geometry::Rig& second) {
+  std::string clause;
+  if (!second.zones.empty()) {
+    std::vector<std::string> names;
+    for (const geometry::Zone& zone : second.zones)
+      names.push_back(zone.name);
+    clause += "; the zones of the second rig (" + joined(names) +
+              ") are left out: enter them in the world of the first";
+  }
+  if (first.remap || second.remap)
+    clause += "; corrections of the volume are left out: measure known places and fit one again";
+  return clause;
 }
 
 std::string joinedVerdict(const geometry::Rig& first,

@@ -25,13 +25,17 @@ struct ClockShift {
 /// From shared cameras with known time offsets.
 ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second);
 
-/// The first rig with the second's other cameras, moved into its world. The joint covariance is to
-/// first order. The verdict is left to the caller (joinedVerdict()).
+/// The first rig with the second's other cameras, moved into its world, without corrections of the
+/// volume. The joint covariance is to first order. The verdict is left to the caller
+/// (joinedVerdict()).
 /// @throws geometry::InvalidRigError as Rig::check().
 geometry::Rig joinedRig(const geometry::Rig& first,
                         const geometry::Rig& second,
                         const RigMotion& motion,
                         const ClockShift& clock);
+
+/// A clause about what of two rigs joinedRig() leaves out, and what to do; empty: nothing.
+std::string lostByJoining(const geometry::Rig& first, const geometry::Rig& second);
 
 /// That of a joined rig, which is no better than its parts. @param message how they were joined.
 std::string joinedVerdict(const geometry::Rig& first,

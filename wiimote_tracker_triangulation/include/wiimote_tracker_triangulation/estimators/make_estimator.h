@@ -4,7 +4,7 @@
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
-#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
+#include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <memory>
 
@@ -22,8 +22,12 @@ struct EstimatorOptions {
 };
 
 /// @throws geometry::InvalidRigError (see Rig::check).
-std::unique_ptr<tracking::Estimator> makeEstimator(const geometry::Rig& rig,
-                                                   const EstimatorOptions& options);
+inline std::unique_ptr<tracking::Estimator> makeEstimator(const geometry::Rig& rig,
+                                                          const EstimatorOptions& options) {
+  if (options.mode == Mode::kInstant)
+    return std::make_unique<fusion::InstantFuser>(rig, options.instant);
+  return std::make_unique<tracking::Tracker>(rig, options.tracks);
+}
 
 }  // namespace wiimote_tracker::estimators
 

@@ -65,6 +65,14 @@ def test_odometry_that_drifts():
     assert 0.7 < normalised < 1.5
 
 
+def test_odometry_that_pauses():
+    body, base = simulate(np.random.default_rng(7))
+    base = base.chosen(np.abs(base.times - base.times[600]) > 1.5)
+    found = hand_eye.solve(body, base)
+    assert (np.abs(error_of(found)) < 3.0 * found.stddev()).all()
+    assert np.abs(error_of(found)).max() < 0.002
+
+
 def test_imu_reaches_the_bound():
     random = np.random.default_rng(5)
     ratio, errors, normalised = check(inertial.solve, lambda: with_imu(random),

@@ -63,13 +63,15 @@ class Poses:
 
 
 def smoothed(poses, neighbours=9):
-    """On a grid of a quarter of the median interval: local quadratic regression.
+    """On a grid of a quarter of the median interval, without pauses: local quadratic regression.
 
     Between two noisy poses, linear interpolation is less noisy in the middle than at the ends, so
-    that a time offset would be drawn to where most times are in the middle.
+    that a time offset would be drawn to where most times are in the middle. In a pause a parabola
+    would run far away.
     """
     interval = np.median(np.diff(poses.times))
     times = np.arange(poses.times[0], poses.times[-1], 0.25 * interval)
+    times = times[poses.covers(times, neighbours // 2 * interval)]
     first = np.searchsorted(poses.times, times) - neighbours // 2
     first = np.clip(first, 0, max(len(poses.times) - neighbours, 0))
     near = np.minimum(first[:, None] + np.arange(neighbours), len(poses.times) - 1)

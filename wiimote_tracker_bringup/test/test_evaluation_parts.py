@@ -190,8 +190,17 @@ def test_earlier_results_are_removed_but_not_what_they_link_to(tmp_path):
     (folder / 'other').touch()
     (folder / 'linked').symlink_to(kept.parent)
     (folder / 'broken').symlink_to('nowhere')
-    files.prepare(str(folder), ['old', 'linked', 'broken', 'absent'])
+    (folder / 'mark').touch()
+    files.prepare(str(folder), ['old', 'linked', 'broken', 'absent'], 'mark')
     assert os.listdir(folder) == ['other'] and kept.exists()
+
+
+def test_what_no_earlier_run_left_is_kept(tmp_path):
+    (tmp_path / 'rig.yaml').touch()
+    with pytest.raises(ExperimentError, match='rig.yaml may be yours, .* no mark of an earlier'):
+        files.prepare(str(tmp_path), ['absent', 'rig.yaml'], 'mark')
+    assert os.listdir(tmp_path) == ['rig.yaml']
+    files.prepare(str(tmp_path), ['absent'], 'mark')
 
 
 def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path):

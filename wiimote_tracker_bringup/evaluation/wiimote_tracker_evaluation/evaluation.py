@@ -17,8 +17,6 @@ from wiimote_tracker_evaluation.progress import Progress
 from wiimote_tracker_evaluation.report import write_report
 from wiimote_tracker_evaluation.section import Run
 
-REPORT_FILES = ('report.html', 'report.md', 'figures.json')
-
 
 def parser_of(module) -> argparse.ArgumentParser:
     """Of a section's own options."""
@@ -117,7 +115,7 @@ def carry_out(module, run, live):
 def evaluate(options: argparse.Namespace) -> int:
     """Runs the sections. Returns 0 if all succeeded."""
     modules = [sections.load(name) for name in options.sections]
-    prepare(options.output, [*REPORT_FILES, *(module.NAME for module in modules)])
+    prepare(options.output, ['report.html', 'report.md', *options.sections], 'figures.json')
     progress = Progress([sections.seconds(module.NAME, options.quick) for module in modules])
     begin, runs = time.time(), []
     try:

@@ -24,15 +24,23 @@ def keep_copy(path: str) -> None:
         shutil.copyfile(path, path + '.bak')
 
 
-def prepare(folder: str, names: Iterable[str]) -> None:
-    """Makes a folder for results; removes files and folders of an earlier run with these names."""
+def prepare(folder: str, names: Iterable[str], mark: str) -> None:
+    """Makes a folder for results; removes files and folders of an earlier run with these names.
+
+    mark: a file that every run leaves. Throws ExperimentError if it is missing beside others: a
+    person may have put them there.
+    """
+    names = [name for name in (*names, mark) if os.path.lexists(os.path.join(folder, name))]
+    if names and names[-1] != mark:
+        raise ExperimentError(f'{os.path.join(folder, names[0])} may be yours, since there is no '
+                              f'{mark} of an earlier run: choose another folder with --output')
     try:
         os.makedirs(folder, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
         for path in (os.path.join(folder, name) for name in names):
             if os.path.isdir(path) and not os.path.islink(path):
                 shutil.rmtree(path)
-            elif os.path.lexists(path):
+            else:
                 os.remove(path)
     except OSError as error:
         raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '

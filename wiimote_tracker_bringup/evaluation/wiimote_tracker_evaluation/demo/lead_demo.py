@@ -54,8 +54,8 @@ class Demo:
         self._scene = scene_module.read_scene(package_file('simulation/paper_rig.yaml'))
         names = ['rig'] + [camera.name for camera in self._scene.cameras]
         prepare(output, [
-            'summary.json', 'demo.bag', 'demo.bag.active', 'points.csv', 'tracks.png', 'tracks.gif',
-            'nodes.log'] + [name + ending for name in names for ending in ('.yaml', '.yaml.bak')])
+            'summary.json', 'demo.bag', 'demo.bag.active', 'points.csv', 'tracks.png', 'tracks.gif'
+        ] + [name + ending for name in names for ending in ('.yaml', '.yaml.bak')], 'nodes.log')
 
     def run(self):
         try:

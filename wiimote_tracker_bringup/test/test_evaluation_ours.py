@@ -8,12 +8,13 @@ import subprocess
 
 import numpy as np
 import pytest
+import yaml
 
 from section_run import section_run
 from wiimote_tracker_bringup import programs, scene, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation import evaluation, section
-from wiimote_tracker_evaluation.live import circles, dialogue, latency, running_tracker
+from wiimote_tracker_evaluation.live import circles, dialogue, distance, latency, running_tracker
 from wiimote_tracker_evaluation.sections.ours import cameras, gestures
 from wiimote_tracker_evaluation.sections import identification
 from wiimote_tracker_evaluation.sections.distance import light
@@ -272,6 +273,13 @@ def test_a_number_is_requested_until_it_is_valid():
     assert person.ask_number('How far?', 0.01, 100.0) == 2.5
     assert said.getvalue().count('How far?') == 4
     assert person.ask_number('How far?', 0.01, 100.0) is None
+
+
+def test_distances_of_the_same_current_are_averaged(tmp_path):
+    run = section_run(tmp_path)
+    distance.tell(run, 'wiimote_1', [(560.0, 10.0), (560.0, 9.0), (100.0, 4.0)])
+    written = yaml.safe_load((tmp_path / 'distances.yaml').read_text())['distances']
+    assert written == {0.56: 9.5, 0.1: 4.0}
 
 
 # --- Arrivals of real remotes

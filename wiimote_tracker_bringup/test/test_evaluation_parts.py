@@ -10,9 +10,11 @@ import numpy as np
 import pytest
 import scipy.stats
 
+from section_run import section_run
 from wiimote_tracker_bringup import descriptions, files, processes, programs, scene, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation import progress, results_table
+from wiimote_tracker_evaluation import progress, results_table, sessions
+from wiimote_tracker_evaluation.report import words
 from wiimote_tracker_evaluation.sections.cost import load
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -234,6 +236,20 @@ def test_columns_of_numbers_are_read_as_numbers(tmp_path):
     columns = programs.read_csv(str(path))
     assert columns['case'].tolist() == ['C1', 'C2']
     assert columns['error'][0] == 1.5 and np.isnan(columns['error'][1])
+
+
+def test_the_folder_of_results_may_have_any_name(tmp_path):
+    run = section_run(tmp_path / 'run[1]')
+    for part in (0, 30):
+        with open(run.file(f'evaluate_a_{part}.csv'), 'w') as file:
+            file.write(f'session\n{part}\n')
+    assert sessions.read_shared(run, 'evaluate_a')['session'].tolist() == [0, 30]
+
+
+@pytest.mark.parametrize('value, text', [
+    (None, ''), (np.nan, '–'), (np.inf, 'inf'), (3.0, '3'), (1234.5, '1234')])
+def test_numbers_for_readers(value, text):
+    assert words.number(value) == text
 
 
 def test_processor_time_is_that_of_the_process():

@@ -26,7 +26,8 @@ def shared(run, program, sessions, parts=2):
 
 def read_shared(run, program):
     """Their tables joined in order, by column."""
-    paths = sorted(glob.glob(run.file(program + '_*.csv')), key=lambda path: (len(path), path))
+    paths = sorted(glob.glob(glob.escape(run.file(program)) + '_*.csv'),
+                   key=lambda path: (len(path), path))
     tables = [programs.read_csv(path) for path in paths]
     for path in paths:  # repeated in a table of the section
         os.remove(path)

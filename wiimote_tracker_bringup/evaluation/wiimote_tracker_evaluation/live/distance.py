@@ -79,18 +79,20 @@ def tell(run, camera, pairs):
     if not pairs:
         run.say('No distance was measured: there are no figures.')
         return
-    with open(run.file('distances.yaml'), 'w') as file:
-        yaml.safe_dump({'distances': {1e-3 * current: distance for current, distance in pairs}}, file)
-    run.say('`distance/distances.yaml` holds the pairs for a file such as `led.yaml` (`--led`).')
     currents, distances = np.array(sorted(pairs)).T
     factor = np.exp(np.mean(np.log(distances / np.sqrt(1e-3 * currents))))
+    means = {}
     for current in np.unique(currents):
         values = distances[currents == current]
+        means[float(1e-3 * current)] = float(np.mean(values))
         run.figure(f"live_{('%g' % current).replace('.', '_')}_mA", np.mean(values), 'm',
                    len(values), note=f'Distance from which the LED is seen with {current:g} mA',
                    end_to_end=True)
-    run.figure('live_1_A', factor, 'm', len(pairs), note='The same with 1 A, by the inverse square law '
-               'fitted to all', end_to_end=True)
+    with open(run.file('distances.yaml'), 'w') as file:
+        yaml.safe_dump({'distances': means}, file)
+    run.say('`distance/distances.yaml` holds the means for a file such as `led.yaml` (`--led`).')
+    run.figure('live_1_A', factor, 'm', len(pairs), note='The same with 1 A, by the inverse square '
+               'law fitted to all', end_to_end=True)
     figure, axes = charts.figure()
     curve = np.geomspace(0.5 * currents.min(), 2.0 * currents.max(), 100)
     axes.plot(curve, factor * np.sqrt(1e-3 * curve), color=charts.BLUE, label='fitted, inverse square')

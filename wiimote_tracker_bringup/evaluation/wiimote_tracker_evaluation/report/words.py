@@ -16,7 +16,7 @@ def number(value, digits: int = 3) -> str:
     value = float(value)
     if value != value:
         return '–'
-    if value == int(value) and abs(value) < 1e6:
+    if abs(value) < 1e6 and value == int(value):
         return '%d' % value
     text = '%.*g' % (digits, value)
     if 'e' not in text:

@@ -125,6 +125,24 @@ def test_a_hidden_probe_tells_no_point(tmp_path):
         measuring.pivot()  # not of what was before
 
 
+def test_a_pivot_begins_with_its_request():
+    """What the cameras saw while the tip was carried to the dimple does not count."""
+    random = np.random.default_rng(9)
+    measuring = probe.Probe(TIP, 10.0, '')
+    carried, rotations, covariances = noisy(random, number=60)
+    carried += np.linspace(0.5, 0.0, 60)[:, None]
+    for message in messages(carried, rotations, covariances, 997.0):
+        measuring.add(message)
+    since = measuring.last_stamp()
+    with pytest.raises(ExperimentError, match='0 poses, 30 are needed'):
+        measuring.pivot(since)
+    for message in messages(*noisy(random, number=160)):  # then hidden for the last 2 s
+        measuring.add(message)
+    with pytest.raises(ExperimentError, match='did not rest'):
+        measuring.pivot()
+    assert 'tip: [' in measuring.pivot(since)
+
+
 def test_points_are_taken_at_rest_once_a_place(tmp_path):
     random, file = np.random.default_rng(7), tmp_path / 'points.csv'
     measuring = probe.Probe(TIP, 10.0, str(file))

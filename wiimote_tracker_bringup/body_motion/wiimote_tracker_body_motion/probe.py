@@ -111,11 +111,14 @@ class Probe:
         pose.pose.covariance = covariance.reshape(-1).tolist()
         return pose
 
-    def pivot(self):
-        """Solves for the tip. @returns a sentence."""
-        messages = self.newest(self.duration, self.duration)
-        times, positions, rotations, covariances = arrays(messages)
-        which = np.unique(np.floor(times / INTERVAL), return_index=True)[1]
+    def last_stamp(self):
+        return self.messages[-1].header.stamp.to_sec() if self.messages else 0.0
+
+    def pivot(self, since=0.0):
+        """Solves for the tip from the poses after this stamp [s]. @returns a sentence."""
+        times, positions, rotations, covariances = arrays(self.newest(self.duration, self.duration))
+        after = np.flatnonzero(times > since)
+        which = after[np.unique(np.floor(times[after] / INTERVAL), return_index=True)[1]]
         found = pivot.solve(positions[which], rotations[which], covariances[which])
         self.tip, self.tip_covariance = found.position, found.covariance
         numbers = ', '.join(f'{value:.4f}' for value in found.position)
@@ -215,8 +218,9 @@ class Node:
         self.pose.publish(pose)
 
     def on_pivot(self, _):
+        since = self.probe.last_stamp()
         rospy.sleep(self.probe.duration)
-        return self.answer(self.probe.pivot)
+        return self.answer(lambda: self.probe.pivot(since))
 
     def on_joy(self, message):
         pressed = len(message.buttons) > BUTTON and bool(message.buttons[BUTTON])

@@ -217,6 +217,7 @@ def test_files_that_a_section_cannot_use_are_refused(tmp_path, capsys):
     (tmp_path / 'people' / 'anna').mkdir(parents=True)
     for option, value, words in (
             ('--led', '/nowhere', 'there is no description of an LED /nowhere'),
+            ('--faults', '/nowhere', 'there is no file /nowhere'),
             ('--gestures', '/nowhere', '/nowhere needs folders of at least two people'),
             ('--gestures', str(tmp_path / 'people'), 'needs folders of at least two people'),
             ('--sections=cost', '--faults=f', '--faults is for the section faults, which is not')):

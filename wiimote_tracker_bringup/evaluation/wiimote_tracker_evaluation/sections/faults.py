@@ -1,6 +1,7 @@
 """Faults that fault_matrix caused: what was published before, during and after each."""
 
 import json
+import os
 
 from wiimote_tracker_bringup.errors import ExperimentError
 
@@ -22,6 +23,8 @@ def is_wanted(options):
 def refusal(options):
     if NAME in options.sections and not options.faults:
         return 'the section faults needs --faults FILE'
+    if options.faults and not os.path.isfile(options.faults):
+        return f'there is no file {options.faults}'
     return ''
 
 

@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 from scipy.optimize import least_squares
 
-from wiimote_tracker_bringup import alignment
+from wiimote_tracker_bringup import alignment, rigid_motion
 from wiimote_tracker_bringup.errors import ExperimentError
 
 LEAST_POSES = 30
@@ -24,27 +24,12 @@ class Tip:
     residual: float
 
 
-def covariance_at(tip, rotations, covariances):
-    """Of the points R tip + p, n x 3 x 3. covariances: n x 6 x 6, of p and of a small rotation about
-    the world's axes [m, rad]."""
-    by_rotation = -skew(rotations.apply(tip))
-    jacobian = np.concatenate([np.broadcast_to(np.eye(3), by_rotation.shape), by_rotation], axis=2)
-    return jacobian @ covariances @ jacobian.transpose(0, 2, 1)
-
-
-def skew(vectors):
-    """n x 3 x 3: skew(v) w = v x w."""
-    result = np.zeros((len(vectors), 3, 3))
-    result[:, [2, 0, 1], [1, 2, 0]] = vectors
-    return result - result.transpose(0, 2, 1)
-
-
 def solve(positions, rotations, covariances):
     """Tip: R_i tip + p_i = place for all poses, by linear least squares, then weighted.
 
     The weights depend on the tip: without that, the noise of the rotations would shorten it.
-    positions: n x 3 [m]; rotations: n; covariances as in covariance_at. Errors of the poses are
-    independent.
+    positions: n x 3 [m]; rotations: n; covariances: n x 6 x 6, of positions and of small rotations
+    about the world's axes [m, rad]. Errors of the poses are independent.
     """
     number = len(positions)
     if number < LEAST_POSES:
@@ -55,7 +40,8 @@ def solve(positions, rotations, covariances):
 
     def residuals(unknown):
         points = rotations.apply(unknown[:3]) + positions - unknown[3:]
-        factors = np.linalg.cholesky(covariance_at(unknown[:3], rotations, covariances))
+        factors = np.linalg.cholesky(
+            rigid_motion.covariance_of_point(unknown[:3], rotations, covariances))
         return np.linalg.solve(factors, points[..., None]).reshape(-1)
 
     found = least_squares(residuals, start, x_scale='jac')

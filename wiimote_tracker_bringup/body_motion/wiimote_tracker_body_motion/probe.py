@@ -33,7 +33,7 @@ from scipy.spatial.transform import Rotation
 from std_srvs.srv import Trigger, TriggerResponse
 
 from wiimote_tracker_body_motion import pivot
-from wiimote_tracker_bringup import ranges
+from wiimote_tracker_bringup import ranges, rigid_motion
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_bringup.ros_master import require_master
 
@@ -94,7 +94,7 @@ class Probe:
         _, positions, rotations, covariances = arrays(messages)
         turned = rotations.as_matrix()
         return (positions + rotations.apply(self.tip),
-                pivot.covariance_at(self.tip, rotations, covariances)
+                rigid_motion.covariance_of_point(self.tip, rotations, covariances)
                 + turned @ self.tip_covariance @ turned.transpose(0, 2, 1))
 
     def tip_pose(self, message):
@@ -104,10 +104,10 @@ class Probe:
         place = pose.pose.pose.position
         arm = point - [place.x, place.y, place.z]
         place.x, place.y, place.z = point
-        covariance = np.array(message.pose.covariance).reshape(6, 6)
-        covariance[:3, 3:] -= pivot.skew(arm[None])[0] @ covariance[3:, 3:]
-        covariance[3:, :3] = covariance[:3, 3:].T
-        covariance[:3, :3] = of_point
+        moved = np.eye(6)
+        moved[:3] = rigid_motion.by_pose(arm)
+        covariance = moved @ np.reshape(message.pose.covariance, (6, 6)) @ moved.T
+        covariance[:3, :3] = of_point  # with that of the tip
         pose.pose.covariance = covariance.reshape(-1).tolist()
         return pose
 

@@ -14,7 +14,7 @@ from typing import Optional
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup import scene as scene_module
+from wiimote_tracker_bringup import rigid_motion, scene as scene_module
 from wiimote_tracker_bringup.alignment import KINDS
 
 PER_CAMERA = 11  # rotation vector about the world axes [rad], position [m], fx, fy, cx, cy, k1
@@ -160,13 +160,10 @@ def alignment_basis(points: np.ndarray, kind: str) -> np.ndarray:
     """3N x d: displacements of the points by small alignments of a kind."""
     if kind == 'absolute':
         return np.zeros((3 * len(points), 0))
-    blocks = []
-    for point in points:
-        columns = [np.eye(3), np.cross(point, np.eye(3))]
-        if kind == 'similarity':
-            columns.append(point[:, None])
-        blocks.append(np.concatenate(columns, axis=1))
-    return np.concatenate(blocks)
+    columns = rigid_motion.by_pose(points)
+    if kind == 'similarity':
+        columns = np.concatenate([columns, points[..., None]], axis=-1)
+    return columns.reshape(3 * len(points), -1)
 
 
 @dataclasses.dataclass(eq=False)

@@ -3,8 +3,6 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_body_motion.pivot import skew
-
 HEADINGS = 4  # to which the body is turned about z
 
 
@@ -19,10 +17,3 @@ def lights(leds, points):
     levers, directions = (np.tile(each @ np.swapaxes(turns, 1, 2), (len(points), 1, 1))
                           for each in (leds[:, :3], directions))
     return np.repeat(points, HEADINGS, axis=0)[:, None] + levers, directions, levers
-
-
-def by_pose(levers):
-    """B x L x 3 x 6: derivatives of the LEDs' places by the body's place and its turn about the
-    world's axes."""
-    by_turn = -skew(levers.reshape(-1, 3)).reshape(levers.shape + (3,))
-    return np.concatenate([np.broadcast_to(np.eye(3), by_turn.shape), by_turn], axis=-1)

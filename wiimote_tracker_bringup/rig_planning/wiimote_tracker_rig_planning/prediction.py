@@ -4,7 +4,7 @@ import dataclasses
 
 import numpy as np
 
-from wiimote_tracker_bringup import bound, scene
+from wiimote_tracker_bringup import bound, rigid_motion, scene
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_rig_planning import body
 
@@ -105,7 +105,7 @@ def told(plan, positions, targets, points, covariance):
     places, directions, levers = body.lights(plan.body, points)
     seen = look(plan, positions, targets, places.reshape(-1, 3), directions.reshape(-1, 3))
     each = information(plan, seen, covariance).reshape((len(positions),) + places.shape + (3,))
-    by_pose = body.by_pose(levers)
+    by_pose = rigid_motion.by_pose(levers)
     sightings = seen.sees.sum(axis=0).reshape(places.shape[:2])
     located = (sightings.sum(axis=1) >= 4) & ((sightings > 0).sum(axis=1) >= 3)
     return (np.swapaxes(by_pose, -1, -2) @ each @ by_pose).sum(axis=2), located

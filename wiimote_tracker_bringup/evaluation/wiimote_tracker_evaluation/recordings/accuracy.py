@@ -13,8 +13,7 @@ from typing import Optional
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_body_motion import pivot
-from wiimote_tracker_bringup import alignment, bound, timeseries
+from wiimote_tracker_bringup import alignment, bound, rigid_motion, timeseries
 from wiimote_tracker_bringup.errors import ExperimentError
 
 # Longest time between two samples of the truth to interpolate between [s].
@@ -71,7 +70,7 @@ class Path:
         if self.rotations is None:
             return self
         return Path(self.times, self.positions + self.rotations.apply(place),
-                    pivot.covariance_at(place, self.rotations, self.covariances))
+                    rigid_motion.covariance_of_point(place, self.rotations, self.covariances))
 
 
 def fit(path, truth, kind):

@@ -2,7 +2,7 @@
 
 import time
 
-from wiimote_tracker_bringup.terminal import Terminal
+from wiimote_tracker_evaluation.terminal import Terminal
 
 QUIET_PERIOD = 15.0  # interval of lines without a terminal [s]
 

@@ -11,7 +11,7 @@ from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.files import prepare
 from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
 from wiimote_tracker_bringup.programs import package_file
-from wiimote_tracker_bringup.terminal import Terminal
+from wiimote_tracker_evaluation.terminal import Terminal
 
 LED = 'led'
 CORNER_SEED, ALIGNMENT_SEED = 1, 2

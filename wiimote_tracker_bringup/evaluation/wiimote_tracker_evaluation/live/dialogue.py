@@ -3,7 +3,7 @@
 import select
 import sys
 
-from wiimote_tracker_bringup.terminal import Terminal
+from wiimote_tracker_evaluation.terminal import Terminal
 
 SKIP = 's'
 

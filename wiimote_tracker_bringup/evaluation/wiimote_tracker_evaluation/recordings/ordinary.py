@@ -15,7 +15,7 @@ import rospy
 import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
-from wiimote_tracker_bringup import descriptions, layout, programs
+from wiimote_tracker_bringup import descriptions, multicamselfcal, programs
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
@@ -61,11 +61,11 @@ def first_poses(views, folder):
     chosen = both[::max(1, len(both) // INSTANTS)]
     source, path = os.path.join(folder, 'instants'), os.path.join(folder, 'first.yaml')
     os.makedirs(source, exist_ok=True)
-    layout.write(source, [camera.name for camera in views.cameras],
-                 [2 * [camera.size] for camera in views.cameras], np.array(common)[:, chosen],
-                 [[[camera.focal, 0.0, camera.middle], [0.0, camera.focal, camera.middle],
-                   [0.0, 0.0, 1.0]] for camera in views.cameras],
-                 np.zeros((len(views.cameras), 5)))
+    multicamselfcal.write(
+        source, [camera.name for camera in views.cameras],
+        [2 * [camera.size] for camera in views.cameras], np.array(common)[:, chosen],
+        [[[camera.focal, 0.0, camera.middle], [0.0, camera.focal, camera.middle],
+          [0.0, 0.0, 1.0]] for camera in views.cameras], np.zeros((len(views.cameras), 5)))
     programs.run('wiimote_tracker_calibration/self_calibrate', source, '--fix-intrinsics', source,
                  '--rig', path)
     rig = Rig(path)

@@ -22,6 +22,15 @@ def test_a_bag_that_does_not_exist(tmp_path, monkeypatch):
         program.main()
 
 
+def test_numbers_that_cannot_be_used_are_refused_in_words(monkeypatch):
+    def fail(*_):
+        raise ValueError('an alignment needs finite points')
+    monkeypatch.setattr(replay, 'evaluate', fail)
+    monkeypatch.setattr('sys.argv', ['evaluate_recording', 'bag', 'in.bag'])
+    with pytest.raises(SystemExit, match='^evaluate_recording: an alignment needs finite points$'):
+        program.main()
+
+
 @pytest.mark.parametrize('points, by_two, observed, words', [
     (50, 50, [1.0], ''), (50, 0, [1.0], 'not synchronised'), (50, 0, [], 'exactly one spot'),
     (0, 50, [], 'check that the rig')])

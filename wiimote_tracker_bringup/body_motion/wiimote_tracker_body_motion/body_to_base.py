@@ -7,7 +7,7 @@ import numpy as np
 
 from wiimote_tracker_body_motion import hand_eye, inertial, mount, poses
 from wiimote_tracker_bringup import files, interruption, ranges
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup.errors import ExperimentError
 
 
 def describe(found):
@@ -33,27 +33,25 @@ def main(argv=None):
         'about two axes or more.')
     parser.add_argument('bag', help='recording of both topics')
     parser.add_argument('--body', required=True, metavar='TOPIC', help='/<body>/odometry')
-    base = parser.add_mutually_exclusive_group(required=True)
-    base.add_argument('--odom', metavar='TOPIC', help='poses of the base')
-    base.add_argument('--imu', metavar='TOPIC', help='sensor_msgs/Imu; z of the world points up')
+    topics = parser.add_mutually_exclusive_group(required=True)
+    topics.add_argument('--odom', metavar='TOPIC', help='poses of the base')
+    topics.add_argument('--imu', metavar='TOPIC', help='sensor_msgs/Imu; z of the world points up')
     parser.add_argument('--largest-offset', type=ranges.within(0.01, 1e10), default=2.0,
                         metavar='S', help='of the clocks [s] (default: 2)')
     parser.add_argument('--output', metavar='FILE', default='mount.yaml',
                         help='default: mount.yaml')
     arguments = parser.parse_args(argv)
-    try:
+    with interruption.answered('body_to_base'):
         files.check_distinct([arguments.output], [arguments.bag])
         solver, source, topic = ((hand_eye, poses, arguments.odom) if arguments.odom else
                                  (inertial, inertial, arguments.imu))
         report(f'reads {arguments.bag}')
-        found = solver.solve(poses.read(arguments.bag, arguments.body),
-                             source.read(arguments.bag, topic), arguments.largest_offset, report)
+        try:
+            body = poses.read(arguments.bag, arguments.body)
+            base = source.read(arguments.bag, topic)
+            found = solver.solve(body, base, arguments.largest_offset, report)
+        except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
+            raise ExperimentError(f'no solution was found ({error}); record a minute with turns '
+                                  'about two axes') from error
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)
-    except KeyboardInterrupt:
-        interruption.end('body_to_base')
-    except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
-        sys.exit(f'body_to_base: no solution was found ({error}); record a minute with turns about '
-                 'two axes')
-    except (ExperimentError, OSError) as error:
-        sys.exit(f'body_to_base: {sentence_of(error)}')

@@ -2,13 +2,9 @@
 
 import argparse
 import json
-import sys
-
-import numpy as np
 
 from wiimote_tracker_body_motion import comparison, mount, poses
 from wiimote_tracker_bringup import alignment, files, interruption, ranges
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 
 
 def table(figures):
@@ -83,9 +79,5 @@ def main(argv=None):
                         '(default: 0.05)')
     parser.add_argument('--json', metavar='FILE', help='write the figures')
     parser.add_argument('--plot', metavar='FILE', help='write a picture (.png, .svg, .pdf)')
-    try:
+    with interruption.answered('evaluate_trajectory'):
         run(parser.parse_args(argv))
-    except KeyboardInterrupt:
-        interruption.end('evaluate_trajectory')
-    except (ExperimentError, OSError, ValueError, np.linalg.LinAlgError) as error:
-        sys.exit(f'evaluate_trajectory: {sentence_of(error)}')

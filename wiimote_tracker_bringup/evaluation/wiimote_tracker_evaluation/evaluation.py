@@ -2,7 +2,6 @@
 
 import argparse
 import os
-import sys
 import time
 import traceback
 from typing import List, Optional
@@ -10,7 +9,8 @@ from typing import List, Optional
 from wiimote_tracker_bringup import descriptions, ranges, stack
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.files import prepare
-from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup.interruption import (
+    EXIT_STATUS, Interrupted, answered, raise_when_interrupted)
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_evaluation import sections
 from wiimote_tracker_evaluation.progress import Progress
@@ -148,10 +148,5 @@ def evaluate(options: argparse.Namespace) -> int:
 def main(arguments: Optional[List[str]] = None) -> int:
     options = parse(arguments)
     raise_when_interrupted()
-    try:
+    with answered('evaluate'):
         return evaluate(options)
-    except Interrupted:
-        return EXIT_STATUS
-    except ExperimentError as error:
-        print(error, file=sys.stderr)
-        return 1

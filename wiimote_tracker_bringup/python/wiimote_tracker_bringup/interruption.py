@@ -1,8 +1,12 @@
-"""How programs end after Ctrl-C, or a similar signal: the first is turned into an exception."""
+"""How programs end after Ctrl-C, or a similar signal, and after an error."""
 
+import contextlib
 import signal
 import sys
-from typing import NoReturn
+
+import numpy as np
+
+from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 
 EXIT_STATUS = 130  # as a shell gives it for a program that SIGINT ended
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -13,7 +17,7 @@ class Interrupted(BaseException):
 
 
 def raise_when_interrupted() -> None:
-    """Installs the signal handlers."""
+    """From now on the first signal raises Interrupted."""
     for number in SIGNALS:
         signal.signal(number, interrupt)
 
@@ -25,7 +29,13 @@ def interrupt(number, frame):
     raise Interrupted()
 
 
-def end(program: str) -> NoReturn:
-    """Of a program that Ctrl-C has interrupted."""
-    print(f'{program}: interrupted', file=sys.stderr)
-    sys.exit(EXIT_STATUS)
+@contextlib.contextmanager
+def answered(program: str):
+    """A block after which the program ends, in words, if it is interrupted or refuses its input."""
+    try:
+        yield
+    except (KeyboardInterrupt, Interrupted):
+        print(f'{program}: interrupted', file=sys.stderr)
+        sys.exit(EXIT_STATUS)
+    except (ExperimentError, OSError, ValueError, np.linalg.LinAlgError) as error:
+        sys.exit(f'{program}: {sentence_of(error)}')

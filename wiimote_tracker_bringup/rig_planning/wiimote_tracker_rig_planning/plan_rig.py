@@ -8,7 +8,7 @@ import numpy as np
 import yaml
 
 from wiimote_tracker_bringup import bound, descriptions, files, interruption, ranges, scene
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_rig_planning import picture, plan, prediction, search
@@ -172,9 +172,5 @@ def main(argv=None):
                         metavar='N', help='of the search; more take longer (default: 500)')
     parser.add_argument('--seed', type=ranges.within(0, 2 ** 32 - 1, int), default=1,
                         metavar='N', help='the same gives the same result (default: 1)')
-    try:
+    with interruption.answered('plan_rig'):
         run(parser.parse_args(argv))
-    except KeyboardInterrupt:
-        interruption.end('plan_rig')
-    except (ExperimentError, OSError, ValueError) as error:
-        sys.exit(f'plan_rig: {sentence_of(error)}')

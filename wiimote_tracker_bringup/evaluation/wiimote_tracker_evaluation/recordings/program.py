@@ -2,10 +2,8 @@
 
 import argparse
 import json
-import sys
 
 from wiimote_tracker_bringup import files, interruption, ranges
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 from wiimote_tracker_evaluation.recordings import formats, replay, reprojection
 
 
@@ -26,7 +24,7 @@ def main():
                         help='bag: an observation within this of its projected point is an inlier '
                         '(default: %(default)s)')
     arguments = parser.parse_args()
-    try:
+    with interruption.answered('evaluate_recording'):
         files.check_distinct([arguments.json], [arguments.recording])
         if arguments.format == 'bag':
             result = replay.evaluate(arguments.recording, arguments.inlier_px)
@@ -39,7 +37,3 @@ def main():
         if arguments.json:
             with open(arguments.json, 'w') as file:
                 json.dump(result, file, indent=1)
-    except KeyboardInterrupt:
-        interruption.end('evaluate_recording')
-    except (ExperimentError, OSError) as error:
-        sys.exit(f'evaluate_recording: {sentence_of(error)}')

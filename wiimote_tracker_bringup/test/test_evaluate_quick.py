@@ -17,7 +17,7 @@ def results(tmp_path_factory):
 
 def test_every_section_is_run_by_a_test():
     need_files = {'recordings', 'faults'}
-    assert set(sections.names()) - need_files == set(TIMED + COMPUTED)
+    assert set(sections.NAMES) - need_files == set(TIMED + COMPUTED)
 
 
 def test_every_section_is_complete(results):

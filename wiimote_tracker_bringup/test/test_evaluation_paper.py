@@ -87,7 +87,7 @@ def make_results(folder, our_error):
 
 def told(section, tmp_path, *data):
     """A section's run, and its figures by name."""
-    run = section_run(tmp_path / 'section', section.NAME)
+    run = section_run(tmp_path / 'section')
     section.tell(run, *data)
     return run, {figure.name: figure for figure in run.figures}
 

@@ -28,7 +28,7 @@ PAPER_RIG = os.path.join(HERE, '..', 'simulation', 'paper_rig.yaml')
 
 def a_section(name, run):
     module = types.ModuleType(name)
-    module.NAME, module.TITLE, module.run = name, 'About ' + name, run
+    module.TITLE, module.SECONDS, module.run = 'About ' + name, (10, 10), run
     return module
 
 
@@ -63,10 +63,9 @@ def an_interrupted_run(run):
 def evaluate(monkeypatch, tmp_path):
     """evaluate(modules, arguments) -> exit status; the report is in tmp_path/out."""
     def carry_out(modules, *arguments):
-        by_name = {module.NAME: module for module in modules}
-        monkeypatch.setattr(sections, 'names', lambda: list(by_name))
+        by_name = {module.__name__: module for module in modules}
+        monkeypatch.setattr(sections, 'NAMES', list(by_name))
         monkeypatch.setattr(sections, 'load', by_name.get)
-        monkeypatch.setattr(sections, 'seconds', lambda name, quick: 10)
         return evaluation.evaluate(evaluation.parse(
             ['--rig', PAPER_RIG, '--output', str(tmp_path / 'out')] + list(arguments)))
     return carry_out

@@ -27,7 +27,7 @@ def parser_of(module) -> argparse.ArgumentParser:
 
 
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
-    modules = {name: sections.load(name) for name in sections.names()}
+    modules = {name: sections.load(name) for name in sections.NAMES}
     own = {name: parser_of(module) for name, module in modules.items()}
     parser = argparse.ArgumentParser(
         prog='evaluate', parents=list(own.values()),
@@ -114,14 +114,14 @@ def carry_out(module, run, live):
 
 def evaluate(options: argparse.Namespace) -> int:
     """Runs the sections. Returns 0 if all succeeded."""
-    modules = [sections.load(name) for name in options.sections]
+    modules = {name: sections.load(name) for name in options.sections}
     prepare(options.output, ['report.html', 'report.md', *options.sections], 'figures.json')
-    progress = Progress([sections.seconds(module.NAME, options.quick) for module in modules])
+    progress = Progress([module.SECONDS[not options.quick] for module in modules.values()])
     begin, runs = time.time(), []
     try:
-        for module in modules:
-            run = Run(module.NAME, module.TITLE, os.path.join(options.output, module.NAME),
-                      options, progress.within)
+        for name, module in modules.items():
+            run = Run(name, module.TITLE, os.path.join(options.output, name), options,
+                      progress.within)
             runs.append(run)
             run.failure = 'It was interrupted.'  # unless it comes to an end
             progress.begin(module.TITLE)

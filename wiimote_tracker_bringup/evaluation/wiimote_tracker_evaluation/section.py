@@ -1,9 +1,9 @@
 """Input and output of a section of the evaluation.
 
-A section is a module or folder in sections/ with NAME (as in --sections), TITLE, and run(run),
-which adds its results to a Run. A section for a person on a real rig also has live(run). One with
-options has add_arguments(parser), each a path of the user's, and refusal(options): why they cannot
-be used, else empty; if it needs them, also is_wanted(options).
+A section is a module or folder in sections/ with TITLE, SECONDS (which it takes about on two cores:
+quick, full), and run(run), which adds its results to a Run. A section for a person on a real rig
+also has live(run). One with options has add_arguments(parser), each a path of the user's, and
+refusal(options): why they cannot be used, else empty; if it needs them, also is_wanted(options).
 """
 
 import dataclasses

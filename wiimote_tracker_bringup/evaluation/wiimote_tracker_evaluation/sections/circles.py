@@ -8,8 +8,8 @@ from wiimote_tracker_bringup import charts, programs, statistics
 from wiimote_tracker_evaluation import sessions
 from wiimote_tracker_evaluation.live import circles as with_a_person
 
-NAME = 'circles'
 TITLE = 'Circles'
+SECONDS = 10, 40
 live = with_a_person.live
 
 PROGRAM = 'evaluate_circles'

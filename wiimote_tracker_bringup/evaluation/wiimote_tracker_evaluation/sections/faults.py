@@ -5,8 +5,8 @@ import os
 
 from wiimote_tracker_bringup.errors import ExperimentError
 
-NAME = 'faults'
 TITLE = 'Faults'
+SECONDS = 1, 1
 
 TIMES = ('before', 'during', 'after')
 
@@ -21,7 +21,7 @@ def is_wanted(options):
 
 
 def refusal(options):
-    if NAME in options.sections and not options.faults:
+    if 'faults' in options.sections and not options.faults:
         return 'the section faults needs --faults FILE'
     if options.faults and not os.path.isfile(options.faults):
         return f'there is no file {options.faults}'

@@ -6,8 +6,8 @@ from wiimote_tracker_bringup import charts, programs, statistics
 from wiimote_tracker_evaluation import sessions
 from wiimote_tracker_evaluation.live import identification as with_a_person
 
-NAME = 'identification'
 TITLE = 'Identification by blinking'
+SECONDS = 10, 100
 live = with_a_person.live
 
 PROGRAM = 'evaluate_identification'

@@ -6,8 +6,8 @@ from wiimote_tracker_bringup import alignment, charts, descriptions, experiment,
 from wiimote_tracker_evaluation.live import latency as with_a_person
 from wiimote_tracker_evaluation.trace import Recorder
 
-NAME = 'latency'
 TITLE = 'Latency'
+SECONDS = 40, 150
 live = with_a_person.live
 
 SIDE, HEIGHT = 1.0, 0.5   # of the space: the paper's 1.0 x 1.0 x 0.5 m

@@ -7,8 +7,8 @@ import numpy as np
 
 from wiimote_tracker_bringup import charts, statistics
 
-NAME = 'recordings'
 TITLE = 'Recordings by others'
+SECONDS = 60, 60
 
 PARTS = 10  # of a recording, taken as independent
 # Columns of the figures of a path, and of predicted pixels: name, unit, key, factor.
@@ -31,7 +31,7 @@ def is_wanted(options):
 
 
 def refusal(options):
-    if NAME in options.sections and not options.recordings:
+    if 'recordings' in options.sections and not options.recordings:
         return 'the section recordings needs --recordings DIR'
     if options.recordings and not os.path.isdir(options.recordings):
         return f'there is no folder {options.recordings}'

@@ -13,8 +13,8 @@ from wiimote_tracker_bringup.true_rig import publish, true_rig
 from wiimote_tracker_evaluation.sections.cost import load
 from wiimote_tracker_evaluation.trace import Recorder
 
-NAME = 'cost'
 TITLE = 'Cost'
+SECONDS = 35, 280
 
 SPEED = 1.0      # of every LED [m/s]
 BOX = 1.2        # side of the cube of its wave [m]

@@ -12,8 +12,8 @@ from wiimote_tracker_evaluation.sections.distance.light import (
 from wiimote_tracker_evaluation.live import distance as with_a_person
 from wiimote_tracker_evaluation.sessions import by_session, where
 
-NAME = 'distance'
 TITLE = 'Detection distance'
+SECONDS = 2, 5
 live = with_a_person.live
 
 PAPER_CURRENT, PAPER_DISTANCE = 0.56, 10.0  # [A], [m]

@@ -8,8 +8,8 @@ from wiimote_tracker_evaluation.sections.ours import (
     bodies, cameras, gestures, occlusion, unsynchronised, volume)
 from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 
-NAME = 'ours'
 TITLE = 'Beyond the paper'
+SECONDS = 20, 190
 
 add_arguments, refusal = gestures.add_arguments, gestures.refusal
 

@@ -13,8 +13,8 @@ from wiimote_tracker_evaluation.sections.positions.results import (
     CASES, FACING, FOUR, OURS, TWO, Results)
 from wiimote_tracker_evaluation.sessions import parts_of, unit_of
 
-NAME = 'positions'
 TITLE = 'Positions'
+SECONDS = 20, 210
 live = with_a_person.live
 
 QUICK, FULL = 10, 120  # sessions each with two and with four cameras

@@ -1,5 +1,6 @@
 """body_to_base on simulated motions: errors against the Cramer-Rao bound of the same motions."""
 
+import dataclasses
 import os
 import re
 
@@ -128,8 +129,27 @@ def test_refuses_an_imu_that_pauses():
 
 def test_refuses_clocks_too_far_apart():
     body, base = simulate(np.random.default_rng(7))
-    with pytest.raises(ExperimentError, match='--largest-offset'):
+    with pytest.raises(ExperimentError, match=r'the base at \d+\.\d s\. .*--largest-offset'):
         hand_eye.solve(body, base.shifted(100.0))
+
+
+@pytest.mark.parametrize('rate, force, reason', [
+    (1.0, 1.0 / 9.80665, r'measures 1\.\d+ m/s\^2 \(median\), but about 9\.8'),
+    (1.0, 0.0, 'not in g'), (57.3, 1.0, 'times as fast as the body: .* in rad/s')])
+def test_refuses_an_imu_in_other_units(rate, force, reason):
+    body, imu = with_imu(np.random.default_rng(7))
+    imu = dataclasses.replace(imu, rates=rate * imu.rates, forces=force * imu.forces)
+    with pytest.raises(ExperimentError, match=reason):
+        inertial.solve(body, imu)
+
+
+def test_refuses_stamps_that_are_zero(tmp_path):
+    path = str(tmp_path / 'run.bag')
+    with rosbag.Bag(path, 'w') as bag:
+        for second in range(1, 200):
+            bag.write('/imu/data', Imu(), rospy.Time(second))
+    with pytest.raises(ExperimentError, match='all stamps of /imu/data in .* are 0'):
+        inertial.read(path, '/imu/data')
 
 
 def test_a_bag(tmp_path):

@@ -15,6 +15,7 @@ from wiimote_tracker_bringup.errors import ExperimentError
 
 GRAVITY = np.array([0.0, 0.0, -9.80665])  # [m/s^2]
 SHORTEST_STEP = 0.008  # faster samples are averaged [s]
+FORCES = 0.7, 1.5  # median, times gravity; IMUs that measure in g have 0.1
 
 
 @dataclasses.dataclass
@@ -55,6 +56,12 @@ def solve(body, imu, largest_offset=2.0, report=lambda sentence: None):
     if gap > mount_start.LONGEST_GAP:
         raise ExperimentError(f'the IMU says nothing for {gap:.2f} s; record again, or cut the bag '
                               'there')
+    force = np.median(np.linalg.norm(imu.forces, axis=1))
+    least, most = (factor * np.linalg.norm(GRAVITY) for factor in FORCES)
+    if not least < force < most:
+        raise ExperimentError(f'the accelerometer measures {force:.3g} m/s^2 (median), but about '
+                              '9.8 are expected: sensor_msgs/Imu is in m/s^2, not in g, and gravity '
+                              'is not subtracted')
     imu = imu.averaged()
     body, rotation, offset = mount_start.start(body, imu.rotations(), largest_offset)
     problem = Problem(body, imu, offset)

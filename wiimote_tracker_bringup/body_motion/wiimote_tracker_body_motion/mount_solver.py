@@ -90,7 +90,9 @@ def solve(problem, state, names, report):
             break
         noise = np.maximum(noise * equations.noise_factors(), LEAST_NOISE)
     else:
-        raise ExperimentError('no solution was found: do both topics belong to one robot?')
+        raise ExperimentError('no solution was found: do both topics belong to one robot, are the '
+                              'axes of both right-handed, and do the clocks differ by less than '
+                              '--largest-offset?')
     stddev = np.sqrt(np.linalg.eigvalsh(covariance[3:6, 3:6])[-1])
     if not stddev < LARGEST_STDDEV:
         raise ExperimentError(f'the translation is told to {1e3 * stddev:.0f} mm only: turn the base '

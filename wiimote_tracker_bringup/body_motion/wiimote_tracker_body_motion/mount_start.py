@@ -12,6 +12,7 @@ LAG = 0.5  # of rotations that tell the axes [s]
 LEAST_TURN = np.radians(3.0)  # RMS about the second axis in LAG, to tell the transform
 GRID = 0.01  # of the search for the offset [s]
 LONGEST_GAP = 0.1  # between two poses to interpolate [s]
+FASTEST = 4.0  # turns of the base, times those of the body; in degrees they are up to 57
 INDEPENDENT = 0.035  # errors of the body's poses are, if so far apart [s]
 
 
@@ -35,17 +36,23 @@ def start_of_offset(body, base, largest):
     lag = 10 * GRID
     if min(poses.times[-1] - poses.times[0] for poses in (body, base)) < 10.0:
         raise ExperimentError('the bag has less than 10 s of motion; record a minute')
-    speeds = []
+    speeds, turned = [], []
     for poses in (body, base):
         times = np.arange(poses.times[0], poses.times[-1] - lag, GRID)
         speed = np.linalg.norm(turns(poses, times, lag), axis=1)
+        turned.append(speed.mean())
         speeds.append(speed - speed.mean())
+    if turned[1] > FASTEST * turned[0]:
+        raise ExperimentError(f'the base turns {turned[1] / turned[0]:.0f} times as fast as the '
+                              'body: do both topics belong to one robot, and are rates in rad/s?')
     product = np.correlate(*speeds, mode='full')  # at 0: the last of base with the first of body
     shifts = body.times[0] - base.times[0] + GRID * (np.arange(len(product)) - len(speeds[1]) + 1)
     product[np.abs(shifts) > largest] = -np.inf
     if not np.isfinite(product).any():
-        raise ExperimentError(f'the two topics share no time within {largest:g} s: use '
-                              '--largest-offset, if their clocks differ by more')
+        raise ExperimentError(
+            f'the two topics share no time within {largest:g} s: the body begins at '
+            f'{body.times[0]:.1f} s, the base at {base.times[0]:.1f} s. If their clocks differ so '
+            'much, use --largest-offset')
     return shifts[np.argmax(product)]
 
 

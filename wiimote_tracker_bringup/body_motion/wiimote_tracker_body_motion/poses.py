@@ -124,6 +124,9 @@ def read_rows(path, topic, numbers_of, what):
     if not rows:
         raise ExperimentError(f'{topic} in {path} has fewer than two {what}; record it again')
     rows = np.array(rows)
+    if not rows[:, 0].any():
+        raise ExperimentError(f'all stamps of {topic} in {path} are 0: its driver must say when it '
+                              'measured')
     back = np.maximum.accumulate(rows[:, 0]) - rows[:, 0]
     if back.max() > BACK:
         raise ExperimentError(f'stamps of {topic} in {path} go back by {back.max():.1f} s, so that '

@@ -228,3 +228,10 @@ def test_the_parameter_file_names_the_examples_of_gestures(load, tmp_path, given
     launch = os.path.join(LAUNCH, '../../wiimote_tracker_triangulation/launch/gestures.launch')
     parameters = load(launch, 'config:=' + str(file), 'nodelet:=' + nodelet, *given)[1]
     assert parameters['/gestures/file'] == found
+
+
+@pytest.mark.parametrize('nodelet', ['true', 'false'])
+def test_gestures_take_a_button_of_any_topic(load, nodelet):
+    launch = os.path.join(LAUNCH, '../../wiimote_tracker_triangulation/launch/gestures.launch')
+    node = load(launch, 'joy:=/wiimote_1/joy', 'nodelet:=' + nodelet)[0]['gestures']
+    assert [list(each) for each in node.remap_args] == [['joy', '/wiimote_1/joy']]

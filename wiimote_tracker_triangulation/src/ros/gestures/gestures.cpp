@@ -133,6 +133,11 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) 
   }
   time_ = time;
   world_frame_ = message.header.frame_id;
+  if (joy_subscriber_ && joy_subscriber_.getNumPublishers() == 0)
+    ROS_WARN_DELAYED_THROTTLE(5.0,
+                              "Nobody publishes %s, whose button marks gestures: name the topic by "
+                              "joy:=, such as joy:=/wiimote_1/joy, or start its driver.",
+                              joy_subscriber_.getTopic().c_str());
   for (const TrackedPoint& point : message.points)
     onPoint(point, time);
 

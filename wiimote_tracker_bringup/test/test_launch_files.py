@@ -230,6 +230,15 @@ def test_the_parameter_file_names_the_examples_of_gestures(load, tmp_path, given
     assert parameters['/gestures/file'] == found
 
 
+def test_mavros_gets_one_of_two_messages(load):
+    for message, topics in (('odometry', ['base_link/odometry', 'mavros/odometry/out']),
+                            ('vision_pose', ['base_link/pose', 'mavros/vision_pose/pose_cov'])):
+        node = load('mavros_vision.launch', 'message:=' + message)[0]['mavros_' + message]
+        assert node.args.split()[1::2] == topics
+    with pytest.raises(roslaunch.core.RLException, match='odometry.*vision_pose'):
+        load('mavros_vision.launch', 'message:=odom')
+
+
 @pytest.mark.parametrize('nodelet', ['true', 'false'])
 def test_gestures_take_a_button_of_any_topic(load, nodelet):
     launch = os.path.join(LAUNCH, '../../wiimote_tracker_triangulation/launch/gestures.launch')

@@ -335,7 +335,15 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   EXPECT_EQ(watch.healths().at("camera_1").text, "");
 
   scene.truth[2] = before;
-  track(&scene, 180.0, 300.0, &watch, &random);
+  for (double time = 180.0; time < 300.0; time += 2.0) {
+    track(&scene, time, time + 2.0, &watch, &random);
+    const std::string now = watch.healths().at("camera_3").text;
+    const std::size_t found = now.find(" px (+-");
+    if (found != std::string::npos) {
+      const std::size_t number = now.rfind(' ', found - 1);
+      EXPECT_GE(std::stod(now.substr(number)), DriftOptions().limit) << now;
+    }
+  }
   EXPECT_EQ(watch.healths().at("camera_3").text, "");
 }
 

@@ -89,9 +89,13 @@ void HealthWatch::addImage(const capture::Image& image) {
     // Without a new judgement the last one stays.
     if (!drift)
       continue;
-    cameras_[i].health.drift = drift;
-    cameras_[i].drift_alarm.judge(drift->ratio);
-    describe(&cameras_[i]);
+    Watched& judged = cameras_[i];
+    judged.health.drift = drift;
+    judged.drift_alarm.judge(drift->ratio);
+    // Until the alarm ends, it is told by the last judgement that supports it.
+    if (!judged.drift_alarm.on() || drift->ratio >= 1.0)
+      judged.drift_finding = *drift;
+    describe(&judged);
   }
 }
 
@@ -124,7 +128,7 @@ void HealthWatch::describe(Watched* camera) {
   if (camera->tilt_alarm.on())
     findings.push_back(tiltText(*health.tilt) + (findings.empty() ? kAdvice : ""));
   if (camera->drift_alarm.on())  // of several findings the first one says what to do
-    findings.push_back(driftText(*health.drift, findings.empty()));
+    findings.push_back(driftText(camera->drift_finding, findings.empty()));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
     news_.push_back(camera->name + " " + health.text);

@@ -60,6 +60,7 @@ class HealthWatch {
     std::optional<TiltWatch> tilt;
     Alarm tilt_alarm;
     Alarm drift_alarm;
+    Drift drift_finding;  // The latest that supports the alarm, while that is on.
     CameraHealth health;
   };
 

@@ -58,6 +58,10 @@ class ContinuousCalibration {
     return knock_.isSuspect(proposal.camera) || (proposal.cause != Cause::kKnock && has_drifted_);
   }
 
+  /// Names of the cameras whose time offset is unknown, since they reconnected. While there are
+  /// several, no knock is found.
+  std::vector<std::string> newClocks() const { return knock_.newClocks(); }
+
   /// A reading of a camera's accelerometer, optical frame [m/s^2].
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force);
 

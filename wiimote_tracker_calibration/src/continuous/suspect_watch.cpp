@@ -22,6 +22,15 @@ std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
   return Evidence{*suspect_, new_clocks_[*suspect_], motion_.images(), gravity_.mean()};
 }
 
+std::vector<std::string> SuspectWatch::newClocks() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < new_clocks_.size(); ++i) {
+    if (new_clocks_[i])
+      names.push_back(rig_.cameras[i].camera.name);
+  }
+  return names;
+}
+
 void SuspectWatch::addAcceleration(const std::string& camera,
                                    const Eigen::Vector3d& specific_force) {
   if (isSuspect(camera))

@@ -48,6 +48,9 @@ class SuspectWatch {
     return suspect_ && rig_.cameras[*suspect_].camera.name == camera;
   }
 
+  /// Names of the cameras whose time offset is unknown, since they reconnected.
+  std::vector<std::string> newClocks() const;
+
   /// A reading of a camera's accelerometer, optical frame [m/s^2].
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force);
 

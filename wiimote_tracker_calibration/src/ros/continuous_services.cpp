@@ -83,6 +83,7 @@ class ContinuousServices {
     if (approach_ && isCalibrated(lock))
       stepTowardsGoal(inputs, lock);
     const auto proposal = NodeContext::unlocked(&lock, [&] { return newestProposal(inputs); });
+    new_clocks_ = continuous_->newClocks();
     if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
     // Meanwhile the rig may have been replaced, or what was proposed before applied.
@@ -128,6 +129,7 @@ class ContinuousServices {
       return;
     watched_ = idToWatch();
     continuous_.reset();
+    new_clocks_.clear();
     forgetProposal(lock);
     if (const auto& rig = context_.rig(lock))
       continuous_.emplace(approach_ ? approach_->goal() : *rig, options_);
@@ -174,6 +176,16 @@ class ContinuousServices {
 
   Reply apply(Lock& lock) { return applyProposal(&lock); }
 
+  std::string whatIsNeeded() const {
+    if (new_clocks_.size() > 1)
+      return joined(new_clocks_) +
+             " have new clocks since they were calibrated, which are solved while one LED moves "
+             "where three cameras see it and if none of them was moved; if one was, calibrate "
+             "again";
+    return "a camera that no longer fits the others is solved while one LED moves where it and two "
+           "others see it";
+  }
+
   /// The rig before is kept for revert(), the new one in a file beside the rig file.
   Reply applyProposal(Lock* lock) {
     if (policy_ == ContinuousPolicy::kOff)
@@ -183,9 +195,7 @@ class ContinuousServices {
           "the node again");
     requireCalibrated(*lock);
     if (!proposal_)
-      throw Refusal(
-          "nothing is proposed: a camera that no longer fits the others is solved while "
-          "one LED moves where it and two others see it");
+      throw Refusal("nothing is proposed: " + whatIsNeeded());
     const geometry::Rig before = context_.existingRig("to change", *lock);
     if (idWithoutMasks(before) != in_use_)
       throw Refusal(NodeContext::kReplaced);
@@ -265,7 +275,8 @@ class ContinuousServices {
   std::optional<continuous::Approach> approach_;  // From the rig in use to another.
   std::string watched_;                           // idWithoutMasks() of the rig that is watched.
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
-  std::optional<continuous::Proposal> proposal_;                 // For the rig that is watched.
+  std::vector<std::string> new_clocks_;                          // Of the rig that is watched.
+  std::optional<continuous::Proposal> proposal_;                 // The same.
   std::vector<Change> changes_;
   std::string reverted_to_;  // idWithoutMasks() of a rig that is not changed without being asked.
   std::vector<ros::ServiceServer> services_;

@@ -41,7 +41,7 @@ void SuspectWatch::judge() {
   for (std::size_t i = 0; i < alarms_.size(); ++i) {
     // Of two cameras that contradict each other neither is known to be the one.
     if (const auto& drift = watch_.drifts()[i])
-      alarms_[i].judge(drift->together.empty() ? drift->ratio : 0.0);
+      alarms_[i].judge(drift->or_camera.empty() ? drift->ratio : 0.0);
   }
   const auto suspect = onlySuspect();
   if (suspect == suspect_)

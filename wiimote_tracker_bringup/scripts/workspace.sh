@@ -181,10 +181,12 @@ make_with_progress() {
   make_workspace "$@" 2>&1 | tee "$workspace/build.log" | while IFS= read -r line; do
     [[ $line = *'Building CXX object'* ]] || continue
     if (( total == 0 )); then
-      total=$(python3 "$bringup/scripts/compiler_runs.py" "$workspace/build" "$1")
+      # Make fails where sources are not generated yet; their compiler runs do not count.
+      total=$({ make -C "$workspace/build" -nk "$1" 2>/dev/null || true; } |
+        grep -c 'Building CXX object' || true)
       SECONDS=0
     fi
-    percent=$(( 100 * begun / total ))
+    percent=$(( 100 * begun / (total > begun ? total : begun + 1) ))
     begun=$(( begun + 1 ))
     (( percent >= shown + 5 && percent < 100 )) || continue
     shown=$percent

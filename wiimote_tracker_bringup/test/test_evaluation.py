@@ -6,7 +6,6 @@ import subprocess
 
 import numpy as np
 import pytest
-import yaml
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, bound, experiment, scene
@@ -104,18 +103,6 @@ def test_missed_names_the_cameras():
     rig = scene.Scene([a_camera((0, 0, 1), (5, 0, 1), name='a'),
                        a_camera((0, 0, 1), (-5, 0, 1), name='b')], 0.3)
     assert rig.missed(np.array([[5.0, 0.0, 1.0], [0.0, 9.0, 1.0]])) == [['b'], ['a', 'b']]
-
-
-def test_intrinsics_of_the_paper_rig_are_the_drawn_ones():
-    drawn = subprocess.check_output(
-        ['/usr/bin/python3', os.path.join(HERE, '..', 'simulation', 'draw_intrinsics.py')],
-        universal_newlines=True)
-    with open(PAPER_RIG) as file:
-        described = {name: camera['intrinsics']
-                     for name, camera in yaml.safe_load(file)['cameras'].items()}
-    assert len(described) == 4
-    assert yaml.safe_load('\n'.join(line for line in drawn.splitlines()
-                                    if line.startswith('wiimote_'))) == described
 
 
 # --- Bound

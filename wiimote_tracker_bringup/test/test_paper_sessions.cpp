@@ -148,7 +148,7 @@ TEST(PaperSessions, TheJointSquareReachesItsBoundAndWorseMethodsDoNot) {
   EXPECT_GT(image_center, chance(kSessions) * least);
 }
 
-TEST(PaperSessions, TheWandReachesABoundThatTheSquareAloneDoesNot) {
+TEST(ExtensivePaperSessions, TheWandReachesABoundThatTheSquareAloneDoesNot) {
   constexpr int kSessions = 3;
   double wand = 0.0;
   double square = 0.0;

@@ -48,7 +48,7 @@ Eigen::Matrix<double, 6, 6> poseBound(const geometry::Camera& camera,
   return information.inverse();
 }
 
-TEST(Accuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
+TEST(ExtensiveAccuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
   constexpr int kTrials = 1000;
   constexpr double kPixel = 0.5;
   const SquareLayout layout = paperSquare();
@@ -254,7 +254,7 @@ void addErrors(const SimulatedSquare& simulated, const geometry::Rig& rig, Point
   errors->count += 10;
 }
 
-TEST(Accuracy, JointIsMoreAccurateThanPerCameraAndBothStateTheirError) {
+TEST(ExtensiveAccuracy, JointIsMoreAccurateThanPerCameraAndBothStateTheirError) {
   // The paper's rig, 2 and 4 cameras; 5 mm corners, and lenses as uncertain as assumed.
   for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
     PointErrors errors[2];

@@ -46,7 +46,7 @@ std::string solveOrRefusal(const SquareLayout& layout,
   }
 }
 
-TEST(Branches, BothAreFoundAndTheOtherIsTheMirrorImageAtTheLineOfSight) {
+TEST(ExtensiveBranches, BothAreFoundAndTheOtherIsTheMirrorImageAtTheLineOfSight) {
   Random random(1);
   const SquareLayout layout = squareOf(0.3);
   const Eigen::Isometry3d pose = poseFrom(layout, 5.0, 40.0 * kDegree, 0.3);
@@ -67,7 +67,7 @@ TEST(Branches, BothAreFoundAndTheOtherIsTheMirrorImageAtTheLineOfSight) {
   EXPECT_LT(std::acos(std::min(1.0, mirrored.dot(other))), 3.0 * kDegree);
 }
 
-TEST(Branches, EveryFitIsAStationaryPointOfTheReprojectionError) {
+TEST(ExtensiveBranches, EveryFitIsAStationaryPointOfTheReprojectionError) {
   Random random(2);
   const SquareLayout layout = squareOf(0.6);
   int fits = 0;
@@ -101,7 +101,7 @@ TEST(Branches, EveryFitIsAStationaryPointOfTheReprojectionError) {
   EXPECT_GE(fits, 50);
 }
 
-TEST(Branches, AmbiguousCamerasWithoutGravityAreRefusedWithAnExplanation) {
+TEST(ExtensiveBranches, AmbiguousCamerasWithoutGravityAreRefusedWithAnExplanation) {
   Random random(3);
   const SquareLayout layout = squareOf(0.2);
   Uncertainty errors = noErrors();
@@ -115,7 +115,7 @@ TEST(Branches, AmbiguousCamerasWithoutGravityAreRefusedWithAnExplanation) {
   EXPECT_NE(text.find("accelerometer"), std::string::npos) << text;
 }
 
-TEST(Branches, GravityResolvesWhatTheSquareCannot) {
+TEST(ExtensiveBranches, GravityResolvesWhatTheSquareCannot) {
   Random random(4);
   const SquareLayout layout = squareOf(0.3);
   Uncertainty errors = noErrors();
@@ -131,7 +131,7 @@ TEST(Branches, GravityResolvesWhatTheSquareCannot) {
   }
 }
 
-TEST(Branches, TheOtherCamerasResolveACameraThatCannotTell) {
+TEST(ExtensiveBranches, TheOtherCamerasResolveACameraThatCannotTell) {
   // The corners were put down badly, and just so that the far camera alone takes the wrong branch.
   // Cameras near by see the displacement, and with it the far camera's branch is clear.
   Random random(6);
@@ -166,7 +166,7 @@ TEST(Branches, TheOtherCamerasResolveACameraThatCannotTell) {
   EXPECT_GE(misled_alone, 3);
 }
 
-TEST(Branches, AWrongBranchIsNotReturned) {
+TEST(ExtensiveBranches, AWrongBranchIsNotReturned) {
   // All sorts of far and near, steep and flat cameras, with and without gravity: right or refused.
   // At odds of 100 a wrong choice among those that are close is possible, but rare.
   Random random(7);

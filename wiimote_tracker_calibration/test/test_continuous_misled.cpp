@@ -21,7 +21,7 @@ using square::Random;
 /// Another light than the LED, where it is at this time [s].
 using Light = Eigen::Vector3d (*)(const wave::SimulatedPath& path, double time);
 
-TEST(Continuous, IsNotMisledByAnotherLight) {
+TEST(ExtensiveContinuous, IsNotMisledByAnotherLight) {
   const std::vector<Light> lights = {
       // Mirror images: in the floor, in a window.
       [](const auto& path, double time) -> Eigen::Vector3d {
@@ -62,7 +62,7 @@ TEST(Continuous, IsNotMisledByAnotherLight) {
   }
 }
 
-TEST(Continuous, OtherLightsNeverMakeTheRigAMillimetreWorse) {
+TEST(ExtensiveContinuous, OtherLightsNeverMakeTheRigAMillimetreWorse) {
   for (const Misled by :
        {Misled::kMirror, Misled::kOtherLed, Misled::kCarried, Misled::kLamp, Misled::kMasked}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed)

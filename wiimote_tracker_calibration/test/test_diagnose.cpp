@@ -134,9 +134,9 @@ TEST_F(SquareMistake, AccelerometerWithTurnedAxes) {
 }
 
 /// Three of the paper's cameras, square and wave.
-class WaveMistake : public ::testing::Test {
+class ExtensiveWaveMistake : public ::testing::Test {
  protected:
-  WaveMistake() {
+  ExtensiveWaveMistake() {
     scene_.camera_count = 3;
     scene_.duration = 5.0;
     scene_.rate = 50.0;
@@ -163,7 +163,7 @@ class WaveMistake : public ::testing::Test {
   wave::Recording recording_;
 };
 
-TEST_F(WaveMistake, CornerFarFromItsPlace) {
+TEST_F(ExtensiveWaveMistake, CornerFarFromItsPlace) {
   for (std::size_t i = 0; i < 3; ++i)
     recording_.cameras[i].sightings.corners[1] =
         *truth_[i].project(corners_[1] + Eigen::Vector3d(-0.12, 0.16, 0.0));
@@ -172,7 +172,7 @@ TEST_F(WaveMistake, CornerFarFromItsPlace) {
   EXPECT_NEAR(std::atof(text.substr(text.find("was captured ") + 13).c_str()), 200.0, 40.0);
 }
 
-TEST_F(WaveMistake, CameraMovedAfterTheCorners) {
+TEST_F(ExtensiveWaveMistake, CameraMovedAfterTheCorners) {
   wave::WaveScene moved = scene_;
   moved.cameras = scene_.poses();
   moved.cameras.resize(3);
@@ -184,7 +184,7 @@ TEST_F(WaveMistake, CameraMovedAfterTheCorners) {
   EXPECT_SAYS(text, "and 3.4 degrees between the corners and the wave");
 }
 
-TEST_F(WaveMistake, ClockThatIsWrong) {
+TEST_F(ExtensiveWaveMistake, ClockThatIsWrong) {
   for (wave::Frame& frame : recording_.cameras[2].frames)
     frame.stamp += 1.0;
   EXPECT_NEAR(clockLag(recording_, 2).value_or(0.0), 1.0, 0.05);
@@ -194,7 +194,7 @@ TEST_F(WaveMistake, ClockThatIsWrong) {
   EXPECT_SAYS(text, "s ahead of the others");
 }
 
-TEST_F(WaveMistake, ClockOfAFourthCamera) {
+TEST_F(ExtensiveWaveMistake, ClockOfAFourthCamera) {
   // Where few images coincide, they correlate by chance.
   scene_.camera_count = 4;
   scene_.duration = 6.0;
@@ -205,7 +205,7 @@ TEST_F(WaveMistake, ClockOfAFourthCamera) {
   EXPECT_NEAR(clockLag(recording_, 2).value_or(0.0), 1.0, 0.05);
 }
 
-TEST_F(WaveMistake, ClockThatJumps) {
+TEST_F(ExtensiveWaveMistake, ClockThatJumps) {
   for (wave::Frame& frame : recording_.cameras[1].frames)
     frame.stamp += frame.stamp > recording_.cameras[1].frames.front().stamp + 2.0 ? 0.02 : 0.0;
   const std::string text = outcome();
@@ -213,7 +213,7 @@ TEST_F(WaveMistake, ClockThatJumps) {
   EXPECT_NEAR(std::atof(text.substr(text.find("about ") + 6).c_str()), 20.0, 5.0) << text;
 }
 
-TEST_F(WaveMistake, LengthOfTheWand) {
+TEST_F(ExtensiveWaveMistake, LengthOfTheWand) {
   scene_.length = 0.5;
   scene_.camera_count = 2;
   scene_.duration = 3.0;
@@ -224,7 +224,7 @@ TEST_F(WaveMistake, LengthOfTheWand) {
   EXPECT_NEAR(std::atof(text.substr(text.find("the wand is ") + 12).c_str()), 0.5, 0.005) << text;
 }
 
-TEST_F(WaveMistake, LengthByTape) {
+TEST_F(ExtensiveWaveMistake, LengthByTape) {
   const double length = (corners_[2] - corners_[0]).norm();
   recording_.square->lengths = {{0, 1, (corners_[1] - corners_[0]).norm()}, {0, 2, length + 0.06}};
   const std::string text = outcome();
@@ -232,12 +232,12 @@ TEST_F(WaveMistake, LengthByTape) {
   EXPECT_NEAR(std::atof(text.substr(text.find("corner 3 is ") + 12).c_str()), length, 0.01) << text;
 }
 
-TEST_F(WaveMistake, ExchangedDrivers) {
+TEST_F(ExtensiveWaveMistake, ExchangedDrivers) {
   std::swap(recording_.cameras[0].frames, recording_.cameras[2].frames);
   EXPECT_SAYS(outcome(), "camera_1 and camera_3 were exchanged");
 }
 
-TEST_F(WaveMistake, MirroredImage) {
+TEST_F(ExtensiveWaveMistake, MirroredImage) {
   for (wave::Frame& frame : recording_.cameras[0].frames) {
     for (Eigen::Vector2d& spot : frame.spots)
       spot.x() = 1023.0 - spot.x();
@@ -245,7 +245,7 @@ TEST_F(WaveMistake, MirroredImage) {
   EXPECT_SAYS(outcome(), "the image of camera_1 is mirrored");
 }
 
-TEST_F(WaveMistake, SidesInCentimetres) {
+TEST_F(ExtensiveWaveMistake, SidesInCentimetres) {
   recording_.square->side_x = recording_.square->side_y = 250.0;
   EXPECT_SAYS(outcome(), "is the square really 250 m by 250 m");
 }

@@ -151,7 +151,7 @@ TEST(TiltWatch, DoesNotJudgeAShakingCamera) {
 }
 
 // Forty minutes of tracking by rigs whose errors are those their covariance tells of.
-TEST(DriftWatch, RaisesNoFalseAlarm) {
+TEST(ExtensiveDriftWatch, RaisesNoFalseAlarm) {
   Random random(21);
   int judgements = 0;
   int reached = 0;
@@ -177,7 +177,7 @@ TEST(DriftWatch, RaisesNoFalseAlarm) {
   RecordProperty("reached", reached);
 }
 
-TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
+TEST(ExtensiveDriftWatch, NamesTheCameraThatDriftedByOnePixel) {
   Random random(22);
   const geometry::Rig rig = paperRigWith(calibratedByWave());
   int noticed = 0;
@@ -203,7 +203,7 @@ TEST(DriftWatch, NamesTheCameraThatDriftedByOnePixel) {
   EXPECT_GE(named, kTrials / 2);
 }
 
-TEST(DriftWatch, NamesTheCameraThatWasTurned) {
+TEST(ExtensiveDriftWatch, NamesTheCameraThatWasTurned) {
   Random random(23);
   const geometry::Rig rig = paperRigWith(calibratedByWave());
   int named = 0;
@@ -227,7 +227,7 @@ TEST(DriftWatch, NamesTheCameraThatWasTurned) {
   EXPECT_GE(alone, kTrials * 8 / 10);
 }
 
-TEST(DriftWatch, TwoCamerasAreNamedBoth) {
+TEST(ExtensiveDriftWatch, TwoCamerasAreNamedBoth) {
   Random random(24);
   const geometry::Rig rig = paperRigWith(calibratedByWave(), 2);
   auto truth = drawTruth(rig, random);
@@ -244,7 +244,7 @@ TEST(DriftWatch, TwoCamerasAreNamedBoth) {
   EXPECT_NEAR(watch.drifts()[0]->bias.norm(), 3.0, 0.5);
 }
 
-TEST(DriftWatch, UsesOnlyMotionAndKnownClocks) {
+TEST(ExtensiveDriftWatch, UsesOnlyMotionAndKnownClocks) {
   Random random(25);
   const geometry::Rig rig = paperRigWith(calibratedByWave());
   // A still LED gives the same rounding again and again.
@@ -272,7 +272,7 @@ TEST(DriftWatch, UsesOnlyMotionAndKnownClocks) {
   scene.runUntil(20.0, [&](const capture::Image& image) { EXPECT_FALSE(paper.add(image)); });
 }
 
-TEST(DriftWatch, StartsAnewWhenTheClockIsSetBack) {
+TEST(ExtensiveDriftWatch, StartsAnewWhenTheClockIsSetBack) {
   Random random(26);
   const geometry::Rig rig = paperRigWith(calibratedByWave());
   DriftWatch watch(rig, {});

@@ -183,7 +183,7 @@ TEST_F(JoinRigs, TheVerdictIsNoBetterThanThoseOfBoth) {
   EXPECT_EQ(session::gradeOf(redo), session::Grade::kRedo) << redo;
 }
 
-TEST_F(JoinRigs, ErrorsAreAsLargeAsStated) {
+TEST_F(JoinRigs, ExtensiveRunsHaveErrorsAsLargeAsStated) {
   for (const int shared : {1, 2}) {
     const geometry::Rig second = exactRig(4 - shared, 6, worldFromSecond(), random_);
     const int kRuns = 200;

@@ -53,7 +53,7 @@ void turnSecondWorld(const Eigen::Matrix3d& turn, TwoRooms* trial) {
   }
 }
 
-TEST(JoinRooms, TiesTheRoomsAsWellAsStatedAndBetterWithEachPassage) {
+TEST(ExtensiveJoinRooms, TiesTheRoomsAsWellAsStatedAndBetterWithEachPassage) {
   const std::map<int, double> largest = {{1, 0.16}, {4, 0.087}, {10, 0.056}, {16, 0.047}};  // [m]
   for (const auto& [passages, position] : largest) {
     const int times = passages;

@@ -86,7 +86,7 @@ void expectPredicted(const char* name,
   }
 }
 
-TEST(LensPopulations, ErrorsOfASquareAreAsPredicted) {
+TEST(ExtensiveLensPopulations, ErrorsOfASquareAreAsPredicted) {
   for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
     const square::SquareLayout layout = square::paperSquare();
     auto poses = square::paperRig();
@@ -108,7 +108,7 @@ TEST(LensPopulations, ErrorsOfASquareAreAsPredicted) {
   }
 }
 
-TEST(LensPopulations, ErrorsOfAWaveAreAsPredicted) {
+TEST(ExtensiveLensPopulations, ErrorsOfAWaveAreAsPredicted) {
   wave::WaveScene scene;
   scene.duration = 8.0;
   scene.rate = 50.0;

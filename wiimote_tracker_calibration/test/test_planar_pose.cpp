@@ -71,7 +71,7 @@ TEST_P(Lenses, AnyRectangleWithoutNoiseGivesTheExactPose) {
   }
 }
 
-TEST_P(Lenses, IsAsGoodAsManyStartsAndReachesTheBound) {
+TEST_P(Lenses, ExtensiveRunsAreAsGoodAsManyStartsAndReachTheBound) {
   for (int bin = 0; bin < 5; ++bin) {
     std::mt19937_64 random(static_cast<std::uint64_t>(bin + 1));
     PoseTally tally;

@@ -135,7 +135,7 @@ TEST(Recalibrate, NamesEachCameraOnceInTheMethod) {
 
 // With right covariances the mean of the normalised squared error is 1, and 95 % are within the
 // 95 % region.
-TEST(Recalibrate, HasTheStatedUncertainty) {
+TEST(ExtensiveRecalibrate, HasTheStatedUncertainty) {
   const int kTrials = 40;
   for (const bool replaced : {false, true}) {
     Random random(2);

@@ -153,7 +153,7 @@ TEST(Remap, LeftOutErrorsOfAThinPlateAreThoseOfFitsWithoutThePoint) {
   }
 }
 
-TEST(Remap, WithNoiseTheSimplestSufficientModelIsMostlyChosen) {
+TEST(ExtensiveRemap, WithNoiseTheSimplestSufficientModelIsMostlyChosen) {
   constexpr int kTrials = 20;
   int affine_chosen = 0;
   int trilinear_chosen = 0;
@@ -173,7 +173,7 @@ TEST(Remap, WithNoiseTheSimplestSufficientModelIsMostlyChosen) {
 }
 
 // What is promised for a point is what new points, measured with the same noise, are found to be.
-TEST(Remap, TheExpectedErrorIsHonest) {
+TEST(ExtensiveRemap, TheExpectedErrorIsHonest) {
   constexpr int kTrials = 20;
   double promised = 0.0;
   double found = 0.0;

@@ -214,7 +214,7 @@ TEST_P(StatedUncertainty, IsThatOfTheErrors) {
 // Least squares, and a loss that is linear for most of the residuals, of 0.05 px a coordinate [px].
 INSTANTIATE_TEST_SUITE_P(HuberScales, StatedUncertainty, ::testing::Values(100.0, 0.03));
 
-TEST(SelfCalibrate, StatesErrorsThatTheLensModelDoesNotExplain) {
+TEST(ExtensiveSelfCalibrate, StatesErrorsThatTheLensModelDoesNotExplain) {
   double sum = 0.0;
   double count = 0.0;
   for (const unsigned seed : {1U, 2U, 3U}) {

@@ -281,7 +281,7 @@ struct Errors {
   double ratio() const { return std::sqrt(squared / predicted); }
 };
 
-TEST(Verdict, PredictsTheErrorsOfASquare) {
+TEST(ExtensiveVerdict, PredictsTheErrorsOfASquare) {
   for (const square::Method method : {square::Method::kJoint, square::Method::kPerCamera}) {
     for (const std::size_t cameras : {2U, 4U}) {
       square::Random random(8);
@@ -303,7 +303,7 @@ TEST(Verdict, PredictsTheErrorsOfASquare) {
   }
 }
 
-TEST(Verdict, PredictsTheErrorsOfAWave) {
+TEST(ExtensiveVerdict, PredictsTheErrorsOfAWave) {
   const wave::WaveScene scene = shortScene();
   Errors errors;
   for (std::uint64_t seed = 100; seed < 115; ++seed) {
@@ -315,7 +315,7 @@ TEST(Verdict, PredictsTheErrorsOfAWave) {
   EXPECT_LT(errors.ratio(), 1.25);
 }
 
-TEST(Verdict, NamesACornerThatWasDisplaced) {
+TEST(ExtensiveVerdict, NamesACornerThatWasDisplaced) {
   // Lenses as they come from the board of LEDs: one that may be off by 3 % explains nearly as well
   // what a corner does.
   SolveOptions options;
@@ -374,7 +374,7 @@ TEST(Verdict, QuestionsAnImplausibleScale) {
   }
 }
 
-TEST(Verdict, NamesACornerThatTheWaveContradicts) {
+TEST(ExtensiveVerdict, NamesACornerThatTheWaveContradicts) {
   const wave::WaveScene scene = shortScene();
   wave::SimulatedWave wave = wave::simulateWave(scene, 10);
   const Eigen::Vector3d beside = wave.corners[2] + Eigen::Vector3d(0.05, 0.02, 0.0);

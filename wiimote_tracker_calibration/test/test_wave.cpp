@@ -51,7 +51,7 @@ TEST(Wave, IsExactWithoutNoise) {
   solution.rig.check();
 }
 
-TEST(Wave, IsAsAccurateAsTheFisherBoundAllows) {
+TEST(ExtensiveWave, IsAsAccurateAsTheFisherBoundAllows) {
   for (const std::size_t cameras : {2, 4}) {
     WaveScene scene = shortScene();
     scene.camera_count = cameras;
@@ -145,7 +145,7 @@ TEST(Wave, AWrongStartIsRepeatedWithOtherPoints) {
   EXPECT_GT(starts, 1) << "no start failed: take other sessions";
 }
 
-TEST(Wave, WandIsNearlyAsGoodAsPerfectCameras) {
+TEST(ExtensiveWave, WandIsNearlyAsGoodAsPerfectCameras) {
   WaveScene scene = shortScene();
   scene.rate = 100.0;
   scene.length = 0.5;
@@ -260,7 +260,7 @@ TEST(Wave, StartsWithoutSquareDespiteLamps) {
   EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.004);
 }
 
-TEST(Wave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
+TEST(ExtensiveWave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
   WaveScene scene = shortScene();
   scene.wander = 0.0003;
   double squared = 0.0;

@@ -126,7 +126,7 @@ double poseNees(const WaveScene& scene, int seeds) {
   return sum / seeds;
 }
 
-TEST(WandOnFloor, TheCovarianceIncludesHowTheWorldWasFound) {
+TEST(ExtensiveWandOnFloor, TheCovarianceIncludesHowTheWorldWasFound) {
   WaveScene scene = floorScene();
   scene.camera_count = static_cast<std::size_t>(kCameras);
   scene.quantized = false;

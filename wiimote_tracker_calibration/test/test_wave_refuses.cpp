@@ -77,7 +77,7 @@ TEST(WaveRefuses, CamerasThatShareNothing) {
               "camera_4 and the other cameras hardly ever saw the LED at the same time");
 }
 
-TEST(WaveRefuses, SlowLed) {
+TEST(ExtensiveWaveRefuses, SlowLed) {
   WaveScene scene;
   std::mt19937_64 random(1);
   SimulatedPath path(0.0, random);

@@ -43,7 +43,7 @@ TEST(Wave, ResidualsOfFewImagesAreNotEnlarged) {
     EXPECT_LT(camera.residual_px, 0.05);
 }
 
-TEST(Wave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
+TEST(ExtensiveWave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
   // The expectation is exact for small errors: corners and lenses are fitted, too.
   WaveScene scene = shortScene();
   scene.quantized = false;

@@ -89,7 +89,7 @@ Score meanOverRemotes(RadioModel::Polling polling, double loss) {
   return mean;
 }
 
-TEST(ClockWander, ExposuresOfRemotesThatWanderAsRecorded) {
+TEST(ExtensiveClockWander, ExposuresOfRemotesThatWanderAsRecorded) {
   Score mean;
   constexpr int kSessions = 12;
   for (std::uint64_t seed = 1; seed <= kSessions; ++seed) {
@@ -103,28 +103,28 @@ TEST(ClockWander, ExposuresOfRemotesThatWanderAsRecorded) {
   EXPECT_LT(mean.inside, 0.98);
 }
 
-TEST(ClockWander, RemotesPolledAtRandom) {
+TEST(ExtensiveClockWander, RemotesPolledAtRandom) {
   const Score score = meanOverRemotes(RadioModel::Polling::kAtRandom, 0.0);
   EXPECT_GT(score.inside, 0.92);
 }
 
 // Polls every 5 ms beat with the camera: the delay grows slowly and jumps back by 5 ms. The clock
 // cannot see that, but that it has been wrong.
-TEST(ClockWander, RemotesPolledNearTheirPeriod) {
+TEST(ExtensiveClockWander, RemotesPolledNearTheirPeriod) {
   EXPECT_GT(meanOverRemotes(RadioModel::Polling::kInTurn, 0.0).inside, 0.85);
   EXPECT_GT(meanOverRemotes(RadioModel::Polling::kInTurn, 0.05).inside, 0.7);
 }
 
 // Arrivals as regular as those without any delay. Only their period of 10.000 ms, which is that of
 // the polls, tells that the phase is unknown.
-TEST(ClockWander, RemotesInSniffMode) {
+TEST(ExtensiveClockWander, RemotesInSniffMode) {
   EXPECT_GT(meanOverRemotes(RadioModel::Polling::kSniff, 0.0).inside, 0.95);
   EXPECT_GT(meanOverRemotes(RadioModel::Polling::kSniff, 0.05).inside, 0.85);
 }
 
 // As after a start with wrong frame numbers: the clock is certain of a period that is 0.5 % short.
 // The change falls anywhere within a trial of another estimator.
-TEST(ClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {
+TEST(ExtensiveClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {
   constexpr std::uint64_t kStarts = 200;
   int in_time = 0;
   for (std::uint64_t seed = 1; seed <= kStarts; ++seed) {

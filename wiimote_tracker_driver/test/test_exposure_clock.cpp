@@ -58,7 +58,7 @@ struct Running {
   int frame = 0;
 };
 
-TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
+TEST(ExtensiveExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
   for (double mean : {0.002, 0.005}) {
     const TimingScore score = runTiming(edge(mean), 10.0, kSessions, false);
     EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
@@ -69,12 +69,12 @@ TEST(ExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
   }
 }
 
-TEST(ExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_with_known_frame_numbers) {
+TEST(ExtensiveExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_with_known_frame_numbers) {
   const TimingScore score = runTiming(edge(0.002), 10.0, kSessions, false);
   EXPECT_LT(score.clock, 1.2 * score.convex_hull);
 }
 
-TEST(ExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
+TEST(ExtensiveExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
   const TimingScore score = runTiming(bell(), 10.0, kSessions, false);
   EXPECT_LT(score.clock, 0.2e-3 * kTolerance);
   EXPECT_LT(score.clock, 1.3 * score.least_squares);
@@ -83,7 +83,7 @@ TEST(ExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
   EXPECT_LT(score.clock_ratio, 1.3);
 }
 
-TEST(ExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_the_model) {
+TEST(ExtensiveExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_the_model) {
   for (const LinkModel& link : {bell(1e-3), edge(0.002, 1e-3)}) {
     const TimingScore score = runTiming(link, 10.0, kSessions, false);
     // Same sessions on both sides: the ratio scatters less than either.
@@ -94,7 +94,7 @@ TEST(ExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_t
   }
 }
 
-TEST(ExposureClockAccuracy, is_robust_to_stalls_and_slots) {
+TEST(ExtensiveExposureClockAccuracy, is_robust_to_stalls_and_slots) {
   LinkModel link = bell(0.3e-3);
   link.slot = 1.25e-3;
   link.stalls = 0.3;
@@ -104,7 +104,7 @@ TEST(ExposureClockAccuracy, is_robust_to_stalls_and_slots) {
   EXPECT_GT(score.covered, 0.85);
 }
 
-TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
+TEST(ExtensiveExposureClockAccuracy, numbers_frames_through_losses) {
   // Lone losses show in the arrivals of 2 ms jitter at once, or one report later.
   const SimulatedSession session = simulate(edge(0.002), 60.0, 3);
   ExposureClock clock;
@@ -124,7 +124,8 @@ TEST(ExposureClockAccuracy, numbers_frames_through_losses) {
   EXPECT_LT(clock.statistics().period_stddev, 10e-6 * kPeriod);
 }
 
-TEST(ExposureClockAccuracy, keeps_count_and_clock_over_twenty_minutes_of_losses_and_stalls) {
+TEST(ExtensiveExposureClockAccuracy,
+     keeps_count_and_clock_over_twenty_minutes_of_losses_and_stalls) {
   LinkModel steady_edge = edge(0.003), wandering_bell = bell(1e-3);
   for (LinkModel link : {steady_edge, wandering_bell}) {
     link.slot = 1.25e-3;
@@ -150,7 +151,7 @@ TEST(ExposureClockAccuracy, keeps_count_and_clock_over_twenty_minutes_of_losses_
   }
 }
 
-TEST(ExposureClockAccuracy, a_remote_may_be_fast_or_slow) {
+TEST(ExtensiveExposureClockAccuracy, a_remote_may_be_fast_or_slow) {
   for (double period : {0.00999, 0.01008})
     for (LinkModel link : {edge(0.002), bell()}) {
       link.period = period;
@@ -203,7 +204,7 @@ struct Twice {
   double worst = 0.0, worst_stddev = 0.0;
 };
 
-TEST(ExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
+TEST(ExtensiveExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
   for (double later : {0.0, 0.003}) {
     const Twice run(edge(0.002), 0.01, later, 2.0);
     EXPECT_GT(run.extra, 30);
@@ -219,7 +220,7 @@ TEST(ExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
 }
 
 // Delays learnt from an echo of 3 ms are forgotten more slowly.
-TEST(ExposureClockAccuracy, heals_after_all_reports_came_twice) {
+TEST(ExtensiveExposureClockAccuracy, heals_after_all_reports_came_twice) {
   for (double later : {0.0, 0.003}) {
     const Twice run(edge(0.002), 1.0, later, later > 0.0 ? 12.0 : 2.0);
     EXPECT_GT(run.clock.statistics().restarts, 0u);

@@ -81,7 +81,7 @@ void hideFourTimes(const Motion& motion,
 
 const std::array<Motion, 4> kMotions = {test::held, test::handheld, test::shaken, test::tumbling};
 
-TEST(HiddenBody, IsSilent) {
+TEST(ExtensiveHiddenBody, IsSilent) {
   Hidings hidings;
   for (const Motion& motion : kMotions) {
     for (unsigned seed = 0; seed < 4; ++seed)
@@ -92,7 +92,7 @@ TEST(HiddenBody, IsSilent) {
 }
 
 /// Up to 0.1 m from where one of its LEDs was.
-TEST(HiddenBody, IsSilentWhileAnotherLedIsLitAtItsPlace) {
+TEST(ExtensiveHiddenBody, IsSilentWhileAnotherLedIsLitAtItsPlace) {
   geometry::test::Random random(51);
   Hidings hidings;
   for (const Motion& motion : kMotions) {
@@ -110,7 +110,7 @@ TEST(HiddenBody, IsSilentWhileAnotherLedIsLitAtItsPlace) {
 
 /// Each up to 0.2 m along each axis from where another of its LEDs was. Some have by chance the
 /// distances of LEDs of the body.
-TEST(HiddenBody, IsMostlySilentWhileTwoOrThreeOtherLedsAreLitBesideIt) {
+TEST(ExtensiveHiddenBody, IsMostlySilentWhileTwoOrThreeOtherLedsAreLitBesideIt) {
   geometry::test::Random random(51);
   Hidings hidings;
   for (const Motion& motion : kMotions) {

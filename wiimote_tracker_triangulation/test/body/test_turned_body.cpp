@@ -15,7 +15,7 @@ using test::Motion;
 
 /// The paper's two neighbouring cameras see a body of 0.1 m from 4 m, so that some wrong poses fit
 /// many of its spots.
-TEST(TurnedBody, IsRareWithTwoCameras) {
+TEST(ExtensiveTurnedBody, IsRareWithTwoCameras) {
   geometry::Rig rig = tracking::test::paperRig();
   rig.cameras.resize(2);
   tracking::test::SceneOptions options;
@@ -40,7 +40,7 @@ TEST(TurnedBody, IsRareWithTwoCameras) {
 }
 
 /// It is hidden for the last 0.1 s of each second.
-TEST(TurnedBody, IsRareAfterABodyWasHidden) {
+TEST(ExtensiveTurnedBody, IsRareAfterABodyWasHidden) {
   tracking::test::SceneOptions options;
   options.pixel_noise = 0.5;
   options.hidden = [](std::size_t, std::size_t, double t) { return std::fmod(t, 1.0) > 0.9; };

@@ -162,7 +162,7 @@ TEST(Covariance, LeastSquaresIsConsistent) {
   expectConsistent("least squares", TriangulationMethod::kLeastSquares, 22);
 }
 
-TEST(Covariance, MeanClosestIsConsistent) {
+TEST(ExtensiveCovariance, MeanClosestIsConsistent) {
   expectConsistent("mean of closest points", TriangulationMethod::kMeanClosest, 23);
 }
 

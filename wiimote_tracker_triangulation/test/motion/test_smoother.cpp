@@ -134,7 +134,7 @@ TEST(Smoother, WithOneModeIsTheBatchSolution) {
   }
 }
 
-TEST(Smoother, IsBetterThanTheFilterAndConsistent) {
+TEST(ExtensiveSmoother, IsBetterThanTheFilterAndConsistent) {
   struct Motion {
     double speed, acceleration;
   };

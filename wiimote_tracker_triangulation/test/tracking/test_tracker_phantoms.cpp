@@ -90,7 +90,7 @@ TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
 
 // Each camera shows four of twelve: none contradicts where rays of two LEDs meet by chance. It is
 // 10 % where full cameras count as if they did not look there.
-TEST(TrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {
+TEST(ExtensiveTrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {
   PhantomRows all;
   for (unsigned seed = 1; seed <= 10; ++seed) {
     geometry::test::Random random(seed);

@@ -20,7 +20,7 @@ while True:
 """
 
 
-@pytest.mark.skipif(far_computer.missing() != '', reason=far_computer.missing())
+@pytest.mark.skipif(far_computer.why_not() != '', reason=far_computer.why_not())
 def test_packets_are_carried_delayed_and_lost():
     far = far_computer.FarComputer()
     near = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)

@@ -19,7 +19,7 @@ TUNSETIFF, IFF_TUN, IFF_NO_PI = 0x400454ca, 0x1, 0x1000
 PACKET = 65536  # longest [bytes]
 
 
-def missing():
+def why_not():
     """Why there can be no such computer here; empty: there can."""
     if os.geteuid() != 0:
         return 'only root can make a network namespace'

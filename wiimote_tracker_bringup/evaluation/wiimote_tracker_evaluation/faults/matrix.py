@@ -12,8 +12,8 @@ from wiimote_tracker_bringup.processes import Processes
 from wiimote_tracker_evaluation.faults import (
     of_files, of_images, of_load, of_master, of_messages, of_network, of_processes, of_time,
     of_types)
+from wiimote_tracker_evaluation.faults.fault import Fault, Result, carry_out
 from wiimote_tracker_evaluation.faults.room import Room
-from wiimote_tracker_evaluation.faults.row import Fault, Result, carry_out
 
 FAULTS = [each for module in (of_processes, of_messages, of_types, of_files, of_images, of_time,
                               of_load, of_network, of_master)
@@ -110,9 +110,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
         try:
             print(HEAD)
             for fault in options.chosen:
-                missing = fault.missing()
-                if missing:
-                    print(f'{fault.name:28} left out: {missing}')
+                why_not = fault.why_not()
+                if why_not:
+                    print(f'{fault.name:28} left out: {why_not}')
                     continue
                 results.append(matrix.run(fault))
                 print(line(results[-1]), flush=True)

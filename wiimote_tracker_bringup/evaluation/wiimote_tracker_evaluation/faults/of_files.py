@@ -6,8 +6,8 @@ import random
 import subprocess
 import tempfile
 
+from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.helper import Helper
-from wiimote_tracker_evaluation.faults.row import fault
 
 STEP = 5         # of truncation [%]
 FLIPS = 2000     # files with a few changed bytes
@@ -125,7 +125,7 @@ def small_disk(folder):
         subprocess.run(['umount', folder], check=True)
 
 
-def missing_disk():
+def why_no_disk():
     """Why there can be no small disk here; empty: there can."""
     if os.geteuid() != 0:
         return 'only root can make a small disk'
@@ -143,7 +143,7 @@ def fill(path):
             file.write(bytes(1024))
 
 
-@fault(missing=missing_disk)
+@fault(why_not=why_no_disk)
 def full_disk(room):
     """The rig is saved to a full disk, over an older file."""
     yield 0.0

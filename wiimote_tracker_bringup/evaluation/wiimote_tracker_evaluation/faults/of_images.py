@@ -1,6 +1,6 @@
 """Cameras with a wrong clock, and cameras with ghosts."""
 
-from wiimote_tracker_evaluation.faults.row import Fault
+from wiimote_tracker_evaluation.faults.fault import Fault
 
 LAST = 8.0  # [s]
 ONE, TWO = ('wiimote_4',), ('wiimote_3', 'wiimote_4')

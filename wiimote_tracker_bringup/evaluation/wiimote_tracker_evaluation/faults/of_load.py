@@ -3,10 +3,10 @@
 import multiprocessing
 import os
 
+from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.helper import Helper
 from wiimote_tracker_evaluation.faults.of_processes import in_one_manager
 from wiimote_tracker_evaluation.faults.room import DARK
-from wiimote_tracker_evaluation.faults.row import fault
 
 LAST = 8.0  # [s]
 

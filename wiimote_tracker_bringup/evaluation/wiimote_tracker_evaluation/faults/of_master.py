@@ -1,7 +1,7 @@
 """The master or the launcher ends, and the same command is given again."""
 
+from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.of_processes import halted
-from wiimote_tracker_evaluation.faults.row import fault
 
 PATIENCE = 60.0  # for nodes to end [s]
 GONE = 3.0       # without a master, or a launcher [s]

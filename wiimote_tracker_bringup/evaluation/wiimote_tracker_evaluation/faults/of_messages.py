@@ -5,9 +5,9 @@ import signal
 import threading
 import time
 
+from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.helper import Helper, wait_for_subscribers
 from wiimote_tracker_evaluation.faults.of_processes import in_one_manager
-from wiimote_tracker_evaluation.faults.row import fault
 
 CAMERA = 'wiimote_4'
 SENT = 10         # of each kind

@@ -2,7 +2,7 @@
 
 import dataclasses
 
-from wiimote_tracker_evaluation.faults.row import Fault
+from wiimote_tracker_evaluation.faults.fault import Fault
 
 DRIVER, TRACKER, MANAGER = '/wiimote_4/driver', '/triangulation', '/manager'
 CALIBRATION, GESTURES, WATCH = '/calibration', '/gestures', '/master_watch'

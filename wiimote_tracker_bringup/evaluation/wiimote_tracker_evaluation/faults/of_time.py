@@ -5,10 +5,10 @@ import time
 
 import numpy as np
 
+from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.figures import MOST_ERROR, figures
 from wiimote_tracker_evaluation.faults.listener import Listener
 from wiimote_tracker_evaluation.faults.room import LABELS, LEDS
-from wiimote_tracker_evaluation.faults.row import fault
 
 RECORDED = 3       # [s]
 LAST = 8.0         # of the replay [s]

@@ -5,10 +5,10 @@ import dataclasses
 import signal
 import time
 
+from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.helper import Helper, wait_for_subscribers
 from wiimote_tracker_evaluation.faults.of_messages import CAMERA, INTERVAL, NAN
 from wiimote_tracker_evaluation.faults.of_processes import CALIBRATION, DRIVER, GESTURES, TRACKER
-from wiimote_tracker_evaluation.faults.row import fault
 
 NODES = (TRACKER, CALIBRATION, GESTURES, DRIVER)
 OF_ROSCPP = ('get_loggers', 'set_logger_level')

@@ -1,4 +1,4 @@
-"""One row of the matrix: a fault is caused, and figures are taken before, during and after it."""
+"""What a fault is; causes one, and judges the figures taken before, during and after it."""
 
 import dataclasses
 import time
@@ -21,7 +21,7 @@ class Fault:
     quick: also in the quick form. room: how the room differs (arguments of Room). ends: nodes that
     may end and start again; '*' for all. named: what some warning or error must contain; empty:
     none is needed. names_may_change: whether LEDs may get other names. wrong_allowed: wrong points
-    cannot be avoided. spends_room: no other fault can be tried in this room afterwards. missing: says
+    cannot be avoided. spends_room: no other fault can be tried in this room afterwards. why_not: says
     why it cannot be caused here; empty: it can.
     """
 
@@ -35,7 +35,7 @@ class Fault:
     names_may_change: bool = False
     wrong_allowed: bool = False
     spends_room: bool = False
-    missing: Callable[[], str] = str
+    why_not: Callable[[], str] = lambda: ''
 
 
 @dataclasses.dataclass(eq=False)

@@ -21,8 +21,8 @@ class Fault:
     quick: also in the quick form. room: how the room differs (arguments of Room). ends: nodes that
     may end and start again; '*' for all. named: what some warning or error must contain; empty:
     none is needed. names_may_change: whether LEDs may get other names. wrong_allowed: wrong points
-    cannot be avoided. spends_room: no other fault can be tried in this room afterwards. why_not: says
-    why it cannot be caused here; empty: it can.
+    cannot be avoided. spends_room: no other fault can be tried in this room afterwards. why_not:
+    says why it cannot be caused here; empty: it can.
     """
 
     name: str

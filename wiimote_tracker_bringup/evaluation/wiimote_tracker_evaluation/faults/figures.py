@@ -7,6 +7,7 @@ from typing import Dict, List, Optional
 import numpy as np
 
 from wiimote_tracker_bringup import timeseries
+from wiimote_tracker_evaluation.faults.listener import POSITION, RECEIPT, STAMP, STDDEV
 
 # A point is wrong if it is farther from every LED than both of these.
 WRONG = 0.05   # [m]
@@ -15,18 +16,19 @@ CLAIMED = 5.0  # its own standard deviations
 PIECE = 0.25       # over which normality is judged [s]
 MOST_ERROR = 0.02  # of the middle point of a normal piece [m]
 MOST_AGE = 0.1     # more than before the fault [s]
-LEAST_POINTS = 20.0  # at the start, a second and LED
+LEAST_POINTS = 20.0  # per second and LED, before a fault is caused
 LEAST_RATE = 0.5   # share of the rate before
 LONGEST_GAP = 0.1  # between two true positions [s]
 FASTEST = 2.0      # LED [m/s]
-LEAST_SHARE = 0.1  # of the points, which a camera must have seen
+LEAST_SHARE = 0.1  # of the points, which a camera of Figures.cameras has seen
 
 
 @dataclasses.dataclass(eq=False)
 class Figures:
     """rate: points a second and LED. error: median and 95 % [m]. age: median time from the stamp to
     the receipt [s]. wrong: number of wrong points of `number`; worst: largest error of those [m].
-    names: label of each LED, of the most points. cameras: those that see LEDs again and again."""
+    names: of each LED the label that most of its points have. cameras: those that saw more than
+    LEAST_SHARE of the points."""
 
     rate: float
     error: Optional[float]
@@ -47,7 +49,7 @@ def select(window, chosen):
 def with_truth(window):
     """The window with the points for which the truth is known: not while the simulation was
     started again, which shows as a gap or as a leap of an LED."""
-    stamps, known = window.points[:, 1], np.ones(len(window.points), dtype=bool)
+    stamps, known = window.points[:, STAMP], np.ones(len(window.points), dtype=bool)
     for truth in window.truth.values():
         times = truth[:, 0]
         gaps = np.diff(times)
@@ -66,7 +68,8 @@ def errors(window):
     if not len(rows):
         return np.zeros(0), np.zeros(0, dtype=int)
     distances = [
-        np.linalg.norm(rows[:, 2:5] - timeseries.at(truth[:, 0], truth[:, 1:4], rows[:, 1]), axis=1)
+        np.linalg.norm(rows[:, POSITION]
+                       - timeseries.at(truth[:, 0], truth[:, 1:4], rows[:, STAMP]), axis=1)
         if len(truth) else np.full(len(rows), np.inf) for truth in window.truth.values()]
     return np.min(distances, axis=0), np.argmin(distances, axis=0)
 
@@ -75,18 +78,19 @@ def figures(window, seconds) -> Figures:
     window = with_truth(window)
     error, led = errors(window)
     leds = list(window.truth)
-    wrong = error > np.maximum(WRONG, CLAIMED * window.points[:, 5])
+    wrong = error > np.maximum(WRONG, CLAIMED * window.points[:, STDDEV])
     names = {}
     for index, name in enumerate(leds):
         labels, counts = np.unique(window.labels[led == index], return_counts=True)
         if len(labels):
             names[name] = str(labels[np.argmax(counts)])
+    ages = window.points[:, RECEIPT] - window.points[:, STAMP]
     known = len(error) > 0
     return Figures(
         rate=len(error) / max(seconds, 1e-9) / len(leds),
         error=float(np.median(error)) if known else None,
         error_95=float(np.percentile(error, 95)) if known else None,
-        age=float(np.median(window.points[:, 0] - window.points[:, 1])) if known else None,
+        age=float(np.median(ages)) if known else None,
         number=len(error), wrong=int(wrong.sum()), worst=float(error[wrong].max(initial=0.0)),
         names=names, cameras=regular_cameras(window))
 
@@ -120,7 +124,8 @@ def normal_since(window, start, end, before) -> Optional[float]:
     edges = np.arange(end, start + 1e-6, -PIECE)
     since = None
     for last, first in zip(edges[:-1], edges[1:]):
-        inside = (window.points[:, 0] >= first) & (window.points[:, 0] < last)
+        receipt = window.points[:, RECEIPT]
+        inside = (receipt >= first) & (receipt < last)
         if not is_normal(select(window, inside), PIECE, before):
             break
         since = first

@@ -11,6 +11,9 @@ from wiimote_tracker_evaluation.faults.helper import Helper
 
 HISTORY = 400000  # messages of one topic that are kept
 
+# Columns of a window's points.
+RECEIPT, STAMP, POSITION, STDDEV = 0, 1, slice(2, 5), 5
+
 
 @dataclasses.dataclass(eq=False)
 class Window:
@@ -18,7 +21,7 @@ class Window:
 
     points: a row per TRACKED point: time of receipt, stamp, x, y, z [m], standard deviation [m];
     labels: their names; cameras: the names of those that saw it. truth: per LED rows of stamp,
-    x, y, z. said: (time, name, sentence) of warnings and errors on the console and in the
+    x, y, z [m]. said: (time, name, sentence) of warnings and errors on the console and in the
     diagnostics.
     """
 

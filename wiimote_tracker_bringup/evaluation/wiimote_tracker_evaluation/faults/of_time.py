@@ -7,7 +7,7 @@ import numpy as np
 
 from wiimote_tracker_evaluation.faults.fault import fault
 from wiimote_tracker_evaluation.faults.figures import MOST_ERROR, figures
-from wiimote_tracker_evaluation.faults.listener import Listener
+from wiimote_tracker_evaluation.faults.listener import STAMP, Listener
 from wiimote_tracker_evaluation.faults.room import LABELS, LEDS
 
 RECORDED = 3       # [s]
@@ -53,7 +53,7 @@ def problems_of(seen, loops):
     elif result.wrong or result.error > MOST_ERROR:
         problems.append(f'{result.wrong} points of the replay were wrong, by up to '
                         f'{1e3 * result.worst:.0f} mm; error {1e3 * result.error:.1f} mm')
-    stamps = seen.points[:, 1]
+    stamps = seen.points[:, STAMP]
     if loops and not (np.diff(stamps) < -0.5 * RECORDED).any():
         problems.append('no points after the first round')
     return problems

@@ -15,7 +15,7 @@ from scipy.spatial.transform import Rotation
 from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import (
-    accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, ordinary, program)
+    accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, pipeline, program)
 from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
@@ -172,7 +172,7 @@ class Hand(Flight):
 def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
     Hand().write(str(tmp_path), np.random.RandomState(3))
     views = lighthouse.read(str(tmp_path))
-    rig = ordinary.calibrate(views, str(tmp_path))
+    rig = pipeline.calibrate(views, str(tmp_path))
     figures, _, _ = flights.score(views, rig, body.track(views, rig, str(tmp_path)))
     assert figures['tracked'] > 0.985
     assert figures['rms_mm'] < 1.9
@@ -181,7 +181,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
     images = tmp_path / 'images.txt'  # of that track, now cut off in its last line
     images.write_text(images.read_text().rsplit(' ', 2)[0])
     with pytest.raises(ExperimentError, match='has a line that is not camera, time'):
-        programs.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)), images,
+        programs.run('track_labelled_body', pipeline.lenses_of(views, rig, str(tmp_path)), images,
                      tmp_path / 'body.csv')
     lights = images.read_text().splitlines()[0]
     for text, words in [('word\n', 'does not begin with a line of x, y and z'),
@@ -189,7 +189,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
                         (lights + '\n', 'has no image after the lights')]:
         images.write_text(text)
         with pytest.raises(ExperimentError, match=words):
-            programs.run('track_labelled_body', ordinary.lenses_of(views, rig, str(tmp_path)),
+            programs.run('track_labelled_body', pipeline.lenses_of(views, rig, str(tmp_path)),
                          images, tmp_path / 'none.csv')
     assert not (tmp_path / 'none.csv').exists()
 
@@ -229,7 +229,7 @@ def test_a_camera_sends_images_also_when_it_sees_nothing(tmp_path):
                for name, start in (('one', 5.0), ('other', 5.03))]
     assert cameras[0].blank_times == pytest.approx([5.3, 5.4, 5.7])
     path = str(tmp_path / 'blobs.bag')
-    ordinary.write_bag(Views(cameras, np.zeros((1, 3)), 0.0, None), [0.0, 0.0], path)
+    pipeline.write_bag(Views(cameras, np.zeros((1, 3)), 0.0, None), [0.0, 0.0], path)
     with rosbag.Bag(path) as bag:
         images = [image for _, image, _ in bag.read_messages('/one/ir_blobs')]
     assert [image.header.stamp.to_sec() for image in images] == pytest.approx(

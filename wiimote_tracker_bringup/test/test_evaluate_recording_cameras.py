@@ -19,7 +19,7 @@ sys.path[:0] = [HERE, *(os.path.join(HERE, '..', folder) for folder in (
 
 import simulated_cameras  # noqa: E402
 from wiimote_tracker_bringup.errors import ExperimentError  # noqa: E402
-from wiimote_tracker_evaluation.recordings import cameras, flight, ordinary, time_maps  # noqa: E402
+from wiimote_tracker_evaluation.recordings import cameras, flight, pipeline, time_maps  # noqa: E402
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig  # noqa: E402
 
 
@@ -70,7 +70,7 @@ def solved(simulated, folder):
     for camera, times in zip(views.cameras, exact):
         camera.times = times  # in order: no line waits for a frame
     rig = exact_rig(simulated, os.path.join(folder, 'rig.yaml'), os.path.join(folder, 'exact.yaml'))
-    bound, smoothed = (flight.score(views, rig, ordinary.track(views, rig, folder, smooth))[0]
+    bound, smoothed = (flight.score(views, rig, pipeline.track(views, rig, folder, smooth))[0]
                        for smooth in (False, True))
     return result, dict(bound, smoothed=smoothed), worst
 

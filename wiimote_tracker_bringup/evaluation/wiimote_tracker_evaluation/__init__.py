@@ -1,4 +1,5 @@
-"""Runs the paper's experiment on the tracker and measures the errors."""
+"""Evaluates the tracker: sections of the report, measurements on a real rig (live), recordings by
+others, the fault matrix (faults), the demonstration (demo)."""
 
 from wiimote_tracker_bringup.needs import require
 

@@ -5,14 +5,14 @@ import os
 import numpy as np
 
 from wiimote_tracker_bringup import programs
-from wiimote_tracker_evaluation.recordings import ordinary
+from wiimote_tracker_evaluation.recordings import pipeline
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 
 MEDIAN_SQUARE = 0.4549  # of a normal distribution of variance 1
 
 
 def track(views, rig, folder):
-    """What the body tracker makes of the lights: as ordinary.track()."""
+    """What the body tracker makes of the lights: as pipeline.track()."""
     images, table = (os.path.join(folder, name) for name in ('images.txt', 'body.csv'))
     shape = views.shape / rig.scale(views, views.cameras[0].times + rig.offsets[0])
     seen = sorted((time + offset, number, pixels)
@@ -21,7 +21,7 @@ def track(views, rig, folder):
     with open(images, 'w') as file:
         file.write(words(shape.ravel()) + '\n' + ''.join(
             f'{number} {words([time, *np.ravel(pixels)])}\n' for time, number, pixels in seen))
-    programs.run('track_labelled_body', ordinary.lenses_of(views, rig, folder), images, table,
+    programs.run('track_labelled_body', pipeline.lenses_of(views, rig, folder), images, table,
                  '--pixel-stddev', np.hypot(rig.pixel_stddev(), own_noise(views)))
     return programs.read_csv(table)
 

@@ -15,7 +15,7 @@ import rospy
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, descriptions, programs
-from wiimote_tracker_evaluation.recordings import ordinary
+from wiimote_tracker_evaluation.recordings import pipeline
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')
@@ -113,7 +113,7 @@ def write_bag(rig, played, path):
 def points_of(source, folder, *options):
     """{number of the played frame: position [m]} of track_bag, instant by instant."""
     table = os.path.join(folder, 'points.csv')
-    ordinary.track_light(source, folder, 'instant', '--csv', table, *options)
+    pipeline.track_light(source, folder, 'instant', '--csv', table, *options)
     columns = programs.read_csv(table)
     times = columns['time [s]'] - START
     numbers = np.rint(times * RATE)

@@ -5,7 +5,7 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.timeseries import to_nearest
-from wiimote_tracker_evaluation.recordings import accuracy, body, ordinary
+from wiimote_tracker_evaluation.recordings import accuracy, body, pipeline
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
@@ -86,9 +86,9 @@ def score(views, rig, table):
 
 def evaluate(views, folder):
     """Figures; times and errors of the scored points [s, m] of the middle of the lights."""
-    rig = ordinary.calibrate(views, folder)
-    result, times, errors = score(views, rig, ordinary.track(views, rig, folder))
-    result['smoothed'] = score(views, rig, ordinary.track(views, rig, folder, smooth=True))[0]
+    rig = pipeline.calibrate(views, folder)
+    result, times, errors = score(views, rig, pipeline.track(views, rig, folder))
+    result['smoothed'] = score(views, rig, pipeline.track(views, rig, folder, smooth=True))[0]
     if len(views.shape) > 2:
         result['body'] = score(views, rig, body.track(views, rig, folder))[0]
     names = [camera.name for camera in views.cameras]

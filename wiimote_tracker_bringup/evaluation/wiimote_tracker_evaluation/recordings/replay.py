@@ -12,7 +12,7 @@ import rosbag
 from wiimote_tracker_msgs.msg import TrackedPoint
 
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_evaluation.recordings import ordinary, reprojection
+from wiimote_tracker_evaluation.recordings import pipeline, reprojection
 from wiimote_tracker_evaluation.recordings.solved_rig import camera_of
 
 # The cameras were synchronised, the tracker takes each image by itself: in tracks, what all of an
@@ -87,7 +87,7 @@ def track(recorded, mode):
                         image.header.stamp += genpy.Duration(0, number * BETWEEN_CAMERAS)
                         image.arrival = image.header.stamp
                     bag.write(f'/{image.camera}/ir_blobs', image, image.arrival)
-        with rosbag.Bag(ordinary.track_light(source, folder, mode)) as bag:
+        with rosbag.Bag(pipeline.track_light(source, folder, mode)) as bag:
             return [message for _, message, _ in bag.read_messages(topics='/points')]
 
 

@@ -13,7 +13,7 @@ import dataclasses
 
 import numpy as np
 
-from wiimote_tracker_evaluation.recordings import ordinary
+from wiimote_tracker_evaluation.recordings import pipeline
 
 STEP = 0.02  # of the search for an offset [s]
 # Of its refinement: offsets [s] and drifts [1] about the best.
@@ -123,7 +123,7 @@ def improve(views, maps, attribute, folder):
     design[:, 0] = 0.0
     if attribute == 'drift':
         design[:, cameras] = 0.0
-    offsets = ordinary.calibrate(together, folder, parts).offsets
+    offsets = pipeline.calibrate(together, folder, parts).offsets
     # What the parts do not tell comes from the prior of the attribute.
     mean, stddev = PRIOR[attribute]
     known = np.zeros((cameras, 2 * cameras + 2))

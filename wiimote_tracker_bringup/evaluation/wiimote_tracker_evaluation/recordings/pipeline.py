@@ -30,13 +30,14 @@ LATENCY = 0.1
 # A camera's parameters in a rig's covariance, and those of its principal point.
 PER_CAMERA, PRINCIPAL_POINT = 16, [8, 9]
 ROUNDS = 200  # of the search for the made-up square
-CORNER = 2.0  # of it: the first poses are good, but the square may be small [px]
-BIRTH_WINDOW = 0.03  # of the tracker's default parameters [s]
+# Noise of its corners: large, so that they fix only scale and world [px].
+CORNER_STDDEV = 2.0
+BIRTH_WINDOW = 0.03  # in which the tracker looks for a new LED [s]
 
 
 def calibrate(views, folder, parts=None):
-    """The rig; files go to the folder. parts: the cameras to solve with the number of the camera
-    where each stands, if they are not those of the views."""
+    """The rig; files go to the folder. parts: pairs of the number of a camera, from whose first pose
+    to start, and the images to solve as a camera; default: each camera once."""
     samples, parameters, rig = (os.path.join(folder, name)
                                 for name in ('samples.yaml', 'solve.yaml', 'rig.yaml'))
     numbers, cameras = zip(*(parts or enumerate(views.cameras)))
@@ -44,7 +45,7 @@ def calibrate(views, folder, parts=None):
     side, corners = made_up_square(rotations[list(numbers)], positions[list(numbers)], path)
     write_samples(cameras, side, corners, samples)
     with open(parameters, 'w') as file:
-        yaml.safe_dump(dict(HELD, pixel_stddev=CORNER), file)
+        yaml.safe_dump(dict(HELD, pixel_stddev=CORNER_STDDEV), file)
     programs.run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters,
                  '--rig', rig)
     return Rig(rig)
@@ -82,7 +83,9 @@ def made_up_square(rotations, positions, path):
     sights = positions - middle
     sights /= np.linalg.norm(sights, axis=1)[:, None]
     up = sights.sum(axis=0)
-    for _ in range(ROUNDS):  # all cameras must see the same side of it
+    # All cameras must see the same side of it. Frank-Wolfe: turns to the direction whose largest
+    # angle to any camera is least.
+    for _ in range(ROUNDS):
         up += sights[np.argmin(sights @ up)]
     x = np.cross(up, np.eye(3)[np.argmin(np.abs(up))])
     y = np.cross(up, x)
@@ -135,7 +138,8 @@ def track(views, rig, folder, smooth=False):
     # tells its speed, confirms it.
     with open(parameters, 'w') as file:
         yaml.safe_dump({'pixel_stddev': rig.pixel_stddev(),
-                        'tracks': {'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
+                        'tracks': {'birth_window': BIRTH_WINDOW,
+                                  'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
                                    'confirmation_hits': len(views.cameras)}}, file)
     programs.run('wiimote_tracker_triangulation/track_bag', source, target,
                  '--rig', lenses_of(views, rig, folder), '--params', parameters, '--csv', table,

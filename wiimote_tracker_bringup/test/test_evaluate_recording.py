@@ -76,7 +76,7 @@ class Flight:
                 times = begin + sweep * lighthouse.SWEEP
                 angle = self.angles(station, times)[..., sweep].mean(axis=1)
                 for _ in range(3):  # the plane reaches the body later, the greater the angle
-                    at = times + angle / (2.0 * np.pi) * lighthouse.TURN
+                    at = times + angle / (2.0 * np.pi) * lighthouse.ROTOR_PERIOD
                     angle = self.angles(station, at)[..., sweep].mean(axis=1)
                 measured.append(self.angles(station, at)[..., sweep])
             angles = np.stack(measured, axis=2) + NOISE * random.randn(len(cycles), 4, 2)

@@ -1,9 +1,9 @@
-"""What the motion of the light in a recording by synchronised cameras brings back: the pose and the
-clock of each camera in turn are disturbed, and keep_calibrated corrects the rig.
+"""Disturbs pose and clock of each camera in turn and measures how well keep_calibrated restores
+them from the motion of the light in a recording by synchronised cameras.
 
 The rig is that of import_multicamselfcal, with lenses known to 1 px. The layout has no times: the
 recording is played with RATE, to and fro. Errors of points are distances, instant by instant, from
-those of the rig as it was.
+those of the undisturbed rig.
 """
 
 import copy
@@ -19,7 +19,7 @@ from wiimote_tracker_evaluation.recordings import pipeline
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
           'corrects the rig from the recording, played to and fro')
-TURN, LATE = np.radians(2.0), 0.005  # [rad], [s]
+ANGLE, LATE = np.radians(2.0), 0.005  # of the disturbance [rad], [s]
 RATE = 25.0  # [1/s]
 PLAYED = 40.0  # [s]
 START = 1e9  # [s]
@@ -35,21 +35,21 @@ def evaluate(recording, folder):
     with rosbag.Bag(recording) as bag:
         for topic, message, _ in bag.read_messages():
             if topic == '/calibration/rig':
-                known = copy.deepcopy(message)
+                true_rig = copy.deepcopy(message)
             elif topic.endswith('/ir_blobs'):
                 frames.setdefault(message.frame, []).append(message)
-    for camera in known.cameras:
+    for camera in true_rig.cameras:
         camera.time_offset, camera.time_offset_rule = 0.0, camera.TIME_OFFSET_ONE_EPOCH
-    known.covariance = covariance_of(known.cameras)
+    true_rig.covariance = covariance_of(true_rig.cameras)
     played = to_and_fro([frames[frame] for frame in sorted(frames)])
-    return {camera.name: figures(known, number, played, folder)
-            for number, camera in enumerate(known.cameras)}
+    return {camera.name: figures(true_rig, number, played, folder)
+            for number, camera in enumerate(true_rig.cameras)}
 
 
 def to_and_fro(frames):
-    turn = frames + frames[-2:0:-1]
+    there_and_back = frames + frames[-2:0:-1]
     count = int(RATE * PLAYED)
-    return ((count // len(turn) + 1) * turn)[:count]
+    return ((count // len(there_and_back) + 1) * there_and_back)[:count]
 
 
 def covariance_of(cameras):
@@ -58,38 +58,45 @@ def covariance_of(cameras):
     return np.diag(np.square(np.concatenate(deviations))).ravel().tolist()
 
 
-def figures(known, number, played, folder):
+def figures(true_rig, number, played, folder):
     """How far pose and clock of the corrected camera are from the truth, RMS errors of points before
     and after, and when it was corrected; None: never."""
-    disturbed = copy.deepcopy(known)
-    camera = disturbed.cameras[number]
-    turn(camera.world_from_camera.orientation, np.random.RandomState(number).randn(3))
-    camera.time_offset = LATE
-    files = [os.path.join(folder, name) for name in ('known.bag', 'disturbed.bag', 'images.bag')]
-    corrected = os.path.join(folder, 'kept.yaml')
-    for rig, path in zip((known, disturbed, None), files):
-        write_bag(rig, played, path)
-    programs.run('wiimote_tracker_calibration/keep_calibrated', files[1], corrected)
-    content = descriptions.read(corrected)
-    found = content['cameras'][camera.name]
-    pose, true = found['extrinsics']['transform'], known.cameras[number].world_from_camera
-    left = rotation_of(true.orientation).inv() * Rotation.from_quat(
-        [pose['rotation'][axis] for axis in 'xyzw'])
-    moved = [pose['translation'][axis] - getattr(true.position, axis) for axis in 'xyz']
-    truth, during = (points_of(path, folder) for path in files[:2])
-    after = points_of(files[2], folder, '--rig', corrected)
-    changed = found['time_offset'] != LATE
-    return {'turned_deg': float(np.degrees(left.magnitude())),
-            'moved_mm': float(1e3 * np.linalg.norm(moved)), 'clock_ms': 1e3 * found['time_offset'],
-            'points_before_mm': 1e3 * rms_error(during, truth),
-            'points_after_mm': 1e3 * rms_error(after, truth),
-            'after_s': content['solved_at'] - START if changed else None}
+    disturbed_rig = copy.deepcopy(true_rig)
+    disturb(disturbed_rig.cameras[number], np.random.RandomState(number).randn(3))
+    true_bag, disturbed_bag, images_bag = (os.path.join(folder, name) for name in (
+        'true.bag', 'disturbed.bag', 'images.bag'))
+    write_bag(true_rig, played, true_bag)
+    write_bag(disturbed_rig, played, disturbed_bag)
+    write_bag(None, played, images_bag)
+    corrected_rig = os.path.join(folder, 'corrected.yaml')
+    programs.run('wiimote_tracker_calibration/keep_calibrated', disturbed_bag, corrected_rig)
+    truth = points_of(true_bag, folder)
+    before = points_of(disturbed_bag, folder)
+    after = points_of(images_bag, folder, '--rig', corrected_rig)
+    return {**errors_of(descriptions.read(corrected_rig), true_rig.cameras[number]),
+            'points_before_mm': 1e3 * rms_error(before, truth),
+            'points_after_mm': 1e3 * rms_error(after, truth)}
 
 
-def turn(orientation, axis):
-    """By TURN about an axis of the camera."""
-    turned = rotation_of(orientation) * Rotation.from_rotvec(TURN * axis / np.linalg.norm(axis))
+def disturb(camera, axis):
+    """Turns it by ANGLE about an axis of its own, and sets its clock off by LATE."""
+    orientation = camera.world_from_camera.orientation
+    turned = rotation_of(orientation) * Rotation.from_rotvec(ANGLE * axis / np.linalg.norm(axis))
     orientation.x, orientation.y, orientation.z, orientation.w = turned.as_quat()
+    camera.time_offset = LATE
+
+
+def errors_of(corrected_rig, true_camera):
+    """Of the camera in the content of a rig's file."""
+    found = corrected_rig['cameras'][true_camera.name]
+    pose, true_pose = found['extrinsics']['transform'], true_camera.world_from_camera
+    remaining = rotation_of(true_pose.orientation).inv() * Rotation.from_quat(
+        [pose['rotation'][axis] for axis in 'xyzw'])
+    moved = [pose['translation'][axis] - getattr(true_pose.position, axis) for axis in 'xyz']
+    changed = found['time_offset'] != LATE
+    return {'turned_deg': float(np.degrees(remaining.magnitude())),
+            'moved_mm': float(1e3 * np.linalg.norm(moved)), 'clock_ms': 1e3 * found['time_offset'],
+            'after_s': corrected_rig['solved_at'] - START if changed else None}
 
 
 def rotation_of(orientation):

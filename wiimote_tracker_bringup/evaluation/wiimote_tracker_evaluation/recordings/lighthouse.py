@@ -19,11 +19,11 @@ from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.timeseries import to_nearest
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP, Camera, Truth, Views
 
-# Of the sensors on the deck: x forward, y to the left [m].
+# Of the sensors on Crazyflie's Lighthouse deck: x forward, y to the left [m].
 SHAPE = np.array([[-0.015, 0.0075, 0.0], [-0.015, -0.0075, 0.0],
                   [0.015, 0.0075, 0.0], [0.015, -0.0075, 0.0]])
 SWEEP = 1.0 / 120.0  # from a station's first sweep to its second [s]
-TURN = 1.0 / 60.0  # of a rotor [s]
+ROTOR_PERIOD = 1.0 / 60.0  # [s]
 # Angles of one station within this were logged together [s].
 TOGETHER = 0.002
 # Delays of the log vary by less [s]; beyond that the angles are of another turn.
@@ -31,7 +31,8 @@ JITTER = 0.003
 # Of the virtual cameras [px]. Farther than 22 degrees from the axis the angles of stations are off
 # by several mrad.
 FOCAL, SIZE = 1000.0, 801
-# Of the correction of an angle; with noise and truth it is 0.5 to 0.7 mrad [rad].
+# Standard deviation of what the stations' correction leaves of an angle [rad]; with noise and
+# errors of the truth, residuals are 0.5 to 0.7 mrad.
 ACCURACY = 0.0005
 # Error of the truth's start, as the switching of its markers tells it [s].
 CLOCK_TOLERANCE = 0.1
@@ -84,7 +85,8 @@ def sweeps_of(rows):
     complete = np.isfinite(angles).all(axis=(1, 2))
     turns, regular = turns_of(logged[first[complete]])
     angles = angles[complete][regular]
-    times = turns[:, None] + np.array([0.0, SWEEP]) + angles.mean(axis=1) / (2.0 * np.pi) * TURN
+    delays = angles.mean(axis=1) / (2.0 * np.pi) * ROTOR_PERIOD
+    times = turns[:, None] + np.array([0.0, SWEEP]) + delays
     return times, np.tan(angles)
 
 
@@ -96,10 +98,11 @@ def turns_of(logged):
     middle, duration = np.median(np.diff(logged)), logged[-1] - logged[0]
     # Close enough to each other that the turns of a whole recording stay in step with one.
     periods = middle * np.linspace(0.995, 1.005, 10 + int(0.1 * duration / middle))
-    steps = [np.exp(2j * np.pi * logged / period).sum() for period in periods]
-    best = np.argmax(np.abs(steps))
+    # Rayleigh periodogram of the times: at the right period all phasors point the same way.
+    phasors = [np.exp(2j * np.pi * logged / period).sum() for period in periods]
+    best = np.argmax(np.abs(phasors))
     period = periods[best]
-    start = period * np.angle(steps[best]) / (2.0 * np.pi)
+    start = period * np.angle(phasors[best]) / (2.0 * np.pi)
     for _ in range(5):
         turn = np.round((logged - start) / period)
         near = np.abs(start + period * turn - logged) < JITTER
@@ -122,16 +125,17 @@ def images_of(times, tangents, sweep):
     """Times n and pixels n x sensors x 2 at one of both sweeps."""
     other = 1 - sweep
     moved = tangents.copy()
-    moved[:, :, other] = moved_to(times[:, sweep], times[:, other], tangents[:, :, other])
+    moved[:, :, other] = interpolated_at(times[:, sweep], times[:, other], tangents[:, :, other])
     # The station looks along x, y to the left, z up; a camera along z, x to the right, y down.
     pixels = 0.5 * (SIZE - 1) - FOCAL * moved
     inside = ((pixels >= 0.0) & (pixels <= SIZE - 1)).all(axis=(1, 2))
     return times[inside, sweep], pixels[inside]
 
 
-def moved_to(wanted, times, values):
-    """Values n x k of times n, moved to the times wanted, n, by the parabola through three
-    successive ones; by the line through two where no third is near; NaN without neighbours."""
+def interpolated_at(wanted, times, values):
+    """Values n x k of times n at the times wanted, n, one near each: Newton's quadratic through
+    three successive ones; linear through two where no third is near; NaN without neighbours."""
+    # First and second divided differences.
     step = np.diff(times)
     slope = np.diff(values, axis=0) / np.where(step < LONGEST_GAP, step, np.nan)[:, None]
     bend = np.diff(slope, axis=0) / (times[2:] - times[:-2])[:, None]

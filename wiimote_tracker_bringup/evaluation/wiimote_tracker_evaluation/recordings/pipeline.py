@@ -36,8 +36,8 @@ BIRTH_WINDOW = 0.03  # in which the tracker looks for a new LED [s]
 
 
 def calibrate(views, folder, parts=None):
-    """The rig; files go to the folder. parts: pairs of the number of a camera, from whose first pose
-    to start, and the images to solve as a camera; default: each camera once."""
+    """The rig; files go to the folder. parts: pairs of a camera's number, from whose first pose to
+    start, and the images to solve as a camera; default: each camera once."""
     samples, parameters, rig = (os.path.join(folder, name)
                                 for name in ('samples.yaml', 'solve.yaml', 'rig.yaml'))
     numbers, cameras = zip(*(parts or enumerate(views.cameras)))

@@ -18,7 +18,7 @@ ADAPTER = re.compile(r'(?:\[NEW\] )?Controller ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) 
                      r'(.*?)( \[default\])?$')
 DEVICE = re.compile(r'(?:\[(NEW|CHG|DEL)\] )?Device ((?:[0-9A-F]{2}:){5}[0-9A-F]{2}) (.*)')
 
-AGENT = r'gent (is already )?registered|Failed to register'
+AGENT = r'[Aa]gent (is already )?registered|Failed to register'
 
 SYNC = ('press the red SYNC button in the battery compartment of the remote (not 1 and 2: such a '
         'pairing does not last, and a -TR switches off)')
@@ -132,7 +132,8 @@ class Pairing:
                 return address, False
 
     def pair(self, address: str) -> bool:
-        """Returns whether the remote is paired. If not, an old pairing was removed."""
+        """Returns whether the remote is paired. If not, an old pairing was removed: find() the
+        remote again."""
         self._ctl.send('pair ' + address)
         end = time.monotonic() + REMOTE_TIMEOUT
         patterns = {
@@ -224,8 +225,8 @@ class Pairing:
         return line
 
     def _wait(self, patterns: Dict[str, str], timeout: float) -> Tuple[Optional[str], str]:
-        """Waits for a line that matches a pattern. Returns the pattern's key and the line, or
-        (None, '') after timeout [s]."""
+        """Waits for a line that matches a pattern, and notes names and adapters in those before it.
+        Returns the pattern's key and the line, or (None, '') after timeout [s]."""
         end = time.monotonic() + timeout
         while True:
             line = self._next(end)

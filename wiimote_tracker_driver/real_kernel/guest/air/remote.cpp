@@ -74,8 +74,8 @@ void Remote::disconnected() {
 }
 
 bool Remote::accepts(const Bytes& pin, const Bytes& key) {
-  const Address& right = pressed_ == Press::kSync ? link_->host : address_;
-  if (pin != Bytes(right.begin(), right.end()))
+  const Address& expected_pin = pressed_ == Press::kSync ? link_->host : address_;
+  if (pin != Bytes(expected_pin.begin(), expected_pin.end()))
     return false;
   if (pressed_ == Press::kSync) {
     bonded_to_ = link_->host;

@@ -128,7 +128,7 @@ TEST_F(AConverter, SlotsThatRefuseWritesArePassed) {
   Wiimote driver = anyRemote();
   EXPECT_GT(run({&driver}, 3.0)[0], 50);
   EXPECT_EQ((std::vector<std::size_t>{0, 1, 2, 3}), bar.opened);
-  EXPECT_EQ(bar.paths[3], driver.link().description);
+  EXPECT_EQ(bar.paths[3], driver.link().remote.description);
 }
 
 TEST_F(AConverter, SilentSlotsArePassed) {
@@ -144,7 +144,7 @@ TEST_F(AConverter, RemoteThatMovesToAnotherSlotIsFound) {
   EXPECT_GT(run({&driver}, 5.0)[0], 50);
   bar.slots = {Slot::kRemote, Slot::kSilent, Slot::kSilent, Slot::kSilent};
   EXPECT_GT(run({&driver}, 20.0)[0], 50);
-  EXPECT_EQ(bar.paths[0], driver.link().description);
+  EXPECT_EQ(bar.paths[0], driver.link().remote.description);
   EXPECT_EQ(1U, driver.link().clock_epoch);
 }
 
@@ -175,7 +175,7 @@ TEST_F(AConverter, AnAddressIsThatOfOneRemote) {
   Wiimote driver = driverOf("00:1f:32:00:00:0a");
   EXPECT_GT(run({&driver}, 3.0)[0], 50);
   EXPECT_EQ((std::vector<std::size_t>{2}), bar.opened);
-  EXPECT_EQ("00:1f:32:00:00:0a", driver.link().identity);
+  EXPECT_EQ("00:1f:32:00:00:0a", driver.link().remote.identity);
 }
 
 TEST_F(AConverter, WhatCannotBeOpenedIsNotSaidToBeInUse) {
@@ -194,7 +194,7 @@ TEST_F(AConverter, TwoDriversFindTwoRemotes) {
   const std::vector<int> images = run({&first, &second}, 15.0);
   EXPECT_GT(images[0], 50);
   EXPECT_GT(images[1], 50);
-  EXPECT_NE(first.link().description, second.link().description);
+  EXPECT_NE(first.link().remote.description, second.link().remote.description);
 }
 
 }  // namespace

@@ -251,7 +251,7 @@ TEST_F(DiagnosticsTest, RestorationsAreReportedOnce) {
 }
 
 TEST_F(DiagnosticsTest, TheKernelsDriverIsNoWarningUnlessItMayHaveDoneHarm) {
-  state_.link.kernel_driver = "wiimote";
+  state_.link.remote.kernel_driver = "wiimote";
   const auto level = [&] {
     const auto status = describe();
     EXPECT_NE(std::string::npos, status.message.find("hid-wiimote")) << status.message;
@@ -285,7 +285,7 @@ TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   EXPECT_TRUE(says("bring the remote nearer"));
   state_.replayed = true;
   EXPECT_FALSE(says("bring the remote nearer")) << "a recording may be played slowly";
-  state_.link.kernel_driver = "wiimote";
+  state_.link.remote.kernel_driver = "wiimote";
   state_.stream.gaps = 1;
   EXPECT_TRUE(says("hid-wiimote"));
   state_.link.accelerometer_calibrated = false;

@@ -26,9 +26,9 @@ TEST_F(Replays, SameImagesAtTheSameTimes) {
   wiimote::Link link;
   expectSame(recorded, 50.0, play(replay, Options(), &link));
   EXPECT_EQ("", replay.notice());
-  EXPECT_EQ("00:1f:32:00:00:07", link.identity);
-  EXPECT_EQ("wiimote", link.kernel_driver);
-  EXPECT_EQ("replay:" + path_, link.description);
+  EXPECT_EQ("00:1f:32:00:00:07", link.remote.identity);
+  EXPECT_EQ("wiimote", link.remote.kernel_driver);
+  EXPECT_EQ("replay:" + path_, link.remote.description);
   EXPECT_TRUE(link.accelerometer_calibrated);
   EXPECT_FALSE(link.accelerometer_unknown);
   EXPECT_TRUE(replay.statusKnown());
@@ -327,7 +327,7 @@ TEST_F(Replays, SocketSession) {
   Replay replay(path_);
   wiimote::Link link;
   expectSame(recorded, begin, play(replay, Options(), &link));
-  EXPECT_EQ("00:1f:32:00:00:09", link.identity);
+  EXPECT_EQ("00:1f:32:00:00:09", link.remote.identity);
 }
 
 }  // namespace

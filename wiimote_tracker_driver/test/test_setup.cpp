@@ -20,7 +20,7 @@ TEST_F(WiimoteTest, HandshakeInOrderEachStepAfterTheAnswerToTheLast) {
   }
   EXPECT_TRUE(streaming());
   EXPECT_EQ("", wiimote_.link().error);
-  EXPECT_EQ("00:1f:32:00:00:01", wiimote_.link().identity);
+  EXPECT_EQ("00:1f:32:00:00:01", wiimote_.link().remote.identity);
   EXPECT_EQ(0u, wiimote_.link().clock_epoch);
   ASSERT_TRUE(wiimote_.link().status);
   EXPECT_EQ(0x8f, wiimote_.link().status->battery);

@@ -19,7 +19,8 @@ void muteRemote(Checks& checks) {
   const RunningDriver driver("", scene, checks.images);
   driver.waitForState(wiimote::Link::State::kStreaming, 4.0 * kTimeout);
   const wiimote::Link link = driver.link();
-  checks.check("the other one streams", link.identity == address, link.identity + link.error);
+  checks.check("the other one streams", link.remote.identity == address,
+               link.remote.identity + link.error);
   checks.recovers("at full rate", driver, [] {});
 }
 

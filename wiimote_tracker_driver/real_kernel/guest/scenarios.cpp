@@ -98,11 +98,12 @@ void plug(Checks& checks) {
   const bool streams = driver.waitForState(State::kStreaming, kTimeout);
   const wiimote::Link link = driver.link();
   checks.check("a remote that is plugged in streams", streams, "after " + seconds(now() - since));
-  checks.check("it is known by its Bluetooth address", link.identity == kAddress, link.identity);
-  checks.check("it is found at its hidraw node", link.description == hidrawOf(kAddress),
-               link.description);
-  checks.check("the kernel's driver beside ours is seen", link.kernel_driver == "wiimote",
-               link.kernel_driver);
+  checks.check("it is known by its Bluetooth address", link.remote.identity == kAddress,
+               link.remote.identity);
+  checks.check("it is found at its hidraw node", link.remote.description == hidrawOf(kAddress),
+               link.remote.description);
+  checks.check("the kernel's driver beside ours is seen", link.remote.kernel_driver == "wiimote",
+               link.remote.kernel_driver);
   checks.check("the calibration of its accelerometer is read", link.accelerometer_calibrated);
   checks.recovers("the stream is up to speed", driver, [] {});
 }
@@ -194,8 +195,9 @@ void fourAtOnce(Checks& checks) {
 void ignoreSpecialDrivers(Checks& checks) {
   const double begin = now();
   Streaming streaming(checks);
-  checks.check("hid-generic is bound", streaming.driver.link().kernel_driver == "hid-generic",
-               streaming.driver.link().kernel_driver);
+  checks.check("hid-generic is bound",
+               streaming.driver.link().remote.kernel_driver == "hid-generic",
+               streaming.driver.link().remote.kernel_driver);
   sleepFor(5.0);
   checks.check("the kernel says nothing to the remote",
                !streaming.remote.got({0x12, 0x00, 0x30}, begin) &&

@@ -199,7 +199,7 @@ void Driver::publishImage(const protocol::DataReport& image) {
     state_.clock = clock;
     state_.totals = totals;
   }
-  blobs_.publish(image, time, link.identity);
+  blobs_.publish(image, time, link.remote.identity);
   camera_info_.publish(time.stamp);
   if (image.acceleration)
     imu_.publish(*image.acceleration, wiimote_.accelerometer(), time.stamp);
@@ -221,7 +221,7 @@ void Driver::linkChanged() {
   log_.notice(source_.notice());
   const ros::Time stamp = source_.readClocks().ros;
   if (now.status && !(now.status == before.status))
-    battery_.publish(*now.status, now.identity, stamp);
+    battery_.publish(*now.status, now.remote.identity, stamp);
   if (now.state == wiimote::Link::State::kStreaming && before.state != now.state)
     camera_info_.publishFactory(now.ir_calibration, stamp);
   if (now.state == wiimote::Link::State::kSearching)
@@ -246,11 +246,11 @@ void Driver::diagnose(diagnostic_updater::DiagnosticStatusWrapper& status) {
   }
   if (steadyNow() >= users_due_) {
     users_due_ = steadyNow() + kUsersCheck;
-    const bool is_path = state.link.description.compare(0, 1, "/") == 0;
-    shared_with_ = is_path ? transport::sharedWith(state.link.description) : "";
+    const bool is_path = state.link.remote.description.compare(0, 1, "/") == 0;
+    shared_with_ = is_path ? transport::sharedWith(state.link.remote.description) : "";
   }
   state.shared_with = shared_with_;
-  updater_.setHardwareID(state.link.identity.empty() ? "none" : state.link.identity);
+  updater_.setHardwareID(state.link.remote.identity.empty() ? "none" : state.link.remote.identity);
   diagnostics_.describe(state, status);
   const std::string problem = camera_info_.problem();
   if (!problem.empty())

@@ -65,9 +65,10 @@ void addTiming(const DriverState& state, DiagnosticStatusWrapper& status) {
 }
 
 void addRemote(const Link& link, DiagnosticStatusWrapper& status) {
-  status.add("device", link.description);
-  status.add("identity", link.identity);
-  status.add("kernel driver", link.kernel_driver.empty() ? "none" : link.kernel_driver);
+  status.add("device", link.remote.description);
+  status.add("identity", link.remote.identity);
+  status.add("kernel driver",
+             link.remote.kernel_driver.empty() ? "none" : link.remote.kernel_driver);
   status.add("reconnects", link.clock_epoch);
   status.add("restorations", link.restorations);
   status.add("last restoration", link.last_restoration.empty() ? "none" : link.last_restoration);
@@ -117,7 +118,7 @@ void LinkDiagnostics::summarise(const DriverState& state, DiagnosticStatusWrappe
 void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatusWrapper& status) {
   const Link& link = state.link;
   status.summary(DiagnosticStatus::OK, "streaming");
-  if (link.kernel_driver == "wiimote") {
+  if (link.remote.kernel_driver == "wiimote") {
     // It serves all remotes of a usual kernel, mostly without harm.
     const bool harm = link.restorations != restorations_ || state.stream.gaps != gaps_;
     status.summary(harm ? DiagnosticStatus::WARN : DiagnosticStatus::OK,

@@ -64,10 +64,11 @@ void LinkLog::reportRestoration(const wiimote::Link& link, double now) {
 
 void LinkLog::reportStream(const wiimote::Link& link) const {
   const char* camera = camera_.c_str();
-  ROS_INFO("%s: images come from %s (%s)", camera, link.description.c_str(), link.identity.c_str());
+  ROS_INFO("%s: images come from %s (%s)", camera, link.remote.description.c_str(),
+           link.remote.identity.c_str());
   if (const char* problem = accelerometerProblem(link))
     ROS_WARN("%s: %s", camera, problem);
-  if (link.kernel_driver == "wiimote")
+  if (link.remote.kernel_driver == "wiimote")
     ROS_INFO("%s: %s", camera, kKernelDriverShares);
 }
 

@@ -33,7 +33,7 @@ double Wiimote::idleTime() const {
 
 std::optional<DataReport> Wiimote::step(double max_wait) {
   std::optional<DataReport> image;
-  orDrop([&] {
+  dropOnException([&] {
     if (session_)
       image = receive(max_wait);
     else if (clock_() >= next_attempt_)
@@ -43,7 +43,7 @@ std::optional<DataReport> Wiimote::step(double max_wait) {
 }
 
 template <typename Action>
-void Wiimote::orDrop(Action action) {
+void Wiimote::dropOnException(Action action) {
   try {
     action();
   } catch (const std::exception& e) {  // TransportError, SessionError; also std::bad_alloc
@@ -55,10 +55,10 @@ void Wiimote::connect() {
   transport_ = open_(delivered_);
   delivered_ = false;
   link_.state = Link::State::kStarting;
-  static_cast<transport::Remote&>(link_) = transport_->remote();
+  link_.remote = transport_->remote();
   link_.status.reset();
   ++link_changes_;
-  new_epoch_ = had_image_;
+  beginEpoch();
   last_read_ = clock_();
   backlog_ = false;
   session_.emplace(
@@ -80,7 +80,7 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
     image.reset();
   session_->tick(now);
   if (session_->takeRestart())
-    new_epoch_ = had_image_;
+    beginEpoch();
   if (image) {
     had_image_ = true;
     delivered_ = true;
@@ -137,18 +137,18 @@ void Wiimote::setSensitivity(const protocol::IrSensitivity& sensitivity) {
     return;
   options_.sensitivity = sensitivity;
   if (session_)
-    orDrop([&] { session_->setSensitivity(sensitivity, clock_()); });
+    dropOnException([&] { session_->setSensitivity(sensitivity, clock_()); });
 }
 
 void Wiimote::setLeds(std::uint8_t leds) {
   options_.leds = leds;
   if (session_)
-    orDrop([&] { session_->setLeds(leds); });
+    dropOnException([&] { session_->setLeds(leds); });
 }
 
 void Wiimote::setRumble(bool rumble) {
   if (session_)
-    orDrop([&] { session_->setRumble(rumble, clock_()); });
+    dropOnException([&] { session_->setRumble(rumble, clock_()); });
 }
 
 void Wiimote::close() {

@@ -13,12 +13,13 @@
 namespace wiimote_tracker::wiimote {
 
 /// The state of the connection with the remote that is or was open last.
-struct Link : transport::Remote {
+struct Link {
   enum class State {
     kSearching,  ///< No remote is open.
     kStarting,   ///< It is being set up.
     kStreaming,  ///< Images come.
   };
+  transport::Remote remote;
   State state = State::kSearching;
   std::string error;              ///< Why it is not streaming, one sentence; else empty.
   std::uint32_t clock_epoch = 0;  ///< Counts from 0, one more at each reconnect or power cycle.
@@ -79,10 +80,12 @@ class Wiimote {
  private:
   /// Ends the connection when the action throws.
   template <typename Action>
-  void orDrop(Action action);
+  void dropOnException(Action action);
 
   void connect();
   void drop(const std::string& error);
+  /// The next image is the first of another epoch, unless there was none before.
+  void beginEpoch() { new_epoch_ = had_image_; }
   std::optional<protocol::DataReport> receive(double max_wait);
   void updateLink(bool image);
 
@@ -100,7 +103,7 @@ class Wiimote {
   protocol::AccelerometerCalibration accelerometer_;
   double last_read_ = 0.0;  ///< [s] When the last attempt to read returned.
   bool backlog_ = false;    ///< Reports wait that the kernel kept during a long stall.
-  bool had_image_ = false;
+  bool had_image_ = false;  ///< Since the start, from any remote.
   bool delivered_ = false;  ///< Images have come from the remote that was opened last.
   bool new_epoch_ = false;  ///< The next image is the first of another epoch.
 };

@@ -8,8 +8,9 @@
 namespace wiimote_tracker::panel {
 namespace {
 
-// Values of CalibrationStatus.next_request; another one is of a newer node.
-const std::set<std::string> kServices = {
+// What the node may ask for next, CalibrationStatus.next_request; another value is of a newer node.
+// Other buttons do not belong here.
+const std::set<std::string> kNextRequests = {
     "learn_masks", "check_connection", "start", "capture_corner",
     "start_wave",  "stop_wave",        "solve", "save"};
 constexpr const char* kLost =
@@ -28,7 +29,7 @@ void Guide::onStatus(const Status& status, double now) {
     is_lost_ = true;  // Another publisher counts anew.
   status_ = status;
   status_at_ = now;
-  is_known_ = true;
+  is_effect_known_ = true;
 }
 
 void Guide::onRequest(const std::string& service) {
@@ -48,7 +49,7 @@ void Guide::onProgress(const std::string& text, double share) {
 void Guide::onAnswer(const std::string& service, const std::string& text) {
   if (service != "cancel")
     running_.clear();
-  is_known_ = false;
+  is_effect_known_ = false;
   answer_ = text;
 }
 
@@ -110,7 +111,7 @@ Advice Guide::advice(double now) const {
             "",
             {}};
   Advice advice = {status_->next_title, status_->next_sentence, "", {}};
-  if (kServices.count(status_->next_request) == 0 || status_->next_label.empty())
+  if (kNextRequests.count(status_->next_request) == 0 || status_->next_label.empty())
     return advice;
   advice.button = status_->next_label;
   advice.button[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(advice.button[0])));

@@ -57,7 +57,7 @@ class Guide {
 
   bool isSilent(double now) const { return !status_ || now - status_at_ > kSilentAfter; }
   /// Whether a request has not been answered, or its effect is not known yet.
-  bool isWaiting() const { return !running_.empty() || !is_known_; }
+  bool isWaiting() const { return !running_.empty() || !is_effect_known_; }
   const std::string& running() const { return running_; }  ///< Service; empty: none.
   /// Whether something goes on that cancel would end.
   bool isBusy() const;
@@ -71,7 +71,7 @@ class Guide {
   std::optional<Status> status_;
   std::optional<wiimote_tracker_msgs::CalibrationVerdict> verdict_;
   double status_at_ = 0.0;
-  bool is_known_ = true;
+  bool is_effect_known_ = true;  // A status has come since the last answer.
   bool is_lost_ = false;  // Since the last request the node was started again, amid a calibration.
   std::string running_, answer_, progress_text_;
   double progress_ = 0.0;

@@ -52,7 +52,7 @@ class Requests {
   std::list<ros::ServiceClient> clients_;   // that wait for an answer
   std::atomic<bool> is_called_off_{false};  // the corner that is captured
   bool must_end_ = false;
-  std::list<Sent> sent_;  // the newest first; the end of each waits for its thread
+  std::list<Sent> sent_;  // the newest first; to destroy its future waits for its thread
 };
 
 }  // namespace wiimote_tracker::panel

@@ -41,11 +41,11 @@ TrackerWidget::TrackerWidget(QWidget* parent)
 }
 
 void TrackerWidget::refresh() {
-  link_.poll();
+  ros_input_.poll();
   requests_.poll();
-  master_->setText(QString::fromStdString(link_.masterWords()));
+  master_->setText(QString::fromStdString(ros_input_.masterProblem()));
   master_->setVisible(!master_->text().isEmpty());
-  const double now = Link::now();
+  const double now = RosInput::now();
   if (cameras_->isVisible())
     cameras_->show(views_.cameras, now);
   if (calibrate_->isVisible())

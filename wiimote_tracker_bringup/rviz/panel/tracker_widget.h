@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_WIDGET_H
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_WIDGET_H
 
-#include "link.h"
 #include "requests.h"
+#include "ros_input.h"
 #include "views.h"
 
 #include <QWidget>
@@ -31,7 +31,7 @@ class TrackerWidget : public QWidget {
   void refresh();
 
   Views views_;
-  Link link_{&views_};
+  RosInput ros_input_{&views_};
   Requests requests_{&views_.guide};
   QLabel* master_;
   QTabWidget* pages_;

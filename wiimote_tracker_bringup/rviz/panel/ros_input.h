@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
+#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H
+#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H
 
 #include "views.h"
 
@@ -21,18 +21,18 @@ namespace wiimote_tracker::panel {
 
 /// Feeds views from ROS. A thread of its own asks the master for cameras and subscribes, since that
 /// may wait. poll() hands the messages over, and never waits.
-class Link {
+class RosInput {
  public:
-  explicit Link(Views* views);
-  ~Link();
-  Link(const Link&) = delete;
-  Link& operator=(const Link&) = delete;
+  explicit RosInput(Views* views);
+  ~RosInput();
+  RosInput(const RosInput&) = delete;
+  RosInput& operator=(const RosInput&) = delete;
 
   /// Hands over the newest messages. Called by the thread that owns the views.
   void poll();
 
   /// What is wrong with the ROS master, in words; empty: nothing.
-  std::string masterWords();
+  std::string masterProblem();
 
   /// The time that the views are told [s].
   static double now();
@@ -56,11 +56,11 @@ class Link {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::optional<std::set<std::string>> cameras_;  // found, not handed over yet
-  std::string master_words_;
+  std::string master_problem_;
   bool must_end_ = false;
   std::thread thread_;
 };
 
 }  // namespace wiimote_tracker::panel
 
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_LINK_H
+#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H

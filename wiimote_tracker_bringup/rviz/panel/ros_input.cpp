@@ -1,4 +1,4 @@
-#include "link.h"
+#include "ros_input.h"
 
 #include <ros/master.h>
 #include <ros/this_node.h>
@@ -17,7 +17,7 @@ const std::string kForgotten =
     "The ROS master was started again and does not know rviz: start rviz again, too.";
 constexpr std::uint32_t kEvents = 100;  // that wait for the next poll() at most
 
-/// What is wrong with the master, as in masterWords().
+/// What is wrong with the master, as in masterProblem().
 std::string lookForMaster() {
   XmlRpc::XmlRpcValue arguments, answer, address;
   arguments[0] = arguments[1] = ros::this_node::getName();
@@ -31,12 +31,12 @@ std::string lookForMaster() {
 
 }  // namespace
 
-Link::Link(Views* views) : views_(views) {
+RosInput::RosInput(Views* views) : views_(views) {
   nh_.setCallbackQueue(&queue_);
   thread_ = std::thread([this] { run(); });
 }
 
-Link::~Link() {
+RosInput::~RosInput() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     must_end_ = true;
@@ -45,11 +45,11 @@ Link::~Link() {
   thread_.join();
 }
 
-double Link::now() {
+double RosInput::now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void Link::poll() {
+void RosInput::poll() {
   std::optional<std::set<std::string>> cameras;
   {
     const std::lock_guard<std::mutex> lock(mutex_);
@@ -60,12 +60,12 @@ void Link::poll() {
   queue_.callAvailable();
 }
 
-std::string Link::masterWords() {
+std::string RosInput::masterProblem() {
   const std::lock_guard<std::mutex> lock(mutex_);
-  return master_words_;
+  return master_problem_;
 }
 
-void Link::run() {
+void RosInput::run() {
   subscribeTracker();
   std::string master_words;
   std::unique_lock<std::mutex> lock(mutex_);
@@ -80,7 +80,7 @@ void Link::run() {
         subscribeCamera(name);
     }
     lock.lock();
-    master_words_ = master_words;
+    master_problem_ = master_words;
     if (cameras)
       cameras_ = cameras;
     changed_.wait_for(lock, kSearchPeriod, [this] { return must_end_; });
@@ -89,7 +89,7 @@ void Link::run() {
 
 /// Names of the cameras below our namespace that have an image topic; none when the master does not
 /// answer.
-std::optional<std::set<std::string>> Link::findCameras() const {
+std::optional<std::set<std::string>> RosInput::findCameras() const {
   XmlRpc::XmlRpcValue arguments, result, topics;
   arguments[0] = ros::this_node::getName();
   arguments[1] = "";
@@ -109,9 +109,10 @@ std::optional<std::set<std::string>> Link::findCameras() const {
 }
 
 template <class Message>
-void Link::subscribe(const std::string& topic,
-                     std::uint32_t queue_size,
-                     const std::function<void(const ros::MessageEvent<const Message>&)>& callback) {
+void RosInput::subscribe(
+    const std::string& topic,
+    std::uint32_t queue_size,
+    const std::function<void(const ros::MessageEvent<const Message>&)>& callback) {
   ros::SubscribeOptions options;
   using Event = const ros::MessageEvent<const Message>&;
   // What left a callback would end rviz.
@@ -128,7 +129,7 @@ void Link::subscribe(const std::string& topic,
   }
 }
 
-void Link::subscribeTracker() {
+void RosInput::subscribeTracker() {
   subscribe<wiimote_tracker_msgs::CalibrationStatus>(
       "calibration/status", 1, [this](const auto& event) {
         views_->cameras.onStatus(*event.getMessage(), now());
@@ -159,7 +160,7 @@ void Link::subscribeTracker() {
 }
 
 /// Of the images, the newest is enough: nothing older is drawn, and none waits.
-void Link::subscribeCamera(const std::string& name) {
+void RosInput::subscribeCamera(const std::string& name) {
   if (!watched_.insert(name).second)
     return;
   subscribe<wiimote_tracker_msgs::IrBlobArray>(name + kImages, 1, [this, name](const auto& event) {

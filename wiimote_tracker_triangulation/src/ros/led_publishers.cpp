@@ -17,12 +17,12 @@ LedPublishers::LedPublishers(const ros::NodeHandle& nh,
                              const OutputOptions& options)
     : nh_(nh), listed_(labels.begin(), labels.end()), options_(options) {
   for (const std::string& label : listed_)
-    topics_[label] = advertised(nh_, label, options_.led_odometry);
+    topics_[label] = advertise(nh_, label, options_.led_odometry);
 }
 
-LedPublishers::Topics LedPublishers::advertised(ros::NodeHandle nh,
-                                                const std::string& label,
-                                                bool with_odometry) {
+LedPublishers::Topics LedPublishers::advertise(ros::NodeHandle nh,
+                                               const std::string& label,
+                                               bool with_odometry) {
   Topics topics;
   topics.point = nh.advertise<PointStamped>(label + "/point", 100);
   if (with_odometry)
@@ -35,16 +35,17 @@ const LedPublishers::Topics* LedPublishers::topicsOf(const std::string& label) {
   const auto found = topics_.find(label);
   if (found != topics_.end())
     return &found->second;
-  if (!coming_.valid()) {
-    coming_label_ = label;
-    coming_ = std::async(std::launch::async, advertised, nh_, label, options_.led_odometry);
+  if (!advertising_.valid()) {
+    advertising_label_ = label;
+    advertising_ = std::async(std::launch::async, advertise, nh_, label, options_.led_odometry);
   }
   return nullptr;
 }
 
 void LedPublishers::publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
-  if (coming_.valid() && coming_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-    topics_[coming_label_] = coming_.get();
+  if (advertising_.valid() &&
+      advertising_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
+    topics_[advertising_label_] = advertising_.get();
   transforms_.clear();
   for (const TrackedPoint& point : points.points) {
     if (!isPublished(point, options_.publish_predicted))

@@ -33,7 +33,7 @@ class LedPublishers {
     ros::Publisher odometry;  // none: not asked for
   };
 
-  static Topics advertised(ros::NodeHandle nh, const std::string& label, bool with_odometry);
+  static Topics advertise(ros::NodeHandle nh, const std::string& label, bool with_odometry);
   const Topics* topicsOf(const std::string& label);
   void removeUnused(const wiimote_tracker_msgs::TrackedPointArray& points);
 
@@ -41,8 +41,8 @@ class LedPublishers {
   std::set<std::string> listed_;
   OutputOptions options_;
   std::map<std::string, Topics> topics_;  // by label
-  std::string coming_label_;
-  std::future<Topics> coming_;  // invalid: none are being advertised
+  std::string advertising_label_;
+  std::future<Topics> advertising_;  // invalid: none are being advertised
   tf2_ros::TransformBroadcaster broadcaster_;
   std::vector<geometry_msgs::TransformStamped> transforms_;  // reused
 };

@@ -94,21 +94,22 @@ Output::~Output() {
   }
 }
 
-void Output::leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies) {
+void Output::dropRecorded(const std::set<std::string>& labels,
+                          const std::set<std::string>& bodies) {
   for (const char* name : {"points", "triggered_points", "zone_events", "bodies", "markers"})
-    earlier_topics_.insert(topics_(name));
+    dropped_topics_.insert(topics_(name));
   for (const std::string& label : labels)
-    earlier_topics_.insert({topics_(label + "/point"), topics_(label + "/odometry")});
+    dropped_topics_.insert({topics_(label + "/point"), topics_(label + "/odometry")});
   for (const std::string& body : bodies)
-    earlier_topics_.insert(
+    dropped_topics_.insert(
         {topics_(body + "/pose"), topics_(body + "/twist"), topics_(body + "/odometry")});
-  earlier_frames_ = labels;
-  earlier_frames_.insert(bodies.begin(), bodies.end());
+  dropped_frames_ = labels;
+  dropped_frames_.insert(bodies.begin(), bodies.end());
 }
 
 void Output::copy(const rosbag::MessageInstance& recorded) {
   const std::string& topic = recorded.getTopic();
-  if (earlier_topics_.count(topic) > 0)
+  if (dropped_topics_.count(topic) > 0)
     return;
   if (topic != kTransforms || !recorded.isType<TFMessage>()) {
     write(topic, recorded.getTime(), recorded, recorded.getConnectionHeader());
@@ -117,7 +118,7 @@ void Output::copy(const rosbag::MessageInstance& recorded) {
   // The topic carries transforms of other nodes too, perhaps in the same message.
   TFMessage rest;
   for (const geometry_msgs::TransformStamped& t : recorded.instantiate<TFMessage>()->transforms) {
-    if (earlier_frames_.count(t.child_frame_id) == 0)
+    if (dropped_frames_.count(t.child_frame_id) == 0)
       rest.transforms.push_back(t);
   }
   if (!rest.transforms.empty())

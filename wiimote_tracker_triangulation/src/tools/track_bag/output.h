@@ -25,7 +25,8 @@ struct OutputFiles {
   std::string trajectories;  ///< Folder of the bodies' trajectories; empty: none.
 };
 
-/// The part of a bag, locked against other programs, removed unless it was finished.
+/// The part of a bag: the unfinished file beside it, whose name ends in .part (part_file.h). Locked
+/// against other programs, removed unless it was finished.
 class LockedPart {
  public:
   /// @throws Error: another program writes the file, or it cannot be written.
@@ -57,10 +58,10 @@ class Output : public MessageSink {
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  /// LEDs and bodies whose earlier results are not copied.
-  void leaveOut(const std::set<std::string>& labels, const std::set<std::string>& bodies);
+  /// The results of these LEDs and bodies in the recording are not copied.
+  void dropRecorded(const std::set<std::string>& labels, const std::set<std::string>& bodies);
 
-  /// Copies a recorded message, without earlier results.
+  /// Copies a recorded message, but for those results.
   void copy(const rosbag::MessageInstance& recorded);
 
   /// Latched.
@@ -105,8 +106,8 @@ class Output : public MessageSink {
   std::vector<std::unique_ptr<measurements::Writer>> tables_;
   std::vector<std::string> table_parts_;
   measurements::TrajectoryFiles trajectories_;
-  std::set<std::string> earlier_topics_;
-  std::set<std::string> earlier_frames_;
+  std::set<std::string> dropped_topics_;  // of the recording
+  std::set<std::string> dropped_frames_;  // of its transforms
   ros::Time now_;
   std::uint64_t points_ = 0;
   std::set<std::uint32_t> ids_;

@@ -172,10 +172,10 @@ TrackingParameters parametersOf(const Arguments& arguments) {
 }
 
 /// Excludes results of an earlier tracker: the LEDs and bodies in the bag and in the parameters.
-void leaveOutEarlierResults(const Recording& recording,
-                            const Topics& topics,
-                            const TrackingParameters& parameters,
-                            Output* output) {
+void dropRecordedResults(const Recording& recording,
+                         const Topics& topics,
+                         const TrackingParameters& parameters,
+                         Output* output) {
   std::set<std::string> labels = recording.labels(topics("points"));
   for (const std::string& label : parameters.allLabels())
     labels.insert(label);
@@ -187,7 +187,7 @@ void leaveOutEarlierResults(const Recording& recording,
                  bodies.begin()->c_str());
   for (const body::Constellation& body : parameters.bodies.known)
     bodies.insert(body.name);
-  output->leaveOut(labels, bodies);
+  output->dropRecorded(labels, bodies);
 }
 
 /// @throws BagError: the outputs are not of the images' times.
@@ -249,7 +249,7 @@ void run(const Arguments& arguments) {
   SmoothedTracks smoothed(parameters.estimator.tracks);
   Output output(arguments.output, topics, parameters.output,
                 arguments.smooth ? &smoothed : nullptr);
-  leaveOutEarlierResults(recording, topics, parameters, &output);
+  dropRecordedResults(recording, topics, parameters, &output);
   if (arguments.smooth) {
     Player(parameters, topics, &smoothed).play(recording, own_rig, [](const auto&) {});
     smoothed.smooth();

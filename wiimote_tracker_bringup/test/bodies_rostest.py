@@ -136,7 +136,8 @@ class Bodies(LiveRigTest):
         self.assertLess(self.odometries[-1].header.stamp.to_sec(), dark + SILENT_AFTER)
         self.assertIsNone(self.seen_between(dark, dark + HIDDEN)[-1][1], 'it was lost')
         self.wait_for_sentence('no LED is seen')
-        states = collections.Counter(b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
+        states = collections.Counter(
+            b.state for _, b in self.seen_between(dark, dark + HIDDEN) if b)
         self.assertEqual(states[TrackedBody.LOST], 1)
         self.in_real_time(self.judge, self.found_again, 1.0, before=RECOVERY)
 

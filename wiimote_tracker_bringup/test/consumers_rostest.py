@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""What robot_localization, mavros, diagnostic_aggregator and PlotJuggler read: topics, types, frames,
-rates and covariances, as their launch files and configurations ask for them. The programs themselves
-are not run: Debian does not have all of them."""
+"""What robot_localization, mavros, diagnostic_aggregator and PlotJuggler read: topics, types,
+frames, rates and covariances, as their launch files and configurations ask for them. The programs
+themselves are not run: Debian does not have all of them."""
 
 import re
 import sys
@@ -51,8 +51,8 @@ class Consumers(LiveRigTest):
         """Messages of a topic with the time when each came, once the body has been tracked for a
         while; they pass check() with these limits."""
         heard = []
-        rospy.Subscriber(topic, kind, lambda m: heard.append((rospy.get_time(), m)), queue_size=1000,
-                         tcp_nodelay=tcp_nodelay)
+        rospy.Subscriber(topic, kind, lambda m: heard.append((rospy.get_time(), m)),
+                         queue_size=1000, tcp_nodelay=tcp_nodelay)
         self.calibrate()
         self.wait(lambda: heard, topic)
 

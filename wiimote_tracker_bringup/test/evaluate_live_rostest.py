@@ -179,14 +179,16 @@ class LiveEvaluation(unittest.TestCase):
         with open(os.path.join(output, 'figures.json')) as file:
             content = json.load(file)
         for each in [content] + content['figures']:
-            self.assertTrue(each['simulated'], 'the remotes are virtual, and the report must say so')
+            self.assertTrue(each['simulated'],
+                            'the remotes are virtual, and the report must say so')
         return person, {(each['section'], each['name']): each for each in content['figures']}
 
 
 class EvaluateLive(LiveEvaluation):
     def test_a_person_is_guided_to_a_report(self):
         person, figures = self.evaluate('distance,latency,identification,positions,circles', Person)
-        self.assertEqual(person.readers, set(), 'neither the tracker nor the evaluation knows the truth')
+        self.assertEqual(person.readers, set(),
+                         'neither the tracker nor the evaluation knows the truth')
 
         def value(section, name):
             return figures[section, name]['value']

@@ -151,8 +151,8 @@ class Gestures(LiveRigTest):
     def check_box(self, event):
         """The box is that of the points that the tracker published, which are at the LED.
 
-        Not the box of the true places: where an LED turns sharply, the tracker may overshoot by more
-        than it states, the further the later the next image comes.
+        Not the box of the true places: where an LED turns sharply, the tracker may overshoot by
+        more than it states, the further the later the next image comes.
         """
         begin, end = event.begin.to_sec() - ROUNDING, event.end.to_sec() + ROUNDING
         seen = [(m.header.stamp.to_sec(), p) for m in list(self.points) for p in m.points

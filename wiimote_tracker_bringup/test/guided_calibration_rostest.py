@@ -94,7 +94,8 @@ class Screen:
     def __init__(self, *arguments):
         self._terminal, slave = pty.openpty()
         fcntl.ioctl(slave, termios.TIOCSWINSZ, struct.pack('HHHH', 24, 80, 0, 0))
-        self._process = subprocess.Popen(CALIBRATE + list(arguments), stdin=slave, stdout=slave, stderr=slave,
+        self._process = subprocess.Popen(CALIBRATE + list(arguments),
+                                         stdin=slave, stdout=slave, stderr=slave,
                                          env=dict(os.environ, TERM='xterm'), start_new_session=True)
         os.close(slave)
         self.seen = ''

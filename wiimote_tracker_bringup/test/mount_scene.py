@@ -69,8 +69,8 @@ def imu_samples(random, duration, interval=0.02, **motion):
 
 
 def odometry(random, duration, noise=2e-4, drift=0.0, **motion):
-    """Poses of the base by its own clock. noise: white [rad, m]; drift: random walk, of the rotation
-    and of the position [rad, m / sqrt(s)]."""
+    """Poses of the base by its own clock. noise: white [rad, m]; drift: random walk, of the
+    rotation and of the position [rad, m / sqrt(s)]."""
     t = np.arange(-0.3, duration + 0.3, 0.025)
     positions, rotations = body_at(t, **motion)
     world_from_odom, place = ODOM

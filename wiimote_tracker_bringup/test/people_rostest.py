@@ -78,7 +78,8 @@ class People(LiveRigTest):
             self.check_covariance(track, truth[led])
         print('%d outputs, %d tracks, %d lost; outputs of each LED: %s' % (
             len(inside), len(tracks), lost, covered))
-        self.assertEqual(len(tracks), len(self.leds), 'one track for each LED, from the beginning on')
+        self.assertEqual(len(tracks), len(self.leds),
+                         'one track for each LED, from the beginning on')
         self.assertEqual(set.union(*labels.values()), {'a', 'b', 'c', 'd'})
         for led in self.leds:
             self.assertGreater(covered[led], 0.99 * len(inside), led)

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Cameras and volume of a plan are dragged as rviz does it; the coverage follows, and Save writes a rig."""
+"""Cameras and volume of a plan are dragged as rviz does it; the coverage follows, and Save writes a
+rig."""
 
 import os
 import subprocess

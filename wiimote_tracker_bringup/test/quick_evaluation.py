@@ -70,7 +70,8 @@ def every_section_has_figures_and_plots(results, names):
         drawings = [each for each in files if each.endswith('.svg')]
         assert drawings
         for drawing in drawings:
-            root = xml.etree.ElementTree.parse(os.path.join(results.folder, name, drawing)).getroot()
+            root = xml.etree.ElementTree.parse(
+                os.path.join(results.folder, name, drawing)).getroot()
             texts = [text for each in root.iter('{http://www.w3.org/2000/svg}text')
                      for text in each.itertext()]
             assert texts, f'{drawing} has no text'

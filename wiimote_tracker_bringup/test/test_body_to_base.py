@@ -100,11 +100,13 @@ def test_poses_whose_errors_are_correlated(monkeypatch):
 
 
 def test_poses_whose_errors_last():
-    """As those of the calibration: they come back with the pose, so that no mean is without them."""
+    """As those of the calibration: they come back with the pose, so that no mean is without
+    them."""
     random = np.random.default_rng(9)
     _, errors, normalised = check(
-        hand_eye.solve, lambda: (mount_scene.miscalibrated(random, mount_scene.tracked(random, 30.0)),
-                                 mount_scene.odometry(random, 30.0, drift=0.001)), 1.0, 12)
+        hand_eye.solve,
+        lambda: (mount_scene.miscalibrated(random, mount_scene.tracked(random, 30.0)),
+                 mount_scene.odometry(random, 30.0, drift=0.001)), 1.0, 12)
     assert 0.5 < normalised < 1.5
     assert np.abs(errors[:, 3:6]).max() < 0.006
 
@@ -181,7 +183,8 @@ def test_a_bag_with_an_imu(tmp_path, capsys):
     assert (found.body, found.base) == ('robot', 'imu_link')
     told = capsys.readouterr()
     assert 'step' not in told.out
-    steps = re.findall(r'body_to_base: step (\d+) of at most 30: clock offset 3\d\.\d\d \+- ', told.err)
+    steps = re.findall(r'body_to_base: step (\d+) of at most 30: clock offset 3\d\.\d\d \+- ',
+                       told.err)
     assert steps == [str(number + 1) for number in range(len(steps))] and len(steps) >= 7
     with pytest.raises(SystemExit, match='has no IMU samples on /imu'):
         body_to_base.main([path, '--body', '/robot/odometry', '--imu', '/imu'])
@@ -208,7 +211,8 @@ def test_ctrl_c_is_answered_in_a_word(program, options, monkeypatch, capsys):
 
 
 def test_files_and_words(tmp_path):
-    found = mount.Mount(TURN, ARM, OFFSET, np.diag(np.arange(1.0, 8.0)) * 1e-6, 'robot', 'base_link')
+    found = mount.Mount(TURN, ARM, OFFSET, np.diag(np.arange(1.0, 8.0)) * 1e-6, 'robot',
+                        'base_link')
     path = str(tmp_path / 'mount.yaml')
     mount.write(found, path)
     read = mount.read(path)

@@ -37,7 +37,8 @@ def test_a_rig_description_names_its_cameras_and_sockets():
 
 def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     path = tmp_path / 'cameras.yaml'
-    path.write_text('cameras:\n  a: {identity: "00:1f:32:00:00:01", driver: {ir_sensitivity: max}}\n'
+    path.write_text('cameras:\n'
+                    '  a: {identity: "00:1f:32:00:00:01", driver: {ir_sensitivity: max}}\n'
                     '  b: "00:1f:32:00:00:02"\n')
     assert cameras_file.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
     assert cameras_file.read_parameters(str(path)) == {'a': {'ir_sensitivity': 'max'}, 'b': {}}

@@ -30,7 +30,8 @@ def paper_scene(cameras):
 
 
 def sums_by_session(results, cameras, method, model='calibrated'):
-    """Squared errors of the ten points from where the LED was, and the traces of the covariances."""
+    """Squared errors of the ten points from where the LED was, and the traces of the
+    covariances."""
     rows = [row for row in results.table('positions', 'points')
             if (row['cameras'], row['method'], row['ray_model']) == (cameras, method, model)]
 

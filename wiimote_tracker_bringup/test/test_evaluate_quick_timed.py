@@ -31,7 +31,7 @@ def test_the_laps_counter_finds_the_age_of_the_newest_point(results, case, camer
     gap = np.diff(published)
     age = total[:-1] + 0.5 * gap  # mean over the time until the next point comes
     mean = (age * gap).sum() / gap.sum()
-    spread = np.sqrt(((age - mean) ** 2 * gap).sum() / gap.sum() + (gap ** 3).sum() / gap.sum() / 12)
+    spread = np.sqrt((((age - mean) ** 2 * gap).sum() + (gap ** 3).sum() / 12) / gap.sum())
     crossings = [row for row in results.table('latency', 'crossings') if row['cameras'] == cameras]
     answer, angle = column(crossings, 'answer_rad'), column(crossings, 'angle_rad')
     answered = np.isfinite(answer)
@@ -51,7 +51,8 @@ def test_parts_of_the_latency_add_up(results):
         whole = mean.pop('exposure to published point')
         own = mean.pop('total without Bluetooth')
         assert sum(mean.values()) == pytest.approx(whole, abs=1e-6)
-        assert whole - own == pytest.approx(mean['Bluetooth (an input of the simulation)'], abs=1e-6)
+        bluetooth = mean['Bluetooth (an input of the simulation)']
+        assert whole - own == pytest.approx(bluetooth, abs=1e-6)
         assert min(mean.values()) > 0.0
 
 

@@ -1,6 +1,6 @@
 """evaluate_recording on simulated flights in the format of the lighthouse recordings: two stations
-whose sweeps hit four sensors at their own times, a log with its delays, a truth elsewhere on the body
-by another clock. The errors are compared with the simulation's own."""
+whose sweeps hit four sensors at their own times, a log with its delays, a truth elsewhere on the
+body by another clock. The errors are compared with the simulation's own."""
 
 import gzip
 import json
@@ -275,16 +275,17 @@ def camera_at(name, position, target):
     w = 0.5 * np.sqrt(1.0 + np.trace(matrix))
     turn = [matrix[2, 1] - matrix[1, 2], matrix[0, 2] - matrix[2, 0], matrix[1, 0] - matrix[0, 1]]
     numbers = np.concatenate([position, np.array(turn) / (4.0 * w), [w]]).tolist()
-    return ('  %s: {distortion_model: plumb_bob, camera_matrix: {data: [500, 0, 320, 0, 510, 240, 0, '
-            '0, 1]}, distortion_coefficients: {data: [-0.2, 0.05, 0.001, 0.002, 0]}, extrinsics: '
-            '{transform: {translation: {x: %r, y: %r, z: %r}, rotation: {x: %r, y: %r, z: %r, '
-            'w: %r}}}}\n' % (name, *numbers))
+    return ('  %s: {distortion_model: plumb_bob, camera_matrix: {data: [500, 0, 320, 0, 510, 240, '
+            '0, 0, 1]}, distortion_coefficients: {data: [-0.2, 0.05, 0.001, 0.002, 0]}, '
+            'extrinsics: {transform: {translation: {x: %r, y: %r, z: %r}, rotation: {x: %r, y: %r, '
+            'z: %r, w: %r}}}}\n' % (name, *numbers))
 
 
 def test_a_pixel_is_predicted_from_the_other_cameras(tmp_path):
     (tmp_path / 'rig.yaml').write_text('cameras:\n' + ''.join(
         camera_at(name, place, [0.1, 0.0, 0.2])
-        for name, place in (('a', (2.0, 0.3, 1.0)), ('b', (0.2, 2.0, 1.5)), ('c', (1.5, 1.5, 0.4)))))
+        for name, place in (('a', (2.0, 0.3, 1.0)), ('b', (0.2, 2.0, 1.5)),
+                            ('c', (1.5, 1.5, 0.4)))))
     cameras = {camera.name: camera for camera in cameras_of(str(tmp_path / 'rig.yaml'))}
     point = [0.3, -0.2, 0.4]
     pixels = {name: camera.project(point)[0] for name, camera in cameras.items()}

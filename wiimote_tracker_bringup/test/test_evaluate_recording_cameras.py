@@ -1,5 +1,6 @@
-"""evaluate_recording on simulated consumer cameras: of several rates, with drifting clocks that start
-at different times, and with lines that are read one by one. The path is that of a waving hand.
+"""evaluate_recording on simulated consumer cameras: of several rates, with drifting clocks that
+start at different times, and with lines that are read one by one. The path is that of a waving
+hand.
 
 As a program: test_evaluate_recording_cameras.py PATH.csv SEED..., rows time, x, y, z in s and m:
 errors with each seed of the noise, beside those with the true poses and times."""

@@ -340,8 +340,8 @@ sys.path.insert(0, %r)
 from wiimote_tracker_bringup.processes import Processes, descendants
 p = Processes()
 # A shell whose child, in its own session, ignores SIGINT and SIGTERM.
-p.start('shell', ['sh', '-c', "setsid sh -c \\"trap '' INT TERM; echo up > %s; while :; do sleep 1; "
-        "done\\" & wait"], os.devnull)
+p.start('shell', ['sh', '-c', "setsid sh -c \\"trap '' INT TERM; echo up > %s; while :; do "
+        "sleep 1; done\\" & wait"], os.devnull)
 deadline = time.monotonic() + 20
 while not os.path.exists(%r) and time.monotonic() < deadline:
     time.sleep(0.01)

@@ -68,8 +68,8 @@ def make_results(folder, our_error):
                 for case in CASES:
                     for number in range(15 if case in ('C3', 'C4', 'C5') else 1):
                         for camera in range(1, 3):
-                            traces.append([session, cameras, case, model, number, camera, 512 + number,
-                                           384, 520, 388, 10.0 * 0.75 ** number, -1.0,
+                            traces.append([session, cameras, case, model, number, camera,
+                                           512 + number, 384, 520, 388, 10.0 * 0.75 ** number, -1.0,
                                            0.1 * 0.75 ** number])
             if cameras == FACING:
                 continue

@@ -1,5 +1,5 @@
-"""Parts of the evaluation, without its sections: statistics compared with closed forms, the table of
-results, rigs, programs and load."""
+"""Parts of the evaluation, without its sections: statistics compared with closed forms, the table
+of results, rigs, programs and load."""
 
 import io
 import json

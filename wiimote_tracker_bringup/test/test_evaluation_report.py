@@ -299,7 +299,8 @@ def test_a_recording_may_have_any_name(title, tmp_path):
 def test_the_fault_matrix_is_a_table_of_the_report(tmp_path, capsys):
     part = dict.fromkeys(('error_95', 'age', 'names', 'cameras'), None)
     results = [
-        {'name': 'kill_driver', 'what': 'kill -9 of a driver', 'before': dict(part, rate=254.0, error=0.0012),
+        {'name': 'kill_driver', 'what': 'kill -9 of a driver',
+         'before': dict(part, rate=254.0, error=0.0012),
          'during': dict(part, rate=0.0, error=None), 'after': dict(part, rate=235.0, error=0.0011),
          'recovery': 1.4, 'problems': []},
         {'name': 'lost', 'what': 'all lost', 'before': None, 'during': None, 'after': None,

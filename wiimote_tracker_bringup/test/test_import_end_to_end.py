@@ -114,7 +114,8 @@ class ImportEndToEnd(unittest.TestCase):
             figures = report['published'][name]
             self.assertEqual(figures['observations'], len(of_published))
             self.assertAlmostEqual(figures['rms'] / rms(of_published), 1.0, delta=0.02)
-            self.assertAlmostEqual(report['shipped'][name]['rms'] / rms(of_shipped), 1.0, delta=0.02)
+            self.assertAlmostEqual(report['shipped'][name]['rms'] / rms(of_shipped), 1.0,
+                                   delta=0.02)
             self.assertIn(name, self.output)
             all_published += of_published
             all_shipped += of_shipped

@@ -74,13 +74,14 @@ def test_a_file_of_parameters_wins(load, tmp_path, name, given):
 
 
 @pytest.mark.parametrize('name, arguments, cleared', [
-    ('tracker.launch', ['rviz:=true'], {'/calibration/', '/coverage/', '/drivers/', '/triangulation/'}),
+    ('tracker.launch', ['rviz:=true'],
+     {'/calibration/', '/coverage/', '/drivers/', '/triangulation/'}),
     ('tracker.launch', ['one_manager:=true'], {'/calibration/', '/drivers/', '/triangulation/'}),
     ('replay.launch', ['bag:=x'], {'/triangulation/'}),
     ('../../wiimote_tracker_triangulation/launch/gestures.launch', [], {'/gestures/'}),
     ('../../wiimote_tracker_triangulation/launch/record_points.launch', [], {'/record_points/'}),
     ('../../wiimote_tracker_driver/launch/driver.launch', [], {'/wiimote_1/driver/'})])
-def test_a_parameter_that_was_taken_out_of_a_file_is_not_kept_by_the_master(name, arguments, cleared):
+def test_a_parameter_taken_out_of_a_file_is_not_kept_by_the_master(name, arguments, cleared):
     config = roslaunch.config.load_config_default(
         [(os.path.join(LAUNCH, name), arguments)], 11311, verbose=False)
     assert set(config.clear_params) == cleared
@@ -141,7 +142,8 @@ def test_each_namespace_has_its_own_label_places(load, monkeypatch, namespace):
     assert places == ['/var/lib/lab/wiimote_tracker/']
 
 
-@pytest.mark.parametrize('name', ['tracker.launch', 'simulated_rig.launch', 'several_machines.launch'])
+@pytest.mark.parametrize(
+    'name', ['tracker.launch', 'simulated_rig.launch', 'several_machines.launch'])
 def test_a_service_without_a_home_can_start_it(load, monkeypatch, name):
     monkeypatch.delenv('HOME')
     monkeypatch.setenv('ROS_HOME', '/var/lib/lab')

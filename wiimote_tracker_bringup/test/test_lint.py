@@ -34,6 +34,13 @@ def test_finds_an_unused_import(package):
     assert 'imported but unused' in lint.check_python()
 
 
+def test_finds_a_line_of_python_that_is_too_long(package):
+    (package / 'good.py').write_text(100 * '#' + '\n')
+    assert not lint.check_width()
+    (package / 'bad.py').write_text('\n' + 101 * '#' + '\n')
+    assert lint.check_width() == 'wiimote_tracker_x/bad.py:2: is longer than 100 characters'
+
+
 def test_finds_a_shell_script_that_cannot_be_parsed(package):
     (package / 'good.sh').write_text('if true; then echo; fi\n')
     (package / 'bad.sh').write_text('if true; then\n')

@@ -192,7 +192,8 @@ def test_probe_forgets_when_time_jumps_back():
     assert [message.header.stamp.to_sec() for message in measuring.newest(10.0)] == [50.0, 50.1]
 
 
-@pytest.mark.parametrize('error', [np.linalg.LinAlgError('Singular matrix'), ValueError('zero norm')])
+@pytest.mark.parametrize(
+    'error', [np.linalg.LinAlgError('Singular matrix'), ValueError('zero norm')])
 def test_probe_answers_in_words(error):
     def fail():
         raise error
@@ -200,7 +201,8 @@ def test_probe_answers_in_words(error):
     assert not reply.success and f'({error})' in reply.message
 
 
-@pytest.mark.parametrize('tip', [[1.0, 2.0], [0.0, 0.0, float('nan')], ['a', 0, 0], 'tip', [None] * 3])
+@pytest.mark.parametrize(
+    'tip', [[1.0, 2.0], [0.0, 0.0, float('nan')], ['a', 0, 0], 'tip', [None] * 3])
 def test_probe_refuses_a_tip(tip, monkeypatch):
     monkeypatch.setattr(rospy, 'get_param', lambda name, default: tip)
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/tip')

@@ -244,14 +244,16 @@ def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
 
 @pytest.mark.parametrize('text, words', [
     ('volume: [0, 0, 0, 1, 1, 1]', 'cameras is missing'),
-    ('cameras: 1\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]', 'cameras is 1, but must be from 2 to 64'),
+    ('cameras: 1\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]',
+     'cameras is 1, but must be from 2 to 64'),
     ('camera: 2', 'camera is unknown; the keys are cameras, volume'),
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 0]\nstands: [[0, 0, 0, 1, 1, 1]]', 'volume must have'),
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]', 'volume must be 6'),
     ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: []', 'stands must be a list'),
-    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, .nan]]', 'stands[0] must be'),
-    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]\nbody: [[0, 0, 0, 1, 0, 0]]',
-     'body must be a list of 3'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, .nan]]',
+     'stands[0] must be'),
+    ('cameras: 2\nvolume: [0, 0, 0, 1, 1, 1]\nstands: [[0, 0, 0, 1, 1, 1]]\n'
+     'body: [[0, 0, 0, 1, 0, 0]]', 'body must be a list of 3'),
     (ROOM_TEXT + 'beam: 90\nbody: [[0, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 0], [0, 0, 1, 0, 0, 0]]',
      r'body[2] must have a direction'),
     (ROOM_TEXT + 'body: [[0, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 0], [0, 0, 1, 0, 0, 1]]', 'give beam'),

@@ -17,7 +17,8 @@ def load(*arguments):
 
 
 def test_drivers_run_near_the_remotes_and_the_rest_here():
-    config = load('first:=192.0.2.1', 'second:=192.0.2.2', 'user:=tracker', 'first_cameras:=/etc/a.yaml')
+    config = load('first:=192.0.2.1', 'second:=192.0.2.2', 'user:=tracker',
+                  'first_cameras:=/etc/a.yaml')
     machines = {node.name: node.machine_name for node in config.nodes}
     assert machines.pop('first_drivers') == 'first'
     assert machines.pop('second_drivers') == 'second'

@@ -7,7 +7,8 @@ STANDARD = '    #1 std::mutex::lock() /usr/include/c++/12/bits/std_mutex.h:100 (
 OURS = '    #2 run /clone/wiimote_tracker_driver/src/ros/driver.cpp:7 (node+0x3)\n'
 ROS = '    #1 ros::Connection::read() <null> (libroscpp.so.4d+0xa)\n'
 DELETE = ('    #0 operator delete(void*) ../src/libsanitizer/tsan.cpp:15 (libtsan.so.2+0x6)\n'
-          '    #1 boost::detail::sp_counted_base::destroy() /usr/include/boost/a.hpp:99 (node+0x4)\n')
+          '    #1 boost::detail::sp_counted_base::destroy() /usr/include/boost/a.hpp:99 '
+          '(node+0x4)\n')
 
 
 def report(*stacks):

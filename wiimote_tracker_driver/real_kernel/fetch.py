@@ -100,7 +100,8 @@ class Apt:
 
 
 def own_lists(folder: str) -> List[str]:
-    """Options for package lists in `folder`, for machines whose lists are missing or out of date."""
+    """Options for package lists in `folder`, for machines whose lists are missing or out of
+    date."""
     lists = os.path.join(folder, 'lists')
     os.makedirs(os.path.join(lists, 'partial'), exist_ok=True)
     os.makedirs(os.path.join(folder, 'archives', 'partial'), exist_ok=True)

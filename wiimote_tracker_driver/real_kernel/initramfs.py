@@ -112,7 +112,8 @@ def build(path: str, init: str, busybox: str, kernel_folder: str, modules: Itera
     among them are added, from `folders` of Debian packages or from this machine."""
     with open(path, 'wb') as file:
         archive = Archive(file)
-        for folder in ('dev', 'etc/bluetooth', 'proc', 'run/dbus', 'sys', 'tmp', 'var/lib/bluetooth'):
+        for folder in ('dev', 'etc/bluetooth', 'proc', 'run/dbus', 'sys', 'tmp',
+                       'var/lib/bluetooth'):
             archive.folder(folder)
         archive.add('init', read(init))
         archive.add('bin/busybox', read(busybox))

@@ -53,15 +53,15 @@ class DriverConfiguration(unittest.TestCase):
                             "_ir_sensitivity:=custom", "_ir_sensitivity_block1:=07 00")
 
     def test_bad_modes_and_ranges(self):
-        self.assert_refused("/driver_j/ir_mode is 'fast', but must be one of: basic, extended, full",
-                            "__name:=driver_j", "_ir_mode:=fast")
+        self.assert_refused("/driver_j/ir_mode is 'fast', but must be one of: basic, extended, "
+                            "full", "__name:=driver_j", "_ir_mode:=fast")
         self.assert_refused("/driver_k/leds is 16", "__name:=driver_k", "_leds:=16")
         self.assert_refused("/driver_l/realtime_priority is 100", "__name:=driver_l",
                             "_realtime_priority:=100")
 
     def test_recordings(self):
-        self.assert_refused("/driver_m/device: /nowhere/at_all.wiirec: cannot read the recording", "__name:=driver_m",
-                            "_device:=replay:/nowhere/at_all.wiirec")
+        self.assert_refused("/driver_m/device: /nowhere/at_all.wiirec: cannot read the recording",
+                            "__name:=driver_m", "_device:=replay:/nowhere/at_all.wiirec")
         self.assert_refused("it was looked for in " + os.getcwd() + "; give an absolute path",
                             "__name:=driver_q", "_device:=replay:at_all.wiirec")
         self.assert_refused("/driver_n/record: ", "__name:=driver_n",

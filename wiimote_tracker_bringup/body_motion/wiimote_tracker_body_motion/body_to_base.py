@@ -14,7 +14,8 @@ def describe(found):
     """Lines of text."""
     stddev = found.stddev()
     values = [('translation', found.translation, stddev[3:6], 1e3, 'mm'),
-              ('roll, pitch, yaw', found.rotation.as_euler('xyz'), stddev[:3], 180.0 / np.pi, 'deg'),
+              ('roll, pitch, yaw', found.rotation.as_euler('xyz'), stddev[:3], 180.0 / np.pi,
+               'deg'),
               ('clock offset', [found.offset], stddev[6:], 1e3, 'ms')]
     for name, numbers, errors, factor, unit in values:
         text = ', '.join(f'{factor * number:.2f}' for number in numbers)

@@ -20,8 +20,8 @@ STATISTICS = (('rmse', statistics.rms), ('mean', np.mean), ('median', np.median)
 @dataclasses.dataclass
 class Comparison:
     """truth, estimate: Poses at the same times, the estimate aligned. errors: names, with units, to
-    arrays; scale: of the alignment; rpe_times: of the beginnings of the intervals [s]; left_out: which
-    error is missing and why, in words, or empty."""
+    arrays; scale: of the alignment; rpe_times: of the beginnings of the intervals [s]; left_out:
+    which error is missing and why, in words, or empty."""
 
     truth: object
     estimate: object
@@ -63,19 +63,19 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
 
 
 def missing_angle(aligned, truth):
-    """Why the alignment does not tell the turn about the path, in words, or empty: its width is less
-    than the errors. n x 3 [m]. Throws ExperimentError where its length is, too."""
+    """Why the alignment does not tell the turn about the path, in words, or empty: its width is
+    less than the errors. n x 3 [m]. Throws ExperimentError where its length is, too."""
     extents = np.linalg.svd(truth - truth.mean(axis=0), compute_uv=False) / np.sqrt(len(truth))
     error = alignment.rms(aligned - truth)
     if extents[0] < max(error, 1e-6):
         raise ExperimentError(
-            f'the true path is too short to align: its length is {1e3 * extents[0]:.1f} mm, errors are '
-            f'{1e3 * error:.1f} mm (RMS); move about, or use --alignment absolute')
+            f'the true path is too short to align: its length is {1e3 * extents[0]:.1f} mm, errors '
+            f'are {1e3 * error:.1f} mm (RMS); move about, or use --alignment absolute')
     if extents[1] > max(error, 1e-9 * extents[0]):
         return ''
-    return (f'ATE [deg] is left out: the width of the true path is {1e3 * extents[1]:.1f} mm, errors are '
-            f'{1e3 * error:.1f} mm (RMS), so the turn about the path cannot be told; move about, or use '
-            '--alignment absolute')
+    return (f'ATE [deg] is left out: the width of the true path is {1e3 * extents[1]:.1f} mm, '
+            f'errors are {1e3 * error:.1f} mm (RMS), so the turn about the path cannot be told; '
+            'move about, or use --alignment absolute')
 
 
 def intervals(times, interval, tolerance):

@@ -59,8 +59,8 @@ def run(arguments):
 
 def main(argv=None):
     parser = argparse.ArgumentParser(
-        prog='evaluate_trajectory', description='Absolute and relative errors (ATE, RPE) of a topic '
-        'with poses against another, of nav_msgs/Odometry, PoseStamped or '
+        prog='evaluate_trajectory', description='Absolute and relative errors (ATE, RPE) of a '
+        'topic with poses against another, of nav_msgs/Odometry, PoseStamped or '
         'PoseWithCovarianceStamped.')
     parser.add_argument('bag', help='recording of both topics')
     parser.add_argument('--estimate', required=True, metavar='TOPIC', help='to be judged')

@@ -57,7 +57,8 @@ class Problem:
             """States where the odometry comes to."""
             back = before.rotations[first] * states.rotations[first].inv()
             return (back * ends.rotations,
-                    before.vectors[first, 6:] + back.apply(ends.positions - states.positions[first]))
+                    before.vectors[first, 6:]
+                    + back.apply(ends.positions - states.positions[first]))
 
         turned, there = moved(self.steps, states.chosen(slice(1, None)))
         return ((turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(INTERVAL),

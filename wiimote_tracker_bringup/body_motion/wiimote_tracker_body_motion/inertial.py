@@ -60,8 +60,8 @@ def solve(body, imu, largest_offset=2.0, report=lambda sentence: None):
     least, most = (factor * np.linalg.norm(GRAVITY) for factor in FORCES)
     if not least < force < most:
         raise ExperimentError(f'the accelerometer measures {force:.3g} m/s^2 (median), but about '
-                              '9.8 are expected: sensor_msgs/Imu is in m/s^2, not in g, and gravity '
-                              'is not subtracted')
+                              '9.8 are expected: sensor_msgs/Imu is in m/s^2, not in g, and '
+                              'gravity is not subtracted')
     imu = imu.averaged()
     body, rotation, offset = mount_start.start(body, imu.rotations(), largest_offset)
     problem = Problem(body, imu, offset)
@@ -79,7 +79,8 @@ class Problem:
     def __init__(self, body, imu, offset):
         self.body, self.offset = body, offset
         middles = 0.5 * (imu.times[1:] + imu.times[:-1]) + offset
-        inside = np.flatnonzero((middles > body.times[0] - 0.05) & (middles < body.times[-1] + 0.05))
+        inside = np.flatnonzero((middles > body.times[0] - 0.05)
+                                & (middles < body.times[-1] + 0.05))
         self.times = middles[inside]
         self.rates, self.forces = imu.rates[inside[1:]], imu.forces[inside[1:]]
         self.durations = np.diff(self.times)[:, None]
@@ -116,9 +117,11 @@ class Problem:
 
         h = self.durations
         turned, velocities, positions = moved(self.steps, h)
-        faster, further = np.split(np.hstack([velocities, positions]) - after.vectors[1:, 6:], 2, axis=1)
+        faster, further = np.split(np.hstack([velocities, positions]) - after.vectors[1:, 6:], 2,
+                                   axis=1)
         # White noise of a step: the position is known from the velocity to h^3 / 12.
-        moves = np.hstack([faster / np.sqrt(h), (further - 0.5 * h * faster) * np.sqrt(12.0 / h ** 3)])
+        moves = np.hstack([faster / np.sqrt(h),
+                           (further - 0.5 * h * faster) * np.sqrt(12.0 / h ** 3)])
         since = self.times_of_poses(before) - self.times[self.rows]
         turns, _, places = moved(self.rows, since[:, None])
         return ((turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(h), moves,

@@ -13,9 +13,9 @@ FORMAT = 'wiimote_tracker_mount'
 
 @dataclasses.dataclass
 class Mount:
-    """body_from_base: p_body = rotation p_base + translation [m]. offset: added to the stamps of the
-    base's topic it gives the tracker's clock [s]. covariance: 7 x 7, of a small rotation about the
-    body's axes [rad], translation and offset."""
+    """body_from_base: p_body = rotation p_base + translation [m]. offset: added to the stamps of
+    the base's topic it gives the tracker's clock [s]. covariance: 7 x 7, of a small rotation about
+    the body's axes [rad], translation and offset."""
 
     rotation: Rotation
     translation: np.ndarray
@@ -39,14 +39,16 @@ def write(mount, path):
     stddev = mount.stddev()
     content = {'format': FORMAT, 'version': 1, 'body': mount.body, 'base': mount.base,
                'translation': mount.translation.tolist(),
-               'quaternion_xyzw': mount.rotation.as_quat().tolist(), 'clock_offset': float(mount.offset),
+               'quaternion_xyzw': mount.rotation.as_quat().tolist(),
+               'clock_offset': float(mount.offset),
                'stddev': {'rotation': stddev[:3].tolist(), 'translation': stddev[3:6].tolist(),
                           'clock_offset': float(stddev[6])},
                'covariance': mount.covariance.tolist(), 'launch': node}
     with open(path, 'w') as file:
-        file.write('# body_from_base: p_body = R p_base + translation [m]. clock_offset [s], added to\n'
-                   '# the stamps of the base, gives the clock of the tracker. Covariance: rotation\n'
-                   '# about the axes of the body [rad], translation, clock offset.\n')
+        file.write('# body_from_base: p_body = R p_base + translation [m]. clock_offset [s],\n'
+                   '# added to the stamps of the base, gives the clock of the tracker.\n'
+                   '# Covariance: rotation about the axes of the body [rad], translation, clock\n'
+                   '# offset.\n')
         yaml.safe_dump(content, file, sort_keys=False, default_flow_style=None, width=1000)
 
 

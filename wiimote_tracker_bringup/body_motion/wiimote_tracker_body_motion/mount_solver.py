@@ -54,16 +54,16 @@ class State:
         return result
 
     def body_residuals(self, rotations, positions, body, first):
-        """Rotations [rad] and positions [m], n x 3: base's poses in the world against body's. first:
-        the number of the state before each."""
+        """Rotations [rad] and positions [m], n x 3: base's poses in the world against body's.
+        first: the number of the state before each."""
         turned = rotations * self.rotation.inv()
         slow_turn, slow_shift = np.split(self.vectors[first, :6], 2, axis=1)
         return ((turned * body.rotations.inv()).as_rotvec() + slow_turn,
                 positions - turned.apply(self.vector[:3]) - body.positions + slow_shift)
 
     def slow_residuals(self, after, durations):
-        """How the slow errors change from each state to the next: a first-order Gauss-Markov process.
-        durations: n x 1 [s]."""
+        """How the slow errors change from each state to the next: a first-order Gauss-Markov
+        process. durations: n x 1 [s]."""
         decay = np.exp(-durations / SLOW)
         change = (after.vectors[1:, :6] - decay * self.vectors[:-1, :6]) / np.sqrt(1.0 - decay ** 2)
         return np.split(change, 2, axis=1)
@@ -95,8 +95,8 @@ def solve(problem, state, names, report):
                               '--largest-offset?')
     stddev = np.sqrt(np.linalg.eigvalsh(covariance[3:6, 3:6])[-1])
     if not stddev < LARGEST_STDDEV:
-        raise ExperimentError(f'the translation is told to {1e3 * stddev:.0f} mm only: turn the base '
-                              'faster, about two axes')
+        raise ExperimentError(f'the translation is told to {1e3 * stddev:.0f} mm only: turn the '
+                              'base faster, about two axes')
     return Mount(state.rotation, state.vector[:3], state.vector[3], covariance, *names)
 
 
@@ -129,7 +129,8 @@ class Equations:
         for number, (first, (by_common, by_states)) in enumerate(
                 zip(firsts, derivatives(problem, state))):
             rows, values, _ = by_states.shape
-            columns = np.repeat(self.size * first[:, None] + np.arange(2 * self.size), values, axis=0)
+            columns = np.repeat(self.size * first[:, None] + np.arange(2 * self.size), values,
+                                axis=0)
             local.append(sparse.csr_matrix(
                 (by_states.ravel() / noise[number], columns.ravel(),
                  2 * self.size * np.arange(rows * values + 1)),
@@ -139,7 +140,8 @@ class Equations:
             times.append(problem.times[first].repeat(values))
         self.group, self.local = np.concatenate(group), sparse.vstack(local, 'csr')
         interval = np.unique(np.concatenate(times) // CORRELATED, return_inverse=True)[1]
-        self.sums = sparse.csr_matrix((np.ones(len(interval)), (interval, np.arange(len(interval)))))
+        self.sums = sparse.csr_matrix((np.ones(len(interval)),
+                                       (interval, np.arange(len(interval)))))
         self.common = np.concatenate(common)
         self.solver = splu((self.local.T @ self.local).tocsc(), permc_spec='NATURAL',
                            diag_pivot_thresh=0.0, options={'SymmetricMode': True})
@@ -172,8 +174,9 @@ class Equations:
         return scale[:, None] * self.inverse * scale
 
     def lasting_covariance(self, noise):
-        """Of the constants, from errors of the body's poses that are the same whenever it comes back,
-        as those of the calibration: as large as the slow ones, linear in place and orientation."""
+        """Of the constants, from errors of the body's poses that are the same whenever it comes
+        back, as those of the calibration: as large as the slow ones, linear in place and
+        orientation."""
         body = self.problem.body
         features = np.hstack([body.positions, body.rotations.as_matrix().reshape(-1, 9)])
         features -= features.mean(axis=0)

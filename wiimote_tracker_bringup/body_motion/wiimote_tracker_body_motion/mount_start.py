@@ -32,7 +32,8 @@ def turns(poses, times, lag):
 
 
 def start_of_offset(body, base, largest):
-    """The shift for which the speeds of rotation, which do not depend on the mount, agree best [s]."""
+    """The shift for which the speeds of rotation, which do not depend on the mount, agree best
+    [s]."""
     lag = 10 * GRID
     if min(poses.times[-1] - poses.times[0] for poses in (body, base)) < 10.0:
         raise ExperimentError('the bag has less than 10 s of motion; record a minute')
@@ -57,8 +58,8 @@ def start_of_offset(body, base, largest):
 
 
 def common_part(body, base):
-    """Poses of the body for which the base has some, with room for a better offset, and so far apart
-    that their errors are independent: correlated ones would be taken for motion."""
+    """Poses of the body for which the base has some, with room for a better offset, and so far
+    apart that their errors are independent: correlated ones would be taken for motion."""
     room = 3 * GRID
     inside = (body.times > base.times[0] + room) & (body.times < base.times[-1] - room)
     which = np.flatnonzero(inside & base.covers(body.times, LONGEST_GAP))

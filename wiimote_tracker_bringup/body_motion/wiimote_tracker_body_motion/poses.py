@@ -80,7 +80,8 @@ def smoothed(poses, neighbours=9):
     powers = away[..., None] ** np.arange(3)
     weighted = powers * np.exp(-0.5 * (away / 1.5) ** 2)[..., None]
     # The value of the parabola at 0, as weights of the neighbours.
-    weights = np.linalg.solve(weighted.transpose(0, 2, 1) @ powers, weighted.transpose(0, 2, 1))[:, 0]
+    weights = np.linalg.solve(weighted.transpose(0, 2, 1) @ powers,
+                              weighted.transpose(0, 2, 1))[:, 0]
     turns = (poses.rotations[np.repeat(center, neighbours)].inv()
              * poses.rotations[near.reshape(-1)]).as_rotvec().reshape(*near.shape, 3)
     return dataclasses.replace(
@@ -97,7 +98,8 @@ def read(path, topic):
         raise ExperimentError(f'{topic} in {path} has fewer than two poses at different times; '
                               'record it while the body is tracked')
     return Poses(rows[:, 0], rows[:, 1:4], Rotation.from_quat(rows[:, 4:]),
-                 message.header.frame_id, getattr(message, 'child_frame_id', '') or topic.strip('/'))
+                 message.header.frame_id,
+                 getattr(message, 'child_frame_id', '') or topic.strip('/'))
 
 
 def read_rows(path, topic, numbers_of, what):

@@ -83,8 +83,8 @@ def check_files(parser: argparse.ArgumentParser, options: argparse.Namespace, to
     if not os.path.isfile(options.rig):
         parser.error(f'there is no rig description {options.rig}')
     if not options.live and not descriptions.is_description(options.rig):
-        parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml does: a '
-                     'calibrated rig.yaml cannot be simulated')
+        parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml '
+                     'does: a calibrated rig.yaml cannot be simulated')
     options.rig, options.output = os.path.abspath(options.rig), os.path.abspath(options.output)
     for path in filter(None, to_read):
         if is_replaced(path, options):

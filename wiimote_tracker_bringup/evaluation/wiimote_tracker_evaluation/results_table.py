@@ -26,7 +26,8 @@ def headlines(content: Dict) -> List[Dict]:
 
 def origin(content: Dict) -> str:
     if not any(entry['simulated'] for entry in headlines(content)):
-        return 'By `rosrun wiimote_tracker_bringup evaluate --sections recordings --recordings DIR`.'
+        return ('By `rosrun wiimote_tracker_bringup evaluate --sections recordings --recordings '
+                'DIR`.')
     return 'By `rosrun wiimote_tracker_bringup evaluate%s --seed %d`, rig `%s`.' % (
         ' --quick' if content['quick'] else '', content['seed'], content['rig']) + (
         ' *Full stack* runs in real time: these numbers depend on the machine and on what else it '

@@ -116,7 +116,8 @@ def read_trace(path, cameras):
                 arrivals.append((message.arrival.to_sec(), message.camera, received))
     arrivals.sort()
     arrival_times = np.array([when for when, _, _ in arrivals])
-    delivered = {camera: np.array(sorted(rows)).reshape(-1, 3) for camera, rows in delivered.items()}
+    delivered = {camera: np.array(sorted(rows)).reshape(-1, 3)
+                 for camera, rows in delivered.items()}
     rows = []
     for message, published in points:
         position = first_position(message)

@@ -61,7 +61,8 @@ def centred(description: Dict, scale: float) -> Dict:
     """The rig moved from the floor's middle to the origin, with all distances times `scale`."""
     moved = dict(description)
     moved['cameras'] = {name: dict(camera, **{
-        key: (scale * (np.array(camera[key]) - MIDDLE)).tolist() for key in ('position', 'look_at')})
+        key: (scale * (np.array(camera[key]) - MIDDLE)).tolist()
+        for key in ('position', 'look_at')})
         for name, camera in description['cameras'].items()}
     return with_leds(moved, [scale * np.array([0.0, 0.0, 0.1])])
 

@@ -22,7 +22,8 @@ def bootstrap(units, statistic=np.mean, seed=1, resamples=1000):
     if len(units) < 2:
         raise ValueError('an interval needs at least two independent units')
     random = np.random.RandomState(seed)
-    drawn = [statistic(np.concatenate([units[i] for i in random.randint(0, len(units), len(units))]))
+    count = len(units)
+    drawn = [statistic(np.concatenate([units[i] for i in random.randint(0, count, count)]))
              for _ in range(resamples)]
     tail = 100.0 * expanded_tail(len(units), 0.5 * (1.0 - CONFIDENCE))
     low, high = np.percentile(drawn, [tail, 100.0 - tail])
@@ -61,4 +62,5 @@ def quantile(share: float) -> Callable[[Sequence[float]], float]:
 def blocks(values, number):
     """Divides a time series into contiguous parts, as units for bootstrap() when neighbours depend
     on each other."""
-    return [piece for piece in np.array_split(np.asarray(values, dtype=float), number) if len(piece)]
+    return [piece for piece in np.array_split(np.asarray(values, dtype=float), number)
+            if len(piece)]

@@ -20,7 +20,8 @@ def true_rig(path):
             frame_id=camera.name + '_optical_frame', width=camera.size[0], height=camera.size[1],
             distortion_model='plumb_bob', fx=fx, fy=fy, cx=cx, cy=cy, distortion=[k1, 0, 0, 0, 0],
             time_offset=float('nan'), residual_px=float('nan'), residual_m=float('nan'))
-        position, orientation = message.world_from_camera.position, message.world_from_camera.orientation
+        pose = message.world_from_camera
+        position, orientation = pose.position, pose.orientation
         position.x, position.y, position.z = camera.position
         orientation.x, orientation.y, orientation.z, orientation.w = Rotation.from_matrix(
             camera.rotation).as_quat()

@@ -43,7 +43,8 @@ def corner(name, position) -> InteractiveMarker:
     """Arrows move it."""
     ball = Marker(type=Marker.SPHERE, color=ColorRGBA(0.9, 0.6, 0.2, 1.0))
     ball.scale.x = ball.scale.y = ball.scale.z = 0.1
-    return _handle(name, Pose(Point(*position), TO_AXIS['x']), [_always_visible([ball])] + _arrows())
+    return _handle(name, Pose(Point(*position), TO_AXIS['x']),
+                   [_always_visible([ball])] + _arrows())
 
 
 def box_lines(box, number, color) -> Marker:

@@ -9,7 +9,8 @@ ACROSS = 40  # points along an edge
 
 
 def draw(chosen, positions, targets, path):
-    """Writes it. Grey: seen by fewer than two cameras, or a body that is not located in some heading."""
+    """Writes it. Grey: seen by fewer than two cameras, or a body that is not located in some
+    heading."""
     require('matplotlib')
     import matplotlib
     matplotlib.use('Agg')

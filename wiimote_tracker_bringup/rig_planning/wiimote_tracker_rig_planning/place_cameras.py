@@ -87,7 +87,8 @@ class PlaceCameras:
             handles.box_lines(box, number, color) for number, (box, color) in enumerate(
                 [(self._plan.volume, ColorRGBA(0.9, 0.6, 0.2, 1.0))]
                 + [(stand, ColorRGBA(0.5, 0.5, 0.6, 0.6)) for stand in self._plan.stands]
-                + [(obstacle, ColorRGBA(0.9, 0.2, 0.2, 1.0)) for obstacle in self._plan.obstacles])])
+                + [(obstacle, ColorRGBA(0.9, 0.2, 0.2, 1.0))
+                   for obstacle in self._plan.obstacles])])
         points = self._plan.grid(plan_rig.ACROSS)
         self._cells.publish(cells.cloud(handles.FRAME, points, *prediction.at_points(
             self._plan, self._positions, self._targets, points)))
@@ -119,8 +120,8 @@ class PlaceCameras:
             self._is_saved = True
         except OSError as error:
             return TriggerResponse(False, f'not saved: {sentence_of(error)}')
-        return TriggerResponse(True, f'saved to {self._output}; the plan file is unchanged, the volume '
-                               f'here is {volume}')
+        return TriggerResponse(True, f'saved to {self._output}; the plan file is unchanged, the '
+                               f'volume here is {volume}')
 
 
 def main():

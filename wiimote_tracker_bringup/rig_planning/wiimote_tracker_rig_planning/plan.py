@@ -8,20 +8,20 @@ import yaml
 
 from wiimote_tracker_bringup.errors import ExperimentError
 
-Box = Tuple[float, float, float, float, float, float]  # two opposite corners, the lesser one first [m]
+Box = Tuple[float, float, float, float, float, float]  # two opposite corners, the lesser first [m]
 Light = Tuple[float, float, float, float, float, float]  # an LED on a body: place [m], direction
 
 
 @dataclasses.dataclass(frozen=True)
 class Plan:
-    """cameras: how many, 2 or more. volume: where the LED, or the body's middle, will be. stands: where
-    lenses may be. obstacles: what hides LEDs. led_axis: direction in which an LED shines; beam: full
-    angle in which it is seen [degrees]. body: the LEDs of an upright rigid body that may be turned to
-    any side, instead of one LED: place on the body and direction of each. farthest: distance at which
-    a camera sees an LED [m]. margin: of the image that is not used, since nobody aims exactly [px].
-    pixel_stddev: of each pixel coordinate. hidden: the probability that a person hides the LED from
-    one of the cameras. square: side of the calibration square, which all cameras are to see, on the
-    floor in the volume's middle [m]."""
+    """cameras: how many, 2 or more. volume: where the LED, or the body's middle, will be. stands:
+    where lenses may be. obstacles: what hides LEDs. led_axis: direction in which an LED shines;
+    beam: full angle in which it is seen [degrees]. body: the LEDs of an upright rigid body that may
+    be turned to any side, instead of one LED: place on the body and direction of each. farthest:
+    distance at which a camera sees an LED [m]. margin: of the image that is not used, since nobody
+    aims exactly [px]. pixel_stddev: of each pixel coordinate. hidden: the probability that a person
+    hides the LED from one of the cameras. square: side of the calibration square, which all cameras
+    are to see, on the floor in the volume's middle [m]."""
 
     cameras: int
     volume: Box
@@ -70,13 +70,13 @@ def read(path: str) -> Plan:
         raise ExperimentError(f'{path}: {missing[0]} is missing')
     plan = Plan(**{name: _value(path, name, value) for name, value in content.items()})
     if plan.body and plan.beam == 360.0:
-        raise ExperimentError(f'{path}: with a body give beam, since cameras behind the body do not '
-                              'see its LEDs')
+        raise ExperimentError(f'{path}: with a body give beam, since cameras behind the body do '
+                              'not see its LEDs')
     return plan
 
 
-RANGES = {'cameras': (2, 64), 'beam': (1.0, 360.0), 'farthest': (0.1, 100.0), 'margin': (0.0, 300.0),
-          'pixel_stddev': (0.01, 100.0), 'hidden': (0.0, 1.0),
+RANGES = {'cameras': (2, 64), 'beam': (1.0, 360.0), 'farthest': (0.1, 100.0),
+          'margin': (0.0, 300.0), 'pixel_stddev': (0.01, 100.0), 'hidden': (0.0, 1.0),
           'square': (0.1, 100.0)}
 
 

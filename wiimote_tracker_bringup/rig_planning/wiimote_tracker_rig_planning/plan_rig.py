@@ -61,8 +61,8 @@ def describe_body(chosen, positions, targets, points):
     place, turn = (np.sqrt(np.trace(covariance[:, part, part], axis1=1, axis2=2))
                    for part in (slice(0, 3), slice(3, 6)))
     return lines + [
-        '  standard deviation by the pixels alone: %.1f mm and %.2f degrees (RMS), %.1f mm and %.2f '
-        'degrees (largest)' % (1e3 * np.sqrt(np.mean(place ** 2)),
+        '  standard deviation by the pixels alone: %.1f mm and %.2f degrees (RMS), %.1f mm and '
+        '%.2f degrees (largest)' % (1e3 * np.sqrt(np.mean(place ** 2)),
                                np.degrees(np.sqrt(np.mean(turn ** 2))), 1e3 * place.max(),
                                np.degrees(turn.max()))]
 
@@ -75,8 +75,8 @@ def with_calibration(chosen, names, positions, targets, points):
     corners = chosen.corners()
     for camera in cameras:
         if not camera.sees(corners).all():
-            return (f'with a calibration: not told, since {camera.name} does not see all corners of '
-                    f'the square of {chosen.square:g} m')
+            return (f'with a calibration: not told, since {camera.name} does not see all corners '
+                    f'of the square of {chosen.square:g} m')
     noise = np.sqrt(max(0.0, chosen.pixel_stddev ** 2 - 1.0 / 12.0))  # without rounding
     rig = scene.Scene(cameras, noise)
     covariance = bound.Calibration(rig, corners, prediction.IMAGES, bound.Knowledge()).covariance
@@ -163,8 +163,8 @@ def main(argv=None):
         prog='plan_rig', description='Proposes where to put the cameras of a room and what to aim '
         'them at, and tells how well they see it.')
     parser.add_argument('plan', help='what the room needs and allows; see config/plan.yaml')
-    parser.add_argument('--score', metavar='DESCRIPTION', help='rate this rig description instead of '
-                        'searching')
+    parser.add_argument('--score', metavar='DESCRIPTION', help='rate this rig description instead '
+                        'of searching')
     parser.add_argument('--output', metavar='RIG', help='write a rig description for '
                         'simulated_rig.launch; a file that is there is kept as RIG.bak')
     parser.add_argument('--plot', metavar='FILE', help='write a map (.png, .svg, .pdf)')

@@ -22,8 +22,9 @@ UNSEEN, UNTURNED = 0.5, 1.0
 
 @dataclasses.dataclass(eq=False)
 class Look:
-    """N cameras at M points. sees: N x M. by_point: N x M x 2 x 3, derivatives of the pixels [px/m].
-    by_camera: N x M x 2 x 11, by turns about the world's axes, position, fx, fy, cx, cy, k1."""
+    """N cameras at M points. sees: N x M. by_point: N x M x 2 x 3, derivatives of the pixels
+    [px/m]. by_camera: N x M x 2 x 11, by turns about the world's axes, position, fx, fy, cx, cy,
+    k1."""
 
     sees: np.ndarray
     by_point: np.ndarray
@@ -68,8 +69,8 @@ def hidden(box, positions, away):
 
 
 def calibration(plan, corners: Look):
-    """N x 11 x 11: covariance of each camera's parameters after a calibration by the square, without
-    the errors of its corners, which are common to all cameras."""
+    """N x 11 x 11: covariance of each camera's parameters after a calibration by the square,
+    without the errors of its corners, which are common to all cameras."""
     used = corners.by_camera * corners.sees[..., None, None]
     told = PRIOR + IMAGES / plan.pixel_stddev ** 2 * np.einsum('nmij,nmik->njk', used, used)
     # Scaled before inverting: pixels, radians and metres differ by many orders of magnitude.
@@ -95,8 +96,8 @@ def look_at_square(plan, positions, targets) -> Look:
 
 
 def told(plan, positions, targets, points, covariance):
-    """What each camera tells of each target, N x B x K x K, and whether it can be located, B. K is 3
-    for an LED at each of the points, seen by two cameras; 6 for a body's place and turn about the
+    """What each camera tells of each target, N x B x K x K, and whether it can be located, B. K is
+    3 for an LED at each of the points, seen by two cameras; 6 for a body's place and turn about the
     world's axes, at each point in each heading, with four sightings of three LEDs. What a
     calibration's errors do to LEDs that one camera sees is taken as independent."""
     if not plan.body:
@@ -124,7 +125,8 @@ def guess(size):
 
 
 def of_place(whole):
-    """Trace of the covariance of the place alone [m^2], from the information on it, and on the turn."""
+    """Trace of the covariance of the place alone [m^2], from the information on it, and on the
+    turn."""
     if whole.shape[-1] == 3:
         return trace_of_inverse(whole)
     both = whole[..., :3, 3:]
@@ -133,14 +135,15 @@ def of_place(whole):
 
 
 def variances(each):
-    """Of each place, with the information of all cameras: the covariance's trace [m^2]. About UNSEEN
-    squared for what one camera or none sees."""
+    """Of each place, with the information of all cameras: the covariance's trace [m^2]. About
+    UNSEEN squared for what one camera or none sees."""
     return of_place(each.sum(axis=0) + guess(each.shape[-1]))
 
 
 def at_points(plan, positions, targets, points):
-    """For each point the number of cameras that see a target there, and its standard deviation after
-    a calibration by the square [m], NaN where it is not located. Of a body: in its worst heading."""
+    """For each point the number of cameras that see a target there, and its standard deviation
+    after a calibration by the square [m], NaN where it is not located. Of a body: in its worst
+    heading."""
     covariance = calibration(plan, look_at_square(plan, positions, targets))
     each, located = told(plan, positions, targets, points, covariance)
     cameras = (np.trace(each, axis1=-2, axis2=-1) > 0.0).sum(axis=0)
@@ -161,7 +164,8 @@ def cost(plan, positions, targets, points):
 
 
 def widest_angles(sees, positions, points):
-    """For each point the angle between two rays that is nearest to 90 degrees [degrees]; 0: none."""
+    """For each point the angle between two rays that is nearest to 90 degrees [degrees]; 0:
+    none."""
     directions = points[None] - positions[:, None]
     directions = directions / np.linalg.norm(directions, axis=-1, keepdims=True)
     cosines = np.abs(np.einsum('nmi,kmi->nkm', directions, directions))

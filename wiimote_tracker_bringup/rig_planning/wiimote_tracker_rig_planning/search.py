@@ -1,7 +1,7 @@
 """Searches places and aims of cameras: greedily, and then all together.
 
-All together by differential evolution (R. Storn and K. Price, J. Global Optimization 11, 1997), which
-begins with the greedy result and so never ends with a worse one.
+All together by differential evolution (R. Storn and K. Price, J. Global Optimization 11, 1997),
+which begins with the greedy result and so never ends with a worse one.
 """
 
 import numpy as np
@@ -35,7 +35,8 @@ def greedy(plan, random):
     points = plan.grid(across(plan))
     chosen = np.zeros(0)
     for _ in range(plan.cameras):
-        trials = [np.append(chosen, each) for each in random.random_sample((CANDIDATES, PER_CAMERA))]
+        trials = [np.append(chosen, each)
+                  for each in random.random_sample((CANDIDATES, PER_CAMERA))]
         chosen = min(trials, key=lambda trial: cost(plan, *decode(plan, trial), points))
     return chosen
 

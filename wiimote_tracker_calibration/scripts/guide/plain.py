@@ -169,7 +169,8 @@ class Plain:
             self._tell_new('trace', guide.trace.table, guide.trace.table.rstrip())
         if guide.verdict is not None:
             next_one = guide.verdict.next_measurement
-            self._tell_new('measurement', next_one, f'to improve it: {next_one}' if next_one else '')
+            self._tell_new('measurement', next_one,
+                           f'to improve it: {next_one}' if next_one else '')
         if guide.running:
             return  # the problems change all the time; the answer will name the last ones
         for camera in status.cameras:

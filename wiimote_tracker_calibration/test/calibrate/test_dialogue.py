@@ -33,9 +33,11 @@ def test_one_request_at_a_time_but_it_can_be_called_off():
     node.events.put(('feedback', 'wiimote_1 lacks 20', 0.6))
     dialogue.take_events(1.0)
     assert '[############--------] wiimote_1 lacks 20' in screen.render(dialogue.guide, 1.0)
-    node.events.put(('answer', 'capture', False, 'corner 1 was not captured: the request was cancelled'))
+    node.events.put(('answer', 'capture', False,
+                     'corner 1 was not captured: the request was cancelled'))
     dialogue.take_events(2.0)
-    assert screen.render(dialogue.guide, 2.0)[21] == 'corner 1 was not captured: the request was cancelled'
+    assert (screen.render(dialogue.guide, 2.0)[21]
+            == 'corner 1 was not captured: the request was cancelled')
     dialogue.command('s')
     dialogue.command('x')  # the service cancels solving
     assert [r.name for r in node.sent] == ['capture_corner', 'solve', 'cancel']
@@ -69,7 +71,8 @@ def test_what_is_typed_wrongly_reaches_no_node():
 
 
 def test_the_verdict_says_what_to_measure_next_and_a_length_is_solved_at_once():
-    node = FakeNode({'length': (True, 'corner 1 to corner 3 is 3.5395 m by tape'), 'undo': (True, '')})
+    node = FakeNode({'length': (True, 'corner 1 to corner 3 is 3.5395 m by tape'),
+                     'undo': (True, '')})
     dialogue = dialogue_with(node, status(CalibrationStatus.COMPLETE))
     dialogue.command('d', ['1', '3', '3.5395'])
     dialogue.take_events(1.0)

@@ -25,7 +25,8 @@ def test_space_requests_what_the_node_wants(wanted, word):
 def test_where_there_is_nothing_to_request_space_does_nothing():
     for request in ('', 'of_a_newer_node'):
         assert guide_at(status(CalibrationStatus.SAVED, request)).advice().word is None
-    wand = guide_at(status(CalibrationStatus.READY, 'start_wave', 'begin', corners_needed=0)).advice()
+    wand = guide_at(status(CalibrationStatus.READY, 'start_wave', 'begin',
+                           corners_needed=0)).advice()
     assert wand.word is None and wand.sentence == 'Do this. w asks for the length.'
 
 
@@ -61,7 +62,8 @@ def test_a_bad_corner_is_to_be_taken_again(corner):
     ('IDLE', 'learn_masks', 'k'), ('COMPLETE', 'start_wave', 's'), ('SOLVED', '', 'v'),
     ('SOLVED', 'capture_corner', 'v'), ('SAVED', '', 'c')])
 def test_the_key_of_another_way_on_is_named(step, request_, key):
-    sentence = guide_at(status(getattr(CalibrationStatus, step), request_, 'do it')).advice().sentence
+    sentence = guide_at(
+        status(getattr(CalibrationStatus, step), request_, 'do it')).advice().sentence
     assert f' {key} ' in sentence
     assert commands.find(commands.RIG, key) is not None
 

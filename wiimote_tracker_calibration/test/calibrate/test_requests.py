@@ -55,7 +55,8 @@ def test_words_become_requests():
     'check', 'check 1 2', 'check 1 2 x', 'check nan 0 0', 'check 1 2 3 4 5', 'capture 0',
     'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'start wand x', 'start wand 1 2 3',
     'wave x', 'hands_free maybe', 'undo 1', 'recalibrate', 'recalibrate a b', 'masks soon',
-    'solve now', 'place 1 2', 'length 1 3', 'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x', 'length 1 2 2.5 0.001 9'])
+    'solve now', 'place 1 2', 'length 1 3', 'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x',
+    'length 1 2 2.5 0.001 9'])
 def test_words_that_make_no_sense_are_refused_with_what_would(line):
     words = line.split()
     with pytest.raises(commands.UsageError) as refusal:

@@ -22,7 +22,8 @@ def test_a_square_in_progress_looks_like_this():
         status(CalibrationStatus.READY),
         status(CalibrationStatus.READY),
         status(CalibrationStatus.READY, 'capture_corner', 'capture corner 3', corners_captured=2,
-               next_sentence='Put the LED on corner 3 (counter-clockwise seen from above puts z up).',
+               next_sentence='Put the LED on corner 3 (counter-clockwise seen from above puts z '
+               'up).',
                progress=0.5, rig_id='0123456789', message='corner 2 captured by 2 cameras',
                cameras=cameras))
     assert screen.render(guide, 4.0) == [

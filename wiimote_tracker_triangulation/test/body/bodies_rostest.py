@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""A rigid body from the spots of its LEDs: the running node learns it, follows it beside a free LED,
-with an LED hidden, and after all were hidden; track_bag finds the same poses in a recording.
+"""A rigid body from the spots of its LEDs: the running node learns it, follows it beside a free
+LED, with an LED hidden, and after all were hidden; track_bag finds the same poses in a recording.
 
 The truth is that of the recording, which shares no code with the tracker."""
 

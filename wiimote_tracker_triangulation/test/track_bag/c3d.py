@@ -1,5 +1,6 @@
-"""Reader of C3D files, from the C3D File Format User Guide (Motion Lab Systems). Shares no code with
-the writer, and uses what other programs use: the header for the layout, POINT for the meaning."""
+"""Reader of C3D files, from the C3D File Format User Guide (Motion Lab Systems). Shares no code
+with the writer, and uses what other programs use: the header for the layout, POINT for the
+meaning."""
 
 import struct
 from types import SimpleNamespace
@@ -47,7 +48,8 @@ def parameters_of(content, first_block):
 
 
 def read(path):
-    """labels, rate [Hz], units, frames x points x 3 positions (NaN where invalid), analog channels."""
+    """labels, rate [Hz], units, frames x points x 3 positions (NaN where invalid), analog
+    channels."""
     with open(path, 'rb') as file:
         content = file.read()
     assert len(content) % BLOCK == 0

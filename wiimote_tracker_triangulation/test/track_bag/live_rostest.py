@@ -33,8 +33,10 @@ class LiveEqualsOffline(unittest.TestCase):
         live = {topic: [] for topic in TOPICS}
         subscribers = [rospy.Subscriber(topic, kind, live[topic].append, tcp_nodelay=True)
                        for topic, kind in TOPICS.items()]
-        rig = recording.rig(zones=[('right', (0, -1, 0), (1, 1, 2)), ('left', (-1, -1, 0), (0, 1, 2))])
-        rig_publisher = rospy.Publisher('/calibration/rig', RigCalibration, latch=True, queue_size=1)
+        rig = recording.rig(zones=[('right', (0, -1, 0), (1, 1, 2)),
+                                   ('left', (-1, -1, 0), (0, 1, 2))])
+        rig_publisher = rospy.Publisher('/calibration/rig', RigCalibration, latch=True,
+                                        queue_size=1)
         trigger_publisher = rospy.Publisher('/trigger', Header, queue_size=10, tcp_nodelay=True)
         publishers = {name: rospy.Publisher('/%s/ir_blobs' % name, IrBlobArray, queue_size=1000,
                                             tcp_nodelay=True) for name in recording.NAMES}

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""record_points writes what is published on points and triggered_points, whole when it is stopped."""
+"""record_points writes what is published on points and triggered_points, whole when it is
+stopped."""
 
 import csv
 import os

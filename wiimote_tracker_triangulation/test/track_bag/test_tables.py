@@ -64,7 +64,8 @@ def test_csv_holds_exactly_what_the_bag_holds(tmp_path):
 def test_matlab_file_holds_exactly_what_the_bag_holds(tmp_path):
     io = pytest.importorskip('scipy.io')
     write(tmp_path / 'in.bag', recorded() + [('/trigger', trigger(1.0), 1.02)])
-    status, _, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag', '--mat', tmp_path / 'out.mat')
+    status, _, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag', '--mat',
+                            tmp_path / 'out.mat')
     if 'built without matio' in errors:
         pytest.skip('built without matio')
     assert status == 0, errors

@@ -70,7 +70,8 @@ def test_two_leds_keep_their_identities(tmp_path):
 
 def fast(t):
     """3 m/s, 23 m/s^2."""
-    return np.array([0.4 * math.cos(7.5 * t), 0.4 * math.sin(7.5 * t), 1.1 + 0.05 * math.sin(2 * t)])
+    return np.array([0.4 * math.cos(7.5 * t), 0.4 * math.sin(7.5 * t),
+                     1.1 + 0.05 * math.sin(2 * t)])
 
 
 def test_smoothing_changes_positions_and_velocities_only(tmp_path):

@@ -85,7 +85,8 @@ def test_trc(files):
     names = lines[3].split('\t')
     assert names[:2] == ['Frame#', 'Time']
     labels = [name for name in names[2:] if name]
-    assert lines[4].split('\t')[2:] == [f'{axis}{i + 1}' for i in range(len(labels)) for axis in 'XYZ']
+    assert lines[4].split('\t')[2:] == [
+        f'{axis}{i + 1}' for i in range(len(labels)) for axis in 'XYZ']
     assert lines[5] == '' and lines[-1] == ''
     rows = [line.split('\t') for line in lines[6:-1]]
     assert len(rows) == int(header['NumFrames']) and len(labels) == int(header['NumMarkers'])
@@ -95,7 +96,8 @@ def test_trc(files):
     check(labels, positions.reshape(len(rows), -1, 3), start_of(files))
 
 
-BODY = np.array([[0.05, 0.09, 0.07], [-0.02, 0.02, -0.05], [-0.07, -0.07, 0.03], [0.06, -0.05, -0.05]])
+BODY = np.array([[0.05, 0.09, 0.07], [-0.02, 0.02, -0.05],
+                 [-0.07, -0.07, 0.03], [0.06, -0.05, -0.05]])
 
 
 def test_tum_of_a_body(tmp_path):

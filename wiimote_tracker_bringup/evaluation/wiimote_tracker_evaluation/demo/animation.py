@@ -1,4 +1,5 @@
-"""The demonstration as a short film: what rviz would have shown, for a computer without a display."""
+"""The demonstration as a short film: what rviz would have shown, for a computer without a
+display."""
 
 import numpy as np
 
@@ -30,7 +31,7 @@ def draw(path, scene, recording, segments):
     import matplotlib.pyplot as plt
 
     figure = plt.figure(figsize=(6.4, 4.8), dpi=80)
-    axes = figure.add_axes([-0.15, -0.3, 1.3, 1.5], projection='3d')  # larger than the picture: it zooms
+    axes = figure.add_axes([-0.15, -0.3, 1.3, 1.5], projection='3d')  # larger than the picture
     axes.set_axis_off()
     side = experiment.SIDE
     axes.plot([0, side, side, 0, 0], [0, 0, side, side, 0], 0, color=ORANGE)
@@ -42,7 +43,7 @@ def draw(path, scene, recording, segments):
     trail, = axes.plot([], [], [], color=BLUE, linewidth=1.6)
     led, = axes.plot([], [], [], 'o', color=RED, markersize=7)
     label = figure.text(0.03, 0.93, '', color=INK)
-    shown = np.array([camera.position for camera in scene.cameras] + [[0, 0, 0], [side, side, side]])
+    shown = np.array([camera.position for camera in scene.cameras] + [[0, 0, 0], 3 * [side]])
     middle, half = (shown.max(axis=0) + shown.min(axis=0)) / 2, np.ptp(shown, axis=0).max() / 2
     axes.auto_scale_xyz(*np.stack([middle - half, middle + half], axis=1))
     if hasattr(axes, 'set_box_aspect'):  # matplotlib 3.3; before, the box is a cube

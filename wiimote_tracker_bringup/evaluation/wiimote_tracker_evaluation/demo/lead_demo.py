@@ -74,8 +74,8 @@ class Demo:
                             'No display: instead of rviz there will be a film, tracks.gif.')
         stack.launch(self._output, 'launch/simulated_rig.launch',
                      socket_directory='{folder}/remotes', camera_info_directory='{folder}/cameras',
-                     rig_file=self.file('rig.yaml'), side_length=experiment.SIDE, labels=LED, mode=self._mode, hand='false',
-                     rviz=str(has_display()).lower())
+                     rig_file=self.file('rig.yaml'), side_length=experiment.SIDE, labels=LED,
+                     mode=self._mode, hand='false', rviz=str(has_display()).lower())
         self._recorder = stack.record(self._output, self.file('demo.bag'), '--regex', RECORDED)
 
     def _experiment(self):

@@ -67,7 +67,8 @@ class FarComputer:
         return ['ip', 'netns', 'exec', self._name, 'env', f'ROS_HOSTNAME={self.there}']
 
     def change(self, delay=0.0, cut=False):
-        """From its return on. delay: of each packet, in both directions [s]. cut: packets are lost."""
+        """From its return on. delay: of each packet, in both directions [s]. cut: packets are
+        lost."""
         self._pipe.send((delay, cut))
         self._pipe.recv()
 

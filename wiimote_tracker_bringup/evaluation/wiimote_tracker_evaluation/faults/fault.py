@@ -14,9 +14,9 @@ PATIENCE = 40.0  # for the recovery [s]
 
 @dataclasses.dataclass(frozen=True)
 class Fault:
-    """name: as on the command line; what: in words. cause: a generator function of a room; it causes
-    the fault, yields for how long it shall last [s], and then takes the cause away. It may return a
-    list of sentences: what went wrong.
+    """name: as on the command line; what: in words. cause: a generator function of a room; it
+    causes the fault, yields for how long it shall last [s], and then takes the cause away. It may
+    return a list of sentences: what went wrong.
 
     quick: also in the quick form. room: how the room differs (arguments of Room). ends: nodes that
     may end and start again; '*' for all. named: what some warning or error must contain; empty:
@@ -41,8 +41,8 @@ class Fault:
 @dataclasses.dataclass(eq=False)
 class Result:
     """during: until all was normal again. recovery: from the end of the cause until all was normal
-    [s]; None: never. ended: nodes that ended or were started again. renamed: LEDs with another label
-    than before. said: the first sentence that names the cause. problems: what must not be."""
+    [s]; None: never. ended: nodes that ended or were started again. renamed: LEDs with another
+    label than before. said: the first sentence that names the cause. problems: what must not be."""
 
     name: str
     what: str

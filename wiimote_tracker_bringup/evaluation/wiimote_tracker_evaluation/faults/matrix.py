@@ -26,8 +26,8 @@ HEAD = '%-28s %-22s %-22s %-22s %9s  %s' % (
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     names = [fault.name for fault in FAULTS]
     parser = argparse.ArgumentParser(
-        prog='fault_matrix', description='Causes faults on the simulated rig, and compares what the '
-        'tracker publishes before, during and after each with the truth. Takes a quarter of an '
+        prog='fault_matrix', description='Causes faults on the simulated rig, and compares what '
+        'the tracker publishes before, during and after each with the truth. Takes a quarter of an '
         'hour.')
     parser.add_argument('--quick', action='store_true', help='few faults; takes two minutes')
     parser.add_argument('--json', metavar='FILE', help='writes all figures to this file')

@@ -75,7 +75,7 @@ def changed_rig_files(room):
 
 @fault(quick=True)
 def files_that_are_no_rig(room):
-    """What is loaded is a pipe, a device, a folder, 100 MB, or was solved in the year 1969 or 3e10."""
+    """Loaded are a pipe, a device, a folder, 100 MB, and rigs of the years 1969 and 3e10."""
     yield 0.0
     pipe, large = room.file('pipe.yaml'), room.file('large.yaml')
     os.mkfifo(pipe)

@@ -18,15 +18,15 @@ def changed(name, what, relayed=ONE, named='wiimote_4', **change):
 
 
 FAULTS = (
-    changed('clock_off_by_30_ms', "The clock of one camera's computer jumps by 30 ms, and back after "
-            '8 s', clock_ahead=0.03),
-    changed('clock_off_by_500_ms', "The clock of one camera's computer jumps by 0.5 s, and back after "
-            '8 s', clock_ahead=0.5),
+    changed('clock_off_by_30_ms', "The clock of one camera's computer jumps by 30 ms, and back "
+            'after 8 s', clock_ahead=0.03),
+    changed('clock_off_by_500_ms', "The clock of one camera's computer jumps by 0.5 s, and back "
+            'after 8 s', clock_ahead=0.5),
     changed('clock_behind_by_500_ms', "The clock of one camera's computer jumps back by 0.5 s, and "
             'forward after 8 s', clock_ahead=-0.5),
-    changed('clock_that_drifts', "The clock of one camera's computer runs 0.1 % fast for 8 s, and is "
-            'then set', drift=1e-3),
-    changed('ghosts_in_one_camera', '100 spots at random places in every image of one camera, for 8 s',
-            ghosts=100),
+    changed('clock_that_drifts', "The clock of one camera's computer runs 0.1 % fast for 8 s, and "
+            'is then set', drift=1e-3),
+    changed('ghosts_in_one_camera',
+            '100 spots at random places in every image of one camera, for 8 s', ghosts=100),
     changed('two_clocks_off_by_500_ms', 'The clocks of two of four cameras jump by 0.5 s, and back '
             'after 8 s', TWO, 'clock', clock_ahead=0.5))

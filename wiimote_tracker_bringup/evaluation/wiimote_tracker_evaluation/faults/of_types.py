@@ -20,8 +20,8 @@ PATIENCE = 90.0  # for all answers [s]
 
 @dataclasses.dataclass(frozen=True)
 class Content:
-    """number: of floating point fields. high: whether integers and times are their highest, or their
-    lowest. text: of strings. length: of lists; lists in lists have one element."""
+    """number: of floating point fields. high: whether integers and times are their highest, or
+    their lowest. text: of strings. length: of lists; lists in lists have one element."""
 
     number: float
     high: bool = True
@@ -60,7 +60,8 @@ def filled(kind, content):
 
 
 def filled_message(kind, content):
-    """A message of a class; its stamp is now, as nodes refuse any other without a look at the rest."""
+    """A message of a class; its stamp is now, as nodes refuse any other without a look at the
+    rest."""
     import rospy
     message = kind(*(filled(field, content) for field in kind._slot_types))
     if kind._has_header:
@@ -121,7 +122,7 @@ def call_all(pipe):
 
 @fault()
 def hostile_messages(room):
-    """To each topic that is read: NaN, infinite, huge and negative numbers, empty and long lists."""
+    """To each topic that is read: NaN, infinite, huge, negative numbers, empty and long lists."""
     with Helper(publish_all) as helper:
         helper.answer(PATIENCE)
         yield 0.0

@@ -37,8 +37,8 @@ class Watch:
 
 @with_tracker
 def live(run, _, dialogue):
-    dialogue.line('Take one remote; hold it towards the LED, in small circles all the time, and walk '
-                  'slowly backwards until you hear a beep. Then measure the distance.')
+    dialogue.line('Take one remote; hold it towards the LED, in small circles all the time, and '
+                  'walk slowly backwards until you hear a beep. Then measure the distance.')
     camera = dialogue.ask('Name of that camera, such as wiimote_1 (Enter: skip this):')
     if not camera:
         run.say('The detection distance was skipped.')
@@ -95,7 +95,8 @@ def tell(run, camera, pairs):
                'law fitted to all', end_to_end=True)
     figure, axes = charts.figure()
     curve = np.geomspace(0.5 * currents.min(), 2.0 * currents.max(), 100)
-    axes.plot(curve, factor * np.sqrt(1e-3 * curve), color=charts.BLUE, label='fitted, inverse square')
+    axes.plot(curve, factor * np.sqrt(1e-3 * curve), color=charts.BLUE,
+              label='fitted, inverse square')
     axes.plot(currents, distances, 'D', color=charts.INK, label='measured')
     axes.set(xlabel='current [mA]', ylabel='detection distance [m]', ylim=(0.0, None))
     charts.key(axes, 'upper left')

@@ -62,8 +62,8 @@ def measure(run, tracker, counter, dialogue):
     tracker.wait_for_points()
     dialogue.line(
         'Move one LED on a horizontal circle at constant speed, and let a laps counter publish a '
-        'std_msgs/Header on /trigger, stamped with the time, whenever the LED passes it. Waiting for '
-        '%d laps (s and Enter: skip this).' % wanted)
+        'std_msgs/Header on /trigger, stamped with the time, whenever the LED passes it. Waiting '
+        'for %d laps (s and Enter: skip this).' % wanted)
     begin = tracker.now()
     last, count = time.monotonic(), 0
     while len(counter.laps()) < wanted + 1:

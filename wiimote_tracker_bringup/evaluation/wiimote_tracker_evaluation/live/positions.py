@@ -18,8 +18,8 @@ def targets(side, up):
 def live(run, tracker, dialogue):
     points = targets(tracker.side(), tracker.up())
     tracker.wait_for_points()
-    dialogue.line('Take one LED to ten places, one after the other, and hold it still until the next '
-                  'one is named (s and Enter: skip it).')
+    dialogue.line('Take one LED to ten places, one after the other, and hold it still until the '
+                  'next one is named (s and Enter: skip it).')
     rows, before = [], None
     for number, target in enumerate(points):
         dialogue.line('   %2d  Put the LED at x = %.3f m, y = %.3f m, z = %.3f m.'

@@ -107,7 +107,8 @@ class RunningTracker:
         [m]. Returns the Place; None if the person skips it."""
         begin = self.now()
         while dialogue.typed() != SKIP:
-            rows = [(seen.stamp, seen.leds) for seen in self.since(max(begin, self.now() - STILL_TIME))]
+            rows = [(seen.stamp, seen.leds)
+                    for seen in self.since(max(begin, self.now() - STILL_TIME))]
             place = self._place(rows) if self.now() - begin > STILL_TIME else None
             if place is None:
                 dialogue.passing('waiting for one still LED (%d seen)'

@@ -52,9 +52,9 @@ def fit_space(points, true, kind):
 
 @dataclasses.dataclass(eq=False)
 class Path:
-    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]. If rotations,
-    n, body to world, are known: covariances n x 6 x 6 of position and rotation about the world's
-    axes [m, rad]."""
+    """What was tracked: times n [s], positions n x 3 [m], covariances n x 3 x 3 [m^2]. If
+    rotations, n, body to world, are known: covariances n x 6 x 6 of position and rotation about the
+    world's axes [m, rad]."""
 
     times: np.ndarray
     positions: np.ndarray
@@ -91,7 +91,8 @@ def fit(path, truth, kind):
         fitted, used = fit_space(points, true, kind)
         error = (true - fitted.apply(points))[used]
         speed = velocity[used]
-        columns = [bound.alignment_basis(fitted.apply(points[used]) - true[used].mean(axis=0), kind),
+        about_middle = fitted.apply(points[used]) - true[used].mean(axis=0)
+        columns = [bound.alignment_basis(about_middle, kind),
                    -speed.reshape(-1, 1),
                    -(speed * (times[used] - middle)[:, None]).reshape(-1, 1)]
         if path.rotations is not None:

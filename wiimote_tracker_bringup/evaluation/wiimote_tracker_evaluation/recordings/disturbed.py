@@ -17,15 +17,15 @@ from scipy.spatial.transform import Rotation
 from wiimote_tracker_bringup import alignment, descriptions, programs
 from wiimote_tracker_evaluation.recordings import pipeline
 
-METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and keep_calibrated '
-          'corrects the rig from the recording, played to and fro')
+METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and '
+          'keep_calibrated corrects the rig from the recording, played to and fro')
 ANGLE, LATE = np.radians(2.0), 0.005  # of the disturbance [rad], [s]
 RATE = 25.0  # [1/s]
 PLAYED = 40.0  # [s]
 START = 1e9  # [s]
 SAME_INSTANT = 1e-4  # of an image and its point [s]
-# What is known of the cameras: rotation [rad], position [m], focal length [1], principal point [px],
-# distortion [1], clock [s].
+# What is known of the cameras: rotation [rad], position [m], focal length [1], principal point
+# [px], distortion [1], clock [s].
 ROTATION, POSITION, FOCAL, CENTER, DISTORTION, CLOCK = 1e-4, 1e-4, 1e-3, 1.0, 1e-3, 1e-4
 
 
@@ -59,8 +59,8 @@ def covariance_of(cameras):
 
 
 def figures(true_rig, number, played, folder):
-    """How far pose and clock of the corrected camera are from the truth, RMS errors of points before
-    and after, and when it was corrected; None: never."""
+    """How far pose and clock of the corrected camera are from the truth, RMS errors of points
+    before and after, and when it was corrected; None: never."""
     disturbed_rig = copy.deepcopy(true_rig)
     disturb(disturbed_rig.cameras[number], np.random.RandomState(number).randn(3))
     true_bag, disturbed_bag, images_bag = (os.path.join(folder, name) for name in (
@@ -138,6 +138,8 @@ def rms_error(points, truth):
 def rows_of(result):
     """What is printed and reported: name, value."""
     for name, own in result.items():
-        yield (f'{name} turned by 2 degrees, 5 ms off', 'never corrected' if not own['after_s'] else (
+        corrected = (
             'after {after_s:.0f} s {turned_deg:.2f} degrees, {moved_mm:.1f} mm, {clock_ms:.2f} ms, '
-            'points {points_before_mm:.1f} -> {points_after_mm:.2f} mm'.format(**own)))
+            'points {points_before_mm:.1f} -> {points_after_mm:.2f} mm')
+        yield (f'{name} turned by 2 degrees, 5 ms off',
+               corrected.format(**own) if own['after_s'] else 'never corrected')

@@ -9,9 +9,10 @@ from wiimote_tracker_evaluation.recordings import accuracy, body, pipeline
 
 METHOD = ('The middle of the lights as one point: poses and clock offsets by self_calibrate and '
           'solve_samples, path by track_bag; aligned on every other tenth of the recording and '
-          'scored on the rest, both ways round. Smoothed: by track_bag --smooth, from the first point '
-          'of each confirmed track. As a body: three lights or more are told apart, and the pose of '
-          'the body is tracked by track_labelled_body; the place of the truth on it is fitted, too')
+          'scored on the rest, both ways round. Smoothed: by track_bag --smooth, from the first '
+          'point of each confirmed track. As a body: three lights or more are told apart, and the '
+          'pose of the body is tracked by track_labelled_body; the place of the truth on it is '
+          'fitted, too')
 # Title, key, factor and unit.
 FIGURES = (('mean error', 'mean_mm', 1.0, 'mm'), ('RMS error', 'rms_mm', 1.0, 'mm'),
            ('median error', 'median_mm', 1.0, 'mm'), ('95th percentile', 'p95_mm', 1.0, 'mm'),
@@ -45,7 +46,8 @@ def path_of(views, rig, table):
 
 
 def sight_of(views, rig, tracked):
-    """Times of the images while all cameras saw the body, and which of them have a tracked point."""
+    """Times of the images while all cameras saw the body, and which of them have a tracked
+    point."""
     times = [camera.times + offset for camera, offset in zip(views.cameras, rig.offsets)]
     images = np.sort(np.concatenate(times))
     for own in times:

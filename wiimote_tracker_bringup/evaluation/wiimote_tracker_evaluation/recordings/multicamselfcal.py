@@ -1,7 +1,8 @@
-"""Held-out points of a recording by synchronised cameras, in the layout of MultiCamSelfCal or flydra.
+"""Held-out points of a recording by synchronised cameras, in the layout of MultiCamSelfCal or
+flydra.
 
-Every other ten frames are calibrated by self_calibrate, lenses included; the rest are held out, both
-ways round. A pixel of a held-out frame is predicted from the point that the other cameras see.
+Every other ten frames are calibrated by self_calibrate, lenses included; the rest are held out,
+both ways round. A pixel of a held-out frame is predicted from the point that the other cameras see.
 """
 
 import os

@@ -10,8 +10,8 @@ from wiimote_tracker_evaluation.recordings import formats, replay, reprojection
 def main():
     parser = argparse.ArgumentParser(
         prog='evaluate_recording', description='Calibrates the cameras of a recording that others '
-        'made from what they saw alone, and measures the accuracy: lighthouse: of the path, against '
-        'motion capture; cameras: of the path, with rates, offsets and read-out times of '
+        'made from what they saw alone, and measures the accuracy: lighthouse: of the path, '
+        'against motion capture; cameras: of the path, with rates, offsets and read-out times of '
         'unsynchronised cameras; multicamselfcal: of predicted pixels, and of cameras that were '
         'disturbed and corrected by continuous calibration; bag: of the points that the tracker '
         'makes of a bag of import_multicamselfcal, by their pixels.')

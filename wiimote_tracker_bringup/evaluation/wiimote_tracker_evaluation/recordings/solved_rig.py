@@ -74,8 +74,9 @@ class Rig:
         return nearest_points(self.positions[:2], np.stack(rays, axis=2))
 
     def scale(self, views, times):
-        """By which lengths are too short, by the distances between the lights of the body. One light
-        has no scale: it is DISTANCE from the cameras, because the tracker expects motions in m/s^2.
+        """By which lengths are too short, by the distances between the lights of the body. One
+        light has no scale: it is DISTANCE from the cameras, because the tracker expects motions in
+        m/s^2.
         """
         points = self.intersections(views, times)
         if len(views.shape) == 1:

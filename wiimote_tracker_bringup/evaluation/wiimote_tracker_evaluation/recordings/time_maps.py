@@ -20,7 +20,8 @@ STEP = 0.02  # of the search for an offset [s]
 NEAR, DRIFTS = np.arange(-0.02, 0.021, 0.002), np.arange(-0.002, 0.0021, 0.00025)
 LEAST_COMMON = 0.5  # share of a recording that two cameras must have seen together
 ROUNDS = 3  # of the solver
-# Mean and standard deviation of what maps have: clocks are good, images are read out within a frame.
+# Mean and standard deviation of what maps have: clocks are good, images are read out within a
+# frame.
 PRIOR = {'drift': (0.0, 0.001), 'read_out': (0.015, 0.01)}  # [1], [s]
 PART = 0.0003  # of the offset of a part [s]
 

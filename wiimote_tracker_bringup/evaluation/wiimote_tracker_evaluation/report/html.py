@@ -15,7 +15,8 @@ STYLE = '''
 body { margin: 0 auto; max-width: 60rem; padding: 2.5rem 1.5rem 5rem; color: var(--ink);
   font: 16px/1.55 "Helvetica Neue", Helvetica, Arial, "Liberation Sans", sans-serif; }
 h1 { font-size: 2rem; line-height: 1.2; margin: 0 0 .3rem; }
-h2 { font-size: 1.45rem; margin: 3.2rem 0 .3rem; padding-top: .8rem; border-top: 2px solid var(--ink); }
+h2 { font-size: 1.45rem; margin: 3.2rem 0 .3rem; padding-top: .8rem;
+  border-top: 2px solid var(--ink); }
 h3 { font-size: 1.1rem; margin: 1.8rem 0 .4rem; }
 p, ul { margin: .6rem 0; max-width: 46rem; }
 h1 + p, h2 + p, figcaption, .scroll + p { color: var(--soft); font-size: .88rem; }
@@ -26,20 +27,25 @@ a { color: var(--accent); text-decoration: none; }
 p.bad { border-left: 4px solid var(--bad); padding-left: 1rem; }
 figure { margin: 1.4rem 0; }
 figure svg { display: block; max-width: 100%; height: auto; }
-figure svg text { font-family: "Helvetica Neue", Helvetica, Arial, "Liberation Sans", sans-serif !important; }
+figure svg text {
+  font-family: "Helvetica Neue", Helvetica, Arial, "Liberation Sans", sans-serif !important; }
 figcaption { max-width: 46rem; margin-top: .4rem; }
 .scroll { overflow-x: auto; margin: 1.1rem 0; }
 table { border-collapse: collapse; font-size: .88rem; font-variant-numeric: tabular-nums; }
-th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink); vertical-align: bottom; }
+th { text-align: left; font-weight: 600; border-bottom: 1.5px solid var(--ink);
+  vertical-align: bottom; }
 td { border-bottom: 1px solid var(--line); vertical-align: top; }
 th, td { padding: .25rem .9rem .25rem 0; max-width: 24rem; }
 .n { text-align: right; }
 td.n { white-space: nowrap; }
 code { font-size: .9em; background: #f2f4f7; padding: 0 .2em; }
 @page { margin: 12mm 14mm; }
-@media print { html { font-size: 9px; } body { max-width: none; padding: 0; font-size: 8.6pt; line-height: 1.3; }
-  nav, #figures { display: none; } p, ul, figcaption { max-width: none; } td, th { padding: .1rem .5rem .1rem 0; }
-  h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; } figure svg { max-height: 54mm; max-width: 100%; }
+@media print { html { font-size: 9px; }
+  body { max-width: none; padding: 0; font-size: 8.6pt; line-height: 1.3; }
+  nav, #figures { display: none; } p, ul, figcaption { max-width: none; }
+  td, th { padding: .1rem .5rem .1rem 0; }
+  h2, h3 { break-after: avoid; } figure, tr { break-inside: avoid; }
+  figure svg { max-height: 54mm; max-width: 100%; }
   table { font-size: 7.2pt; line-height: 1.2; } a { color: inherit; } }
 '''
 

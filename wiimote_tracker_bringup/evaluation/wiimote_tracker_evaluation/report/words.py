@@ -1,7 +1,7 @@
 """Numbers and names for readers; the same in all pages."""
 
-PAPER = ('"The paper" is P. Peltola, M. Valtonen and J. Vanhala, A Portable and Low-Cost 3D Tracking '
-         'System Using Four-Point Planar Square Calibration, IPIN 2012, doi '
+PAPER = ('"The paper" is P. Peltola, M. Valtonen and J. Vanhala, A Portable and Low-Cost 3D '
+         'Tracking System Using Four-Point Planar Square Calibration, IPIN 2012, doi '
          '10.1109/IPIN.2012.6418918.')
 
 

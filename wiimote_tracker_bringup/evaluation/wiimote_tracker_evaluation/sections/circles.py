@@ -88,8 +88,9 @@ def compare(run, laps):
             'within 3 cm of the circle:\n\n'
             + '\n'.join(f'- {sentence}' for sentence in sentences))
     chosen = sessions.where(laps, cameras=4, method='wand_tracks', speed=1.0)
-    run.summary('**Circles**, simulated: at 1 m/s four Wiimotes follow a circle of 75 cm radius with '
-                '%.1f mm RMS radial and %.1f mm RMS height error after square and wand.' % tuple(
+    run.summary('**Circles**, simulated: at 1 m/s four Wiimotes follow a circle of 75 cm radius '
+                'with %.1f mm RMS radial and %.1f mm RMS height error after square and wand.'
+                % tuple(
                     statistics.rms(np.concatenate(errors_of(laps, chosen, which)))
                     for which in ('radial_error', 'height_error')))
 

@@ -37,7 +37,8 @@ def run(run):
         raise ExperimentError(f'{run.options.faults} is not what fault_matrix --json writes')
     survived = sum(not result['problems'] for result in results)
     run.table('faults', [('fault', '')] + [
-        (f'{name}_{time}', unit) for time in TIMES for name, unit in (('rate', '1/s'), ('error', 'mm'))
+        (f'{name}_{time}', unit) for time in TIMES
+        for name, unit in (('rate', '1/s'), ('error', 'mm'))
     ] + [('recovery', 's'), ('problems', '')], rows,
         'Points a second and LED, and their median error; during: until all was normal again; '
         'recovery: from the end of the cause until then.', shown=True)

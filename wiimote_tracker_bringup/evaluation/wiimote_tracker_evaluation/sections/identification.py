@@ -67,14 +67,14 @@ def tell(run, tries):
         f'{DURATION:.0f} s and is a success if all labels are right in the end and none was ever '
         'wrong. Everything is simulated from the light on the sensor (an LED is seen if it is on '
         'for more than half of the exposure of 1 ms) to the label.\n\n'
-        '**The paper\'s scheme:** on for 90, 60, 40 and 20 % of a common period, centred in it; the '
-        'period is known to within 20 %. **Cyclic codes:** each LED repeats a word of 8 chips with '
-        'its own phase, without wires. The LEDs\' clocks are exact here. Very short periods depend '
-        'on that, because they are sampled over many periods. A label is assigned at a probability '
-        'of 99.9 %, so that in up to 4 of 1000 tries one of four LEDs may have a wrong one, mostly '
-        'for a moment; such a try is not a success. The paper says that identification "was '
-        'successful in all test cases", without period or time, and leaves the shortest period to '
-        'future research.')
+        '**The paper\'s scheme:** on for 90, 60, 40 and 20 % of a common period, centred in it; '
+        'the period is known to within 20 %. **Cyclic codes:** each LED repeats a word of 8 chips '
+        'with its own phase, without wires. The LEDs\' clocks are exact here. Very short periods '
+        'depend on that, because they are sampled over many periods. A label is assigned at a '
+        'probability of 99.9 %, so that in up to 4 of 1000 tries one of four LEDs may have a wrong '
+        'one, mostly for a moment; such a try is not a success. The paper says that identification '
+        '"was successful in all test cases", without period or time, and leaves the shortest '
+        'period to future research.')
     plot(run, cameras, lines)
     rows = []
     for (scheme, count), line in lines.items():
@@ -101,8 +101,8 @@ def figures(run, cameras, lines):
                         % (count, title, 100.0 * ENOUGH, word))
             else:
                 run.figure(f'shortest_{word}_{tag}', shortest, 'ms', min(line.tries),
-                           note='Shortest %s from which on at least %.0f %% of the tries succeed, %s, '
-                           '%d cameras' % (word, 100.0 * ENOUGH, title, count))
+                           note='Shortest %s from which on at least %.0f %% of the tries succeed, '
+                           '%s, %d cameras' % (word, 100.0 * ENOUGH, title, count))
             at = line.at(SHOWN_PERIOD if scheme == 'paper' else SHOWN_CHIP)
             run.share(f'success_{tag}', line.right[at], line.tries[at],
                       'Success with a %s of %g ms, %s, %d cameras' % (

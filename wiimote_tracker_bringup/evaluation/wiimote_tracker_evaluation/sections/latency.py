@@ -18,8 +18,9 @@ SPEED = 2.0 * np.pi * RADIUS / PERIOD
 CARRY_SPEED = 3.0         # [m/s]
 ANSWER_DEADLINE = 5.0     # for the last trigger's answer [s]
 CASES = (('four', 4, 'four Wiimotes'), ('two', 2, 'two Wiimotes'))
-PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'), ('driver', 'driver, to its stamp'),
-         ('image', 'transport of the image'), ('point', 'filter, and transport of the point'))
+PARTS = (('bluetooth', 'Bluetooth (an input of the simulation)'),
+         ('driver', 'driver, to its stamp'), ('image', 'transport of the image'),
+         ('point', 'filter, and transport of the point'))
 
 
 class Measured:
@@ -289,5 +290,5 @@ def plot_distribution(run, results):
               xlabel='mean time after Bluetooth [ms]')
     charts.key(split, loc='upper left')
     run.plot('distribution', figure, 'Left: time from exposure to published point, dashed without '
-             'the Bluetooth delay that the simulation is given. Right: what comes after that delay, its '
-             'mean by parts.')
+             'the Bluetooth delay that the simulation is given. Right: what comes after that '
+             'delay, its mean by parts.')

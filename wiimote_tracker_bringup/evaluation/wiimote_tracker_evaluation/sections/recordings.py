@@ -59,13 +59,14 @@ def run(run):
             run.table(kind, [('recording', ''), ('of', '')] + [
                 (name, its) for name, its, _, _ in columns], [
                 [title, what] + [factor * figures[key] for _, _, key, factor in columns]
-                for title, each in chosen.items() for what, figures in each.scores.items()], caption)
+                for title, each in chosen.items()
+                for what, figures in each.scores.items()], caption)
     for title, outcome in outcomes.items():
         tell(run, title, outcome)
     means = [each.result['mean_mm'] for each in outcomes.values() if each.unit == 'mm']
     if means:
-        run.summary(f'**Recordings by others**, real: mean error of {len(means)} paths with a truth '
-                    f'{min(means):.1f} to {max(means):.1f} mm.')
+        run.summary(f'**Recordings by others**, real: mean error of {len(means)} paths with a '
+                    f'truth {min(means):.1f} to {max(means):.1f} mm.')
 
 
 def name_of(title):

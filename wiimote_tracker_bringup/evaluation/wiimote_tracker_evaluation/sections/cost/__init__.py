@@ -148,8 +148,8 @@ def tell(run, measured, rooms, seconds):
     plot(run, measured)
     rooms_of(run, rooms)
     usual = next(s for s in measured if (s.cameras, s.leds, s.busy) == (4, 1, 0))
-    run.summary('**Cost**, simulated: with four Wiimotes and one LED all nodes together use %.0f %% '
-                'of one processor core, %.1f %% of it per camera\'s driver.'
+    run.summary('**Cost**, simulated: with four Wiimotes and one LED all nodes together use %.0f '
+                '%% of one processor core, %.1f %% of it per camera\'s driver.'
                 % (100 * usual.whole().mean(), 100 * usual.drivers().mean()))
 
 

@@ -88,7 +88,8 @@ def tell_law(run, carried):
             slopes.append(np.polyfit(np.log(carried['brightness'][chosen]),
                                      np.log(carried['last_seen_m'][chosen]), 1)[0])
     run.estimate('power_of_current', slopes, np.mean, '',
-                 'Power of the current with which the distance grows (1/2 by the inverse square law)')
+                 'Power of the current with which the distance grows (1/2 by the inverse square '
+                 'law)')
     late = carried['stopped_at_m'] - carried['last_seen_m']
     run.estimate('added_by_time_limit', by_session(carried, late), np.mean, 'm',
                  f'What the time limit of 0.5 s adds to the distance at {SPEED:.2f} m/s')
@@ -116,8 +117,9 @@ def tell_corners(run, led):
         % (tuple(point) + (camera, distance, abs(angle), 1e3 * needed, led.sensitivity,
            'The paper\'s 560 mA suffice, as it says.' if needed <= PAPER_CURRENT else
            'By this model the paper\'s 560 mA do not suffice, although it says so.')))
-    run.summary('**Detection distance**, simulated: an LED with %.0f mA is seen from %.0f m (fitted to a measured point); every camera '
-                'of this rig sees all ten test points from %.0f mA on.' % (
+    run.summary('**Detection distance**, simulated: an LED with %.0f mA is seen from %.0f m '
+                '(fitted to a measured point); every camera of this rig sees all ten test points '
+                'from %.0f mA on.' % (
                     1e3 * led.measured[-1][0], led.measured[-1][1], 1e3 * needed))
 
 
@@ -137,7 +139,8 @@ def plot(run, led, carried, thresholds, constant):
                       xytext=(4, 4 if level == 'max' else -1), textcoords='offset points',
                       va='center', color=color)
     for current, distance in led.measured:
-        axes.plot(1e3 * current, distance, 'D', color=charts.INK, markersize=6, markerfacecolor='none')
+        axes.plot(1e3 * current, distance, 'D', color=charts.INK, markersize=6,
+                  markerfacecolor='none')
     axes.plot(1e3 * PAPER_CURRENT, PAPER_DISTANCE, 'D', color=charts.INK, markersize=6)
     axes.annotate('paper: 560 mA, 10 m', (1e3 * PAPER_CURRENT, PAPER_DISTANCE), xytext=(62, -76),
                   textcoords='offset points', ha='center',

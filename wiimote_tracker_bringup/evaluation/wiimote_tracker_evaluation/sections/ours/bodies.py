@@ -49,7 +49,8 @@ def tell(run, table):
         for size, word in ((SMALL, 'small'), (LARGE, 'large')):
             chosen = where(table, cameras=count, led_size=size)
             run.share(f'body_wrong_{word}_spots_{count}_cameras', int((chosen & ~right).sum()),
-                      int(chosen.sum()), f'Sessions with a wrong pose, {word} spots, {count} cameras')
+                      int(chosen.sum()),
+                      f'Sessions with a wrong pose, {word} spots, {count} cameras')
 
 
 def quantiles(units):

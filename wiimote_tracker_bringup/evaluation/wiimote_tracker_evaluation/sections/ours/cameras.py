@@ -51,7 +51,8 @@ def ring_bounds(rig, table, counts):
         chosen = where(table, cameras=count, method='most_likely')
         points = np.stack([table[name][chosen] for name in ('x_m', 'y_m', 'z_m')], axis=1)
         points = points[np.isfinite(table['error_mm'][chosen])]
-        bounds.append(1e3 * point_bound(ring(described, count), described.effective_noise(), points))
+        bounds.append(1e3 * point_bound(ring(described, count), described.effective_noise(),
+                                        points))
     return bounds
 
 

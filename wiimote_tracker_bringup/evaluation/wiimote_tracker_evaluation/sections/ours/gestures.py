@@ -56,7 +56,8 @@ def tell(run):
               'Rows: drawn. Columns: recognised, in the same order.', shown=False)
     for name, count, words in (
             ('right', right, note),
-            ('rejected', result['rejected'], 'Of the same drawings, rejected as no gesture at all')):
+            ('rejected', result['rejected'],
+             'Of the same drawings, rejected as no gesture at all')):
         run.share('gestures_' + name, count, tested, words, simulated=not run.options.gestures)
 
 

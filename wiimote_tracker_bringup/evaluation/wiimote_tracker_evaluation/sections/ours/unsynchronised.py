@@ -44,9 +44,9 @@ def tell(run, table):
         values[stamps, method], _ = run.estimate(
             f'unsynchronised_{method}_{stamps}', units_of(table, SPEED, 'own', stamps, method),
             statistics.rms, 'mm', f'RMS error at {SPEED:g} m/s, own clocks, {label}')
-    run.summary('**Cameras that are not synchronised**, simulated: at %g m/s %.1f mm RMS with estimated '
-                'exposures (%.1f mm were they exact), %.1f mm with arrivals, %.1f mm when the latest '
-                'spots are intersected.' % (
+    run.summary('**Cameras that are not synchronised**, simulated: at %g m/s %.1f mm RMS with '
+                'estimated exposures (%.1f mm were they exact), %.1f mm with arrivals, %.1f mm '
+                'when the latest spots are intersected.' % (
                     SPEED, values['estimated', 'tracks'], values['exact', 'tracks'],
                     values['arrival', 'tracks'], values['exact', 'latest']))
 

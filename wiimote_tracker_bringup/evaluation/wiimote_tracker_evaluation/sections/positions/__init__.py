@@ -20,7 +20,8 @@ live = with_a_person.live
 QUICK, FULL = 10, 120  # sessions each with two and with four cameras
 MODELS = (('image_center', 'rays from the image centre'), ('calibrated', 'rays as calibrated'))
 SETS = ((TWO, 'two'), (FOUR, 'four'))
-WORDS = {'square': 'square alone, one adjustment', 'square_remapped': 'square alone, and the volume corrected',
+WORDS = {'square': 'square alone, one adjustment',
+         'square_remapped': 'square alone, and the volume corrected',
          'wave': 'square and a waved LED', 'wand': 'square and a waved wand'}
 
 
@@ -82,24 +83,24 @@ def protocol_sessions(case):
 
 def explain(run, results):
     run.say(
-        'Simulated, in process: %d sessions with two neighbouring cameras (the paper\'s positions 1 '
-        'and 2) and as many with all four; in each, every case and every method measures the same '
-        'ten points. Camera poses are those of the rig\'s description. Their lenses are drawn '
+        'Simulated, in process: %d sessions with two neighbouring cameras (the paper\'s positions '
+        '1 and 2) and as many with all four; in each, every case and every method measures the '
+        'same ten points. Camera poses are those of the rig\'s description. Their lenses are drawn '
         'around the paper\'s K (2) with standard deviations of 3 %% in focal length, 15 px in the '
         'principal point and 0.02 in k1, such that all points are in view. Placement errors of the '
         'LED are 5 mm per axis at the corners of the square (the paper\'s 1 cm is twice that), and '
         'up to 1 cm on the floor and 3 cm above it at the ten points. Pixels are integers with the '
         'description\'s noise; a point is the mean of 100 images.\n\n'
-        'The paper\'s cases (its section V.B): **C1** starts from one matrix for all cameras, K (2); '
-        '**C2** from a matrix for each camera, calibrated with 12 images of a board; **C3** is C1, '
-        '**C4** is C2, and **C5** is C2 with the principal point at (512, 384), each with the '
-        'principal points corrected in 14 rounds.\n\n'
+        'The paper\'s cases (its section V.B): **C1** starts from one matrix for all cameras, K '
+        '(2); **C2** from a matrix for each camera, calibrated with 12 images of a board; **C3** '
+        'is C1, **C4** is C2, and **C5** is C2 with the principal point at (512, 384), each with '
+        'the principal points corrected in 14 rounds.\n\n'
         'The paper\'s calibration is repeated for both interpretations of its rays (`ray_model`): '
         'from the image centre (512, 384), whatever principal point was used for the poses, or as '
         'calibrated.' % results.sessions)
     run.plot('the_cases', plots.paper_cases(), (
-        "The paper's cases by the principal points [px] with which they begin, in the middle of the "
-        'image (cross); those of a board are an example. Dotted circle: then corrected in 14 '
+        "The paper's cases by the principal points [px] with which they begin, in the middle of "
+        'the image (cross); those of a board are an example. Dotted circle: then corrected in 14 '
         'rounds.'))
 
 
@@ -127,8 +128,8 @@ def compare(run, results):
               'measured in the paper.')
     for model, _ in MODELS:
         run.figure('paper_claims_agreeing_' + model, agreeing[model], f'of {len(rows)}',
-                   results.sessions, None, 'numbers of the paper that the simulation with ray_model '
-                   f'{model} reproduces')
+                   results.sessions, None, 'numbers of the paper that the simulation with '
+                   f'ray_model {model} reproduces')
     run.say(details(run, results))
     run.say(conclusion(results, agreeing, len(rows)))
 
@@ -136,8 +137,8 @@ def compare(run, results):
 def details(run, results):
     worst, of = claims.worst_is_fourth_corner(results, 'image_center')
     at_fourth, (low, high) = run.share(
-        'two_C4_worst_at_fourth_corner', worst, of, 'sessions with two cameras whose largest error of '
-        'C4 is at the edge of the missing camera 4; 20 % by chance')
+        'two_C4_worst_at_fourth_corner', worst, of, 'sessions with two cameras whose largest error '
+        'of C4 is at the edge of the missing camera 4; 20 % by chance')
     point, interval, number = claims.farthest_principal_point(results, 'image_center')
     run.figure('corrected_principal_point_off', point, 'px', number, interval,
                '95 % of the corrected principal points (ray_model image_center) are within this of '
@@ -152,25 +153,25 @@ def details(run, results):
         cube.append(run.estimate('two_C2_cube_' + name, 1e3 * values, statistics.rms, 'mm',
                                  'RMS error of the ' + note)[0])
     return (
-        '- *Without the correction the cube is shifted, and keeps its form with slight deformations*: '
-        'the corners of C2 with two Wiimotes and rays from the image centre are %.0f mm off (RMS), '
-        'and %.0f mm after a rigid alignment of the cube.\n'
-        '- *The worst corner of C4 with two Wiimotes is the one before camera 4*: in %.0f %% of our '
-        'sessions with rays from the image centre (%.0f to %.0f %%; 20 %% by chance).\n'
+        '- *Without the correction the cube is shifted, and keeps its form with slight '
+        'deformations*: the corners of C2 with two Wiimotes and rays from the image centre are '
+        '%.0f mm off (RMS), and %.0f mm after a rigid alignment of the cube.\n'
+        '- *The worst corner of C4 with two Wiimotes is the one before camera 4*: in %.0f %% of '
+        'our sessions with rays from the image centre (%.0f to %.0f %%; 20 %% by chance).\n'
         '- *Corrected principal points are within ±5 px of (512, 384)*: 95 %% of ours are within '
         '%.0f px, with rays from the image centre.\n'
         '- *12 views of the board leave principal points uncertain by ±40 px*: ours err by %.0f px '
-        '(three standard deviations; the 16 LEDs are at known places and the board is tilted by 18 to '
-        '45°, which a hand-held board may not have been).'
+        '(three standard deviations; the 16 LEDs are at known places and the board is tilted by 18 '
+        'to 45°, which a hand-held board may not have been).'
         % (cube[0], cube[1], at_fourth, low, high, point, board))
 
 
 def conclusion(results, agreeing, of):
     two, four = (statistics.rms(results.group(cameras, 'C3', 'image_center').from_nominal())
                  for cameras in (TWO, FOUR))
-    words = ('Rays from the image centre reproduce %d of the %d numbers, rays as calibrated %d. After '
-             'the correction C3 with rays from the image centre has an RMS error of %.1f cm with two '
-             'Wiimotes and of %.1f cm with four. ' % (
+    words = ('Rays from the image centre reproduce %d of the %d numbers, rays as calibrated %d. '
+             'After the correction C3 with rays from the image centre has an RMS error of %.1f cm '
+             'with two Wiimotes and of %.1f cm with four. ' % (
                  agreeing['image_center'], of, agreeing['calibrated'], 100.0 * two, 100.0 * four))
     if four > two:
         words += ('**Four are worse than two here, unlike in the paper**: a common sideways shift '
@@ -240,9 +241,10 @@ def ours(run, results):
     remap(run, results)
     best = results.group(FOUR, 'wand').from_truth()
     two = results.group(TWO, 'wand').from_truth()
-    run.summary('**Positions**, simulated: the ten points of the paper\'s cube are measured with %.1f '
-                'mm RMS by four Wiimotes and %.1f mm by two after square and wand; the paper\'s own '
-                'procedure gives %.0f mm and %.0f mm (C3, rays from the image centre).' % (
+    run.summary('**Positions**, simulated: the ten points of the paper\'s cube are measured with '
+                '%.1f mm RMS by four Wiimotes and %.1f mm by two after square and wand; the '
+                'paper\'s own procedure gives %.0f mm and %.0f mm (C3, rays from the image centre).'
+                % (
                     1e3 * statistics.rms(best), 1e3 * statistics.rms(two),
                     1e3 * statistics.rms(results.group(FOUR, 'C3', 'image_center').from_nominal()),
                     1e3 * statistics.rms(results.group(TWO, 'C3', 'image_center').from_nominal())))
@@ -273,9 +275,9 @@ def remap(run, results):
     for cameras, words in SETS:
         before = 1e3 * results.group(cameras, 'C1', 'image_center').from_truth()
         after = 1e3 * results.group(cameras, 'C1_remapped', 'image_center').from_truth()
-        run.estimate(words + '_C1_image_center_remapped', after, statistics.rms, 'mm', 'RMS error of '
-                     'C1, rays from the image centre, after a correction of the volume from 27 known '
-                     'places')
+        run.estimate(words + '_C1_image_center_remapped', after, statistics.rms, 'mm', 'RMS error '
+                     'of C1, rays from the image centre, after a correction of the volume from 27 '
+                     'known places')
         sentences.append(f'with {words} Wiimotes from {statistics.rms(before):.0f} to '
                          f'{statistics.rms(after):.0f} mm')
     square = results.group(FOUR, 'square').measured

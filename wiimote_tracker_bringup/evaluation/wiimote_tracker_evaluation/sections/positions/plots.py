@@ -10,7 +10,8 @@ from wiimote_tracker_evaluation.sections.positions.results import CASES, FOUR, O
 
 CASE_COLORS = dict(zip(CASES, (charts.RED, charts.ORANGE, charts.BLUE, charts.GREEN,
                                charts.PURPLE)))
-OUR_STYLES = {'square': (charts.BLUE, 'square alone'), 'wave': (charts.GREEN, 'square and waved LED'),
+OUR_STYLES = {'square': (charts.BLUE, 'square alone'),
+              'wave': (charts.GREEN, 'square and waved LED'),
               'wand': (charts.ORANGE, 'square and wand')}
 LIMITS = (0.1, 100.0)  # of the errors [cm]
 DRAWS_PER_POINT = 100

@@ -20,7 +20,6 @@ BenchmarkSection someInViewSection();
 BenchmarkSection periodsSection();
 BenchmarkSection cyclicSection();
 BenchmarkSection movingSection();
-BenchmarkSection timeSection();
 
 }  // namespace wiimote_tracker
 

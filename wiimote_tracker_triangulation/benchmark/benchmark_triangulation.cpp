@@ -1,4 +1,4 @@
-// Accuracy and time of triangulation, ours and other libraries', in one table: RMS over the
+// Accuracy and time of triangulation, ours and OpenCV's, in one table: RMS over the
 // Cramer-Rao bound, normalised error squared (3 when the covariance is consistent), time per point.
 #include "triangulation_scene.h"
 
@@ -23,15 +23,11 @@ constexpr int kRepetitions = 21;  // of each method, taken in turn against drift
 
 /// RMS over the bound, and NEES: NaN for a method without covariance.
 std::pair<double, double> errors(const TriangulationScene& scene,
-                                 const TriangulationMethod& method,
                                  const TriangulationOutput& output) {
   double squared = 0.0;
   double nees = 0.0;
   for (std::size_t i = 0; i < scene.truth.size(); ++i) {
-    Eigen::Vector3d position = output.positions[i];
-    if (method.in_first_camera)
-      position = scene.cameras[0].world_from_camera * position;
-    const Eigen::Vector3d error = position - scene.truth[i];
+    const Eigen::Vector3d error = output.positions[i] - scene.truth[i];
     squared += error.squaredNorm();
     nees += error.dot(output.covariances[i].inverse() * error);
   }
@@ -47,11 +43,7 @@ double secondsOf(const std::function<void(TriangulationOutput*)>& run,
 }
 
 std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
-  std::vector<TriangulationMethod> methods = ourMethods();
-  for (const TriangulationMethod& peer : peerMethods()) {
-    if (scene.cameras.size() == 2)
-      methods.push_back(peer);
-  }
+  const auto methods = triangulationMethods(scene.cameras.size());
   TriangulationScene part = scene;
   part.truth.resize(std::min(part.truth.size(), kTimedPoints));
   part.pixels.resize(part.truth.size());
@@ -61,7 +53,7 @@ std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
   for (const TriangulationMethod& method : methods) {
     TriangulationOutput output(scene.truth.size());
     method.prepare(scene)(&output);
-    const auto [rms_over_bound, nees] = errors(scene, method, output);
+    const auto [rms_over_bound, nees] = errors(scene, output);
     rows.push_back(
         {scene.name + " cameras, " + method.name,
          {{"bound [mm]", 1e3 * scene.bound}, {"RMS / bound", rms_over_bound}, {"NEES", nees}}});

@@ -2,6 +2,10 @@
 
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
+#ifdef WIIMOTE_TRACKER_HAVE_OPENCV
+#include <opencv2/calib3d.hpp>
+#endif
+
 #include <limits>
 #include <optional>
 
@@ -27,7 +31,7 @@ void take(const std::optional<geometry::TriangulatedPoint>& point,
 }
 
 TriangulationMethod fromSights(const std::string& name, Way method) {
-  return {name, false, [method](const TriangulationScene& scene) {
+  return {name, [method](const TriangulationScene& scene) {
             std::vector<geometry::Sight> sights;  // of one point after the other
             for (const auto& pixels : scene.pixels) {
               for (std::size_t c = 0; c < pixels.size(); ++c)
@@ -43,7 +47,7 @@ TriangulationMethod fromSights(const std::string& name, Way method) {
 
 /// Includes undistortion.
 TriangulationMethod fromPixels() {
-  return {"maximum likelihood, from pixels", false, [](const TriangulationScene& scene) {
+  return {"maximum likelihood, from pixels", [](const TriangulationScene& scene) {
             std::vector<std::vector<geometry::Observation>> observations;
             for (const auto& pixels : scene.pixels) {
               observations.emplace_back();
@@ -58,17 +62,56 @@ TriangulationMethod fromPixels() {
           }};
 }
 
+#ifdef WIIMOTE_TRACKER_HAVE_OPENCV
+// As its users call it: all points at once.
+cv::Mat_<double> projectionOf(const geometry::Camera& camera) {
+  Eigen::Matrix3d K;
+  K << camera.intrinsics.fx, 0, camera.intrinsics.cx, 0, camera.intrinsics.fy, camera.intrinsics.cy,
+      0, 0, 1;
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> P =
+      K * camera.world_from_camera.inverse(Eigen::Isometry).matrix().topRows<3>();
+  return cv::Mat_<double>(3, 4, P.data()).clone();
+}
+
+std::function<void(TriangulationOutput*)> opencv(const TriangulationScene& scene) {
+  const int count = static_cast<int>(scene.pixels.size());
+  std::vector<cv::Mat_<double>> P, pixels;
+  for (std::size_t c = 0; c < 2; ++c) {
+    P.push_back(projectionOf(scene.cameras[c]));
+    pixels.emplace_back(2, count);
+    for (int i = 0; i < count; ++i) {
+      pixels[c](0, i) = scene.pixels[static_cast<std::size_t>(i)][c].x();
+      pixels[c](1, i) = scene.pixels[static_cast<std::size_t>(i)][c].y();
+    }
+  }
+  return [P, pixels](TriangulationOutput* output) {
+    cv::Mat_<double> h;
+    cv::triangulatePoints(P[0], P[1], pixels[0], pixels[1], h);
+    for (int i = 0; i < h.cols; ++i) {
+      output->positions[static_cast<std::size_t>(i)] =
+          Eigen::Vector3d(h(0, i), h(1, i), h(2, i)) / h(3, i);
+    }
+  };
+}
+#endif
+
 }  // namespace
 
 TriangulationOutput::TriangulationOutput(std::size_t points)
     : positions(points, Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN())),
       covariances(points, Eigen::Matrix3d::Constant(std::numeric_limits<double>::quiet_NaN())) {}
 
-std::vector<TriangulationMethod> ourMethods() {
-  return {fromSights("maximum likelihood", Way::kMaximumLikelihood), fromPixels(),
-          fromSights("reweighted midpoint", Way::kReweightedMidpoint),
-          fromSights("least squares", Way::kLeastSquares),
-          fromSights("mean of closest points (paper)", Way::kMeanClosest)};
+std::vector<TriangulationMethod> triangulationMethods([[maybe_unused]] std::size_t cameras) {
+  std::vector<TriangulationMethod> methods = {
+      fromSights("maximum likelihood", Way::kMaximumLikelihood), fromPixels(),
+      fromSights("reweighted midpoint", Way::kReweightedMidpoint),
+      fromSights("least squares", Way::kLeastSquares),
+      fromSights("mean of closest points (paper)", Way::kMeanClosest)};
+#ifdef WIIMOTE_TRACKER_HAVE_OPENCV
+  if (cameras == 2)
+    methods.push_back({"OpenCV triangulatePoints", opencv});
+#endif
+  return methods;
 }
 
 }  // namespace wiimote_tracker

@@ -47,24 +47,21 @@ TriangulationScene makeScene(const TriangulationLayout& layout,
 struct TriangulationOutput {
   explicit TriangulationOutput(std::size_t points);
 
-  std::vector<Eigen::Vector3d> positions;    ///< World [m], or in the first camera's axes.
+  std::vector<Eigen::Vector3d> positions;    ///< World [m].
   std::vector<Eigen::Matrix3d> covariances;  ///< [m^2]; NaN where a method has none.
 };
 
-/// A way to intersect rays, ours or a library's.
+/// A way to intersect rays, ours or OpenCV's.
 struct TriangulationMethod {
   std::string name;
-  bool in_first_camera;  ///< Positions are in the first camera's axes, not the world's.
 
   /// Converts a scene to the method's input (undistorted pixels, rays, matrices) and returns the
   /// function to be timed.
   std::function<std::function<void(TriangulationOutput*)>(const TriangulationScene&)> prepare;
 };
 
-std::vector<TriangulationMethod> ourMethods();
-
-/// Those of OpenCV, OpenGV and mrcal that were found when this was configured.
-std::vector<TriangulationMethod> peerMethods();
+/// All for this number of cameras; OpenCV's takes two, and is there where OpenCV is.
+std::vector<TriangulationMethod> triangulationMethods(std::size_t cameras);
 
 }  // namespace wiimote_tracker
 

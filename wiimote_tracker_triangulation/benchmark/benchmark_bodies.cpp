@@ -1,6 +1,5 @@
 // Accuracy of finding and following rigid bodies: one table per section.
 #include "benchmark_program.h"
-#include "body/bodies_file.h"
 #include "body/body_scene.h"
 
 #include <wiimote_tracker_msgs/median.h>
@@ -71,10 +70,7 @@ BenchmarkRow measure(const std::string& name,
 }
 
 void runAccuracy(const BenchmarkSettings& settings, const RowCallback& row) {
-  std::vector<Constellation> bodies = {fourLeds(), threeLeds()};
-  for (const std::string& file : settings.bodies)
-    bodies.push_back(body::readBodies(file).at(0));
-  for (const Constellation& body : bodies) {
+  for (const Constellation& body : {fourLeds(), threeLeds()}) {
     for (const std::size_t cameras : {4, 2}) {
       const std::string where = body.name + ", " + std::to_string(cameras) + " cameras, ";
       row(measure(where + "held still", cameras, body, held, sceneOptions(), settings));
@@ -158,9 +154,5 @@ int main(int argc, char** argv) {
         runAccuracy},
        {"hidden", "The same with LEDs hidden, or spots that merge.", runHidden},
        {"recovery", "Time to the first pose after all LEDs were hidden for 0.8 s.", runRecovery}},
-      argc, argv, [](ArgumentParser* parser, BenchmarkSettings* settings) {
-        parser->option("--body FILE", &settings->bodies,
-                       "for the section accuracy: the first body of this file of bodies, or of "
-                       "rpg_monocular_pose_estimator, is measured, too");
-      });
+      argc, argv);
 }

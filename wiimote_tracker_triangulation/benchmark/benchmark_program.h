@@ -10,10 +10,9 @@
 namespace wiimote_tracker {
 
 struct BenchmarkSettings {
-  int runs = 20;                    ///< At least 1; each section says how much one run is.
-  unsigned seed = 1;                ///< Of the random numbers.
-  std::string motion;               ///< CSV file of recorded motion [mm]; empty: none.
-  std::vector<std::string> bodies;  ///< Files of which the first body is measured, too.
+  int runs = 20;       ///< At least 1; each section says how much one run is.
+  unsigned seed = 1;   ///< Of the random numbers.
+  std::string motion;  ///< CSV file of recorded motion [mm]; empty: none.
 };
 
 /// A section of a benchmark, in a file of its own.

@@ -1,4 +1,3 @@
-#include "association/assign_spots.h"
 #include "association/exhaustive.h"
 #include "association/shared_views.h"
 #include "association/simulated_views.h"
@@ -6,7 +5,6 @@
 #include "wiimote_tracker_triangulation/association/associate_views.h"
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <string>
 #include <vector>
@@ -94,58 +92,6 @@ BenchmarkRow runCase(const Case& c, const BenchmarkSettings& settings) {
            {"us_worst", 1e6 * longest}}};
 }
 
-double costOf(const association::SpotCosts& costs,
-              const std::array<int, association::kMaximumSpots>& track_of_spot) {
-  double cost = 0.0;
-  for (std::size_t track = 0; track < costs.tracks; ++track)
-    cost += costs.miss[track];
-  for (std::size_t spot = 0; spot < costs.spots; ++spot) {
-    const int track = track_of_spot[spot];
-    cost += track == association::kFalseDetection ? costs.ghost[spot]
-                                                  : costs.pair[spot][track] - costs.miss[track];
-  }
-  return cost;
-}
-
-/// Spots of one image to tracks: one noisy spot per track, and one ghost.
-BenchmarkRow runOneImage(int tracks, const BenchmarkSettings& settings) {
-  constexpr double kGate = 30.0;  // [px^2 of one standard deviation]
-  Random random(settings.seed);
-  std::vector<association::SpotCosts> images(kTimedTogether);
-  for (association::SpotCosts& costs : images) {
-    std::vector<Eigen::Vector2d> places;
-    for (int i = 0; i < tracks; ++i)
-      places.emplace_back(random.uniform(0.0, 100.0), random.uniform(0.0, 100.0));
-    const auto count = static_cast<std::size_t>(tracks);
-    costs.reset(std::min(count + 1, association::kMaximumSpots), count, 20.0, 4.0);
-    for (std::size_t i = 0; i < costs.spots; ++i) {
-      const Eigen::Vector2d spot =
-          i < count ? Eigen::Vector2d(places[i] + Eigen::Vector2d(2.0 * random.gaussian(),
-                                                                  2.0 * random.gaussian()))
-                    : Eigen::Vector2d(random.uniform(0.0, 100.0), random.uniform(0.0, 100.0));
-      for (std::size_t j = 0; j < count; ++j) {
-        const double cost = (spot - places[j]).squaredNorm() / 4.0;
-        if (cost < kGate)
-          costs.pair[i][j] = cost;
-      }
-    }
-  }
-  constexpr int kRepetitions = 100;
-  double sum = 0.0;
-  double seconds = 0.0;
-  for (int run = 0; run < settings.runs; ++run) {
-    const double start = processorTime();
-    for (int i = 0; i < kRepetitions; ++i) {
-      for (const association::SpotCosts& costs : images)
-        sum += costOf(costs, association::assignSpots(costs));
-    }
-    seconds += processorTime() - start;
-  }
-  const double count = static_cast<double>(kRepetitions * kTimedTogether) * settings.runs;
-  return {"one image, " + std::to_string(tracks) + " tracks, one spot more",
-          {{"images", count}, {"us", 1e6 * seconds / count}, {"mean_cost", sum / count}}};
-}
-
 void runAssociation(const BenchmarkSettings& settings, const RowCallback& row) {
   using association::test::bestDivision;
   using association::test::bestPermutation;
@@ -162,8 +108,6 @@ void runAssociation(const BenchmarkSettings& settings, const RowCallback& row) {
         Case{"4 cameras, 10 % missing, a ghost each", 4, disturbed, bestDivision},
         Case{"8 cameras, 10 % missing, a ghost each", 8, disturbed, nullptr}})
     row(runCase(c, settings));
-  for (const int tracks : {1, 4, 15})
-    row(runOneImage(tracks, settings));
 }
 
 }  // namespace

@@ -82,11 +82,4 @@ double timeWarpingDistance(const Cloud& a, const Cloud& b) {
   return row[kPoints];
 }
 
-double pointwiseDistance(const Cloud& a, const Cloud& b) {
-  double sum = 0.0;
-  for (std::size_t i = 0; i < kPoints; ++i)
-    sum += (a[i] - b[i]).norm();
-  return sum;
-}
-
 }  // namespace wiimote_tracker::gesture_tool

@@ -23,9 +23,6 @@ double pointCloudDistance(const Cloud& a, const Cloud& b);
 /// Dynamic time warping of the positions without a band (Sakoe and Chiba 1978), Euclidean cost.
 double timeWarpingDistance(const Cloud& a, const Cloud& b);
 
-/// Sum of the distances of points of the same index: plain nearest neighbour.
-double pointwiseDistance(const Cloud& a, const Cloud& b);
-
 }  // namespace wiimote_tracker::gesture_tool
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H

@@ -17,8 +17,7 @@ using Distance = double (*)(const Cloud&, const Cloud&);
 
 constexpr std::pair<const char*, Distance> kOtherMethods[] = {
     {"$P point cloud", pointCloudDistance},
-    {"dynamic time warping", timeWarpingDistance},
-    {"nearest neighbour", pointwiseDistance}};
+    {"dynamic time warping", timeWarpingDistance}};
 
 /// The examples for testing one person.
 std::vector<const Sample*> examplesFor(const Person& person,

@@ -161,7 +161,7 @@ TEST_F(GestureTool, JsonHoldsAccuracyAndConfusion) {
   EXPECT_DOUBLE_EQ(json["accuracy"].as<double>(), evaluation.right / 36.0);
   EXPECT_EQ(json["confusion"].as<std::vector<std::vector<std::size_t>>>(), evaluation.confusion);
   EXPECT_EQ(json["gestures"].as<std::vector<std::string>>(), evaluation.gestures);
-  EXPECT_EQ(json["others"].size(), 3u);
+  EXPECT_EQ(json["others"].size(), 2u);
   EXPECT_EQ(json["false_alarms_continuous"].as<int>(), 3);
 }
 
@@ -173,7 +173,6 @@ TEST(Baselines, APointCloudHasNoOrder) {
   EXPECT_EQ(pointCloudDistance(cloud, cloud), 0.0);
   EXPECT_EQ(pointCloudDistance(cloud, reversed), 0.0);
   EXPECT_GT(timeWarpingDistance(cloud, reversed), 1.0);
-  EXPECT_GT(pointwiseDistance(cloud, reversed), 1.0);
 }
 
 TEST(Baselines, TimeWarpingForgivesAPause) {
@@ -185,7 +184,6 @@ TEST(Baselines, TimeWarpingForgivesAPause) {
   }
   // What is left over is the end that `paused` never reaches: 5 points, 1 to 5 away.
   EXPECT_DOUBLE_EQ(timeWarpingDistance(even, paused), 1.0 + 2.0 + 3.0 + 4.0 + 5.0);
-  EXPECT_GT(pointwiseDistance(even, paused), 90.0);
 }
 
 TEST(Baselines, ACloudHasUnitSize) {

@@ -11,7 +11,7 @@ FalseAlarms countFalseAlarms(const std::vector<Person>& teachers,
                              const gesture::RecognizerOptions& options) {
   gesture::RecognizerOptions in_metres = options;
   in_metres.shape.minimum_length = gesture::ShapeOptions().minimum_length;
-  // Shapes have no scale, so any unit serves in which the examples are long enough.
+  // Shapes have no scale, so the examples may have any unit.
   gesture::Recognizer recognizer(in_metres);
   for (const Person& person : teachers) {
     for (const Sample& sample : person.samples)

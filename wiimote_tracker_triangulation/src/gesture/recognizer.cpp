@@ -28,7 +28,9 @@ struct TwoNearest {
 void Recognizer::add(const Example& example) {
   if (example.gesture.empty())
     throw Error("an example of a gesture has no name; give it one");
-  const std::optional<Shape> shape = shapeOf(example.path, options_.shape);
+  ShapeOptions any_length = options_.shape;
+  any_length.minimum_length = 0.0;
+  const std::optional<Shape> shape = shapeOf(example.path, any_length);
   if (!shape)
     throw Error("the example of '" + example.gesture + "' with " +
                 std::to_string(example.path.size()) +

@@ -43,7 +43,7 @@ class Recognizer {
  public:
   explicit Recognizer(const RecognizerOptions& options) : options_(options) {}
 
-  /// @throws Error: no name, or a path without a shape.
+  /// Of any length: shapes have no scale. @throws Error: no name, or a path without a shape.
   void add(const Example& example);
 
   /// Removes all examples of a gesture. @returns their number.

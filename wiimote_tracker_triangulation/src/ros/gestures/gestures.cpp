@@ -16,7 +16,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 namespace wiimote_tracker {
 
@@ -31,14 +30,6 @@ constexpr double kJump = 1.0;  // [s]
 
 // LEDs that may draw at the same time; others are ignored.
 constexpr std::size_t kMostHands = 64;
-
-/// Whether an example is too short only for the minimum_length of now.
-bool isTooShort(const gesture::Example& example, gesture::ShapeOptions options) {
-  if (example.gesture.empty() || gesture::shapeOf(example.path, options))
-    return false;
-  options.minimum_length = 0.0;
-  return gesture::shapeOf(example.path, options).has_value();
-}
 
 }  // namespace
 
@@ -58,7 +49,8 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
       guard_(parameters_.file),
       recognizer_(parameters_.recognizer) {
   if (std::filesystem::exists(parameters_.file)) {
-    readExamples();
+    for (const gesture::Example& example : gesture::readExamples(parameters_.file))
+      recognizer_.add(example);
     ROS_INFO("%zu examples of gestures from %s.", recognizer_.examples().size(),
              parameters_.file.c_str());
   } else {
@@ -79,36 +71,9 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
         nh_, "joy", 50, [this](const auto& event) { onJoy(*event.getConstMessage()); });
 }
 
-/// Leaves out examples that are shorter than minimum_length, which may have been raised since.
-void Gestures::readExamples() {
-  for (const gesture::Example& example : gesture::readExamples(parameters_.file)) {
-    if (isTooShort(example, parameters_.recognizer.shape))
-      too_short_.push_back(example);
-    else
-      recognizer_.add(example);
-  }
-  warnOfTooShort();
-}
-
-void Gestures::warnOfTooShort() const {
-  if (too_short_.empty())
-    return;
-  std::set<std::string> gestures;
-  for (const gesture::Example& example : too_short_)
-    gestures.insert(example.gesture);
-  ROS_WARN(
-      "%zu examples of gestures (%s) are not used, since they are shorter than minimum_length, "
-      "%g m: lower it, or remove these gestures and record them again, larger.",
-      too_short_.size(), joined(gestures).c_str(), parameters_.recognizer.shape.minimum_length);
-}
-
-/// Those that are too short stay in the file for a smaller minimum_length.
-void Gestures::writeExamples(const gesture::Recognizer& recognizer,
-                             const std::vector<gesture::Example>& too_short) {
+void Gestures::writeExamples(const gesture::Recognizer& recognizer) {
   guard_.check();
-  std::vector<gesture::Example> all = recognizer.examples();
-  all.insert(all.end(), too_short.begin(), too_short.end());
-  gesture::writeExamples(parameters_.file, all);
+  gesture::writeExamples(parameters_.file, recognizer.examples());
   guard_.update();
 }
 
@@ -234,22 +199,24 @@ void Gestures::onGesture(const gesture::Path& path, const Hand& hand) {
 }
 
 void Gestures::keepExample(const gesture::Path& path, const Hand& hand) {
-  gesture::Recognizer with_it = recognizer_;
+  if (!gesture::shapeOf(path, parameters_.recognizer.shape)) {  // wait for a longer one
+    ROS_WARN_THROTTLE(5.0,
+                      "The example of '%s' is too short to be a gesture; draw it again, larger.",
+                      wanted_->gesture.c_str());
+    return;
+  }
   gesture::Example example = *wanted_;
   example.path = path;
+  wanted_.reset();
+  gesture::Recognizer with_it = recognizer_;
+  with_it.add(example);
   try {
-    with_it.add(example);
-    writeExamples(with_it, too_short_);
-  } catch (const FileError& e) {
+    writeExamples(with_it);
+  } catch (const Error& e) {
     ROS_ERROR("The example of '%s' is not kept: %s", example.gesture.c_str(), e.what());
-    wanted_.reset();
-    return;
-  } catch (const Error& e) {  // wait for a longer one
-    ROS_WARN_THROTTLE(5.0, "%s.", e.what());
     return;
   }
   recognizer_ = with_it;
-  wanted_.reset();
   ROS_INFO("An example of '%s' is kept in %s.", example.gesture.c_str(), parameters_.file.c_str());
   publish(GestureEvent::RECORDED, {example.gesture, 1.0, "", 0.0}, path, hand);
 }
@@ -343,25 +310,19 @@ bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
 bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
                       wiimote_tracker_msgs::RemoveGesture::Response& response) {
   gesture::Recognizer without = recognizer_;
-  std::vector<gesture::Example> too_short = too_short_;
-  too_short.erase(std::remove_if(too_short.begin(), too_short.end(),
-                                 [&](const auto& e) { return e.gesture == request.gesture; }),
-                  too_short.end());
-  const std::size_t removed =
-      without.remove(request.gesture) + too_short_.size() - too_short.size();
+  const std::size_t removed = without.remove(request.gesture);
   response.success = false;
   if (removed == 0) {
     response.message = "there is no gesture '" + request.gesture + "'; see gestures/list";
     return true;
   }
   try {
-    writeExamples(without, too_short);
+    writeExamples(without);
   } catch (const geometry::Error& e) {
     response.message = e.what();
     return true;
   }
   recognizer_ = without;
-  too_short_ = too_short;
   response.success = true;
   response.message = std::to_string(removed) + " examples of '" + request.gesture + "' are removed";
   return true;
@@ -381,7 +342,6 @@ bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
     }
     ++response.examples[row];
   }
-  warnOfTooShort();  // the response has no place for them
   return true;
 }
 

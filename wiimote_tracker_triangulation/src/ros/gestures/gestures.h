@@ -68,10 +68,7 @@ class Gestures {
   bool list(wiimote_tracker_msgs::ListGestures::Request& request,
             wiimote_tracker_msgs::ListGestures::Response& response);
 
-  void readExamples();
-  void warnOfTooShort() const;
-  void writeExamples(const gesture::Recognizer& recognizer,
-                     const std::vector<gesture::Example>& too_short);
+  void writeExamples(const gesture::Recognizer& recognizer);
 
   std::string zoneOf(const gesture::Path& path) const;
 
@@ -79,7 +76,6 @@ class Gestures {
   GestureParameters parameters_;
   geometry::FileGuard guard_;  // of the file of examples
   gesture::Recognizer recognizer_;
-  std::vector<gesture::Example> too_short_;  // of the file, shorter than minimum_length is now
   std::vector<geometry::Zone> zones_;
   std::map<std::uint32_t, Hand> hands_;  // by the id of the LED
   std::string world_frame_;

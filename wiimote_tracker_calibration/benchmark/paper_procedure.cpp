@@ -52,9 +52,7 @@ std::vector<Eigen::Vector3d> tenPoints() {
 double meanError(const geometry::Rig& rig,
                  geometry::TriangulationMethod method,
                  const std::vector<std::vector<Eigen::Vector2d>>& pixels) {
-  std::vector<geometry::Camera> cameras;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    cameras.push_back(rig.rayCamera(camera));
+  const std::vector<geometry::Camera> cameras = rig.rayCameras();
   const std::vector<Eigen::Vector3d> points = tenPoints();
   geometry::TriangulationOptions options;
   options.method = method;

@@ -62,10 +62,9 @@ std::optional<Round> evaluate(const geometry::Rig& rig,
                               const std::vector<square::CameraSightings>& sightings,
                               const square::Corners& ideal,
                               const CorrectionOptions& options) {
-  std::vector<geometry::Camera> ray_cameras;
+  const std::vector<geometry::Camera> ray_cameras = rig.rayCameras();
   Round round;
   for (const geometry::RigCamera& camera : rig.cameras) {
-    ray_cameras.push_back(rig.rayCamera(camera));
     const geometry::Intrinsics& lens = camera.camera.intrinsics;
     round.principal_points.emplace_back(lens.cx, lens.cy);
     round.differences.emplace_back(Eigen::Vector2d::Zero());

@@ -68,9 +68,7 @@ CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
 /// nominal places, over those that two cameras saw [m]; NaN when there is none.
 double cornerError(const Session& session, const geometry::Rig& rig, bool z_up) {
   const square::Corners nominal = session.recording.square->corners(z_up);
-  std::vector<geometry::Camera> cameras;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    cameras.push_back(rig.rayCamera(camera));
+  const std::vector<geometry::Camera> cameras = rig.rayCameras();
   double sum = 0.0;
   int count = 0;
   for (std::size_t c = 0; c < nominal.size(); ++c) {

@@ -13,12 +13,10 @@ using tracking::TrackedLed;
 using tracking::TrackState;
 
 void SmoothedTracks::onRig(const geometry::Rig& rig) {
-  cameras_.emplace_back();
+  cameras_.push_back(rig.rayCameras());
   noises_.clear();
-  for (const geometry::RigCamera& camera : rig.cameras) {
-    cameras_.back().push_back(rig.rayCamera(camera));
+  for (const geometry::RigCamera& camera : rig.cameras)
     noises_.push_back(geometry::pixelNoise(camera, options_.learnt_noise, options_.pixel_stddev));
-  }
   uncertainty_.emplace(rig);
   newest_.resize(rig.cameras.size(), -std::numeric_limits<double>::infinity());
 }

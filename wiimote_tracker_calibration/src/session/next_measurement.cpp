@@ -1,5 +1,7 @@
 #include "next_measurement.h"
 
+#include "square/expected_error.h"
+
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -14,25 +16,6 @@ namespace {
 
 // A measurement that gains less is not worth the walk.
 constexpr double kLeastGain = 0.05;
-
-/// How the places move with the parameters of the covariance: three rows for each that two cameras
-/// see.
-Eigen::MatrixXd placesByParameters(const geometry::Rig& rig,
-                                   const std::vector<Eigen::Vector3d>& places,
-                                   Eigen::Index parameters) {
-  Eigen::MatrixXd result =
-      Eigen::MatrixXd::Zero(3 * static_cast<Eigen::Index>(places.size()), parameters);
-  Eigen::Index rows = 0;
-  for (const Eigen::Vector3d& place : places) {
-    const auto by_rig =
-        geometry::pointByParameters(rig, place, geometry::camerasSeeing(rig, place));
-    if (!by_rig)
-      continue;
-    result.block(rows, 0, 3, by_rig->cols()) = *by_rig;
-    rows += 3;
-  }
-  return result.topRows(rows);
-}
 
 /// Derivatives of what is measured by the parameters, one row each, and covariance of its noise.
 struct MeasurementModel {
@@ -110,8 +93,11 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
   const geometry::Rig& rig = found.rig;
   const Eigen::MatrixXd& covariance = found.joint_covariance;
   const Eigen::Index parameters = covariance.rows();
-  const Eigen::MatrixXd by_parameters = placesByParameters(rig, places, parameters);
-  const double count = static_cast<double>(by_parameters.rows()) / 3.0;
+  std::vector<Eigen::Vector3d> seen = places;
+  const Eigen::MatrixXd by_rig = square::pointsByParameters(rig, &seen);
+  Eigen::MatrixXd by_parameters = Eigen::MatrixXd::Zero(by_rig.rows(), parameters);
+  by_parameters.leftCols(by_rig.cols()) = by_rig;
+  const auto count = static_cast<double>(seen.size());
   const double now = (by_parameters * covariance).cwiseProduct(by_parameters).sum() / count;
   NextMeasurement best;
   double least = now;

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <optional>
 
 namespace wiimote_tracker::square {
 
@@ -15,49 +14,50 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// How a point moves with the rig's parameters; nothing when it does not count.
-std::optional<Eigen::MatrixXd> sensitivityOf(const geometry::Rig& rig,
-                                             const Eigen::Vector3d& point) {
-  if (!geometry::hasCovariance(rig))
-    return std::nullopt;
-  return geometry::pointByParameters(rig, point, geometry::camerasSeeing(rig, point));
+/// Of so many points. @param by_parameters of the rig: the points' errors
+double rms(const Eigen::MatrixXd& by_parameters, const geometry::Rig& rig, std::size_t points) {
+  return std::sqrt((by_parameters * rig.covariance).cwiseProduct(by_parameters).sum() /
+                   static_cast<double>(points));
 }
 
 }  // namespace
 
-double expectedError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points) {
-  double sum = 0.0;
-  int count = 0;
-  for (const Eigen::Vector3d& point : points) {
-    const auto by_parameters = sensitivityOf(rig, point);
-    if (!by_parameters)
-      continue;
-    ++count;
-    sum += geometry::propagated(*by_parameters, rig.covariance).trace();
+Eigen::MatrixXd pointsByParameters(const geometry::Rig& rig, std::vector<Eigen::Vector3d>* points) {
+  Eigen::MatrixXd result(3 * static_cast<Eigen::Index>(points->size()),
+                         geometry::firstParameter(rig.cameras.size()));
+  std::vector<Eigen::Vector3d> seen;
+  for (const Eigen::Vector3d& point : *points) {
+    if (const auto by_parameters =
+            geometry::pointByParameters(rig, point, geometry::camerasSeeing(rig, point))) {
+      result.middleRows<3>(3 * static_cast<Eigen::Index>(seen.size())) = *by_parameters;
+      seen.push_back(point);
+    }
   }
-  return count > 0 ? std::sqrt(sum / count) : kNan;
+  *points = seen;
+  return result.topRows(3 * static_cast<Eigen::Index>(seen.size()));
 }
 
-double expectedShapeError(const geometry::Rig& rig, const std::vector<Eigen::Vector3d>& points) {
-  Eigen::MatrixXd errors(3 * static_cast<Eigen::Index>(points.size()), rig.covariance.cols());
-  Eigen::MatrixXd motions(errors.rows(), 6);
-  Eigen::Index rows = 0;
-  for (const Eigen::Vector3d& point : points) {
-    const auto by_parameters = sensitivityOf(rig, point);
-    if (!by_parameters)
-      continue;
-    errors.middleRows<3>(rows) = *by_parameters;
-    motions.block<3, 3>(rows, 0).setIdentity();
-    motions.block<3, 3>(rows, 3) = geometry::so3::skew(point - points.front());
-    rows += 3;
-  }
-  if (rows < 9)
+double expectedError(const geometry::Rig& rig, std::vector<Eigen::Vector3d> points) {
+  if (!geometry::hasCovariance(rig))
     return kNan;
-  const Eigen::MatrixXd all = errors.topRows(rows);
-  const Eigen::MatrixXd basis = geometry::orthonormalBasis(motions.topRows(rows));
-  const Eigen::MatrixXd shape = all - basis * (basis.transpose() * all);
-  return std::sqrt((shape * rig.covariance).cwiseProduct(shape).sum() /
-                   (static_cast<double>(rows) / 3.0));
+  const Eigen::MatrixXd errors = pointsByParameters(rig, &points);
+  return rms(errors, rig, points.size());  // NaN of no points
+}
+
+double expectedShapeError(const geometry::Rig& rig, std::vector<Eigen::Vector3d> points) {
+  if (!geometry::hasCovariance(rig))
+    return kNan;
+  const Eigen::MatrixXd errors = pointsByParameters(rig, &points);
+  if (points.size() < 3)
+    return kNan;
+  Eigen::MatrixXd motions(errors.rows(), 6);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    auto rows = motions.middleRows<3>(3 * static_cast<Eigen::Index>(i));
+    rows.leftCols<3>().setIdentity();
+    rows.rightCols<3>() = geometry::so3::skew(points[i] - points.front());
+  }
+  const Eigen::MatrixXd basis = geometry::orthonormalBasis(motions);
+  return rms(errors - basis * (basis.transpose() * errors), rig, points.size());
 }
 
 std::vector<Eigen::Vector3d> boxOver(const std::array<Eigen::Vector3d, 4>& corners, bool z_up) {

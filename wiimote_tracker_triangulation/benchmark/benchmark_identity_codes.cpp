@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <string>
 
 namespace wiimote_tracker {
@@ -62,58 +61,6 @@ bool isCountedWrong(const BlinkingOptions& options, const std::vector<LedSightin
       return true;
   }
   return false;
-}
-
-/// The probability of each LED's own label for an observer that knows period and phase, and that
-/// every label occurs once: the best that the sightings allow.
-std::vector<double> knownPhasePosterior(const BlinkingOptions& options,
-                                        const std::vector<LedSighting>& sightings,
-                                        double phase) {
-  const std::size_t count = options.leds.size();
-  const SeeingModel seeing;
-  std::vector<std::vector<double>> likelihoods(count, std::vector<double>(count, 0.0));  // log
-  for (const LedSighting& s : sightings) {
-    const double exposure = s.sighting.exposure / options.period;
-    const double begin =
-        (s.sighting.time - options.start) / options.period - 0.5 * exposure + phase;
-    for (std::size_t label = 0; label < count; ++label) {
-      const double light = litShare(options.codes.codes[label].waveform, begin, exposure);
-      const double probability =
-          seeing.seen_when_off + (seeing.seen_when_on - seeing.seen_when_off) * light;
-      likelihoods[s.led][label] += std::log(s.sighting.seen ? probability : 1.0 - probability);
-    }
-  }
-  std::vector<std::size_t> labels(count);
-  std::iota(labels.begin(), labels.end(), std::size_t{0});
-  std::vector<double> own(count, 0.0);
-  double all = 0.0, reference = 0.0;
-  for (std::size_t led = 0; led < count; ++led)
-    reference += likelihoods[led][options.leds[led]];
-  do {
-    double sum = -reference;
-    for (std::size_t led = 0; led < count; ++led)
-      sum += likelihoods[led][labels[led]];
-    all += std::exp(sum);
-    for (std::size_t led = 0; led < count; ++led)
-      own[led] += labels[led] == options.leds[led] ? std::exp(sum) : 0.0;
-  } while (std::next_permutation(labels.begin(), labels.end()));
-  for (double& share : own)
-    share /= all;
-  return own;
-}
-
-/// Share of runs in which an observer that knows period and phase is not yet sure of all labels
-/// [%].
-double knownPhaseNoneYet(const BlinkingOptions& options, int runs, unsigned seed) {
-  Random random(seed);
-  int none_yet = 0;
-  for (int run = 0; run < runs; ++run) {
-    double phase = 0.0;
-    const std::vector<LedSighting> sightings = simulateBlinking(options, &random, &phase);
-    const std::vector<double> own = knownPhasePosterior(options, sightings, phase);
-    none_yet += *std::min_element(own.begin(), own.end()) < IdentifierOptions().decide_at;
-  }
-  return 100.0 * none_yet / runs;
 }
 
 /// Blinking LEDs, observed for options.duration, and the labels at its end. @param score so far
@@ -193,8 +140,6 @@ void runPaper(const BenchmarkSettings& settings, const RowCallback& row) {
       const Score all_blink = simulate(options, known, runs, settings.seed, kNoOtherLights);
       result.figures.push_back(
           {"and all blink: none yet %", all_blink.percent(all_blink.none_yet)});
-      result.figures.push_back(
-          {"phase too: none yet %", knownPhaseNoneYet(options, runs, settings.seed)});
       row(result);
     }
   }
@@ -290,8 +235,8 @@ BenchmarkSection paperSection() {
                   "image; the period is searched within 110 and 500 ms. 5 % missed detections, 1 % "
                   "of sightings flipped, cameras not synchronised. 50 runs per --runs.") +
           kColumns +
-          " counting %: wrong by the share of images that show an LED. period known; all blink, "
-          "phase too: none yet % when these are told beforehand.",
+          " counting %: wrong by the share of images that show an LED. period known, all blink: "
+          "none yet % when these are told beforehand.",
       runPaper};
 }
 

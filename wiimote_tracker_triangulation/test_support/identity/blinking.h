@@ -53,14 +53,10 @@ struct LedSighting {
 };
 
 /// The sightings of blinking LEDs by unsynchronised cameras, in the order of time. Those of an LED
-/// begin when it is first seen, as a tracker's do. @param phase receives the common phase of
-/// synchronous LEDs at options.start.
+/// begin when it is first seen, as a tracker's do.
 inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
-                                                 geometry::test::Random* random,
-                                                 double* phase = nullptr) {
+                                                 geometry::test::Random* random) {
   const double common_phase = random->uniform(0.0, 1.0);
-  if (phase)
-    *phase = common_phase;
   std::vector<double> phases;
   // How much of an exposure must be lit varies with distance and brightness.
   std::vector<double> thresholds;

@@ -7,12 +7,12 @@
 namespace wiimote_tracker::body {
 
 void BodyTracker::estimate() {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b]) {
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    if (!state_.bodies[b]) {
       estimates_[b].reset();
       continue;
     }
-    const Body& body = *bodies_[b];
+    const Body& body = *state_.bodies[b];
     BodyFilter filter = body.filter;
     filter.predict(time_, inertial_[b]);
     const PoseState& now = filter.state();
@@ -39,19 +39,19 @@ void BodyTracker::estimateLeds(std::size_t body, BodyEstimate* estimate) const {
   for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
     LedEstimate& led = estimate->leds[i];
     led.position = estimate->world_from_body * constellation.leds[i];
-    led.last_observed = bodies_[body]->led_times[i];
+    led.last_observed = state_.bodies[body]->led_times[i];
     led.cameras.clear();
     led.residual = led.deviation = std::numeric_limits<double>::quiet_NaN();
   }
-  for (std::size_t c = 0; c < images_.size(); ++c) {
-    if (time_ - images_[c].time > options_.tracked_time)
+  for (std::size_t c = 0; c < state_.images.size(); ++c) {
+    if (time_ - state_.images[c].time > options_.tracked_time)
       continue;
-    for (const BodySpot& spot : images_[c].taken) {
+    for (const BodySpot& spot : state_.images[c].taken) {
       LedEstimate& led = estimate->leds[spot.led];
-      if (spot.body != body || images_[c].time > led.last_observed)
+      if (spot.body != body || state_.images[c].time > led.last_observed)
         continue;
       led.cameras.push_back(c);
-      if (images_[c].time == led.last_observed) {
+      if (state_.images[c].time == led.last_observed) {
         led.residual = spot.residual;
         led.deviation = spot.deviation;
       }

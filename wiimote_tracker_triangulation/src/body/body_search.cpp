@@ -26,17 +26,17 @@ association::AssociationOptions BodyTracker::searchOptions() const {
 }
 
 bool BodyTracker::isTracked(std::size_t body, double time) const {
-  return bodies_[body] && time - bodies_[body]->last_observed <= options_.tracked_time;
+  return state_.bodies[body] && time - state_.bodies[body]->last_observed <= options_.tracked_time;
 }
 
 /// Spots of the images in the window that the pose of a body explains, or did when it was found.
 std::size_t BodyTracker::countSpots(std::size_t body, double time) const {
   std::size_t spots = 0;
-  for (const LastImage& image : images_) {
+  for (const LastImage& image : state_.images) {
     if (time - image.time <= options_.window)
       spots += image.countSpots(body);
   }
-  const Body& known = *bodies_[body];
+  const Body& known = *state_.bodies[body];
   return time - known.found_time <= options_.window ? std::max(spots, known.found_spots) : spots;
 }
 
@@ -50,7 +50,7 @@ std::optional<std::size_t> BodyTracker::neededSpots(std::size_t body, double tim
     return 0;
   const std::size_t needed = countSpots(body, time) + 1;
   std::size_t most = 0;  // that any pose explains
-  for (const LastImage& image : images_) {
+  for (const LastImage& image : state_.images) {
     if (time - image.time <= options_.window)
       most +=
           std::min(constellations_[body].leds.size(), image.free.size() + image.countSpots(body));
@@ -61,16 +61,16 @@ std::optional<std::size_t> BodyTracker::neededSpots(std::size_t body, double tim
 /// Searches the bodies after an image. Those that are tracked come first, so that no other body
 /// gets their LEDs.
 void BodyTracker::find(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels) {
-  const double time = images_[camera].time;
+  const double time = state_.images[camera].time;
   needed_spots_.clear();
-  for (std::size_t b = 0; b < bodies_.size(); ++b)
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b)
     needed_spots_.push_back(neededSpots(b, time));
   if (std::none_of(needed_spots_.begin(), needed_spots_.end(),
                    [](const auto& needed) { return needed.has_value(); }))
     return;
   const association::Association& found = locateSpots(time);
   for (const bool tracked : {true, false}) {
-    for (std::size_t b = 0; b < bodies_.size(); ++b) {
+    for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
       if (!needed_spots_[b] || isTracked(b, time) != tracked)
         continue;
       const std::optional<Match> match = matchPoints(constellations_[b], points_, options_.match);
@@ -78,8 +78,8 @@ void BodyTracker::find(std::size_t camera, const std::vector<Eigen::Vector2d>& p
         continue;
       listMatchedSpots(b, *match, found);
       const bool is_where_predicted =
-          bodies_[b] && isSamePose(constellations_[b].leds, match->world_from_body,
-                                   bodies_[b]->filter.state().worldFromBody());
+          state_.bodies[b] && isSamePose(constellations_[b].leds, match->world_from_body,
+                                         state_.bodies[b]->filter.state().worldFromBody());
       const bool goes_on = is_where_predicted && (updateByMatch(b, camera, pixels) || tracked);
       if (!goes_on && !start(b, *match, time))
         continue;
@@ -94,7 +94,7 @@ void BodyTracker::find(std::size_t camera, const std::vector<Eigen::Vector2d>& p
 /// Of the newest images: the spots without a body, and those of bodies that may be elsewhere.
 const association::Association& BodyTracker::locateSpots(double time) {
   for (std::size_t c = 0; c < cameras_.size(); ++c) {
-    const LastImage& image = images_[c];
+    const LastImage& image = state_.images[c];
     candidates_[c].clear();
     sights_[c].clear();
     const auto add = [&](const Eigen::Vector2d& pixel) {
@@ -146,14 +146,14 @@ void BodyTracker::listMatchedSpots(std::size_t body,
 bool BodyTracker::updateByMatch(std::size_t body,
                                 std::size_t camera,
                                 const std::vector<Eigen::Vector2d>& pixels) {
-  LastImage& image = images_[camera];
+  LastImage& image = state_.images[camera];
   const double noise =
       geometry::pixelNoise(rig_.cameras[camera], options_.learnt_noise, options_.pixel_stddev);
   for (const MatchedSpot& spot : matched_spots_) {
     const auto free = std::find(image.free.begin(), image.free.end(), spot.pixel);
     if (spot.camera != camera || free == image.free.end())
       continue;
-    const auto prediction = predictLed(bodies_[body]->filter.state(), cameras_[camera],
+    const auto prediction = predictLed(state_.bodies[body]->filter.state(), cameras_[camera],
                                        constellations_[body].leds[spot.led], noise);
     if (!prediction)
       continue;
@@ -167,7 +167,7 @@ bool BodyTracker::updateByMatch(std::size_t body,
   }
   const bool is_seen = isSeen(body, image);
   if (is_seen)
-    bodies_[body]->last_observed = image.time;
+    state_.bodies[body]->last_observed = image.time;
   return is_seen;
 }
 
@@ -192,10 +192,10 @@ bool BodyTracker::start(std::size_t body, const Match& match, double time) {
 void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time, std::size_t spots) {
   const PoseFilter filter(options_.motion, time, pose.world_from_body, pose.covariance);
   Body started{BodyFilter(options_.motion, options_.inertial, filter), time, time, time, spots, {}};
-  if (bodies_[body])
-    started.first_seen = bodies_[body]->first_seen;
+  if (state_.bodies[body])
+    started.first_seen = state_.bodies[body]->first_seen;
   started.led_times.fill(-std::numeric_limits<double>::infinity());
-  bodies_[body] = started;
+  state_.bodies[body] = started;
 }
 
 }  // namespace wiimote_tracker::body

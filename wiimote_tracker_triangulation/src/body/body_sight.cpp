@@ -27,10 +27,10 @@ bool areOfOneLight(const std::vector<geometry::Sight>& sights, double greatest_m
 void BodyTracker::leaveToSearch(double time) {
   constexpr auto kShape = 3;  // LEDs
   const double longest = options_.tracked_time + options_.window;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     const auto isItsSpot = [b](const std::optional<SpotLed>& led) { return led && led->body == b; };
-    if (bodies_[b] && has_clear_shape_[b] && !bodies_[b]->filter.isInertial() &&
-        time - bodies_[b]->last_observed > longest &&
+    if (state_.bodies[b] && has_clear_shape_[b] && !state_.bodies[b]->filter.isInertial() &&
+        time - state_.bodies[b]->last_observed > longest &&
         std::count_if(led_of_spot_.begin(), led_of_spot_.end(), isItsSpot) < kShape)
       std::replace_if(led_of_spot_.begin(), led_of_spot_.end(), isItsSpot, std::nullopt);
   }
@@ -52,10 +52,10 @@ bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
   double coordinates = 0.0;
   double greatest_miss = kGreatestMiss;
   body_sights_.clear();
-  for (std::size_t c = 0; c < images_.size(); ++c) {
-    if (image.time - images_[c].time > options_.tracked_time)
+  for (std::size_t c = 0; c < state_.images.size(); ++c) {
+    if (image.time - state_.images[c].time > options_.tracked_time)
       continue;
-    for (const BodySpot& spot : images_[c].taken) {
+    for (const BodySpot& spot : state_.images[c].taken) {
       if (!isItsSpot(spot))
         continue;
       seen[spot.led] = true;
@@ -66,7 +66,8 @@ bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
       greatest_miss = std::min(
           greatest_miss, kGreatestShare * distanceToNearest(constellations_[body].leds, spot.led));
       if (auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel)) {
-        sight->origin += (image.time - images_[c].time) * bodies_[body]->filter.state().velocity;
+        sight->origin +=
+            (image.time - state_.images[c].time) * state_.bodies[body]->filter.state().velocity;
         body_sights_.push_back(*sight);
       }
     }

@@ -42,29 +42,29 @@ void BodyTracker::useRig(const geometry::Rig& rig) {
   candidates_.resize(cameras_.size());
   sights_.resize(cameras_.size());
   views_.resize(cameras_.size());
-  images_.assign(cameras_.size(), {});
+  state_.images.assign(cameras_.size(), {});
 }
 
 void BodyTracker::setRig(const geometry::Rig& rig) {
   rig.check();
-  for (auto entry = history_.end(); entry != history_.begin();)
-    undo(--entry);
+  auto images = history_.images();
+  if (!images.empty())
+    history_.rollBack(images.begin(), &state_);
+  history_.clear();
   const std::vector<geometry::RigCamera> before = rig_.cameras;
   useRig(rig);
-  for (auto entry = history_.begin(); entry != history_.end();) {
-    const auto next = std::next(entry);
+  for (std::uint64_t i = images.begin(); i < images.end(); ++i) {
+    Image& image = images.at(i);
     const auto same = std::find_if(rig.cameras.begin(), rig.cameras.end(), [&](const auto& camera) {
-      return camera.camera.name == before[entry->camera].camera.name;
+      return camera.camera.name == before[image.camera].camera.name;
     });
-    if (same == rig.cameras.end()) {
-      spare_.splice(spare_.end(), history_, entry);
-    } else {
-      entry->camera = static_cast<std::size_t>(same - rig.cameras.begin());
-      take(entry);
-    }
-    entry = next;
+    if (same == rig.cameras.end())
+      continue;
+    image.camera = static_cast<std::size_t>(same - rig.cameras.begin());
+    history_.insert(history_.images().end(), image);
+    step(history_.images().end() - 1);
   }
-  for (std::optional<Body>& body : bodies_) {
+  for (std::optional<Body>& body : state_.bodies) {
     if (body && time_ - body->last_observed > options_.tracked_time)
       body.reset();
   }
@@ -72,8 +72,8 @@ void BodyTracker::setRig(const geometry::Rig& rig) {
 }
 
 void BodyTracker::reset() {
-  bodies_.assign(constellations_.size(), std::nullopt);
-  images_.assign(cameras_.size(), {});
+  state_.bodies.assign(constellations_.size(), std::nullopt);
+  state_.images.assign(cameras_.size(), {});
   history_.clear();
   for (InertialSamples& samples : inertial_)
     samples.clear();
@@ -84,47 +84,38 @@ void BodyTracker::reset() {
 
 bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels) {
   taken_.assign(pixels.size(), false);
-  if (time < time_ - options_.history)
+  image_.camera = camera;
+  image_.time = time;
+  image_.pixels = pixels;
+  const auto place = history_.placeOf(image_);
+  if (!place || time < time_ - options_.history)
     return false;
-  // Undo the images that are later than this one; they are processed again below.
-  auto next = history_.end();
-  const auto comesAfter = [&](const Entry& entry) {
-    return entry.time != time ? entry.time > time : entry.camera > camera;
-  };
-  while (next != history_.begin() && comesAfter(*std::prev(next)))
-    undo(--next);
-  const auto first = undoOutdated(next);
-  if (spare_.empty())
-    spare_.emplace_back();
-  history_.splice(next, spare_, spare_.begin());
-  const auto entry = std::prev(next);
-  entry->camera = camera;
-  entry->time = time;
-  entry->pixels = pixels;
-  for (auto each = first == next ? entry : first; each != history_.end(); ++each) {
-    take(each);
-    if (each == entry)
+  const auto& images = history_.images();
+  std::uint64_t next = firstOutdated(*place);
+  if (next < images.end())
+    next = history_.rollBack(next, &state_);
+  history_.insert(*place, image_);
+  for (; next < images.end(); ++next) {
+    step(next);
+    if (next == *place)
       std::swap(taken_, spots_taken_);
   }
   time_ = std::max(time_, time);
-  while (history_.front().time < time_ - options_.history)
-    spare_.splice(spare_.end(), history_, history_.begin());
+  history_.forgetBefore(time_ - options_.history);
   estimate();
   return true;
 }
 
-/// Undoes the images before `next` for which a sample of an IMU came too late. If they are many,
-/// waits for more new images. @returns the first image to process (again)
-std::list<BodyTracker::Entry>::iterator BodyTracker::undoOutdated(std::list<Entry>::iterator next) {
-  auto first = next;
-  std::size_t count = 0;
-  for (; first != history_.begin() && std::prev(first)->time > inertial_change_; ++count)
+/// The first image before `place` for which a sample of an IMU came too late, or `place`. If they
+/// are many, waits for more new images.
+std::uint64_t BodyTracker::firstOutdated(std::uint64_t place) {
+  const auto& images = history_.images();
+  std::uint64_t first = place;
+  while (first > images.begin() && images.at(first - 1).time > inertial_change_)
     --first;
   ++images_since_repeat_;
-  if (count > kRepeats * images_since_repeat_)
-    return next;
-  while (next != first)
-    undo(--next);
+  if (place - first > kRepeats * images_since_repeat_)
+    return place;
   images_since_repeat_ = 0;
   inertial_change_ = std::numeric_limits<double>::infinity();
   return first;
@@ -134,24 +125,19 @@ void BodyTracker::addInertial(std::size_t body, const InertialSample& sample) {
   inertial_change_ = std::min(inertial_change_, inertial_[body].add(sample));
 }
 
-void BodyTracker::undo(std::list<Entry>::iterator entry) {
-  std::swap(bodies_, entry->bodies_before);
-  std::swap(images_[entry->camera], entry->image_before);
-}
-
-void BodyTracker::take(std::list<Entry>::iterator entry) {
-  entry->bodies_before = bodies_;
-  entry->image_before = images_[entry->camera];
-  follow(entry->camera, entry->time, entry->pixels);
-  dropLost(entry->time);
-  find(entry->camera, entry->pixels);
+void BodyTracker::step(std::uint64_t place) {
+  history_.keep(place, state_);
+  const Image& image = history_.images().at(place);
+  follow(image.camera, image.time, image.pixels);
+  dropLost(image.time);
+  find(image.camera, image.pixels);
 }
 
 LedGroups BodyTracker::groupsOf(std::size_t body, std::size_t camera) const {
   const double noise =
       geometry::pixelNoise(rig_.cameras[camera], options_.learnt_noise, options_.pixel_stddev);
-  return {bodies_[body]->filter.state(), constellations_[body], cameras_[camera], noise,
-          options_.merging_distance,     options_.gate};
+  return {state_.bodies[body]->filter.state(), constellations_[body], cameras_[camera], noise,
+          options_.merging_distance,           options_.gate};
 }
 
 /// Assigns spots of an image to LEDs of the bodies, which are predicted to its time: led_of_spot_.
@@ -163,8 +149,8 @@ void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>&
   // as possible are assigned.
   costs.reset(spots, association::kMaximumTracks, kGhostCost, 0.0);
   costs.tracks = 0;
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (!bodies_[b])
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    if (!state_.bodies[b])
       continue;
     const LedGroups groups = groupsOf(b, camera);
     for (std::size_t led = 0; led < constellations_[b].leds.size(); ++led) {
@@ -186,14 +172,14 @@ void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>&
 void BodyTracker::follow(std::size_t camera,
                          double time,
                          const std::vector<Eigen::Vector2d>& pixels) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b])
-      bodies_[b]->filter.predict(time, inertial_[b]);
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    if (state_.bodies[b])
+      state_.bodies[b]->filter.predict(time, inertial_[b]);
   }
   assign(camera, pixels);
   leaveToSearch(time);
   const geometry::Camera& view = cameras_[camera];
-  LastImage& image = images_[camera];
+  LastImage& image = state_.images[camera];
   image.time = time;
   image.taken.clear();
   image.free.clear();
@@ -215,9 +201,9 @@ void BodyTracker::follow(std::size_t camera,
     if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot))
       update(spot.body, *group, pixels[s], view, &image);
   }
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b] && isSeen(b, image))
-      bodies_[b]->last_observed = time;
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    if (state_.bodies[b] && isSeen(b, image))
+      state_.bodies[b]->last_observed = time;
   }
 }
 
@@ -226,7 +212,7 @@ void BodyTracker::update(std::size_t index,
                          const Eigen::Vector2d& pixel,
                          const geometry::Camera& camera,
                          LastImage* image) {
-  Body& body = *bodies_[index];
+  Body& body = *state_.bodies[index];
   const double residual = (pixel - group.prediction.pixel).norm();
   const double misfit = group.misfit(pixel);
   body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
@@ -238,7 +224,7 @@ void BodyTracker::update(std::size_t index,
 }
 
 void BodyTracker::dropLost(double time) {
-  for (std::optional<Body>& body : bodies_) {
+  for (std::optional<Body>& body : state_.bodies) {
     if (body && (time - body->last_observed > options_.prediction_time ||
                  !body->filter.state().poseCovariance().allFinite()))
       body.reset();

@@ -55,8 +55,8 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
 }  // namespace
 
 void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
-  for (std::size_t b = 0; b < bodies_.size(); ++b) {
-    if (bodies_[b] || constellations_[b].labels.empty())
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    if (state_.bodies[b] || constellations_[b].labels.empty())
       continue;
     if (const auto pose = poseFromLabels(constellations_[b], points))
       startAt(b, *pose, time_, 0);

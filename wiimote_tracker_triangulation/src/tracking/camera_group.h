@@ -4,7 +4,6 @@
 #include "camera_clocks.h"
 #include "camera_fit.h"
 #include "group_camera.h"
-#include "history.h"
 #include "ids.h"
 #include "image_update.h"
 #include "merged_pair.h"
@@ -12,6 +11,7 @@
 #include "track.h"
 #include "track_initiation.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/history.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>
@@ -97,7 +97,7 @@ class CameraGroup {
   CameraClocks clocks_;
   State state_;  // before the image of index next_step_
   std::uint64_t next_step_ = 0;
-  History<State> history_;
+  History<StoredImage, State> history_;
 };
 
 /// Divides the cameras of a rig into groups that share no view.

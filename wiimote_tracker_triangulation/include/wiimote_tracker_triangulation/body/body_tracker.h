@@ -8,14 +8,15 @@
 #include "wiimote_tracker_triangulation/body/solve_pose.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
+#include "wiimote_tracker_triangulation/tracking/history.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <list>
 #include <optional>
 #include <string>
 #include <vector>
@@ -165,18 +166,24 @@ class BodyTracker {
 
     std::size_t countSpots(std::size_t body) const;
   };
-  struct Entry {
+  struct Image {
     std::size_t camera;
     double time;
     std::vector<Eigen::Vector2d> pixels;
-    std::vector<std::optional<Body>> bodies_before;
-    LastImage image_before;  // of this camera
+
+    bool operator<(const Image& other) const {
+      return time != other.time ? time < other.time : camera < other.camera;
+    }
+  };
+  /// Everything that a late image may change.
+  struct State {
+    std::vector<std::optional<Body>> bodies;
+    std::vector<LastImage> images;  // per camera
   };
 
   void useRig(const geometry::Rig& rig);
-  void undo(std::list<Entry>::iterator entry);
-  std::list<Entry>::iterator undoOutdated(std::list<Entry>::iterator next);
-  void take(std::list<Entry>::iterator entry);
+  std::uint64_t firstOutdated(std::uint64_t place);
+  void step(std::uint64_t place);
   void follow(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
   void update(std::size_t index,
               const LedGroup& group,
@@ -212,9 +219,8 @@ class BodyTracker {
   BodyTrackerOptions options_;
   std::optional<association::ViewAssociator> associator_;  // always
 
-  std::vector<std::optional<Body>> bodies_;
-  std::vector<LastImage> images_;          // per camera
-  std::list<Entry> history_;               // sorted by time
+  State state_;
+  tracking::History<Image, State> history_;
   std::vector<InertialSamples> inertial_;  // per body; empty without IMU
   double inertial_change_ =
       std::numeric_limits<double>::infinity();  // images after it are outdated
@@ -225,7 +231,7 @@ class BodyTracker {
   std::vector<bool> taken_;
 
   // Reused buffers.
-  std::list<Entry> spare_;
+  Image image_;
   std::vector<std::optional<SpotLed>> led_of_spot_;  // nothing: free
   std::vector<bool> spots_taken_;
   std::vector<geometry::Sight> body_sights_;

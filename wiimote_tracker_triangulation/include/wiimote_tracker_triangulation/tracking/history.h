@@ -1,23 +1,24 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_HISTORY_H
+#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_HISTORY_H
 
-#include "stored_image.h"
 #include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 
 namespace wiimote_tracker::tracking {
 
 /// The latest images in the order of their times, and the state before some of them, so that a late
-/// image can be inserted at its time and the steps after it repeated (roll-back).
-template <typename State>
+/// image can be inserted at its time and the steps after it repeated (roll-back). Images
+/// have a time [s] and the operator < of their order.
+template <typename Image, typename State>
 class History {
  public:
-  const NumberedQueue<StoredImage>& images() const { return images_; }
+  const NumberedQueue<Image>& images() const { return images_; }
 
   /// Index of the image in the order of time; nothing when no earlier state is kept.
-  std::optional<std::uint64_t> placeOf(const StoredImage& image) const {
+  std::optional<std::uint64_t> placeOf(const Image& image) const {
     std::uint64_t place = images_.end();
     while (place > images_.begin() && image < images_.at(place - 1))
       --place;
@@ -30,11 +31,10 @@ class History {
     return !states_.empty() && states_.front().before <= place;
   }
 
-  void insert(std::uint64_t place, const StoredImage& image) {
-    images_.push();
+  void insert(std::uint64_t place, const Image& image) {
+    images_.push() = image;
     for (std::uint64_t i = images_.end() - 1; i > place; --i)
-      images_.at(i) = images_.at(i - 1);
-    images_.at(place) = image;
+      std::swap(images_.at(i), images_.at(i - 1));
   }
 
   /// Call after rollBack() to that place.
@@ -90,10 +90,10 @@ class History {
     State state;
   };
 
-  NumberedQueue<StoredImage> images_;
+  NumberedQueue<Image> images_;
   NumberedQueue<Kept> states_;
 };
 
 }  // namespace wiimote_tracker::tracking
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_HISTORY_H

@@ -55,7 +55,9 @@ void BodyFollower::setBodies(const std::vector<Constellation>& constellations) {
     if (same != constellations.end())
       last[static_cast<std::size_t>(same - constellations.begin())] = snapshot_.bodies[b];
   }
-  if (arrival_clocks_)
+  if (tracker_ && !constellations.empty())
+    tracker_->setBodies(constellations);
+  else if (arrival_clocks_)
     useTracker(rig_, constellations);
   constellations_ = constellations;
   snapshot_.bodies = std::move(last);

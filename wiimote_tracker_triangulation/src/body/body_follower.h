@@ -35,8 +35,7 @@ class BodyFollower {
   /// @throws geometry::InvalidRigError (see Rig::check); the previous rig then stays.
   void setRig(const geometry::Rig& rig);
 
-  /// Sets the bodies to track. The same ones again change nothing; else all are searched anew, and
-  /// those that stay are lost in the next snapshot.
+  /// Sets the bodies to track. Those that were tracked before, with the same constellation, go on.
   /// @throws Error (Constellation::check); the previous bodies then stay.
   void setBodies(const std::vector<Constellation>& constellations);
 

@@ -5,7 +5,7 @@
 #include "led_groups.h"
 
 #include <algorithm>
-#include <cmath>
+#include <utility>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -21,15 +21,9 @@ constexpr double kGhostCost = 1e6;
 BodyTracker::BodyTracker(const geometry::Rig& rig,
                          const std::vector<Constellation>& constellations,
                          const BodyTrackerOptions& options)
-    : constellations_(constellations), options_(options) {
+    : options_(options) {
   useRig(rig);
-  for (const Constellation& constellation : constellations) {
-    constellation.check();
-    has_clear_shape_.push_back(nearestSymmetry(constellation).residual >= kSymmetric);
-    const ImuMount imu = constellation.imu.value_or(ImuMount());
-    inertial_.emplace_back(Eigen::Vector3d(imu.body_from_imu.translation()));
-  }
-  reset();
+  setBodies(constellations);
 }
 
 void BodyTracker::useRig(const geometry::Rig& rig) {
@@ -68,6 +62,33 @@ void BodyTracker::setRig(const geometry::Rig& rig) {
     if (body && time_ - body->last_observed > options_.tracked_time)
       body.reset();
   }
+  estimate();
+}
+
+void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
+  for (const Constellation& constellation : constellations)
+    constellation.check();
+  const auto before = std::exchange(constellations_, constellations);
+  const auto inertial_before = std::exchange(inertial_, {});
+  std::vector<std::size_t> former;  // index of each body, or the number of bodies if it is new
+  has_clear_shape_.clear();
+  for (const Constellation& constellation : constellations_) {
+    const auto same = std::find(before.begin(), before.end(), constellation);
+    former.push_back(static_cast<std::size_t>(same - before.begin()));
+    has_clear_shape_.push_back(nearestSymmetry(constellation).residual >= kSymmetric);
+    const ImuMount imu = constellation.imu.value_or(ImuMount());
+    inertial_.push_back(same != before.end() ? inertial_before[former.back()]
+                                             : InertialSamples(imu.body_from_imu.translation()));
+  }
+  const auto carryOver = [&](State* state) {
+    const auto bodies = std::exchange(state->bodies, {});
+    for (const std::size_t body : former)
+      state->bodies.push_back(body < bodies.size() ? bodies[body] : std::nullopt);
+    state->images.assign(cameras_.size(), {});  // their spots name bodies by index
+  };
+  carryOver(&state_);
+  history_.changeStates(carryOver);
+  estimates_.assign(constellations_.size(), std::nullopt);
   estimate();
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -202,22 +203,58 @@ TEST_F(AtRest, IsFollowedOnWhenTheSameBodiesAreSet) {
 }
 
 /// As when learn_body has learnt another one.
-TEST_F(AtRest, IsLostOnceAndFoundAgainWhenAnotherBodyComesFirst) {
+TEST_F(AtRest, IsFollowedOnWhenAnotherBodyComesFirstAndGoes) {
   follower_.setRig(rig_);
   show(60);
-  ASSERT_TRUE(follower_.next()->bodies[0]);
-  follower_.setBodies({{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}}, three_});
-  std::ptrdiff_t lost = 0;
-  for (int i = 0; i < 40; ++i) {
-    show(1);
-    const BodySnapshot* snapshot = follower_.next();
-    ASSERT_EQ(snapshot->bodies.size(), 2u);
-    EXPECT_FALSE(snapshot->bodies[0]);
-    lost += countLost(*snapshot);
-    EXPECT_EQ(lost, 1) << i;
+  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  const Constellation other{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}};
+  using Bodies = std::vector<Constellation>;
+  for (const Bodies& bodies : {Bodies{other, three_}, Bodies{three_}}) {
+    follower_.setBodies(bodies);
+    for (int i = 0; i < 40; ++i) {
+      EXPECT_TRUE(show(1).spots.empty()) << i;
+      const BodySnapshot* snapshot = follower_.next();
+      ASSERT_EQ(snapshot->bodies.size(), bodies.size());
+      EXPECT_EQ(countLost(*snapshot), 0);
+      EXPECT_EQ(snapshot->bodies.front().has_value(), bodies.size() == 1);
+      const std::optional<BodyEstimate>& three = snapshot->bodies.back();
+      ASSERT_TRUE(three) << i;
+      EXPECT_TRUE(three->tracked);
+      EXPECT_EQ(three->first_seen, first_seen);
+    }
   }
+}
+
+/// As when a late image comes just after learn_body: the steps before it are repeated.
+TEST_F(AtRest, IsFollowedOnThroughALateImageAfterAnotherBodyCame) {
+  follower_.setRig(rig_);
+  show(60);
+  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  follower_.setBodies({{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}}, three_});
+  tracking::CameraImage late = exactImage(rig_.cameras[1].camera, points_, 1000.1);
+  follower_.take(1, 0.0, &late);
+  EXPECT_TRUE(late.spots.empty());
   show(1);
-  EXPECT_TRUE(follower_.next()->bodies[1]);
+  const BodySnapshot* snapshot = follower_.next();
+  ASSERT_TRUE(snapshot->bodies[1]);
+  EXPECT_TRUE(snapshot->bodies[1]->tracked);
+  EXPECT_EQ(snapshot->bodies[1]->first_seen, first_seen);
+}
+
+/// As when its file was edited.
+TEST_F(AtRest, IsSearchedAnewWhenItsLedsChange) {
+  follower_.setRig(rig_);
+  show(60);
+  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  Constellation edited = three_;
+  edited.leds[0].x() += 0.001;
+  follower_.setBodies({edited});
+  show(1);
+  EXPECT_FALSE(follower_.next()->bodies[0]);
+  show(40);
+  const BodySnapshot* snapshot = follower_.next();
+  ASSERT_TRUE(snapshot->bodies[0]);
+  EXPECT_GT(snapshot->bodies[0]->first_seen, first_seen);
 }
 
 TEST_F(AtRest, StampsAreCorrectedByTheRigsOffsets) {

@@ -110,6 +110,10 @@ class BodyTracker {
   /// that are hidden in all of them are lost. @throws geometry::InvalidRigError (Rig::check).
   void setRig(const geometry::Rig& rig);
 
+  /// Tracks these bodies from now on. Those that were tracked before, with the same constellation,
+  /// go on. @throws Error (Constellation::check).
+  void setBodies(const std::vector<Constellation>& constellations);
+
   /// Adds the spots of a camera's image.
   /// @param time exposure [s]. @param pixels distorted, finite [px].
   /// @returns false, and does nothing, if the image is too old.

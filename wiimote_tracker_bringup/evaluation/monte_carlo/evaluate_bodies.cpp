@@ -66,7 +66,7 @@ Score follow(const simulation::Description& description,
     pixels.clear();
     for (const tracking::Spot& spot : image.image.spots)
       pixels.push_back(spot.pixel);
-    tracker.add(image.camera, image.image.stamp, pixels);
+    tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, pixels);
     const double time = tracker.time() - lateness;
     if (time < kSettled)
       continue;

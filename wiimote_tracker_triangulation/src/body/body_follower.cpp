@@ -93,7 +93,10 @@ void BodyFollower::take(std::size_t camera, double clock_error, tracking::Camera
     if (!isMasked(spot))
       pixels_.push_back(spot.pixel);
   }
-  if (!tracker_->add(camera, times.exposure - clock_error, pixels_))
+  const double stamp_stddev = std::isfinite(image->stamp_stddev) && image->stamp_stddev >= 0.0
+                                  ? image->stamp_stddev
+                                  : options_.stamp_stddev;
+  if (!tracker_->add(camera, times.exposure - clock_error, stamp_stddev, pixels_))
     return;
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
   auto taken = tracker_->taken().begin();  // of each spot that is not masked

@@ -60,8 +60,8 @@ std::optional<std::size_t> BodyTracker::neededSpots(std::size_t body, double tim
 
 /// Searches the bodies after an image. Those that are tracked come first, so that no other body
 /// gets their LEDs.
-void BodyTracker::find(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels) {
-  const double time = state_.images[camera].time;
+void BodyTracker::find(const Image& image) {
+  const double time = image.time;
   needed_spots_.clear();
   for (std::size_t b = 0; b < state_.bodies.size(); ++b)
     needed_spots_.push_back(neededSpots(b, time));
@@ -80,7 +80,7 @@ void BodyTracker::find(std::size_t camera, const std::vector<Eigen::Vector2d>& p
       const bool is_where_predicted =
           state_.bodies[b] && isSamePose(constellations_[b].leds, match->world_from_body,
                                          state_.bodies[b]->filter.state().worldFromBody());
-      const bool goes_on = is_where_predicted && (updateByMatch(b, camera, pixels) || tracked);
+      const bool goes_on = is_where_predicted && (updateByMatch(b, image) || tracked);
       if (!goes_on && !start(b, *match, time))
         continue;
       for (const int p : match->point_of_led) {
@@ -143,29 +143,27 @@ void BodyTracker::listMatchedSpots(std::size_t body,
 
 /// The body is found where it is predicted: updates it with spots of this image that it did not
 /// take because the prediction is too uncertain to tell its LEDs apart. @returns whether it is seen
-bool BodyTracker::updateByMatch(std::size_t body,
-                                std::size_t camera,
-                                const std::vector<Eigen::Vector2d>& pixels) {
-  LastImage& image = state_.images[camera];
-  const double noise =
-      geometry::pixelNoise(rig_.cameras[camera], options_.learnt_noise, options_.pixel_stddev);
+bool BodyTracker::updateByMatch(std::size_t body, const Image& image) {
+  LastImage& last = state_.images[image.camera];
+  const SpotNoise noise = noiseOf(image, static_cast<double>(last.free.size()));
   for (const MatchedSpot& spot : matched_spots_) {
-    const auto free = std::find(image.free.begin(), image.free.end(), spot.pixel);
-    if (spot.camera != camera || free == image.free.end())
+    const auto free = std::find(last.free.begin(), last.free.end(), spot.pixel);
+    if (spot.camera != image.camera || free == last.free.end())
       continue;
-    const auto prediction = predictLed(state_.bodies[body]->filter.state(), cameras_[camera],
+    const auto prediction = predictLed(state_.bodies[body]->filter.state(), cameras_[image.camera],
                                        constellations_[body].leds[spot.led], noise);
     if (!prediction)
       continue;
-    const LedGroup led{{spot.led}, *prediction, noise};
+    const LedGroup led{{spot.led}, *prediction};
     if (!(led.misfit(spot.pixel) < options_.gate))
       continue;
-    image.free.erase(free);
-    spots_taken_[static_cast<std::size_t>(std::find(pixels.begin(), pixels.end(), spot.pixel) -
-                                          pixels.begin())] = true;
-    update(body, led, spot.pixel, cameras_[camera], &image);
+    last.free.erase(free);
+    spots_taken_[static_cast<std::size_t>(
+        std::find(image.pixels.begin(), image.pixels.end(), spot.pixel) - image.pixels.begin())] =
+        true;
+    update(body, led, spot.pixel, cameras_[image.camera], &last);
   }
-  const bool is_seen = isSeen(body, image);
+  const bool is_seen = isSeen(body, last);
   if (is_seen)
     state_.bodies[body]->last_observed = image.time;
   return is_seen;

@@ -5,6 +5,7 @@
 #include "led_groups.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 namespace wiimote_tracker::body {
@@ -103,10 +104,14 @@ void BodyTracker::reset() {
   estimates_.assign(constellations_.size(), std::nullopt);
 }
 
-bool BodyTracker::add(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels) {
+bool BodyTracker::add(std::size_t camera,
+                      double time,
+                      double stamp_stddev,
+                      const std::vector<Eigen::Vector2d>& pixels) {
   taken_.assign(pixels.size(), false);
   image_.camera = camera;
   image_.time = time;
+  image_.stamp_stddev = stamp_stddev;
   image_.pixels = pixels;
   const auto place = history_.placeOf(image_);
   if (!place || time < time_ - options_.history)
@@ -149,20 +154,31 @@ void BodyTracker::addInertial(std::size_t body, const InertialSample& sample) {
 void BodyTracker::step(std::uint64_t place) {
   history_.keep(place, state_);
   const Image& image = history_.images().at(place);
-  follow(image.camera, image.time, image.pixels);
+  follow(image);
   dropLost(image.time);
-  find(image.camera, image.pixels);
+  find(image);
 }
 
-LedGroups BodyTracker::groupsOf(std::size_t body, std::size_t camera) const {
-  const double noise =
-      geometry::pixelNoise(rig_.cameras[camera], options_.learnt_noise, options_.pixel_stddev);
-  return {state_.bodies[body]->filter.state(), constellations_[body], cameras_[camera], noise,
-          options_.merging_distance,           options_.gate};
+/// All spots of a body in an image share the error of its time: as if each had its own one, which
+/// is greater. @param spots of the body
+SpotNoise BodyTracker::noiseOf(const Image& image, double spots) const {
+  return {geometry::pixelNoise(rig_.cameras[image.camera], options_.learnt_noise,
+                               options_.pixel_stddev),
+          image.stamp_stddev * std::sqrt(spots)};
+}
+
+LedGroups BodyTracker::groupsOf(std::size_t body, const Image& image, double spots) const {
+  return {state_.bodies[body]->filter.state(),
+          constellations_[body],
+          cameras_[image.camera],
+          noiseOf(image, spots),
+          options_.merging_distance,
+          options_.gate};
 }
 
 /// Assigns spots of an image to LEDs of the bodies, which are predicted to its time: led_of_spot_.
-void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels) {
+void BodyTracker::assign(const Image& image) {
+  const std::vector<Eigen::Vector2d>& pixels = image.pixels;
   association::SpotCosts costs;
   std::array<SpotLed, association::kMaximumTracks> columns;
   const std::size_t spots = std::min(pixels.size(), association::kMaximumSpots);
@@ -173,7 +189,7 @@ void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>&
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (!state_.bodies[b])
       continue;
-    const LedGroups groups = groupsOf(b, camera);
+    const LedGroups groups = groupsOf(b, image, 1.0);
     for (std::size_t led = 0; led < constellations_[b].leds.size(); ++led) {
       if (costs.tracks == association::kMaximumTracks)
         break;
@@ -190,41 +206,42 @@ void BodyTracker::assign(std::size_t camera, const std::vector<Eigen::Vector2d>&
   }
 }
 
-void BodyTracker::follow(std::size_t camera,
-                         double time,
-                         const std::vector<Eigen::Vector2d>& pixels) {
+void BodyTracker::follow(const Image& image) {
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (state_.bodies[b])
-      state_.bodies[b]->filter.predict(time, inertial_[b]);
+      state_.bodies[b]->filter.predict(image.time, inertial_[b]);
   }
-  assign(camera, pixels);
-  leaveToSearch(time);
-  const geometry::Camera& view = cameras_[camera];
-  LastImage& image = state_.images[camera];
-  image.time = time;
-  image.taken.clear();
-  image.free.clear();
+  assign(image);
+  leaveToSearch(image.time);
+  const std::vector<Eigen::Vector2d>& pixels = image.pixels;
+  LastImage& last = state_.images[image.camera];
+  last.time = image.time;
+  last.taken.clear();
+  last.free.clear();
   spots_taken_.assign(pixels.size(), false);
   for (std::size_t s = 0; s < pixels.size(); ++s) {
     if (!led_of_spot_[s]) {
-      image.free.push_back(pixels[s]);
+      last.free.push_back(pixels[s]);
       continue;
     }
     spots_taken_[s] = true;
     const SpotLed spot = *led_of_spot_[s];
     std::array<bool, kMaximumLeds> has_spot{};
+    double spots = 0.0;
     for (const std::optional<SpotLed>& other : led_of_spot_) {
-      if (other && other->body == spot.body)
-        has_spot[other->led] = true;
+      if (!other || other->body != spot.body)
+        continue;
+      has_spot[other->led] = true;
+      spots += 1.0;
     }
     // Each update moves the body, and with it the predictions of the remaining spots.
-    const LedGroups groups = groupsOf(spot.body, camera);
+    const LedGroups groups = groupsOf(spot.body, image, spots);
     if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot))
-      update(spot.body, *group, pixels[s], view, &image);
+      update(spot.body, *group, pixels[s], cameras_[image.camera], &last);
   }
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    if (state_.bodies[b] && isSeen(b, image))
-      state_.bodies[b]->last_observed = time;
+    if (state_.bodies[b] && isSeen(b, last))
+      state_.bodies[b]->last_observed = image.time;
   }
 }
 
@@ -236,7 +253,7 @@ void BodyTracker::update(std::size_t index,
   Body& body = *state_.bodies[index];
   const double residual = (pixel - group.prediction.pixel).norm();
   const double misfit = group.misfit(pixel);
-  body.filter.update(group.prediction, pixel, group.pixel_stddev, inertial_[index]);
+  body.filter.update(group.prediction, pixel, inertial_[index]);
   for (std::size_t i = 0; i < group.leds.size(); ++i) {
     body.led_times[group.leds[i]] = image->time;
     image->taken.push_back({index, group.leds[i], i > 0, pixel, misfit, residual,

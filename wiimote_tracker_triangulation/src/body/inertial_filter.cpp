@@ -94,14 +94,12 @@ void InertialFilter::step(const InertialSample& sample, double duration) {
   addNoise(kForceBias, kForceBias, std::pow(options_->accelerometer_bias_walk, 2) * h);
 }
 
-void InertialFilter::update(const LedPrediction& prediction,
-                            const Eigen::Vector2d& pixel,
-                            double pixel_stddev) {
+void InertialFilter::update(const LedPrediction& prediction, const Eigen::Vector2d& pixel) {
   // The body's origin is at position - arm, which turns with the body.
   Eigen::Matrix<double, 2, 6> jacobian = prediction.jacobian;
   jacobian.rightCols<3>() += prediction.jacobian.leftCols<3>() * so3::skew(rotation_ * imu_);
   Vector step;
-  updateByPixel(jacobian, pixel - prediction.pixel, pixel_stddev, &covariance_, &step);
+  updateByPixel(jacobian, pixel - prediction.pixel, prediction.noise, &covariance_, &step);
   position_ += step.segment<3>(kPosition);
   rotation_ = (so3::exp(step.segment<3>(kRotation)) * rotation_).normalized();
   velocity_ += step.segment<3>(kVelocity);

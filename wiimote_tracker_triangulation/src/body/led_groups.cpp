@@ -45,13 +45,13 @@ double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
 LedGroups::LedGroups(const PoseState& state,
                      const Constellation& constellation,
                      const geometry::Camera& camera,
-                     double pixel_stddev,
+                     const SpotNoise& noise,
                      double merging_distance,
                      double gate)
-    : pixel_stddev_(pixel_stddev), gate_(gate) {
+    : gate_(gate) {
   const std::size_t leds = constellation.leds.size();
   for (std::size_t i = 0; i < leds; ++i) {
-    singles_[i] = predictLed(state, camera, constellation.leds[i], pixel_stddev);
+    singles_[i] = predictLed(state, camera, constellation.leds[i], noise);
     if (singles_[i] && !isCertain(*singles_[i], distanceToNearest(constellation.leds, i), camera))
       singles_[i].reset();
   }
@@ -80,25 +80,25 @@ void LedGroups::add(const PoseState& state, const LedGroup::Leds& leds) {
   LedGroup& group = groups_.emplace_back();
   group.leds = leds;
   group.prediction = *singles_[leds[0]];
-  group.pixel_stddev = pixel_stddev_;
   if (leds.size() == 1)
     return;
   LedPrediction& mean = group.prediction;
   for (std::size_t i = 1; i < leds.size(); ++i) {
     mean.pixel += singles_[leds[i]]->pixel;
+    mean.noise += singles_[leds[i]]->noise;
     mean.jacobian += singles_[leds[i]]->jacobian;
     mean.depth += singles_[leds[i]]->depth;
   }
   const auto count = static_cast<double>(leds.size());
   mean.pixel /= count;
+  mean.noise /= count;
   mean.jacobian /= count;
   mean.depth /= count;
   double farthest = 0.0;
   for (const std::size_t led : leds)
     farthest = std::max(farthest, (singles_[led]->pixel - mean.pixel).norm());
-  group.pixel_stddev = std::hypot(pixel_stddev_, kPlaceBetween * 2.0 * farthest);
-  mean.covariance = mean.jacobian * state.poseCovariance() * mean.jacobian.transpose();
-  mean.covariance.diagonal().array() += group.pixel_stddev * group.pixel_stddev;
+  mean.noise.diagonal().array() += std::pow(kPlaceBetween * 2.0 * farthest, 2);
+  mean.covariance = mean.noise + mean.jacobian * state.poseCovariance() * mean.jacobian.transpose();
 }
 
 double LedGroups::cost(std::size_t led, const Eigen::Vector2d& pixel) const {

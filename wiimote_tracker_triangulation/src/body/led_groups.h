@@ -19,8 +19,7 @@ struct LedGroup {
   using Leds = boost::container::static_vector<std::size_t, kMaximumLeds>;
 
   Leds leds;
-  LedPrediction prediction;   // of the mean of their pixels
-  double pixel_stddev = 0.0;  // of the spot; greater for several LEDs of unknown brightness
+  LedPrediction prediction;  // of the mean of their pixels; noisier for several LEDs
 
   /// Squared Mahalanobis distance of a spot.
   double misfit(const Eigen::Vector2d& pixel) const;
@@ -37,7 +36,7 @@ class LedGroups {
   LedGroups(const PoseState& state,
             const Constellation& constellation,
             const geometry::Camera& camera,
-            double pixel_stddev,
+            const SpotNoise& noise,
             double merging_distance,
             double gate);
 
@@ -53,7 +52,6 @@ class LedGroups {
  private:
   void add(const PoseState& state, const LedGroup::Leds& leds);
 
-  double pixel_stddev_;
   double gate_;
   std::array<std::optional<LedPrediction>, kMaximumLeds> singles_;
   // One of each LED, one of each pair, one of each LED with all of its neighbours.

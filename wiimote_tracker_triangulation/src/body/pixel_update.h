@@ -21,20 +21,18 @@ inline Eigen::Matrix<double, 3, 6> pointByPose(const Eigen::Vector3d& arm) {
 
 /// Kalman update by a pixel of a state whose first six values are position and rotation.
 /// @param jacobian d pixel / d (position, rotation) [px/m, px/rad]. @param innovation [px]
-/// @param step what to move the state by.
+/// @param noise covariance of the pixel [px^2]. @param step what to move the state by.
 /// @returns -2 log likelihood of the innovation, without its constant
 template <int kSize>
 double updateByPixel(const Eigen::Matrix<double, 2, 6>& jacobian,
                      const Eigen::Vector2d& innovation,
-                     double pixel_stddev,
+                     const Eigen::Matrix2d& noise,
                      Eigen::Matrix<double, kSize, kSize>* covariance,
                      Eigen::Matrix<double, kSize, 1>* step) {
   using Columns = Eigen::Matrix<double, kSize, 2>;
   using Square = Eigen::Matrix<double, kSize, kSize>;
-  const double variance = pixel_stddev * pixel_stddev;
   const Columns PHt = covariance->template leftCols<6>() * jacobian.transpose();
-  Eigen::Matrix2d S = jacobian * PHt.template topRows<6>();  // innovation covariance
-  S.diagonal().array() += variance;
+  const Eigen::Matrix2d S = jacobian * PHt.template topRows<6>() + noise;  // of the innovation
   const Eigen::Matrix2d inverse = S.inverse();
   const Columns K = PHt * inverse;  // gain
   *step = K * innovation;
@@ -45,7 +43,7 @@ double updateByPixel(const Eigen::Matrix<double, 2, 6>& jacobian,
   const Columns left = reduced.template leftCols<6>() * jacobian.transpose();
   *covariance = reduced;
   covariance->noalias() -= left * K.transpose();
-  covariance->noalias() += variance * K * K.transpose();
+  covariance->noalias() += K * noise * K.transpose();
   const Square symmetric = 0.5 * (*covariance + covariance->transpose());
   *covariance = symmetric;
   return innovation.dot(inverse * innovation) + std::log(S.determinant());

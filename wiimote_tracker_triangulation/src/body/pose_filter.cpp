@@ -76,17 +76,15 @@ PoseState PoseFilter::mixture(const Weights& weights) const {
   return result;
 }
 
-void PoseFilter::update(const LedPrediction& prediction,
-                        const Eigen::Vector2d& pixel,
-                        double pixel_stddev) {
+void PoseFilter::update(const LedPrediction& prediction, const Eigen::Vector2d& pixel) {
   Weights costs;  // -2 log likelihood, less what all modes have in common
   for (int i = 0; i < kPoseModes; ++i) {
     // The prediction is that of the mean.
     const Eigen::Matrix<double, 6, 1> offset = states_[i].minus(mean_).head<6>();
     const Eigen::Vector2d innovation = pixel - prediction.pixel - prediction.jacobian * offset;
     MotionVector step;
-    costs[i] =
-        updateByPixel(prediction.jacobian, innovation, pixel_stddev, &states_[i].covariance, &step);
+    costs[i] = updateByPixel(prediction.jacobian, innovation, prediction.noise,
+                             &states_[i].covariance, &step);
     states_[i].move(step);
   }
   probabilities_.array() *= (-0.5 * (costs.array() - costs.minCoeff())).exp();

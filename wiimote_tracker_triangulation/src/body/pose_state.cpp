@@ -72,7 +72,7 @@ Eigen::Isometry3d PoseState::worldFromBody() const {
 std::optional<LedPrediction> predictLed(const PoseState& state,
                                         const geometry::Camera& camera,
                                         const Eigen::Vector3d& led,
-                                        double pixel_stddev) {
+                                        const SpotNoise& noise) {
   const Eigen::Vector3d arm = state.rotation * led;
   const Eigen::Vector3d point = state.position + arm;
   LedPrediction prediction;
@@ -82,9 +82,15 @@ std::optional<LedPrediction> predictLed(const PoseState& state,
     return std::nullopt;
   prediction.pixel = *pixel;
   prediction.jacobian = by_point * pointByPose(arm);
-  prediction.covariance =
-      prediction.jacobian * state.poseCovariance() * prediction.jacobian.transpose();
-  prediction.covariance.diagonal().array() += pixel_stddev * pixel_stddev;
+  Eigen::Matrix<double, 6, 1> rates;
+  rates << state.velocity, state.angular_velocity;
+  const PoseCovariance squared_rates =
+      rates * rates.transpose() + state.covariance.bottomRightCorner<6, 6>();
+  prediction.noise = noise.stamp_stddev * noise.stamp_stddev * prediction.jacobian * squared_rates *
+                     prediction.jacobian.transpose();
+  prediction.noise.diagonal().array() += noise.pixel_stddev * noise.pixel_stddev;
+  prediction.covariance = prediction.noise + prediction.jacobian * state.poseCovariance() *
+                                                 prediction.jacobian.transpose();
   prediction.depth = camera.world_from_camera.linear().col(2).dot(point - camera.center());
   return prediction;
 }

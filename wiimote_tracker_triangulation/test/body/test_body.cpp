@@ -175,7 +175,7 @@ TEST(BodyTracker, TwoBodiesAndAFreeLed) {
   int good = 0;
   while (tracker.time() < 1006.0 || std::isinf(tracker.time())) {
     const tracking::test::SceneImage& image = scene.next();
-    tracker.add(image.camera, image.image.stamp, pixelsOf(image));
+    tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, pixelsOf(image));
     if (tracker.time() < 1001.0 || !tracker.bodies()[0] || !tracker.bodies()[1])
       continue;
     ++known;
@@ -205,7 +205,7 @@ TEST(BodyTracker, TheOrderOfArrivalDoesNotMatter) {
   }
   BodyTracker as_arrived(paperRig(), {fourLeds()}, BodyTrackerOptions());
   for (const Image& image : images)
-    EXPECT_TRUE(as_arrived.add(image.camera, image.time, image.pixels));
+    EXPECT_TRUE(as_arrived.add(image.camera, image.time, 0.0, image.pixels));
   const bool was_sorted = std::is_sorted(
       images.begin(), images.end(), [](const Image& a, const Image& b) { return a.time < b.time; });
   EXPECT_FALSE(was_sorted);
@@ -213,12 +213,12 @@ TEST(BodyTracker, TheOrderOfArrivalDoesNotMatter) {
             [](const Image& a, const Image& b) { return a.time < b.time; });
   BodyTracker in_order(paperRig(), {fourLeds()}, BodyTrackerOptions());
   for (const Image& image : images)
-    in_order.add(image.camera, image.time, image.pixels);
+    in_order.add(image.camera, image.time, 0.0, image.pixels);
   ASSERT_TRUE(as_arrived.bodies()[0]);
   ASSERT_TRUE(in_order.bodies()[0]);
   EXPECT_EQ(as_arrived.bodies()[0]->world_from_body.matrix(),
             in_order.bodies()[0]->world_from_body.matrix());
-  EXPECT_FALSE(as_arrived.add(0, as_arrived.time() - 1.0, {}));
+  EXPECT_FALSE(as_arrived.add(0, as_arrived.time() - 1.0, 0.0, {}));
 }
 
 TEST(BodyTracker, TwoImagesOfOneTimeMayComeInEitherOrder) {
@@ -236,8 +236,8 @@ TEST(BodyTracker, TwoImagesOfOneTimeMayComeInEitherOrder) {
       pixels[image.camera] = pixelsOf(image);
     }
     for (std::size_t i = 0; i < 4; ++i) {
-      forth.add(i, time, pixels[i]);
-      back.add(3 - i, time, pixels[3 - i]);
+      forth.add(i, time, 0.0, pixels[i]);
+      back.add(3 - i, time, 0.0, pixels[3 - i]);
     }
   }
   ASSERT_TRUE(forth.bodies()[0]);
@@ -260,7 +260,7 @@ void showExactly(const Isometry3d& pose,
       if (camera.sees(pose * led))
         pixels.push_back(*camera.project(pose * led));
     }
-    tracker->add(static_cast<std::size_t>(i) % 4, 1000.0 + 0.0025 * i, pixels);
+    tracker->add(static_cast<std::size_t>(i) % 4, 1000.0 + 0.0025 * i, 0.0, pixels);
   }
 }
 
@@ -361,7 +361,7 @@ TEST(BodyTracker, DoesNotAllocateOnceWarm) {
     const tracking::test::SceneImage& image = scene.next();
     const std::vector<Eigen::Vector2d> pixels = pixelsOf(image);
     const int before = g_allocations;
-    tracker.add(image.camera, image.image.stamp, pixels);
+    tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, pixels);
     // Finding it again after a loss may allocate.
     if (i > 4 * 100 * 4 && tracker.bodies()[0] &&
         tracker.bodies()[0]->first_seen < tracker.time() - 0.1) {

@@ -5,9 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -91,6 +93,45 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
   ASSERT_TRUE(snapshot);
   EXPECT_LT(snapshot->time, 901.0);
   EXPECT_TRUE(snapshot->bodies[0]);
+}
+
+/// It moves at 1 m/s while stamps have errors of 2 ms.
+TEST(BodyFollower, StatesTheErrorsOfStamps) {
+  constexpr double kRadius = 0.4;  // [m]
+  const test::Motion motion = [](double t) {
+    return Isometry3d(Eigen::Translation3d(1.25 + kRadius * std::cos(t / kRadius),
+                                           1.25 + kRadius * std::sin(t / kRadius), 1.1));
+  };
+  tracking::test::SceneOptions options;
+  options.pixel_noise = 0.5;
+  options.stamp_noise = 0.002;
+  for (const std::size_t cameras : {4, 2}) {
+    double nees = 0.0;
+    double count = 0.0;
+    for (unsigned seed = 1; seed < 5; ++seed) {
+      geometry::Rig rig = tracking::test::paperRig();
+      rig.cameras.resize(cameras);
+      BodyFollower follower((BodyTrackerOptions()));
+      follower.setBodies({test::fourLeds()});
+      follower.setRig(rig);
+      tracking::test::Scene scene(rig, test::pathsOf(test::fourLeds(), motion), options, seed);
+      for (double time = 0.0; time < 1005.0;) {
+        tracking::test::SceneImage image = scene.next();
+        time = image.true_time;
+        follower.take(image.camera, 0.0, &image.image);
+        const BodySnapshot* snapshot = follower.next();
+        if (!snapshot || time < 1001.0)
+          continue;
+        ASSERT_TRUE(snapshot->bodies[0]);
+        count += 6.0;
+        nees += test::normalisedError(motion(snapshot->time), snapshot->bodies[0]->world_from_body,
+                                      snapshot->bodies[0]->covariance.topLeftCorner<6, 6>());
+      }
+    }
+    RecordProperty(std::to_string(cameras) + "_cameras", std::to_string(nees / count));
+    EXPECT_GT(nees, 0.8 * count);
+    EXPECT_LT(nees, 1.25 * count);
+  }
 }
 
 /// Three LEDs at rest before the paper's cameras, one image each 2.5 ms.

@@ -81,7 +81,7 @@ TEST(TurnedBody, IsFoundAgain) {
     BodyTracker tracker(tracking::test::paperRig(), {test::fourLeds()}, BodyTrackerOptions());
     while (!(tracker.time() > kBegin + 0.5)) {
       const tracking::test::SceneImage& image = scene.next();
-      tracker.add(image.camera, image.image.stamp, test::pixelsOf(image));
+      tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, test::pixelsOf(image));
       if (tracker.time() < kBegin || !tracker.bodies()[0])
         continue;
       ++images;

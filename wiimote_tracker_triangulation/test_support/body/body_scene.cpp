@@ -149,7 +149,7 @@ void FollowedBody::show() {
 }
 
 void FollowedBody::track() {
-  tracker_.add(image_->camera, image_->image.stamp, pixels_);
+  tracker_.add(image_->camera, image_->image.stamp, image_->image.stamp_stddev, pixels_);
 }
 
 Vector3d FollowedBody::trueVelocity() const {

@@ -32,9 +32,8 @@ class BodyFilter {
   /// As PoseFilter::update.
   void update(const LedPrediction& prediction,
               const Eigen::Vector2d& pixel,
-              double pixel_stddev,
               const InertialSamples& samples) {
-    std::visit([&](auto& filter) { filter.update(prediction, pixel, pixel_stddev); }, filter_);
+    std::visit([&](auto& filter) { filter.update(prediction, pixel); }, filter_);
     const auto* pose = std::get_if<PoseFilter>(&filter_);
     if (pose && samples.cover(pose->time(), pose->time()))
       filter_ = InertialFilter(*inertial_, pose->time(), pose->state(), samples);

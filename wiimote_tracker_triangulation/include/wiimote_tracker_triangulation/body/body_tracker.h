@@ -27,8 +27,9 @@ struct LedGroup;
 class LedGroups;
 
 struct BodyTrackerOptions {
-  double pixel_stddev = 0.5;  ///< Noise per coordinate of a spot [px, > 0].
-  bool learnt_noise = true;   ///< Updates use the calibration's (geometry::pixelNoise).
+  double pixel_stddev = 0.5;     ///< Noise per coordinate of a spot [px, > 0].
+  bool learnt_noise = true;      ///< Updates use the calibration's (geometry::pixelNoise).
+  double stamp_stddev = 0.0005;  ///< Of images without one of their own [s, >= 0].
   PoseFilterOptions motion;
   InertialOptions inertial;  ///< Of bodies with an IMU.
 
@@ -115,9 +116,13 @@ class BodyTracker {
   void setBodies(const std::vector<Constellation>& constellations);
 
   /// Adds the spots of a camera's image.
-  /// @param time exposure [s]. @param pixels distorted, finite [px].
+  /// @param time exposure [s]. @param stamp_stddev of that time [s, >= 0].
+  /// @param pixels distorted, finite [px].
   /// @returns false, and does nothing, if the image is too old.
-  bool add(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
+  bool add(std::size_t camera,
+           double time,
+           double stamp_stddev,
+           const std::vector<Eigen::Vector2d>& pixels);
 
   /// Adds a sample of the IMU of a body, whose constellation has one. A late sample changes the
   /// estimates from the next image on.
@@ -173,6 +178,7 @@ class BodyTracker {
   struct Image {
     std::size_t camera;
     double time;
+    double stamp_stddev;
     std::vector<Eigen::Vector2d> pixels;
 
     bool operator<(const Image& other) const {
@@ -188,14 +194,15 @@ class BodyTracker {
   void useRig(const geometry::Rig& rig);
   std::uint64_t firstOutdated(std::uint64_t place);
   void step(std::uint64_t place);
-  void follow(std::size_t camera, double time, const std::vector<Eigen::Vector2d>& pixels);
+  void follow(const Image& image);
   void update(std::size_t index,
               const LedGroup& group,
               const Eigen::Vector2d& pixel,
               const geometry::Camera& camera,
               LastImage* image);
-  LedGroups groupsOf(std::size_t body, std::size_t camera) const;
-  void assign(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels);
+  SpotNoise noiseOf(const Image& image, double spots) const;
+  LedGroups groupsOf(std::size_t body, const Image& image, double spots) const;
+  void assign(const Image& image);
   void leaveToSearch(double time);
   bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);
@@ -203,14 +210,12 @@ class BodyTracker {
   bool isTracked(std::size_t body, double time) const;
   std::size_t countSpots(std::size_t body, double time) const;
   std::optional<std::size_t> neededSpots(std::size_t body, double time) const;
-  void find(std::size_t camera, const std::vector<Eigen::Vector2d>& pixels);
+  void find(const Image& image);
   const association::Association& locateSpots(double time);
   void listMatchedSpots(std::size_t body,
                         const Match& match,
                         const association::Association& found);
-  bool updateByMatch(std::size_t body,
-                     std::size_t camera,
-                     const std::vector<Eigen::Vector2d>& pixels);
+  bool updateByMatch(std::size_t body, const Image& image);
   bool start(std::size_t body, const Match& match, double time);
   void startAt(std::size_t body, const BodyPose& pose, double time, std::size_t spots);
   void estimate();

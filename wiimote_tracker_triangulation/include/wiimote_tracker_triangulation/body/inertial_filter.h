@@ -37,7 +37,7 @@ class InertialFilter {
   void predict(double time, const InertialSamples& samples);
 
   /// As PoseFilter::update.
-  void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel, double pixel_stddev);
+  void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel);
 
   const PoseState& state() const { return state_; }
 

@@ -52,7 +52,7 @@ class PoseFilter {
 
   /// Updates with the pixel of an LED's spot at time(). The prediction must stem from the present
   /// state: every update changes it.
-  void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel, double pixel_stddev);
+  void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel);
 
   /// Mean and covariance of the mixture of all modes.
   const PoseState& state() const { return mean_; }

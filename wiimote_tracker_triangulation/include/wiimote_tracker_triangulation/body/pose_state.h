@@ -42,16 +42,25 @@ struct PoseState {
 /// Predicted measurement of an LED of a body.
 struct LedPrediction {
   Eigen::Vector2d pixel;                 ///< [px]
+  Eigen::Matrix2d noise;                 ///< Covariance of a spot without that of the state [px^2].
   Eigen::Matrix2d covariance;            ///< Innovation covariance [px^2].
   Eigen::Matrix<double, 2, 6> jacobian;  ///< d pixel / d (position, rotation) [px/m, px/rad].
   double depth;                          ///< Along the optical axis [m].
+};
+
+/// Errors of the spots of a body in one image.
+struct SpotNoise {
+  double pixel_stddev = 0.5;  ///< Per coordinate [px, > 0].
+
+  /// Of the image's time; adds noise by the velocity of the LED [s, >= 0].
+  double stamp_stddev = 0.0;
 };
 
 /// Nothing when the LED is behind the camera. @param led in the body's frame [m]
 std::optional<LedPrediction> predictLed(const PoseState& state,
                                         const geometry::Camera& camera,
                                         const Eigen::Vector3d& led,
-                                        double pixel_stddev);
+                                        const SpotNoise& noise);
 
 }  // namespace wiimote_tracker::body
 

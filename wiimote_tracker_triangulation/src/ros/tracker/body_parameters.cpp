@@ -40,6 +40,7 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
   body::BodyTrackerOptions& o = p.options;
   o.pixel_stddev = tracks.pixel_stddev;
   o.learnt_noise = tracks.learnt_noise;
+  o.stamp_stddev = tracks.stamp_stddev;
   o.merging_distance = tracks.merging_distance;
   o.history = tracks.history;
   o.maximum_range = tracks.maximum_range;

@@ -206,6 +206,19 @@ void BodyTracker::assign(const Image& image) {
   }
 }
 
+/// Whether a spot of the same body, other than this one, fits only as that of several LEDs.
+bool BodyTracker::hasMerged(const LedGroups& groups, const Image& image, std::size_t spot) const {
+  std::array<bool, kMaximumLeds> all_have_spots;
+  all_have_spots.fill(true);
+  for (std::size_t s = 0; s < image.pixels.size(); ++s) {
+    const std::optional<SpotLed>& other = led_of_spot_[s];
+    if (s != spot && other && other->body == led_of_spot_[spot]->body &&
+        !groups.best(other->led, image.pixels[s], all_have_spots))
+      return true;
+  }
+  return false;
+}
+
 void BodyTracker::follow(const Image& image) {
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (state_.bodies[b])
@@ -236,8 +249,13 @@ void BodyTracker::follow(const Image& image) {
     }
     // Each update moves the body, and with it the predictions of the remaining spots.
     const LedGroups groups = groupsOf(spot.body, image, spots);
-    if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot))
+    if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot)) {
       update(spot.body, *group, pixels[s], cameras_[image.camera], &last);
+    } else if (!hasMerged(groups, image, s)) {
+      // Another light, or the pose is wrong: the search needs this spot.
+      spots_taken_[s] = false;
+      last.free.push_back(pixels[s]);
+    }
   }
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (state_.bodies[b] && isSeen(b, last))

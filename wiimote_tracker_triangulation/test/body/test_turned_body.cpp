@@ -64,6 +64,42 @@ TEST(ExtensiveTurnedBody, IsRareAfterABodyWasHidden) {
   EXPECT_LT(wrong, 0.05 * tracked);  // 0.014
 }
 
+/// Two cameras report four spots each: another LED beside the body hides one of its LEDs.
+TEST(TurnedBody, IsRareBesideAnotherLed) {
+  geometry::Rig rig = tracking::test::paperRig();
+  rig.cameras.resize(2);
+  tracking::test::SceneOptions options;
+  options.pixel_noise = 0.5;
+  options.integer_pixels = true;
+  int wrong = 0;
+  int images = 0;
+  for (unsigned seed = 1; seed < 61; ++seed) {
+    geometry::test::Random random(1000 + seed);
+    Eigen::Isometry3d turn = test::randomPose(random, Vector3d::Zero());
+    turn.translation().setZero();
+    const Motion motion = [seed, turn](double t) -> Eigen::Isometry3d {
+      return test::held(t + 3.7 * seed) * turn;
+    };
+    std::vector<tracking::test::Path> paths = test::pathsOf(test::fourLeds(), motion);
+    paths.emplace_back([motion](double t) -> Vector3d {
+      return motion(t).translation() + Vector3d(0.2 * std::sin(5.0 * t), 0.2, 0.1);
+    });
+    tracking::test::Scene scene(rig, paths, options, seed);
+    BodyTracker tracker(rig, {test::fourLeds()}, BodyTrackerOptions());
+    while (!(tracker.time() > 1005.0)) {
+      const tracking::test::SceneImage& image = scene.next();
+      tracker.add(image.camera, image.image.stamp, 0.0, test::pixelsOf(image));
+      if (!tracker.bodies()[0])
+        continue;
+      ++images;
+      const Eigen::Isometry3d truth = motion(tracker.time());
+      wrong += test::rotationError(truth, tracker.bodies()[0]->world_from_body).norm() > 0.35;
+    }
+  }
+  EXPECT_GT(images, 59000);
+  EXPECT_LT(wrong, 0.004 * images);  // 0.002
+}
+
 /// A new body is found with each seed, while another LED moves beside it.
 TEST(TurnedBody, IsFoundAgain) {
   constexpr double kBegin = 1000.5;  // [s]

@@ -203,6 +203,7 @@ class BodyTracker {
   SpotNoise noiseOf(const Image& image, double spots) const;
   LedGroups groupsOf(std::size_t body, const Image& image, double spots) const;
   void assign(const Image& image);
+  bool hasMerged(const LedGroups& groups, const Image& image, std::size_t spot) const;
   void leaveToSearch(double time);
   bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);

@@ -136,40 +136,6 @@ void runDays(int runs, const RowCallback& row) {
   }
 }
 
-/// Seconds of motion until a camera that was knocked is solved; its error then [px].
-void runKnocks(int runs, const RowCallback& row) {
-  for (const double degrees : {0.5, 1.0, 2.0, 3.0}) {
-    int found = 0;
-    int wrong = 0;
-    double sum = 0.0;
-    double longest = 0.0;
-    for (int run = 0; run < runs; ++run) {
-      square::Random random(static_cast<std::uint64_t>(run) + 5000);
-      const geometry::Rig rig = paperRigWith(wellCalibrated());
-      WavedLed led(drawTruth(rig, random), static_cast<std::uint64_t>(run) + 6000);
-      ContinuousCalibration watch(rig, {});
-      led.runUntil(20.0, [&](const capture::Image& image) { wrong += watch.add(image) ? 1 : 0; });
-      geometry::RigCamera& camera = led.truth[static_cast<std::size_t>(run) % 4];
-      camera = turned(camera, degrees * kOneDegree, random);
-      std::optional<Proposal> proposal;
-      led.runUntil(60.0, [&](const capture::Image& image) {
-        if (proposal || !(proposal = watch.add(image)))
-          return;
-        const double seconds = image.stamp - WavedLed::kClock - 20.0;
-        sum += seconds;
-        longest = std::max(longest, seconds);
-      });
-      found += proposal && proposal->camera == camera.camera.name ? 1 : 0;
-      wrong += proposal && proposal->camera != camera.camera.name ? 1 : 0;
-    }
-    row({"turned by " + std::to_string(degrees).substr(0, 3) + " degrees",
-         {{"found", found},
-          {"others", wrong},
-          {"mean_s", sum / std::max(1, found)},
-          {"longest_s", longest}}});
-  }
-}
-
 }  // namespace
 
 BenchmarkSection continuousSection() {
@@ -179,13 +145,6 @@ BenchmarkSection continuousSection() {
           "latter over that of a fresh calibration; poses in their 95 % region, NEES per "
           "parameter; changes per hour; how far points at rest moved by a step, the farthest",
           runDays};
-}
-
-BenchmarkSection knockSection() {
-  return {"knock",
-          "a camera that is turned while one LED moves: proposals for it and for others, time "
-          "until then",
-          runKnocks};
 }
 
 }  // namespace wiimote_tracker

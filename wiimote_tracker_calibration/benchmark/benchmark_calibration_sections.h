@@ -29,6 +29,7 @@ BenchmarkSection remapSection();
 BenchmarkSection roomsSection();
 BenchmarkSection continuousSection();
 BenchmarkSection knockSection();
+BenchmarkSection twoKnocksSection();
 BenchmarkSection misledSection();
 BenchmarkSection restSection();
 BenchmarkSection monthSection();

@@ -50,10 +50,10 @@ inline RigErrors calibratedByWave() {
   return errors;
 }
 
-/// The paper's cameras, known with these errors.
+/// The paper's cameras, or so many like them, known with these errors.
 inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras = 4) {
   geometry::Rig rig;
-  const std::vector<Eigen::Isometry3d> poses = square::paperRig();
+  const std::vector<Eigen::Isometry3d> poses = square::paperRig(cameras);
   for (std::size_t i = 0; i < cameras; ++i) {
     geometry::RigCamera camera;
     camera.camera.name = "camera_" + std::to_string(i + 1);

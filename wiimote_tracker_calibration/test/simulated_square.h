@@ -129,13 +129,13 @@ inline std::vector<Eigen::Isometry3d> posesAround(const SquareLayout& layout,
 }
 
 /// The rig of the paper's Fig. 1, z up: 2.5 m cube, cameras on its diagonals, 4.5 m from the edges,
-/// aimed a little below the centre so that every corner is in view.
-inline std::vector<Eigen::Isometry3d> paperRig() {
+/// aimed a little below the centre so that every corner is in view. A fifth and more stand between.
+inline std::vector<Eigen::Isometry3d> paperRig(std::size_t cameras = 4) {
   std::vector<Eigen::Isometry3d> poses;
   const Eigen::Vector3d center(1.25, 1.25, 1.0);
   const double distance = 4.5 + 1.25 * std::sqrt(2.0);
-  for (int i = 0; i < 4; ++i) {
-    const double angle = M_PI / 4.0 + i * M_PI / 2.0;
+  for (std::size_t i = 0; i < cameras; ++i) {
+    const double angle = (i < 4 ? M_PI / 4.0 : 0.0) + static_cast<double>(i) * M_PI / 2.0;
     const Eigen::Vector3d position(1.25 + distance * std::cos(angle),
                                    1.25 + distance * std::sin(angle), 2.0);
     poses.push_back(geometry::lookAt(position, center, Eigen::Vector3d::UnitZ()));

@@ -1,0 +1,31 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_KNOCK_TRIAL_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_KNOCK_TRIAL_H
+
+#include <cstddef>
+#include <cstdint>
+
+namespace wiimote_tracker {
+
+/// What happens to a well calibrated rig after 20 s of tracking.
+struct Knock {
+  double turn = 0.0;        ///< About any axis through a camera's centre [rad].
+  std::size_t knocked = 1;  ///< Cameras.
+  double pause = 0.0;       ///< From one of them to the next [s].
+  bool together = false;    ///< They stand on one shelf, which turns about the middle between them.
+  std::size_t cameras = 4;  ///< Of the rig.
+};
+
+struct KnockTrial {
+  bool found = false;    ///< All knocked cameras were solved.
+  bool others = false;   ///< Another camera was changed before.
+  double seconds = 0.0;  ///< From the last knock until all were found.
+  double error = 0.0;    ///< RMS error of the volume then, or at the end [m].
+};
+
+/// Applies every proposal but those of drift, as by the policy `knocked`, for a minute after the
+/// last knock, or until all are found.
+KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed);
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_KNOCK_TRIAL_H

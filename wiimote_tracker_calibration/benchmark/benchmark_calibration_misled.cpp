@@ -18,7 +18,8 @@ void runMisled(int runs, const RowCallback& row) {
                                                     {Misled::kOtherLed, "another LED"},
                                                     {Misled::kCarried, "another LED carried along"},
                                                     {Misled::kLamp, "a lamp"},
-                                                    {Misled::kMasked, "masked"}};
+                                                    {Misled::kMasked, "masked"},
+                                                    {Misled::kTwoLights, "two other lights"}};
   for (const auto& [by, name] : kCauses) {
     int changes = 0;
     int worse = 0;

@@ -9,8 +9,8 @@
 
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 namespace wiimote_tracker {
@@ -64,9 +64,15 @@ std::optional<Light> lightOf(Misled by, square::Random& random) {
       light.offset = anyPlace(random);
       return light;
     case Misled::kMasked:
+    case Misled::kTwoLights:
       break;
   }
   return std::nullopt;
+}
+
+Misled anyLight(square::Random& random) {
+  const Misled kLights[] = {Misled::kMirror, Misled::kOtherLed, Misled::kCarried, Misled::kLamp};
+  return kLights[static_cast<std::size_t>(square::uniform(random, 0.0, 3.999))];
 }
 
 }  // namespace
@@ -76,11 +82,15 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
   geometry::Rig rig = paperRigWith(wellCalibrated());
   rig.solved_at = WavedLed::kClock;
   WavedLed led(drawTruth(rig, random), seed + 1, kImageRate);
-  const std::optional<Light> light = lightOf(by, random);
+  const bool two_lights = by == Misled::kTwoLights;
+  const auto light = lightOf(two_lights ? anyLight(random) : by, random);
+  const auto other_light = two_lights ? lightOf(anyLight(random), random) : light;
   const auto any = static_cast<std::size_t>(square::uniform(random, 0.0, 3.999));
-  std::set<std::string> misled = {led.truth[any].camera.name};
-  if (square::uniform(random, 0.0, 1.0) < 0.3)
-    misled.insert(led.truth[(any + 1) % 4].camera.name);
+  const std::size_t next = two_lights ? (any + 1 + seed % 3) % 4 : (any + 1) % 4;
+  // What each misled camera sees.
+  std::map<std::string, std::optional<Light>> misled = {{led.truth[any].camera.name, light}};
+  if (two_lights || square::uniform(random, 0.0, 1.0) < 0.3)
+    misled.emplace(led.truth[next].camera.name, other_light);
   const bool always = square::uniform(random, 0.0, 1.0) < 0.5;
   const double share = always ? 1.0 : square::uniform(random, 0.2, 1.0);
 
@@ -92,9 +102,11 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
     const geometry::RigCamera& camera =
         led.truth[static_cast<std::size_t>(rig.find(image.camera) - rig.cameras.data())];
     const double time = image.stamp - WavedLed::kClock + camera.time_offset;
-    if (misled.count(image.camera) > 0 && std::fmod(time, kMisledPeriod) < share * kMisledPeriod) {
+    const auto seen = misled.find(image.camera);
+    if (seen != misled.end() && std::fmod(time, kMisledPeriod) < share * kMisledPeriod) {
       image.spots.clear();
-      const auto pixel = light ? camera.camera.project(light->at(led.path, time)) : std::nullopt;
+      const auto pixel =
+          seen->second ? camera.camera.project(seen->second->at(led.path, time)) : std::nullopt;
       if (pixel)
         image.spots.emplace_back(pixel->array().round());
     }

@@ -11,7 +11,8 @@ enum class Misled {
   kOtherLed,  ///< Another one on its own way.
   kCarried,   ///< Another one carried along, 0.25 to 0.6 m away.
   kLamp,
-  kMasked,  ///< Nothing.
+  kMasked,     ///< Nothing.
+  kTwoLights,  ///< Two cameras: each one of the lights above, but not the same.
 };
 
 struct MisledTrial {

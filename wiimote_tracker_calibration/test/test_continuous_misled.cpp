@@ -63,8 +63,8 @@ TEST(ExtensiveContinuous, IsNotMisledByAnotherLight) {
 }
 
 TEST(ExtensiveContinuous, OtherLightsNeverMakeTheRigAMillimetreWorse) {
-  for (const Misled by :
-       {Misled::kMirror, Misled::kOtherLed, Misled::kCarried, Misled::kLamp, Misled::kMasked}) {
+  for (const Misled by : {Misled::kMirror, Misled::kOtherLed, Misled::kCarried, Misled::kLamp,
+                          Misled::kMasked, Misled::kTwoLights}) {
     for (std::uint64_t seed = 1; seed <= 2; ++seed)
       EXPECT_LT(runMisledTrial(by, seed).worse, 0.001) << static_cast<int>(by) << ' ' << seed;
   }

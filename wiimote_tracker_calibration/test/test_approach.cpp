@@ -119,7 +119,7 @@ TEST(Approach, OnlyAKnockedCameraIsChangedAtOnce) {
   const geometry::Rig before = *approach.step(start, 1000.0);
   geometry::Rig other = goal;
   other.cameras[1] = turned(other.cameras[1], 0.03, random);
-  geometry::Rig rig = approach.changeGoal(other, other.cameras[1].camera.name, before);
+  geometry::Rig rig = approach.changeGoal(other, {other.cameras[1].camera.name}, before);
   const auto pose = [](const geometry::Rig& of, std::size_t camera) {
     return of.cameras[camera].camera.world_from_camera.matrix();
   };

@@ -69,7 +69,7 @@ TEST(Continuous, BringsBackAKnockedCamera) {
     const auto proposal = proposalUntil(40.0, &led, &watch);
     ASSERT_TRUE(proposal) << index;
     EXPECT_EQ(proposal->cause, Cause::kKnock);
-    EXPECT_EQ(proposal->camera, truth.name);
+    EXPECT_EQ(proposal->cameras, std::vector<std::string>{truth.name});
     EXPECT_SAYS(proposal->message, truth.name + " was turned by");
     EXPECT_EQ(proposal->rig.verdict, "good; since then " + proposal->message);
     EXPECT_LT(pixelDistance(proposal->rig.cameras[index].camera, truth), 1.0);
@@ -105,7 +105,7 @@ TEST(Continuous, FindsTheClockAndAKnockAfterAReconnect) {
   run(25.0);
   ASSERT_TRUE(proposal);
   EXPECT_EQ(proposal->cause, Cause::kReconnect);
-  EXPECT_EQ(proposal->camera, led.truth[1].camera.name);
+  EXPECT_EQ(proposal->cameras, std::vector<std::string>{led.truth[1].camera.name});
   const geometry::RigCamera& found = proposal->rig.cameras[1];
   EXPECT_EQ(found.time_offset_epoch, 8U);
   EXPECT_NEAR(found.time_offset, led.truth[1].time_offset, 0.0005);
@@ -125,7 +125,7 @@ TEST(Continuous, FindsSlowDrift) {
   EXPECT_EQ(proposal->cause, Cause::kDrift);
   EXPECT_GT(proposal->gain, kWorthAsking);
   EXPECT_SAYS(proposal->message, "drift, or errors of the calibration");
-  EXPECT_EQ(proposal->camera, truth.name);
+  EXPECT_EQ(proposal->cameras, std::vector<std::string>{truth.name});
   EXPECT_LT(pixelDistance(proposal->rig.cameras[2].camera, truth),
             0.5 * pixelDistance(rig.cameras[2].camera, truth));
 }

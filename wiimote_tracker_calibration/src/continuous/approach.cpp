@@ -95,13 +95,13 @@ std::optional<geometry::Rig> Approach::step(const geometry::Rig& in_use, double 
 }
 
 geometry::Rig Approach::changeGoal(const geometry::Rig& goal,
-                                   const std::string& knocked,
+                                   const std::vector<std::string>& knocked,
                                    const geometry::Rig& in_use) {
   goal_ = goal;
   is_reached_ = false;
   geometry::Rig from = in_use;
   for (std::size_t i = 0; i < goal.cameras.size(); ++i) {
-    if (goal.cameras[i].camera.name == knocked)
+    if (std::count(knocked.begin(), knocked.end(), goal.cameras[i].camera.name) > 0)
       from.cameras[i].camera = goal.cameras[i].camera;
   }
   return between(from, goal, 0.0);

@@ -38,11 +38,11 @@ class Approach {
   /// @returns the next rig: one at once, then one each period; the goal is the last.
   std::optional<geometry::Rig> step(const geometry::Rig& in_use, double stamp);
 
-  /// Goes on to another rig, of which one camera is used at once: it was knocked, and the others
+  /// Goes on to another rig, of which the cameras that were knocked are used at once: the others
   /// hold the world.
   /// @returns the next rig.
   geometry::Rig changeGoal(const geometry::Rig& goal,
-                           const std::string& knocked,
+                           const std::vector<std::string>& knocked,
                            const geometry::Rig& in_use);
 
   const geometry::Rig& goal() const { return goal_; }

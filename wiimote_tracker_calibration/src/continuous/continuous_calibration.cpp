@@ -1,15 +1,15 @@
 #include "continuous/continuous_calibration.h"
 
 #include "continuous/adjust_rig.h"
+#include "continuous/drifts.h"
+#include "continuous/knocked_cameras.h"
 
 #include <wiimote_tracker_msgs/text.h>
-#include <wiimote_tracker_triangulation/geometry/error.h>
 
 #include <Eigen/Geometry>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -19,31 +19,6 @@ namespace {
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
 // Drift is proposed if it explains as much of the images' misfit, root mean square [px].
 constexpr double kGain = 0.1;
-// A camera that seems farther from where it was is left alone: it was put elsewhere, or it sees a
-// light that moves with the LED [m].
-constexpr double kFarthest = 0.2;
-
-using Drifts = std::vector<std::optional<health::Drift>>;
-
-/// How far each camera of the rig is off in these images, by the health watch's default limit.
-Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
-  health::DriftOptions options;
-  options.window = images.back().stamp - images.front().stamp;
-  health::DriftWatch watch(rig, options);
-  for (const capture::Image& image : images)
-    watch.add(image);
-  watch.judge();
-  return watch.drifts();
-}
-
-/// Whether at least three cameras were judged, and none contradicts the others.
-bool allFit(const Drifts& drifts) {
-  const auto judged = std::count_if(drifts.begin(), drifts.end(),
-                                    [](const auto& drift) { return drift.has_value(); });
-  return judged >= 3 && std::none_of(drifts.begin(), drifts.end(), [](const auto& drift) {
-           return drift && drift->ratio >= 1.0;
-         });
-}
 
 /// Whether a camera has no time offset: it was solved from a square only.
 bool lacksClock(const geometry::Rig& rig) {
@@ -59,12 +34,12 @@ std::string verdictWith(const std::string& verdict, const std::string& change) {
 }
 
 Proposal proposalOf(Cause cause,
-                    const std::string& camera,
+                    const std::vector<std::string>& cameras,
                     const geometry::Rig& before,
                     const geometry::Rig& rig,
                     const std::string& message,
                     const std::vector<capture::Image>& checked) {
-  Proposal proposal{cause, camera, rig, 0.0, message, {}};
+  Proposal proposal{cause, cameras, rig, 0.0, message, {}};
   proposal.rig.solved_at = checked.back().stamp;
   proposal.rig.verdict = verdictWith(before.verdict, message);
   return proposal;
@@ -145,13 +120,15 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
   if (!calibrated.empty() && !image.identity.empty() && image.identity != calibrated)
     return std::nullopt;
   const auto suspect = knock_.add(image);
+  if (!knock_.severalAreSuspect())
+    contradiction_.clear();
   const bool has_moved = motion_.add(image);
   std::optional<Proposal> proposal;
   // A camera that only reconnected keeps its place.
   if (suspect && suspect->new_clock)
     proposal = adjustedTogether(suspect->images);
   if (suspect && !proposal)
-    proposal = solvedAlone(*suspect);
+    proposal = solvedAgainstOthers(*suspect);
   if (has_moved && !proposal) {
     proposal = adjustedTogether(motion_.images());
     has_drifted_ = proposal.has_value();
@@ -164,41 +141,27 @@ void ContinuousCalibration::addAcceleration(const std::string& camera,
   knock_.addAcceleration(camera, specific_force);
 }
 
-std::optional<Proposal> ContinuousCalibration::solvedAlone(const Evidence& evidence) const {
-  const std::vector<capture::Image>& check = evidence.images.to_check;
-  const std::size_t index = evidence.camera;
-  recalibrate::Request request;
-  request.camera = rig_.cameras[index].camera.name;
-  request.images = evidence.images.to_solve;
-  request.gravity = evidence.gravity;
-  recalibrate::Recalibration result;
-  try {
-    result = recalibrate::recalibrateCamera(rig_, request, options_.recalibrate);
-  } catch (const geometry::Error&) {
-    return std::nullopt;  // More motion is needed, or what the camera sees is another light.
+std::optional<Proposal> ContinuousCalibration::solvedAgainstOthers(const Evidence& evidence) {
+  Cameras knocked;
+  if (evidence.camera) {
+    knocked = {*evidence.camera};
+  } else {
+    const std::vector<Cameras> pairs = pairsToSolve(rig_, evidence);
+    const std::string contradiction = contradictionOf(rig_, pairs);
+    if (!contradiction.empty())
+      contradiction_ = contradiction;
+    if (pairs.size() != 1)
+      return std::nullopt;
+    knocked = pairs.front();
   }
-  if (result.moved > kFarthest)
+  const auto solved = solveAgainstOthers(rig_, knocked, evidence, options_.recalibrate);
+  if (!solved)
     return std::nullopt;
-  const Drifts before = driftsOf(rig_, check);
-  const Drifts after = driftsOf(result.rig, check);
-  const bool was_off = evidence.new_clock || (before[index] && before[index]->ratio >= 1.0);
-  if (!was_off || !after[index] || !allFit(after))
-    return std::nullopt;
-  // The same pose; its covariance includes the drift of the others, which the checks do not grant.
-  recalibrate::Options unchecked = options_.recalibrate;
-  unchecked.maximum_offset_stddev = std::numeric_limits<double>::infinity();
-  result = recalibrate::recalibrateCamera(withDrift(rig_, check.back().stamp), request, unchecked);
-  const std::string message =
-      request.camera + (evidence.new_clock ? " reconnected with another clock and" : "") +
-      format(
-          " was turned by %.2f degrees and moved by %.1f mm (+- %.2f degrees, %.1f mm): with "
-          "its new pose its images are %.2f px off what the other cameras see",
-          result.turned * kDegrees, 1000.0 * result.moved, result.rotation_stddev * kDegrees,
-          1000.0 * result.position_stddev, after[index]->bias.norm()) +
-      (before[index] && !evidence.new_clock ? format(", before %.2f px", before[index]->bias.norm())
-                                            : "");
-  return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, request.camera, rig_,
-                    result.rig, message, check);
+  std::vector<std::string> names;
+  for (const std::size_t camera : knocked)
+    names.push_back(rig_.cameras[camera].camera.name);
+  return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, names, rig_,
+                    solved->rig, solved->message, evidence.images.to_check);
 }
 
 std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImages& images) const {
@@ -235,7 +198,7 @@ std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImag
                               format(". Corrected, the images agree to %.2f px", after->misfit) +
                               (reconnected ? "" : format(" (now %.2f px)", before->misfit));
   Proposal proposal =
-      proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, rig_.cameras[most].camera.name,
+      proposalOf(reconnected ? Cause::kReconnect : Cause::kDrift, {rig_.cameras[most].camera.name},
                  rig_, *rig, message, images.to_check);
   proposal.places = after->places;
   if (proposal.cause == Cause::kDrift)

@@ -17,9 +17,11 @@
 namespace wiimote_tracker::continuous {
 
 struct Options {
-  // {{limit [px], window [s]}, {samples to solve, samples to check}}; 20 samples a second.
-  SuspectOptions knock = {{3.0, 6.0}, {140, 60}};  ///< Noticed in 6 s; 7 s solve it, 3 s check it.
-  MotionOptions drift = {600, 200};                ///< 30 s and 10 s.
+  // {{limit [px], window [s]}, {samples to solve, samples to check}}; 20 samples a second. Noticed
+  // in 6 s; 7 s solve it, 3 s check it. Of several, four cameras see a sample, and up to 28 s solve
+  // them: two cameras that face each other locate few points.
+  SuspectOptions knock = {{3.0, 6.0}, {140, 60}, {140, 60, 560, 4}};
+  MotionOptions drift = {600, 200};  ///< 30 s and 10 s.
   recalibrate::Options recalibrate;
 };
 
@@ -32,19 +34,20 @@ enum class Cause { kKnock, kReconnect, kDrift };
 /// A rig that explains what was seen better than the one in use.
 struct Proposal {
   Cause cause;
-  std::string camera;   ///< That has changed most.
+  /// That were knocked; of drift that which has changed most.
+  std::vector<std::string> cameras;
   geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
   double gain;          ///< Of drift: misfit of the images that it explains, RMS [px]; else 0.
   std::string message;  ///< One sentence: what has changed, and how well the images fit then.
-  /// Where the LED was, world [m]: places that should not jump. Empty if one camera was knocked,
+  /// Where the LED was, world [m]: places that should not jump. Empty if cameras were knocked,
   /// since the others hold the world.
   std::vector<Eigen::Vector3d> places;
 };
 
-/// Corrects a rig from ordinary tracking of one LED. A camera that no longer fits the others is
-/// solved against them; when all fit nearly, they are adjusted together. A deterministic function
-/// of the images and readings. A change must also explain later images than those it was solved
-/// from.
+/// Corrects a rig from ordinary tracking of one LED. One or two cameras that no longer
+/// fit the others are solved against them; when all fit nearly, they are adjusted together. A
+/// deterministic function of the images and readings. A change must also explain later images than
+/// those it was solved from.
 class ContinuousCalibration {
  public:
   ContinuousCalibration(const geometry::Rig& rig, const Options& options);
@@ -55,19 +58,23 @@ class ContinuousCalibration {
 
   /// Whether the latest images still speak for a proposal.
   bool isCurrent(const Proposal& proposal) const {
-    return knock_.isSuspect(proposal.camera) || (proposal.cause != Cause::kKnock && has_drifted_);
+    return knock_.areSuspect(proposal.cameras) || (proposal.cause != Cause::kKnock && has_drifted_);
   }
 
   /// Names of the cameras whose time offset is unknown, since they reconnected. While there are
   /// several, no knock is found.
   std::vector<std::string> newClocks() const { return knock_.newClocks(); }
 
+  /// Which cameras contradict each other, and what to do, if nothing tells which of them were
+  /// moved; else empty.
+  const std::string& contradiction() const { return contradiction_; }
+
   /// A reading of a camera's accelerometer, optical frame [m/s^2].
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force);
 
  private:
-  /// One camera solved against the others.
-  std::optional<Proposal> solvedAlone(const Evidence& evidence) const;
+  /// One or two cameras solved against the others.
+  std::optional<Proposal> solvedAgainstOthers(const Evidence& evidence);
   /// All cameras adjusted together.
   std::optional<Proposal> adjustedTogether(const MotionImages& images) const;
 
@@ -75,6 +82,7 @@ class ContinuousCalibration {
   Options options_;
   SuspectWatch knock_;
   MotionWindow motion_;
+  std::string contradiction_;
   bool has_drifted_ = false;  // The latest adjustment was proposed.
 };
 

@@ -9,7 +9,6 @@ namespace {
 
 using capture::kSamplePeriod;
 
-constexpr std::size_t kLeastCameras = 3;
 constexpr double kLeastMotion = 2.0;  // Rounding alone does not move a spot as far [px].
 // Images are kept as long as the last sample is not older than this [s].
 constexpr double kLongestPause = 1.0;
@@ -27,7 +26,8 @@ bool MotionWindow::add(const capture::Image& image, const std::string& needed) {
   if (samples_.empty() || image.stamp - samples_.back() > kLongestPause)
     return false;
   images_.push_back(image);
-  while (samples_.size() > options_.to_solve + options_.to_check ||
+  const std::size_t most_to_solve = std::max(options_.to_solve, options_.most_to_solve);
+  while (samples_.size() > most_to_solve + options_.to_check ||
          samples_.front() < image.stamp - kLongestSpan)
     samples_.pop_front();
   while (images_.front().stamp < samples_.front() - kSamplePeriod)
@@ -53,7 +53,7 @@ void MotionWindow::count(const capture::Image& image, const std::string& needed)
   moved_.insert(image.camera);
   // One sample for each period: later cameras of it add nothing.
   const bool complete =
-      moved_.size() >= kLeastCameras && (needed.empty() || moved_.count(needed) > 0);
+      moved_.size() >= options_.cameras && (needed.empty() || moved_.count(needed) > 0);
   if (!complete || (!samples_.empty() && std::floor(samples_.back() / kSamplePeriod) == period))
     return;
   const double last_sample = samples_.empty() ? image.stamp : samples_.back();
@@ -69,7 +69,7 @@ void MotionWindow::count(const capture::Image& image, const std::string& needed)
 
 MotionImages MotionWindow::images() const {
   MotionImages images;
-  const double split = samples_[options_.to_solve];
+  const double split = samples_[samples_.size() - options_.to_check];
   for (const capture::Image& image : images_)
     (image.stamp < split ? images.to_solve : images.to_check).push_back(image);
   return images;

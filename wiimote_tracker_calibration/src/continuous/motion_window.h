@@ -14,13 +14,16 @@
 
 namespace wiimote_tracker::continuous {
 
-/// How much motion a solution takes. It is counted in samples, at most 20 a second, in which three
-/// cameras see one spot that has moved.
+/// How much motion a solution takes. It is counted in samples, at most 20 a second, in which
+/// several cameras see one spot that has moved.
 struct MotionOptions {
   std::size_t to_solve = 0;  ///< Samples [> 0].
   /// Later samples, which the solution does not use [>= 40: fewer are not judged, see medianDrift()
   /// in health/drift_residuals.h].
   std::size_t to_check = 0;
+  std::size_t most_to_solve =
+      0;                    ///< As the motion goes on; less than to_solve: not more than that.
+  std::size_t cameras = 3;  ///< Of a sample [>= 1].
 };
 
 /// Images of all cameras while an LED moved.

@@ -4,10 +4,12 @@ namespace wiimote_tracker::continuous {
 
 SuspectWatch::SuspectWatch(const geometry::Rig& rig, const SuspectOptions& options)
     : rig_(rig),
+      options_(options),
       watch_(rig, options.drift),
       alarms_(rig.cameras.size()),
       new_clocks_(rig.cameras.size(), false),
-      motion_(options.motion) {}
+      motion_(options.motion),
+      gravity_(rig.cameras.size()) {}
 
 std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
   const geometry::RigCamera* const camera = rig_.find(image.camera);
@@ -17,9 +19,27 @@ std::optional<Evidence> SuspectWatch::add(const capture::Image& image) {
       camera->hasNewClock(image.clock_epoch);
   if (watch_.add(image))
     judge();
-  if (!suspect_ || !motion_.add(image, rig_.cameras[*suspect_].camera.name))
+  if (suspects_.empty())
     return std::nullopt;
-  return Evidence{*suspect_, new_clocks_[*suspect_], motion_.images(), gravity_.mean()};
+  const bool alone = suspects_.size() == 1;
+  const std::string needed = alone ? rig_.cameras[suspects_.front()].camera.name : "";
+  if (!motion_.add(image, needed))
+    return std::nullopt;
+  Evidence evidence;
+  evidence.images = motion_.images();
+  for (const capture::RestGravity& gravity : gravity_)
+    evidence.gravity.push_back(gravity.mean());
+  if (alone) {
+    evidence.camera = suspects_.front();
+    evidence.new_clock = new_clocks_[suspects_.front()];
+  }
+  return evidence;
+}
+
+bool SuspectWatch::areSuspect(const std::vector<std::string>& cameras) const {
+  if (cameras.size() > 1)
+    return severalAreSuspect();
+  return suspects_.size() == 1 && rig_.cameras[suspects_.front()].camera.name == cameras.front();
 }
 
 std::vector<std::string> SuspectWatch::newClocks() const {
@@ -33,8 +53,9 @@ std::vector<std::string> SuspectWatch::newClocks() const {
 
 void SuspectWatch::addAcceleration(const std::string& camera,
                                    const Eigen::Vector3d& specific_force) {
-  if (isSuspect(camera))
-    gravity_.add(specific_force);
+  const geometry::RigCamera* const found = rig_.find(camera);
+  if (found != nullptr && !suspects_.empty())
+    gravity_[static_cast<std::size_t>(found - rig_.cameras.data())].add(specific_force);
 }
 
 void SuspectWatch::judge() {
@@ -43,15 +64,17 @@ void SuspectWatch::judge() {
     if (const auto& drift = watch_.drifts()[i])
       alarms_[i].judge(drift->or_camera.empty() ? drift->ratio : 0.0);
   }
-  const auto suspect = onlySuspect();
-  if (suspect == suspect_)
+  const std::vector<std::size_t> suspects = this->suspects();
+  // Which of several seem to be off may change with the LED's place.
+  const bool same = suspects == suspects_ || (suspects.size() > 1 && suspects_.size() > 1);
+  suspects_ = suspects;
+  if (same)
     return;
-  suspect_ = suspect;
-  motion_.clear();
-  gravity_ = capture::RestGravity();
+  motion_ = MotionWindow(suspects.size() > 1 ? options_.motion_of_several : options_.motion);
+  gravity_.assign(gravity_.size(), {});
 }
 
-std::optional<std::size_t> SuspectWatch::onlySuspect() const {
+std::vector<std::size_t> SuspectWatch::suspects() const {
   std::vector<std::size_t> off;
   std::vector<std::size_t> reconnected;
   for (std::size_t i = 0; i < alarms_.size(); ++i) {
@@ -60,8 +83,9 @@ std::optional<std::size_t> SuspectWatch::onlySuspect() const {
     if (new_clocks_[i])
       reconnected.push_back(i);
   }
-  const std::vector<std::size_t>& suspects = reconnected.empty() ? off : reconnected;
-  return suspects.size() == 1 ? std::optional(suspects.front()) : std::nullopt;
+  if (!reconnected.empty())
+    return reconnected.size() == 1 ? reconnected : std::vector<std::size_t>();
+  return off;
 }
 
 }  // namespace wiimote_tracker::continuous

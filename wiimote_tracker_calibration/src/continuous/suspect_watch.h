@@ -18,35 +18,36 @@
 
 namespace wiimote_tracker::continuous {
 
-/// When a camera is off, and how much motion that it and two others see it takes to solve it.
+/// When a camera is off, and how much motion it takes to solve it.
 struct SuspectOptions {
   health::DriftOptions drift;
-  MotionOptions motion;
+  MotionOptions motion;             ///< That a single suspect and two others see.
+  MotionOptions motion_of_several;  ///< While several are off.
 };
 
-/// What was seen since a camera is off.
+/// What was seen since cameras are off.
 struct Evidence {
-  std::size_t camera = 0;  ///< As the rig counts them.
-  bool new_clock = false;  ///< Its time offset is unknown since it reconnected.
+  std::optional<std::size_t> camera;  ///< As the rig counts them; nothing: several are off.
+  bool new_clock = false;             ///< Its time offset is unknown since it reconnected.
   MotionImages images;
-  std::optional<Eigen::Vector3d> gravity;  ///< Of the camera at rest, optical frame [m/s^2].
+  /// Of each camera of the rig at rest, optical frame [m/s^2].
+  std::vector<std::optional<Eigen::Vector3d>> gravity;
 };
 
-/// Waits for a single camera to contradict all others, which agree, or to reconnect with a new
-/// clock; then collects images of motion. Nothing is collected while several cameras are off, while
-/// nothing moves, or with two cameras.
+/// Waits for cameras to contradict the others, or for one to reconnect with a new clock; then
+/// collects images of motion. Nothing is collected while nothing moves, or with two cameras.
 class SuspectWatch {
  public:
   SuspectWatch(const geometry::Rig& rig, const SuspectOptions& options);
 
   /// One image of any camera; of one camera in the order of their stamps.
-  /// @returns evidence, once there is enough, and again after more motion while the camera is off.
+  /// @returns evidence, once there is enough, and again after more motion while cameras are off.
   std::optional<Evidence> add(const capture::Image& image);
 
-  /// Whether this camera alone is off or has a new clock.
-  bool isSuspect(const std::string& camera) const {
-    return suspect_ && rig_.cameras[*suspect_].camera.name == camera;
-  }
+  bool severalAreSuspect() const { return suspects_.size() > 1; }
+
+  /// Whether this camera alone is off or has a new clock; of two or more: whether several are off.
+  bool areSuspect(const std::vector<std::string>& cameras) const;
 
   /// Names of the cameras whose time offset is unknown, since they reconnected.
   std::vector<std::string> newClocks() const;
@@ -56,17 +57,18 @@ class SuspectWatch {
 
  private:
   void judge();
-  /// The one camera with a new clock; without such cameras the one that contradicts the others.
-  std::optional<std::size_t> onlySuspect() const;
+  /// The one camera with a new clock; without such cameras those that contradict the others.
+  std::vector<std::size_t> suspects() const;
 
   geometry::Rig rig_;
+  SuspectOptions options_;
   health::DriftWatch watch_;
   std::vector<health::Alarm> alarms_;  // Per camera of the rig.
   std::vector<bool> new_clocks_;       // Per camera of the rig: the offset is for another epoch.
-  std::optional<std::size_t> suspect_;
-  // Since there is a suspect:
+  std::vector<std::size_t> suspects_;
+  // Since there are suspects:
   MotionWindow motion_;
-  capture::RestGravity gravity_;
+  std::vector<capture::RestGravity> gravity_;  // Per camera of the rig.
 };
 
 }  // namespace wiimote_tracker::continuous

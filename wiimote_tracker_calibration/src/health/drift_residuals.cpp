@@ -167,6 +167,7 @@ std::optional<Drift> medianDrift(const std::vector<Residual>& residuals,
     const double deviation = medianOfEach([&](double value) { return std::abs(value - median); });
     const double scatter = std::max(kLeastScatter, kStddevOverDeviation * deviation);
     drift.bias[axis] = median;
+    drift.scatter = std::hypot(drift.scatter, scatter);
     expected(axis, axis) = kMedianOverMean * kMedianOverMean * scatter * scatter /
                            static_cast<double>(residuals.size());
   }

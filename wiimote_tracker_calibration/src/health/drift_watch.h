@@ -36,6 +36,8 @@ struct Drift {
   /// Median residual (predicted less observed); with one other camera only, its size across the
   /// epipolar line, in x [px].
   Eigen::Vector2d bias = Eigen::Vector2d::Zero();
+  /// Of the residuals around the bias, standard deviation, root of trace [px].
+  double scatter = 0.0;
   double stddev = 0.0;    ///< Of the bias, from noise and from the calibration: root of trace [px].
   double ratio = 0.0;     ///< Of the bias to the tolerance; 1 or more: drifted [1].
   std::string or_camera;  ///< The other camera, if one of both drifted and it is unknown which.

@@ -26,6 +26,10 @@ struct Tilt {
   double ratio = 0.0;   ///< Angle over the tolerance: the larger of the limit and three stddev [1].
 };
 
+/// @param before, now specific force at rest, at calibration and lately, optical frame [m/s^2, not
+/// zero].
+Tilt tiltOf(const Eigen::Vector3d& before, const Eigen::Vector3d& now, const TiltOptions& options);
+
 /// Compares a camera's accelerometer at rest with its readings at calibration.
 class TiltWatch {
  public:

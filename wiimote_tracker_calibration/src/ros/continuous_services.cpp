@@ -86,6 +86,7 @@ class ContinuousServices {
     new_clocks_ = continuous_->newClocks();
     if (proposal_ && !continuous_->isCurrent(*proposal_))
       forgetProposal(lock);
+    sayContradiction();
     // Meanwhile the rig may have been replaced, or what was proposed before applied.
     if (!proposal || idInUse(lock) != in_use_ || idToWatch() != watched_ || !isCalibrated(lock))
       return;
@@ -95,15 +96,24 @@ class ContinuousServices {
         forgetProposal(lock);
       return;
     }
-    const bool is_news = !proposal_ || proposal_->camera != proposal->camera;
+    const bool is_news = !proposal_ || proposal_->cameras != proposal->cameras;
     proposal_ = proposal;
-    context_.status(lock).setProposal(proposal->camera, proposal->message + kApply);
+    context_.status(lock).setProposal(proposal->cameras.front(), proposal->message + kApply);
     if (applies) {
       const Reply applied = applyProposal(&lock);
       ROS_WARN_STREAM(applied.message);
     } else if (is_news) {
       ROS_WARN_STREAM(proposal->message + kApply);
     }
+  }
+
+  /// Once for each.
+  void sayContradiction() {
+    if (continuous_->contradiction() == contradiction_)
+      return;
+    contradiction_ = continuous_->contradiction();
+    if (!contradiction_.empty())
+      ROS_WARN_STREAM(contradiction_);
   }
 
   bool appliesItself(Cause cause) const {
@@ -216,14 +226,14 @@ class ContinuousServices {
                       (at_once ? "" : " once it is reached")};
   }
 
-  /// A rig with one camera that was knocked. Of a rig that is approached only that camera is used.
+  /// A rig with cameras that were knocked. Of a rig that is approached only those are used.
   void useAtOnce(const geometry::Rig& rig,
                  const geometry::Rig& before,
                  const continuous::Proposal& proposal,
                  const Lock& lock) {
     const geometry::Rig used =
         approach_
-            ? continuous::appliedRig(approach_->changeGoal(rig, proposal.camera, before), before)
+            ? continuous::appliedRig(approach_->changeGoal(rig, proposal.cameras, before), before)
             : rig;
     in_use_ = changes_.back().id = idWithoutMasks(used);
     context_.setRig(used, proposal.message, lock);
@@ -277,6 +287,7 @@ class ContinuousServices {
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
   std::vector<std::string> new_clocks_;                          // Of the rig that is watched.
   std::optional<continuous::Proposal> proposal_;                 // The same.
+  std::string contradiction_;                                    // That was logged.
   std::vector<Change> changes_;
   std::string reverted_to_;  // idWithoutMasks() of a rig that is not changed without being asked.
   std::vector<ros::ServiceServer> services_;

@@ -54,6 +54,11 @@ class KeptRig {
       use(continuous::appliedRig(proposal->rig, *rig_));
       ++changes_;
     }
+    if (continuous_->contradiction() == contradiction_)
+      return;
+    contradiction_ = continuous_->contradiction();
+    if (!contradiction_.empty())
+      std::printf("%.3f: %s\n", image.stamp, contradiction_.c_str());
   }
 
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force) {
@@ -69,6 +74,7 @@ class KeptRig {
   std::optional<geometry::Rig> rig_;
   capture::Masks masks_;  // of the rig
   std::optional<continuous::ContinuousCalibration> continuous_;
+  std::string contradiction_;  // That was printed.
   std::size_t images_ = 0;
   std::size_t changes_ = 0;
 };

@@ -47,8 +47,10 @@ void BodyTracker::estimateLeds(std::size_t body, BodyEstimate* estimate) const {
     if (time_ - state_.images[c].time > options_.tracked_time)
       continue;
     for (const BodySpot& spot : state_.images[c].taken) {
+      if (spot.body != body)
+        continue;
       LedEstimate& led = estimate->leds[spot.led];
-      if (spot.body != body || state_.images[c].time > led.last_observed)
+      if (state_.images[c].time > led.last_observed)
         continue;
       led.cameras.push_back(c);
       if (state_.images[c].time == led.last_observed) {

@@ -23,6 +23,12 @@ bool haveSameTimes(const geometry::Rig& before, const geometry::Rig& now) {
   });
 }
 
+void lose(BodyEstimate* body) {
+  body->lost = true;
+  for (LedEstimate& led : body->leds)
+    led.cameras.clear();
+}
+
 bool haveSameCameras(const geometry::Rig& before, const geometry::Rig& now) {
   return std::equal(
       before.cameras.begin(), before.cameras.end(), now.cameras.begin(), now.cameras.end(),
@@ -44,23 +50,30 @@ void BodyFollower::setRig(const geometry::Rig& rig) {
   rig_ = rig;
 }
 
-void BodyFollower::setBodies(const std::vector<Constellation>& constellations) {
+BodySnapshot BodyFollower::setBodies(const std::vector<Constellation>& constellations) {
   for (const Constellation& constellation : constellations)
     constellation.check();
-  if (constellations == constellations_)
-    return;
+  BodySnapshot lost = snapshot_;
   std::vector<std::optional<BodyEstimate>> last(constellations.size());
   for (std::size_t b = 0; b < snapshot_.bodies.size(); ++b) {
+    std::optional<BodyEstimate>& body = lost.bodies[b];
     const auto same = std::find(constellations.begin(), constellations.end(), constellations_[b]);
     if (same != constellations.end())
-      last[static_cast<std::size_t>(same - constellations.begin())] = snapshot_.bodies[b];
+      last[static_cast<std::size_t>(same - constellations.begin())] = std::exchange(body, {});
+    else if (body && body->lost)
+      body.reset();
+    else if (body)
+      lose(&*body);
   }
+  if (constellations == constellations_)
+    return lost;
   if (tracker_ && !constellations.empty())
     tracker_->setBodies(constellations);
   else if (arrival_clocks_)
     useTracker(rig_, constellations);
   constellations_ = constellations;
   snapshot_.bodies = std::move(last);
+  return lost;
 }
 
 void BodyFollower::useTracker(const geometry::Rig& rig,
@@ -134,9 +147,7 @@ const BodySnapshot* BodyFollower::next() {
       body = bodies[b];
       continue;
     }
-    body->lost = true;
-    for (LedEstimate& led : body->leds)
-      led.cameras.clear();
+    lose(&*body);
   }
   return &snapshot_;
 }

@@ -36,8 +36,9 @@ class BodyFollower {
   void setRig(const geometry::Rig& rig);
 
   /// Sets the bodies to track. Those that were tracked before, with the same constellation, go on.
+  /// @returns the latest snapshot of the bodies before: those that do not go on, as lost.
   /// @throws Error (Constellation::check); the previous bodies then stay.
-  void setBodies(const std::vector<Constellation>& constellations);
+  BodySnapshot setBodies(const std::vector<Constellation>& constellations);
 
   const std::vector<Constellation>& constellations() const { return constellations_; }
 

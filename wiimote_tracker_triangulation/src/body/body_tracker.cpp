@@ -89,6 +89,9 @@ void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
   };
   carryOver(&state_);
   history_.changeStates(carryOver);
+  auto& images = history_.images();
+  for (std::uint64_t i = images.begin(); i < images.end(); ++i)
+    images.at(i).starts.clear();
   estimates_.assign(constellations_.size(), std::nullopt);
   estimate();
 }
@@ -116,7 +119,7 @@ bool BodyTracker::add(std::size_t camera,
   const auto place = history_.placeOf(image_);
   if (!place || time < time_ - options_.history)
     return false;
-  const auto& images = history_.images();
+  const auto& images = std::as_const(history_).images();
   std::uint64_t next = firstOutdated(*place);
   if (next < images.end())
     next = history_.rollBack(next, &state_);
@@ -157,6 +160,10 @@ void BodyTracker::step(std::uint64_t place) {
   follow(image);
   dropLost(image.time);
   find(image);
+  for (const LabelStart& start : image.starts) {
+    if (!state_.bodies[start.body])
+      startAt(start.body, start.pose, image.time, 0);
+  }
 }
 
 /// All spots of a body in an image share the error of its time: as if each had its own one, which

@@ -329,6 +329,28 @@ TEST(BodyTracker, LabelsResolveASymmetricBody) {
   EXPECT_EQ(tracker.bodies()[0]->covariance, covariance);
 }
 
+TEST(BodyTracker, AStartByLabelsSurvivesALateImage) {
+  const Constellation square{
+      "square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {"a", "b", "c", "d"}};
+  BodyTrackerOptions options;
+  options.minimum_margin = 0.0;
+  BodyTracker tracker(paperRig(), {square}, options);
+  Random random(43);
+  const Isometry3d pose = randomPose(random, {1.2, 1.3, 1.1});
+  showExactly(pose, square.leds, 0, 40, &tracker);
+  std::vector<LabelledPoint> points;
+  for (std::size_t led = 0; led < 3; ++led)
+    points.push_back(
+        {square.labels[led], pose * square.leds[led], 1e-6 * Eigen::Matrix3d::Identity()});
+  tracker.startFromLabels(points);
+  ASSERT_TRUE(tracker.bodies()[0]);
+  const double first_seen = tracker.bodies()[0]->first_seen;
+  tracker.add(0, tracker.time() - 0.005, 0.0, {});
+  ASSERT_TRUE(tracker.bodies()[0]) << "the newest image was computed again";
+  EXPECT_EQ(tracker.bodies()[0]->first_seen, first_seen);
+  EXPECT_LT(rotationError(pose, tracker.bodies()[0]->world_from_body).norm(), 0.01);
+}
+
 TEST(BodyTracker, ASilentCameraIsNotReported) {
   const Isometry3d pose(Eigen::Translation3d(1.2, 1.3, 1.1));
   BodyTracker tracker(paperRig(), {fourLeds()}, BodyTrackerOptions());

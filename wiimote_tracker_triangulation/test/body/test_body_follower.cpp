@@ -235,7 +235,7 @@ TEST_F(AtRest, IsFollowedOnWhenTheSameBodiesAreSet) {
   follower_.setRig(rig_);
   show(60);
   const double first_seen = follower_.next()->bodies[0]->first_seen;
-  follower_.setBodies({three_});
+  EXPECT_EQ(countLost(follower_.setBodies({three_})), 0);
   show(1);
   const BodySnapshot* snapshot = follower_.next();
   ASSERT_TRUE(snapshot->bodies[0]);
@@ -289,7 +289,9 @@ TEST_F(AtRest, IsSearchedAnewWhenItsLedsChange) {
   const double first_seen = follower_.next()->bodies[0]->first_seen;
   Constellation edited = three_;
   edited.leds[0].x() += 0.001;
-  follower_.setBodies({edited});
+  const BodySnapshot lost = follower_.setBodies({edited});
+  EXPECT_EQ(countLost(lost), 1);
+  EXPECT_EQ(countLost(follower_.setBodies({edited})), 0) << "it was told already";
   show(1);
   EXPECT_FALSE(follower_.next()->bodies[0]);
   show(40);

@@ -175,11 +175,16 @@ class BodyTracker {
 
     std::size_t countSpots(std::size_t body) const;
   };
+  struct LabelStart {
+    std::size_t body;
+    BodyPose pose;
+  };
   struct Image {
     std::size_t camera;
     double time;
     double stamp_stddev;
     std::vector<Eigen::Vector2d> pixels;
+    std::vector<LabelStart> starts;  // of bodies that were unknown after this image
 
     bool operator<(const Image& other) const {
       return time != other.time ? time < other.time : camera < other.camera;

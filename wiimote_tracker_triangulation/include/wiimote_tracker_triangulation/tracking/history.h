@@ -16,6 +16,8 @@ template <typename Image, typename State>
 class History {
  public:
   const NumberedQueue<Image>& images() const { return images_; }
+  /// To change what is not their order.
+  NumberedQueue<Image>& images() { return images_; }
 
   /// Index of the image in the order of time; nothing when no earlier state is kept.
   std::optional<std::uint64_t> placeOf(const Image& image) const {

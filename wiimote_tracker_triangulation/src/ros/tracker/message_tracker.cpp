@@ -166,7 +166,12 @@ void MessageTracker::takeImage(const std::string& camera,
 }
 
 void MessageTracker::setBodies(const std::vector<body::Constellation>& bodies) {
-  bodies_.setBodies(bodies);
+  const std::vector<body::Constellation> before = bodies_.constellations();
+  const body::BodySnapshot lost = bodies_.setBodies(bodies);
+  const auto message = bodyMessage(lost, before, rig_, rig_id_);
+  if (!message.bodies.empty())
+    sink_->onBodies(message, std::vector<bool>(message.bodies.size(), false));
+  statistics_.setBodies(0);  // until the next image
   without_samples_.clear();
 }
 

@@ -123,12 +123,12 @@ class LabelledBody {
     double distance = 0.0;
     for (std::size_t i = 0; i < lights_.size(); ++i) {
       const auto light = body::predictLed(next.state(), rig_.rayCamera(rig_.cameras[camera]),
-                                          lights_[i], pixel_stddev_);
+                                          lights_[i], {pixel_stddev_, 0.0});
       if (!light)
         return false;
       const Eigen::Vector2d innovation = image.pixels[i] - light->pixel;
       distance += innovation.dot(light->covariance.inverse() * innovation);
-      next.update(*light, image.pixels[i], pixel_stddev_);
+      next.update(*light, image.pixels[i]);
     }
     if (!(distance < gate))
       return false;

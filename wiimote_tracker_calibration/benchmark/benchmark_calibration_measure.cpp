@@ -12,7 +12,7 @@ namespace wiimote_tracker {
 
 namespace {
 
-using session::MeasureStep;
+using samples::MeasureStep;
 
 constexpr int kMeasurements = 6;
 
@@ -24,7 +24,7 @@ void runRow(const std::string& name,
   for (int seed = 1; seed <= runs; ++seed) {
     try {
       sessions.push_back(
-          session::runMeasureTrial(scene, static_cast<std::uint64_t>(seed), kMeasurements));
+          samples::runMeasureTrial(scene, static_cast<std::uint64_t>(seed), kMeasurements));
     } catch (const geometry::Error&) {
       continue;  // shown by the number of sessions
     }

@@ -1,6 +1,6 @@
 // Mistakes of a person who calibrates: what was done, and what the calibration says.
 #include "benchmark_calibration_sections.h"
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 #include "wave_trial.h"
 
 #include <wiimote_tracker_triangulation/geometry/calibration_uncertainty.h>
@@ -208,16 +208,16 @@ BenchmarkRow rowOf(const Mistake& mistake, int runs) {
   for (int run = 0; run < runs; ++run) {
     Spoilt spoilt = recordingFor(mistake, static_cast<std::uint64_t>(4 + run));
     const Words words = mistake.make(&spoilt, static_cast<std::size_t>(run) % 4);
-    session::Session session;
-    session.recording = spoilt.wave.recording;
-    session.masks.resize(spoilt.cameras().size());
-    session::SolveOptions options;
+    samples::Samples samples;
+    samples.recording = spoilt.wave.recording;
+    samples.masks.resize(spoilt.cameras().size());
+    samples::SolveOptions options;
     options.wave = wave::optionsFor(spoilt.scene);
     options.square.uncertainty = spoilt.scene.uncertainty;
     double deviation = 0.0;
     std::string text;
     try {
-      const geometry::Rig rig = session::solveSession(session, options).rig;
+      const geometry::Rig rig = samples::solveSamples(samples, options).rig;
       text = rig.verdict;
       deviation = largestDeviation(spoilt.wave.cameras, rig);
     } catch (const geometry::Error& error) {

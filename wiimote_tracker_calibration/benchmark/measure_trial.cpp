@@ -2,13 +2,13 @@
 
 #include "wave_trial.h"
 
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 #include "square/expected_error.h"
 
 #include <cmath>
 #include <random>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -35,10 +35,10 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
   options.square.uncertainty = scene.uncertainty;
   std::vector<MeasureStep> steps;
   for (int done = 0;; ++done) {
-    Session session;
-    session.recording = truth.recording;
-    session.masks.resize(truth.cameras.size());
-    const Solution solution = solveSession(session, options);
+    Samples samples;
+    samples.recording = truth.recording;
+    samples.masks.resize(truth.cameras.size());
+    const Solution solution = solveSamples(samples, options);
     const Verdict& verdict = solution.verdict;
     steps.push_back({verdict.expected_error, rms(truth, solution),
                      square::expectedShapeError(solution.rig, verdict.predicted_at), verdict.next});
@@ -70,4 +70,4 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
   }
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -3,13 +3,13 @@
 
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "session/verdict.h"
+#include "samples/verdict.h"
 
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// A solution, held against the truth at the verdict's places.
 struct MeasureStep {
@@ -19,13 +19,13 @@ struct MeasureStep {
   std::optional<NextMeasurement> next;  ///< That was done for the following step.
 };
 
-/// A session in which a person follows the verdict's advice up to `measurements` times, as exact as
-/// TapedLength and KnownPlace say. A scene of 0 s has no wave.
+/// A simulated session in which a person follows the verdict's advice up to `measurements` times,
+/// as exact as TapedLength and KnownPlace say. A scene of 0 s has no wave.
 /// @throws geometry::Error: a solution was refused.
 std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
                                          std::uint64_t seed,
                                          int measurements);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H

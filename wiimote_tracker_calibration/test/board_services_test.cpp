@@ -5,7 +5,7 @@
 #include "call_service.h"
 #include "expect_says.h"
 
-#include "session/session_file.h"
+#include "samples/samples_file.h"
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -267,7 +267,7 @@ TEST(Board, TheNextCalibrationStartsWithTheCommittedLens) {
   // What was captured is saved with the lenses that a solver starts from.
   const auto saved = Bench::call<wiimote_tracker_msgs::SaveSamples>("calibration/save_samples");
   ASSERT_TRUE(saved.success) << saved.message;
-  const auto cameras = session::readSessionFile(saved.path).recording.cameras;
+  const auto cameras = samples::readSamplesFile(saved.path).recording.cameras;
   std::filesystem::remove_all(std::filesystem::path(saved.path).parent_path());
   ASSERT_EQ(cameras.size(), 2U);
   const geometry::Intrinsics usual;

@@ -75,7 +75,7 @@ TEST_F(Workflow, AnExchangedDeviceIsNamed) {
 TEST_F(Workflow, AnExchangedDeviceOfRestoredSamplesIsNamed) {
   captureAll();
   Calibration restored{CalibrationOptions()};
-  ASSERT_TRUE(restored.restore(calibration_.session(facts_, {})).success);
+  ASSERT_TRUE(restored.restore(calibration_.samples(facts_, {})).success);
   ASSERT_TRUE(restored.beginWave(cameras_, false, std::nullopt, now_).success);
   restored.addImage({names_[1], now_ += 0.01, 0, {{500.0, 400.0}}, {}, "00:00:00:00:00:07"});
   ASSERT_TRUE(restored.endWave().success);
@@ -88,8 +88,8 @@ TEST_F(Workflow, TheDataAreOfTheDeviceThatTookThem) {
   ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
   calibration_.addImage({names_[1], now_ += 0.01, 0, {{500.0, 400.0}}, {}, "00:00:00:00:00:01"});
   facts_[names_[1]].identity = "00:00:00:00:00:07";  // connected later
-  const session::Session session = calibration_.session(facts_, {});
-  EXPECT_EQ(session.recording.cameras[1].sightings.identity, "00:00:00:00:00:01");
+  const samples::Samples samples = calibration_.samples(facts_, {});
+  EXPECT_EQ(samples.recording.cameras[1].sightings.identity, "00:00:00:00:00:01");
 }
 
 TEST_F(Workflow, ABadStartKeepsTheRun) {
@@ -151,7 +151,7 @@ TEST_F(Workflow, LengthsAreTakenReplacedAndDropped) {
   const auto measure = [&](std::size_t from, std::size_t to, double length) {
     return calibration_.measureLength({from, to, length, 0.001}, kPlacement);
   };
-  const auto lengths = [&] { return calibration_.session(facts_, {}).recording.square->lengths; };
+  const auto lengths = [&] { return calibration_.samples(facts_, {}).recording.square->lengths; };
   EXPECT_SAYS(measure(0, 2, diagonal).message, "start one first");
   ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
   EXPECT_SAYS(measure(0, 2, diagonal).message, "no square to measure");
@@ -225,20 +225,20 @@ TEST_F(Workflow, KnownPlacesAreTakenSolvedAndDropped) {
   EXPECT_SAYS(taken.message, "place 1 at (0.000, 2.500, 2.000) m is captured by 4 cameras");
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   ASSERT_TRUE(solve(2.0).success);
-  const session::Session session = calibration_.session(facts_, {});
-  EXPECT_EQ(session.recording.square->places.size(), 1U);
-  ASSERT_EQ(session.recording.cameras[2].sightings.places.size(), 1U);
+  const samples::Samples samples = calibration_.samples(facts_, {});
+  EXPECT_EQ(samples.recording.square->places.size(), 1U);
+  ASSERT_EQ(samples.recording.cameras[2].sightings.places.size(), 1U);
   ASSERT_TRUE(calibration_.setMasks({{"camera_1", {{Eigen::Vector2d(100.0, 200.0), 12.0}}}}));
   EXPECT_TRUE(calibration_.addPlace(known, seen).success);
   geometry::Rig rig = *calibration_.rig();
   rig.cameras[1].camera.world_from_camera.translation().x() += 0.1;
   calibration_.setRig(rig, "camera_2 is calibrated again");
   EXPECT_SAYS(calibration_.addPlace(known, seen).message, "a camera was changed");
-  ASSERT_TRUE(calibration_.restore(session).success);
-  EXPECT_EQ(*calibration_.session(facts_, {}).recording.cameras[2].sightings.places[0],
+  ASSERT_TRUE(calibration_.restore(samples).success);
+  EXPECT_EQ(*calibration_.samples(facts_, {}).recording.cameras[2].sightings.places[0],
             seen.at("camera_3").pixel);
   EXPECT_SAYS(calibration_.undo().message, "the last known place was dropped");
-  EXPECT_TRUE(calibration_.session(facts_, {}).recording.cameras[0].sightings.places.empty());
+  EXPECT_TRUE(calibration_.samples(facts_, {}).recording.cameras[0].sightings.places.empty());
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
 }
 
@@ -260,11 +260,11 @@ TEST_F(Workflow, AWaveIsRecordedCoveredAndKeptBesideTheSquare) {
   const Reply reply = calibration_.endWave();
   EXPECT_TRUE(reply.success);
   EXPECT_SAYS(reply.message, "enough: solve");
-  const session::Session session = calibration_.session(facts_, {});
-  EXPECT_NEAR(static_cast<double>(session.recording.cameras[2].frames.size()), 1800.0, 2.0);
+  const samples::Samples samples = calibration_.samples(facts_, {});
+  EXPECT_NEAR(static_cast<double>(samples.recording.cameras[2].frames.size()), 1800.0, 2.0);
   wave(1.0);  // after the end
-  EXPECT_EQ(calibration_.session(facts_, {}).recording.cameras[2].frames.size(),
-            session.recording.cameras[2].frames.size());
+  EXPECT_EQ(calibration_.samples(facts_, {}).recording.cameras[2].frames.size(),
+            samples.recording.cameras[2].frames.size());
   EXPECT_TRUE(calibration_.undo().success);
   EXPECT_FALSE(calibration_.wave());
   EXPECT_EQ(calibration_.square().corners().size(), 4U);
@@ -284,10 +284,10 @@ TEST_F(Workflow, FramesOfAnOlderClockEpochAreDroppedAndReported) {
   ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
   wave(3.0, 6);
   wave(2.0, 7);
-  const session::Session session = calibration_.session(facts_, {});
-  EXPECT_EQ(session.recording.cameras[0].clock_epoch, 7U);
-  EXPECT_NEAR(static_cast<double>(session.recording.cameras[0].frames.size()), 200.0, 2.0);
-  EXPECT_NEAR(static_cast<double>(session.recording.cameras[1].frames.size()), 500.0, 2.0);
+  const samples::Samples samples = calibration_.samples(facts_, {});
+  EXPECT_EQ(samples.recording.cameras[0].clock_epoch, 7U);
+  EXPECT_NEAR(static_cast<double>(samples.recording.cameras[0].frames.size()), 200.0, 2.0);
+  EXPECT_NEAR(static_cast<double>(samples.recording.cameras[1].frames.size()), 500.0, 2.0);
   EXPECT_SAYS(calibration_.missing().back(), names_[0] + " reconnected");
 }
 
@@ -313,8 +313,8 @@ TEST_F(Workflow, WithoutASquareItTakesAWand) {
   ASSERT_TRUE(calibration_.beginWave(cameras_, false, wand, now_).success);
   calibration_.endWave();
   EXPECT_EQ(calibration_.step(), Step::kComplete);
-  EXPECT_FALSE(calibration_.session(facts_, {}).recording.square);
-  EXPECT_EQ(calibration_.session(facts_, {}).recording.wand->length, 0.5);
+  EXPECT_FALSE(calibration_.samples(facts_, {}).recording.square);
+  EXPECT_EQ(calibration_.samples(facts_, {}).recording.wand->length, 0.5);
 }
 
 TEST_F(Workflow, CornersAreCapturedHandsFree) {
@@ -368,20 +368,20 @@ TEST_F(Workflow, SamplesThatAreRestoredAreTheSameSamples) {
   wave(2.0);
   calibration_.endWave();
   const capture::Masks masks = {{names_[1], {{{3.0, 4.0}, 5.0}}}};
-  const session::Session session = calibration_.session(facts_, masks);
+  const samples::Samples samples = calibration_.samples(facts_, masks);
   CalibrationOptions other;
   other.layout.led_height = 0.5;  // what was captured has its own
   other.world_frame = "elsewhere";
   Calibration fresh{other};
-  ASSERT_TRUE(fresh.restore(session).success);
+  ASSERT_TRUE(fresh.restore(samples).success);
   EXPECT_TRUE(fresh.isRestored());
   EXPECT_EQ(fresh.step(), Step::kComplete);
-  const session::Session again = fresh.session({}, masks);
+  const samples::Samples again = fresh.samples({}, masks);
   EXPECT_EQ(again.world_frame, "world");
   EXPECT_EQ(again.recording.square->led_height, 0.0);
   ASSERT_EQ(again.recording.cameras.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
-    const wave::CameraRecording& a = session.recording.cameras[i];
+    const wave::CameraRecording& a = samples.recording.cameras[i];
     const wave::CameraRecording& b = again.recording.cameras[i];
     EXPECT_EQ(a.sightings.name, b.sightings.name);
     EXPECT_EQ(a.sightings.identity, b.sightings.identity);

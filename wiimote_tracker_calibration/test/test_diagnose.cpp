@@ -4,8 +4,8 @@
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "session/clock_lag.h"
-#include "session/solve_session.h"
+#include "samples/clock_lag.h"
+#include "samples/solve_samples.h"
 
 #include <wiimote_tracker_msgs/error.h>
 
@@ -15,16 +15,16 @@
 #include <string>
 #include <utility>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 namespace {
 
 /// The refusal, or else the verdict.
 std::string outcomeOf(const wave::Recording& recording, const SolveOptions& options) {
-  Session session;
-  session.recording = recording;
-  session.masks.resize(recording.cameras.size());
+  Samples samples;
+  samples.recording = recording;
+  samples.masks.resize(recording.cameras.size());
   try {
-    return solveSession(session, options).rig.verdict;
+    return solveSamples(samples, options).rig.verdict;
   } catch (const Error& error) {
     return std::string("refused: ") + error.what();
   }
@@ -251,4 +251,4 @@ TEST_F(ExtensiveWaveMistake, SidesInCentimetres) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -3,7 +3,7 @@
 #include "rooms/join_rigs.h"
 
 #include "expect_says.h"
-#include "session/grade.h"
+#include "samples/grade.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -175,12 +175,12 @@ TEST_F(JoinRigs, TheVerdictIsNoBetterThanThoseOfBoth) {
   first_.verdict = "good; points are known to 2 mm";
   second_.verdict = "good";
   const std::string usable = joinRigs(first_, second_).rig.verdict;
-  EXPECT_EQ(session::gradeOf(usable), session::Grade::kUsable) << usable;
+  EXPECT_EQ(samples::gradeOf(usable), samples::Grade::kUsable) << usable;
   EXPECT_SAYS(usable, "usable: ");
   EXPECT_SAYS(usable, "; first: good; points are known to 2 mm; second: good");
   second_.verdict = "redo corner 3: it was 50 mm off";
   const std::string redo = joinRigs(first_, second_).rig.verdict;
-  EXPECT_EQ(session::gradeOf(redo), session::Grade::kRedo) << redo;
+  EXPECT_EQ(samples::gradeOf(redo), samples::Grade::kRedo) << redo;
 }
 
 TEST_F(JoinRigs, ExtensiveRunsHaveErrorsAsLargeAsStated) {

@@ -2,26 +2,26 @@
 #include "expect_says.h"
 #include "simulated_rig.h"
 
-#include "session/judge.h"
+#include "samples/judge.h"
 
 #include <gtest/gtest.h>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 namespace {
 
-Verdict judged(const Session& session, const geometry::Rig& rig) {
+Verdict judged(const Samples& samples, const geometry::Rig& rig) {
   wave::WaveSolution found;
   found.rig = rig;
-  return judge(session, found);
+  return judge(samples, found);
 }
 
 /// Of the paper's rig and square, where the positions of the cameras have this error [m].
 Verdict verdictWith(double position_stddev) {
-  Session session;
-  session.recording.square = square::paperSquare();
+  Samples samples;
+  samples.recording.square = square::paperSquare();
   RigErrors errors = wellCalibrated();
   errors.position = position_stddev;
-  return judged(session, paperRigWith(errors));
+  return judged(samples, paperRigWith(errors));
 }
 
 TEST(Judge, GradesByTheErrorOfPoints) {
@@ -38,27 +38,27 @@ TEST(Judge, GradesByTheErrorOfPoints) {
 }
 
 TEST(Judge, AdvisesWhatWasNotDoneYet) {
-  Session session;
-  session.recording.square = square::paperSquare();
+  Samples samples;
+  samples.recording.square = square::paperSquare();
   RigErrors errors = wellCalibrated();
   errors.position = 0.025;
-  EXPECT_SAYS(judged(session, paperRigWith(errors)).text,
+  EXPECT_SAYS(judged(samples, paperRigWith(errors)).text,
               "wave an LED or a wand through the volume, or use a larger square");
-  session.recording.cameras.resize(1);
-  session.recording.cameras[0].frames.push_back({0.0, {}});
-  EXPECT_SAYS(judged(session, paperRigWith(errors)).text,
+  samples.recording.cameras.resize(1);
+  samples.recording.cameras[0].frames.push_back({0.0, {}});
+  EXPECT_SAYS(judged(samples, paperRigWith(errors)).text,
               "wave longer, through the whole volume, or use a larger square");
 }
 
 TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
-  Session session;
-  session.recording.square = square::paperSquare();
+  Samples samples;
+  samples.recording.square = square::paperSquare();
   geometry::Rig rig = paperRigWith(wellCalibrated());
   for (geometry::RigCamera& camera : rig.cameras)
     camera.observations = camera.inliers = 200;
-  EXPECT_EQ(judged(session, rig).grade, Grade::kGood);
+  EXPECT_EQ(judged(samples, rig).grade, Grade::kGood);
   rig.cameras[1].inliers = 140;
-  const Verdict verdict = judged(session, rig);
+  const Verdict verdict = judged(samples, rig);
   EXPECT_EQ(verdict.grade, Grade::kUsable);
   EXPECT_SAYS(verdict.text, "usable: 30 % of what camera_2 saw was not the LED");
 }
@@ -80,4 +80,4 @@ TEST(Judge, AWaveIsJudgedByItsDistanceFromTheCameras) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

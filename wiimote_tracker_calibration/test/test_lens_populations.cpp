@@ -4,7 +4,7 @@
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -16,7 +16,7 @@
 #include <iostream>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 namespace {
 
 /// Principal points whose mean is off the default by `offset`.
@@ -41,10 +41,10 @@ struct Population {
 
 /// RMS errors at the verdict's places over the predicted ones. The covariance C is right for
 /// lenses as the prior P says; with moments S instead it is C + C P^-1 (S - P) P^-1 C.
-double errorsOverPredicted(const Session& session,
+double errorsOverPredicted(const Samples& samples,
                            const SolveOptions& options,
                            const Population& truth) {
-  const Solution solution = solveSession(session, options);
+  const Solution solution = solveSamples(samples, options);
   const geometry::Rig& rig = solution.rig;
   const std::size_t cameras = rig.cameras.size();
   Eigen::MatrixXd by_principal_points(rig.covariance.rows(), 2 * cameras);
@@ -72,14 +72,14 @@ double errorsOverPredicted(const Session& session,
 }
 
 void expectPredicted(const char* name,
-                     const Session& session,
+                     const Samples& samples,
                      const SolveOptions& options,
                      double most = 1.1) {
   const Population around_default{15.0, 0.0, {0.0, 0.0}};
   const Population around_centre{5.0, 0.0, {512.0 - 535.0, 384.0 - 401.7}};
   for (const Population& population : {around_default, around_centre}) {
-    const double ratio = errorsOverPredicted(session, options, population);
-    std::cout << name << ", " << session.masks.size() << " cameras, principal points by "
+    const double ratio = errorsOverPredicted(samples, options, population);
+    std::cout << name << ", " << samples.masks.size() << " cameras, principal points by "
               << population.stddev << " px: errors / predicted " << ratio << '\n';
     EXPECT_GT(ratio, 0.95);
     EXPECT_LT(ratio, most);
@@ -92,19 +92,19 @@ TEST(ExtensiveLensPopulations, ErrorsOfASquareAreAsPredicted) {
     auto poses = square::paperRig();
     poses.resize(count);
     square::Random random(8);
-    Session session;
-    session.recording.square = layout;
+    Samples samples;
+    samples.recording.square = layout;
     for (const auto& sightings :
          square::simulateSquare(poses, layout, true, square::Uncertainty(), true, random)
              .sightings) {
-      session.recording.cameras.emplace_back();
-      session.recording.cameras.back().sightings = sightings;
+      samples.recording.cameras.emplace_back();
+      samples.recording.cameras.back().sightings = sightings;
     }
-    session.masks.resize(count);
+    samples.masks.resize(count);
     SolveOptions options;
-    expectPredicted("joint", session, options);
+    expectPredicted("joint", samples, options);
     options.square.method = square::Method::kPerCamera;
-    expectPredicted("per camera", session, options, 1.15);
+    expectPredicted("per camera", samples, options, 1.15);
   }
 }
 
@@ -115,14 +115,14 @@ TEST(ExtensiveLensPopulations, ErrorsOfAWaveAreAsPredicted) {
   scene.uncertainty = square::Uncertainty();
   for (const std::size_t count : {std::size_t{2}, std::size_t{4}}) {
     scene.camera_count = count;
-    Session session;
-    session.recording = wave::simulateWave(scene, 106).recording;
-    session.masks.resize(count);
+    Samples samples;
+    samples.recording = wave::simulateWave(scene, 106).recording;
+    samples.masks.resize(count);
     SolveOptions options;
     options.wave = wave::optionsFor(scene);
-    expectPredicted("wave", session, options);
+    expectPredicted("wave", samples, options);
   }
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -11,7 +11,7 @@ namespace {
 class NextStepTest : public Workflow {
  protected:
   NextStep next() const { return nextStep(calibration_, verdict_); }
-  session::Verdict verdict_;
+  samples::Verdict verdict_;
   Sounds sounds_;
 };
 
@@ -73,12 +73,12 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   calibration_.takeSolution(geometry::Rig());
   calibration_.end();
   EXPECT_EQ(sounds_.heard(calibration_), "solved");
-  verdict_.grade = session::Grade::kRedo;
+  verdict_.grade = samples::Grade::kRedo;
   EXPECT_TRUE(next().request.empty());
   verdict_.redo_corner = 2;
   EXPECT_EQ(next().request, "capture_corner");
   EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
-  verdict_.grade = session::Grade::kGood;
+  verdict_.grade = samples::Grade::kGood;
   EXPECT_EQ(next().request, "save");
   calibration_.saved();
   EXPECT_EQ(next().title, "Ready");
@@ -128,13 +128,13 @@ TEST_F(NextStepTest, AWandOnTheFloorIsCapturedWavedAndSolved) {
   EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "a wave is being recorded");
   waveWand(30.0, true);
   EXPECT_EQ(next().request, "solve");
-  const session::Session session = calibration_.session(facts_, {});
-  EXPECT_EQ(session.recording.wand->led_height, 0.0);
+  const samples::Samples samples = calibration_.samples(facts_, {});
+  EXPECT_EQ(samples.recording.wand->led_height, 0.0);
   EXPECT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   EXPECT_EQ(calibration_.step(), Step::kSolving);
   calibration_.end();
   Calibration fresh{CalibrationOptions()};
-  ASSERT_TRUE(fresh.restore(session).success);
+  ASSERT_TRUE(fresh.restore(samples).success);
   EXPECT_TRUE(fresh.missing().empty());
 }
 

@@ -3,8 +3,8 @@
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "session/next_measurement.h"
-#include "session/solve_session.h"
+#include "samples/next_measurement.h"
+#include "samples/solve_samples.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 namespace {
 
 /// RMS error of the six lengths between the corners, as a solver placed them [m].
@@ -115,4 +115,4 @@ TEST_F(NextMeasurementOf, IsNoneWhereNoneGains) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

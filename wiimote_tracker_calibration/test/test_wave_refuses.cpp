@@ -115,7 +115,7 @@ TEST(WaveRefuses, MirroredImage) {
   EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
               "but clockwise for camera_2: an image is mirrored");
   // Without corners the images nearly fit to a place on the other side of the LED, and any check
-  // may be the first to fail. A session diagnoses contradictions (session/diagnose.h).
+  // may be the first to fail. solveSamples() diagnoses contradictions (samples/diagnose.h).
   camera.sightings.corners = {};
   EXPECT_THROW(solveWave(wave.recording, optionsFor(scene)), WaveContradiction);
 }

@@ -285,12 +285,12 @@ TEST_F(ThrownErrors, AChangedRigLeavesTheMasksOfLoadedSamples) {
   ASSERT_TRUE(call<SolveCalibration>("calibration/solve").success);
   NodeContext& context = node->context();
   const Lock lock(context.mutex());
-  session::Session samples = context.session(lock);
+  samples::Samples samples = context.samples(lock);
   samples.masks[0] = {{{1000.0, 20.0}, 5.0}};
-  ASSERT_TRUE(context.setSession(samples, lock).success);
+  ASSERT_TRUE(context.setSamples(samples, lock).success);
   const geometry::Rig rig = context.existingRig("to change", lock);
   context.setRig(rig, "changed", lock);
-  EXPECT_EQ(context.session(lock).masks[0].size(), 1U);
+  EXPECT_EQ(context.samples(lock).masks[0].size(), 1U);
   context.setMasks({}, lock);
 }
 

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WORKFLOW_FIXTURE_H
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_WORKFLOW_FIXTURE_H
 
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 #include "workflow/calibration.h"
 
 #include "expect_says.h"
@@ -62,8 +62,8 @@ class Workflow : public ::testing::Test {
     if (!begun.success)
       return begun;
     try {
-      session::Solution solution =
-          session::solveSession(calibration_.session(facts_, {}), session::SolveOptions());
+      samples::Solution solution =
+          samples::solveSamples(calibration_.samples(facts_, {}), samples::SolveOptions());
       solution.rig.solved_at = time;
       const Reply reply = calibration_.takeSolution(solution.rig);
       calibration_.end();

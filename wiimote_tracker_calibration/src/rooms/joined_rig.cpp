@@ -1,6 +1,6 @@
 #include "rooms/joined_rig.h"
 
-#include "session/grade.h"
+#include "samples/grade.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -141,9 +141,9 @@ std::string lostByJoining(const geometry::Rig& first, const geometry::Rig& secon
 std::string joinedVerdict(const geometry::Rig& first,
                           const geometry::Rig& second,
                           const std::string& message) {
-  const session::Grade grade = std::max(
-      {session::Grade::kUsable, session::gradeOf(first.verdict), session::gradeOf(second.verdict)});
-  return session::nameOf(grade) + ": " + message + "; first: " + first.verdict +
+  const samples::Grade grade = std::max(
+      {samples::Grade::kUsable, samples::gradeOf(first.verdict), samples::gradeOf(second.verdict)});
+  return samples::nameOf(grade) + ": " + message + "; first: " + first.verdict +
          "; second: " + second.verdict;
 }
 

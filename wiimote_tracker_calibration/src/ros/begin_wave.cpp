@@ -11,7 +11,7 @@ namespace {
 /// The cameras of a recording with their starting intrinsics, and with poses if its square
 /// determines them. @returns whether they have poses.
 bool knownCameras(const wave::Recording& recording,
-                  const session::SolveOptions& options,
+                  const samples::SolveOptions& options,
                   std::vector<geometry::Camera>* cameras) {
   std::vector<square::CameraSightings> sightings = recording.sightings();
   for (square::CameraSightings& camera : sightings) {
@@ -48,14 +48,14 @@ std::optional<wave::Wand> wandOf(double length, double stddev) {
 }
 
 workflow::Reply beginWave(const std::optional<wave::Wand>& wand, NodeContext* context, Lock* lock) {
-  const session::Session captured = context->session(*lock);
+  const samples::Samples samples = context->samples(*lock);
   workflow::Calibration& calibration = context->calibration(*lock);
   const std::vector<std::string> names = calibration.cameras();
   const std::size_t corners = calibration.square().corners().size();
-  const session::SolveOptions options = context->parameters(*lock).solve;
+  const samples::SolveOptions options = context->parameters(*lock).solve;
   std::vector<geometry::Camera> cameras;
   const bool posed =
-      context->compute(lock, [&] { return knownCameras(captured.recording, options, &cameras); });
+      context->compute(lock, [&] { return knownCameras(samples.recording, options, &cameras); });
   if (calibration.cameras() != names || calibration.square().corners().size() != corners)
     throw Refusal("what was captured has changed meanwhile: start the wave again");
   return calibration.beginWave(cameras, posed, wand, NodeContext::now());

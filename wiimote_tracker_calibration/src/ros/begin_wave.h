@@ -11,7 +11,7 @@ namespace wiimote_tracker {
 std::optional<wave::Wand> wandOf(double length, double stddev);
 
 /// Begins to record a wave of the run that is started. @param wand nothing: one LED is waved.
-/// @throws Refusal as NodeContext::session(), or when another request changed the run meanwhile.
+/// @throws Refusal as NodeContext::samples(), or when another request changed the run meanwhile.
 workflow::Reply beginWave(const std::optional<wave::Wand>& wand, NodeContext* context, Lock* lock);
 
 }  // namespace wiimote_tracker

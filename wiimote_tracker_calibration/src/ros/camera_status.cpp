@@ -92,7 +92,7 @@ std::vector<CalibrationCameraStatus> cameraStatus(const workflow::Calibration& c
 }
 
 CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
-                                    const session::Verdict& verdict) {
+                                    const samples::Verdict& verdict) {
   static_assert(static_cast<int>(workflow::Step::kIdle) == CalibrationStatus::IDLE &&
                     static_cast<int>(workflow::Step::kReady) == CalibrationStatus::READY &&
                     static_cast<int>(workflow::Step::kCapturing) == CalibrationStatus::CAPTURING &&

@@ -23,7 +23,7 @@ std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameraStatus(
 
 /// Where the calibration stands, without header and cameras. @param verdict of the rig in use.
 wiimote_tracker_msgs::CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
-                                                          const session::Verdict& verdict);
+                                                          const samples::Verdict& verdict);
 
 }  // namespace wiimote_tracker
 

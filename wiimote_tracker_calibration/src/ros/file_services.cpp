@@ -3,8 +3,8 @@
 #include "file_paths.h"
 #include "rig_storage.h"
 #include "rooms/join_rigs.h"
-#include "session/judge.h"
-#include "session/session_file.h"
+#include "samples/judge.h"
+#include "samples/samples_file.h"
 
 #include <wiimote_tracker_msgs/JoinRig.h>
 #include <wiimote_tracker_msgs/LoadRig.h>
@@ -102,10 +102,10 @@ class FileServices {
                     SaveSamples::Response* response,
                     Lock& lock) {
     const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
-    const session::Session session = context_.session(lock);
-    if (session.recording.cameras.empty())
+    const samples::Samples samples = context_.samples(lock);
+    if (samples.recording.cameras.empty())
       throw Refusal("nothing was captured that could be saved: start a calibration first");
-    context_.compute(&lock, [&] { session::writeSessionFile(session, path); });
+    context_.compute(&lock, [&] { samples::writeSamplesFile(samples, path); });
     return {true, "what was captured is saved to " + path};
   }
 
@@ -113,9 +113,9 @@ class FileServices {
                     LoadSamples::Response* response,
                     Lock& lock) {
     const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
-    const session::Session session =
-        context_.compute(&lock, [&] { return session::readSessionFile(path); });
-    return context_.setSession(session, lock);
+    const samples::Samples samples =
+        context_.compute(&lock, [&] { return samples::readSamplesFile(path); });
+    return context_.setSamples(samples, lock);
   }
 
   Reply join(const JoinRig::Request& request, JoinRig::Response* response, Lock& lock) {
@@ -146,7 +146,7 @@ class FileServices {
     const Reply reply = context_.calibration(*lock).load(rig);
     if (reply.success) {
       useMasks(rig, &context_.inputs());
-      context_.publishRig(session::verdictOf(rig), *lock);
+      context_.publishRig(samples::verdictOf(rig), *lock);
     }
     return reply;
   }

@@ -1,6 +1,6 @@
 #include "node_context.h"
 
-#include "session/judge.h"
+#include "samples/judge.h"
 
 #include "verdict_messages.h"
 
@@ -122,17 +122,17 @@ workflow::CameraFacts NodeContext::facts(const std::vector<std::string>& cameras
   return facts;
 }
 
-session::Session NodeContext::session(const Lock& lock) const {
+samples::Samples NodeContext::samples(const Lock& lock) const {
   const bool is_live = !calibration_.isRestored();
-  return calibration_.session(
+  return calibration_.samples(
       facts(is_live ? calibration_.cameras() : std::vector<std::string>(), lock), inputs_.masks());
 }
 
-workflow::Reply NodeContext::setSession(const session::Session& session, const Lock&) {
-  const workflow::Reply reply = calibration_.restore(session);
+workflow::Reply NodeContext::setSamples(const samples::Samples& samples, const Lock&) {
+  const workflow::Reply reply = calibration_.restore(samples);
   if (reply.success) {
-    for (std::size_t i = 0; i < session.masks.size(); ++i)
-      inputs_.setMasks(session.recording.cameras[i].sightings.name, session.masks[i]);
+    for (std::size_t i = 0; i < samples.masks.size(); ++i)
+      inputs_.setMasks(samples.recording.cameras[i].sightings.name, samples.masks[i]);
   }
   return reply;
 }
@@ -158,11 +158,11 @@ void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
 
 void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {
   calibration_.setRig(rig, message);
-  publishRig(session::verdictOf(rig), lock);
+  publishRig(samples::verdictOf(rig), lock);
   publishStatus(lock);
 }
 
-void NodeContext::publishRig(const session::Verdict& verdict, const Lock&) {
+void NodeContext::publishRig(const samples::Verdict& verdict, const Lock&) {
   verdict_ = verdict;
   status_.endWalk();
   const geometry::Rig& rig = *calibration_.rig();

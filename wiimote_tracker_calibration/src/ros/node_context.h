@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
 
 #include "remap/measured_points.h"
-#include "session/verdict.h"
+#include "samples/verdict.h"
 #include "workflow/calibration.h"
 
 #include "camera_inputs.h"
@@ -127,9 +127,9 @@ class NodeContext {
   /// @throws Refusal: starting intrinsics do not fit the size of a camera's images.
   workflow::CameraFacts facts(const std::vector<std::string>& cameras, const Lock&) const;
   /// All that was captured so far, to be solved or saved. @throws Refusal as facts().
-  session::Session session(const Lock& lock) const;
-  /// Continues from captured data, with its masks.
-  workflow::Reply setSession(const session::Session& session, const Lock& lock);
+  samples::Samples samples(const Lock& lock) const;
+  /// Continues from samples, with their masks.
+  workflow::Reply setSamples(const samples::Samples& samples, const Lock& lock);
 
   /// Nothing while there is none.
   const std::optional<geometry::Rig>& rig(const Lock&) const { return calibration_.rig(); }
@@ -142,7 +142,7 @@ class NodeContext {
   /// volume, and publishes it. It is not saved yet.
   void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
   /// Publishes the current rig, the transforms of its cameras, and its verdict.
-  void publishRig(const session::Verdict& verdict, const Lock&);
+  void publishRig(const samples::Verdict& verdict, const Lock&);
 
   /// Sets the masks of the images and of the rig, which is then published.
   /// @returns whether there is a rig and it changed.
@@ -157,7 +157,7 @@ class NodeContext {
   Parameters parameters_;
   workflow::Calibration calibration_;
   remap::MeasuredPoints known_places_;
-  session::Verdict verdict_;  // of the current rig
+  samples::Verdict verdict_;  // of the current rig
   ros::Publisher rig_publisher_;
   ros::Publisher verdict_publisher_;
   tf2_ros::StaticTransformBroadcaster transforms_;

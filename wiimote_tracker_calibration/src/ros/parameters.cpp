@@ -40,7 +40,7 @@ void readWave(ParameterReader* reader, wave::WaveModel* model) {
   reader->read("maximum_offset_stddev", &model->maximum_offset_stddev, 1e-6, 10.0);
 }
 
-void readRays(ParameterReader* reader, session::SolveOptions* options) {
+void readRays(ParameterReader* reader, samples::SolveOptions* options) {
   const std::string correction =
       reader->choice("principal_point_correction", "none", {"none", "origin", "corners"});
   options->correct_principal_points = correction != "none";

@@ -4,7 +4,7 @@
 #include "capture/mask_learner.h"
 #include "health/health_watch.h"
 #include "recalibrate/recalibrate_camera.h"
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 #include "workflow/calibration.h"
 
@@ -39,7 +39,7 @@ struct Parameters {
   std::string button_remote;  ///< Namespace of a spare remote; empty: none.
   capture::MaskOptions masks;
   workflow::CalibrationOptions calibration;
-  session::SolveOptions solve;
+  samples::SolveOptions solve;
   health::HealthOptions health;
   ContinuousPolicy continuous_policy = ContinuousPolicy::kPropose;
   intrinsics::Board board;          ///< The 16-LED board.

@@ -28,10 +28,10 @@ class SolveServices {
                         Lock& lock) {
     const Job job = {Step::kSolving, "solving", "what was captured stays"};
     return context_.run(job, &lock, [&] {
-      const session::Session session = context_.session(lock);
-      const session::SolveOptions options = context_.parameters(lock).solve;
-      session::Solution solution = context_.compute(&lock, [&] {
-        return session::solveSession(session, options, [this](const wave::Progress& progress) {
+      const samples::Samples samples = context_.samples(lock);
+      const samples::SolveOptions options = context_.parameters(lock).solve;
+      samples::Solution solution = context_.compute(&lock, [&] {
+        return samples::solveSamples(samples, options, [this](const wave::Progress& progress) {
           const Lock inner(context_.mutex());
           context_.setProgress(progress.fraction, inner);
           return !context_.isCancelled(Step::kSolving, inner) && ros::ok();

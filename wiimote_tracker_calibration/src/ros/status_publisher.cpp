@@ -67,7 +67,7 @@ std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> StatusPublisher::came
   return cameras;
 }
 
-void StatusPublisher::publish(const session::Verdict& verdict) {
+void StatusPublisher::publish(const samples::Verdict& verdict) {
   wiimote_tracker_msgs::CalibrationStatus status = calibrationStatus(calibration_, verdict);
   status.header.stamp = ros::Time::now();
   status.header.frame_id = parameters_.calibration.world_frame;

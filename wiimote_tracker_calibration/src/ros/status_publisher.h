@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_STATUS_PUBLISHER_H
 
 #include "capture/walk.h"
-#include "session/verdict.h"
+#include "samples/verdict.h"
 #include "workflow/calibration.h"
 #include "workflow/sounds.h"
 
@@ -55,7 +55,7 @@ class StatusPublisher {
   std::vector<wiimote_tracker_msgs::CalibrationCameraStatus> cameras(double window) const;
 
   /// @param verdict of the rig in use.
-  void publish(const session::Verdict& verdict);
+  void publish(const samples::Verdict& verdict);
 
  private:
   /// A walk comes before the start.

@@ -8,10 +8,10 @@ using wiimote_tracker_msgs::CalibrationVerdict;
 using wiimote_tracker_msgs::CameraVerdict;
 using wiimote_tracker_msgs::PrincipalPointTrace;
 
-CalibrationVerdict toMessage(const session::Verdict& verdict, const geometry::Rig& rig) {
-  static_assert(static_cast<int>(session::Grade::kGood) == CalibrationVerdict::GOOD &&
-                    static_cast<int>(session::Grade::kUsable) == CalibrationVerdict::USABLE &&
-                    static_cast<int>(session::Grade::kRedo) == CalibrationVerdict::REDO,
+CalibrationVerdict toMessage(const samples::Verdict& verdict, const geometry::Rig& rig) {
+  static_assert(static_cast<int>(samples::Grade::kGood) == CalibrationVerdict::GOOD &&
+                    static_cast<int>(samples::Grade::kUsable) == CalibrationVerdict::USABLE &&
+                    static_cast<int>(samples::Grade::kRedo) == CalibrationVerdict::REDO,
                 "the grades of the core and of the message must agree");
   CalibrationVerdict message;
   message.header.stamp = ros::Time(rig.solved_at);
@@ -20,7 +20,7 @@ CalibrationVerdict toMessage(const session::Verdict& verdict, const geometry::Ri
   message.grade = static_cast<std::uint8_t>(verdict.grade);
   message.text = verdict.text;
   message.redo_corner = verdict.redo_corner ? static_cast<std::int32_t>(*verdict.redo_corner) : -1;
-  for (const session::CameraVerdict& camera : verdict.cameras) {
+  for (const samples::CameraVerdict& camera : verdict.cameras) {
     CameraVerdict entry;
     entry.name = camera.name;
     entry.residual_px = camera.residual_px;
@@ -38,7 +38,7 @@ CalibrationVerdict toMessage(const session::Verdict& verdict, const geometry::Ri
     message.predicted_at.push_back(pointOf(place));
   message.predicted_stddev = verdict.predicted_stddev;
   message.expected_error = verdict.expected_error;
-  message.next_expected_error = session::Verdict::kUnknown;
+  message.next_expected_error = samples::Verdict::kUnknown;
   if (verdict.next) {
     message.next_measurement = verdict.next->text;
     message.next_expected_error = verdict.next->expected_error;

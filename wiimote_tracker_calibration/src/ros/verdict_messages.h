@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
 
-#include "session/verdict.h"
+#include "samples/verdict.h"
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
@@ -10,7 +10,7 @@
 
 namespace wiimote_tracker {
 
-wiimote_tracker_msgs::CalibrationVerdict toMessage(const session::Verdict& verdict,
+wiimote_tracker_msgs::CalibrationVerdict toMessage(const samples::Verdict& verdict,
                                                    const geometry::Rig& rig);
 
 wiimote_tracker_msgs::PrincipalPointTrace toMessage(const principal_point::Trace& trace,

@@ -3,7 +3,7 @@
 #include "report.h"
 #include "source.h"
 
-#include "session/grade.h"
+#include "samples/grade.h"
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
 #include "wiimote_tracker_calibration/import/comparison.h"
@@ -111,7 +111,7 @@ geometry::Rig rigOf(const Report& report) {
   geometry::Rig rig;
   rig.world_frame = "world";
   rig.method = "self_calibrate";
-  rig.verdict = session::nameOf(session::Grade::kUsable) +
+  rig.verdict = samples::nameOf(samples::Grade::kUsable) +
                 ": the scale is arbitrary, so that distances and speeds are not in metres";
   for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i) {
     geometry::RigCamera camera;

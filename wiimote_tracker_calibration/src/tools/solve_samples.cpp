@@ -1,8 +1,8 @@
 // solve_samples: solves what calibration/save_samples wrote, without the node.
 
+#include "samples/solve_samples.h"
 #include "../ros/parameters.h"
-#include "session/session_file.h"
-#include "session/solve_session.h"
+#include "samples/samples_file.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
@@ -26,8 +26,8 @@ struct Arguments {
   bool correct_principal_points = false;
 };
 
-session::SolveOptions optionsOf(const Arguments& arguments) {
-  session::SolveOptions options =
+samples::SolveOptions optionsOf(const Arguments& arguments) {
+  samples::SolveOptions options =
       readParameters(ParameterReader(readParameterTree(arguments.params))).solve;
   if (!arguments.method.empty())
     options.square.method =
@@ -41,14 +41,14 @@ session::SolveOptions optionsOf(const Arguments& arguments) {
   return options;
 }
 
-void print(const session::Solution& solution) {
-  const session::Verdict& verdict = solution.verdict;
+void print(const samples::Solution& solution) {
+  const samples::Verdict& verdict = solution.verdict;
   std::printf("%s\n\n", verdict.text.c_str());
   std::printf("%-20s %9s %9s %8s %10s %10s %9s %9s %9s %9s\n", "camera", "residual", "", "inliers",
               "rotation", "position", "focal", "centre", "k1", "offset");
   std::printf("%-20s %9s %9s %8s %10s %10s %9s %9s %9s %9s\n", "", "[px]", "[mm]", "[%]", "[mrad]",
               "[mm]", "[px]", "[px]", "", "[ms]");
-  for (const session::CameraVerdict& camera : verdict.cameras)
+  for (const samples::CameraVerdict& camera : verdict.cameras)
     std::printf("%-20s %9.3f %9.2f %8.1f %10.3f %10.2f %9.2f %9.2f %9.4f %9.3f\n",
                 camera.name.c_str(), camera.residual_px, 1e3 * camera.residual_m,
                 100.0 * camera.inlier_share, 1e3 * camera.rotation_stddev,
@@ -87,8 +87,8 @@ int main(int argc, char** argv) {
   parser.flag("--correct-principal-points", &arguments.correct_principal_points,
               "correct the principal points as the paper does");
   return parser.run(argc, argv, [&] {
-    session::Solution solution =
-        session::solveSession(session::readSessionFile(arguments.samples), optionsOf(arguments));
+    samples::Solution solution =
+        samples::solveSamples(samples::readSamplesFile(arguments.samples), optionsOf(arguments));
     print(solution);
     if (!arguments.rig.empty()) {
       solution.rig.solved_at = static_cast<double>(std::time(nullptr));

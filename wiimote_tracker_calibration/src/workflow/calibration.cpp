@@ -259,12 +259,12 @@ Reply Calibration::takeSolution(const geometry::Rig& rig) {
   return reply;
 }
 
-Reply Calibration::restore(const session::Session& session) {
-  const Reply reply = startWith(fromSession(session, options_.capture, options_.coverage));
+Reply Calibration::restore(const samples::Samples& samples) {
+  const Reply reply = startWith(fromSamples(samples, options_.capture, options_.coverage));
   if (!reply.success)
     return reply;
   updateStep();
-  for (const std::vector<geometry::ImageMask>& masks : session.masks)
+  for (const std::vector<geometry::ImageMask>& masks : samples.masks)
     preparation_.lights_learned |= !masks.empty();
   return {true, "samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
                     std::to_string(captured_.square.corners().size()) + " corners" +

@@ -3,7 +3,7 @@
 
 #include "capture/corner_capture.h"
 #include "capture/hands_free.h"
-#include "session/session.h"
+#include "samples/samples.h"
 #include "wave/coverage.h"
 #include "workflow/captured.h"
 #include "workflow/reply.h"
@@ -142,12 +142,12 @@ class Calibration {
 
   /// All that was captured so far. @param facts, masks for every camera of the run that is known;
   /// after restore() the facts are those of the samples file.
-  session::Session session(const CameraFacts& facts, const capture::Masks& masks) const {
-    return toSession(captured_, facts, masks);
+  samples::Samples samples(const CameraFacts& facts, const capture::Masks& masks) const {
+    return toSamples(captured_, facts, masks);
   }
 
   /// Replaces what was captured by saved samples; keeps the rig.
-  Reply restore(const session::Session& session);
+  Reply restore(const samples::Samples& samples);
 
   /// Whether the data come from a samples file, which has its own facts.
   bool isRestored() const { return !captured_.restored_facts.empty(); }

@@ -184,39 +184,39 @@ Captured newRun(const std::vector<std::string>& cameras,
   return captured;
 }
 
-session::Session toSession(const Captured& captured,
+samples::Samples toSamples(const Captured& captured,
                            const CameraFacts& live,
                            const capture::Masks& masks) {
   const auto& facts = captured.restored_facts.empty() ? live : captured.restored_facts;
-  session::Session session;
-  session.world_frame = captured.world_frame;
-  session.recording.square = captured.layout;
+  samples::Samples samples;
+  samples.world_frame = captured.world_frame;
+  samples.recording.square = captured.layout;
   if (captured.wave)
-    session.recording.wand = captured.wave->wand();
+    samples.recording.wand = captured.wave->wand();
   for (const std::string& name : captured.cameras) {
-    session.recording.cameras.push_back(recordingOf(captured, name, facts));
+    samples.recording.cameras.push_back(recordingOf(captured, name, facts));
     const auto mask = masks.find(name);
-    session.masks.push_back(mask != masks.end() ? mask->second
+    samples.masks.push_back(mask != masks.end() ? mask->second
                                                 : std::vector<geometry::ImageMask>());
   }
-  return session;
+  return samples;
 }
 
-Captured fromSession(const session::Session& session,
+Captured fromSamples(const samples::Samples& samples,
                      const capture::CornerCaptureOptions& capture,
                      const wave::CoverageOptions& coverage) {
   Captured captured;
-  captured.layout = session.recording.square;
-  captured.world_frame = session.world_frame;
-  captured.wave = waveOf(session.recording, coverage);
+  captured.layout = samples.recording.square;
+  captured.world_frame = samples.world_frame;
+  captured.wave = waveOf(samples.recording, coverage);
   std::vector<capture::CapturedCorner> corners;
   if (captured.layout)
     captured.places.resize(captured.layout->places.size());
-  // The file does not hold the number of samples and their spread.
+  // The file does not hold how many images a corner is the mean of, and their spread.
   const auto view = [](const Eigen::Vector2d& pixel) {
     return capture::CornerView{pixel, std::numeric_limits<double>::quiet_NaN(), 1};
   };
-  for (const wave::CameraRecording& camera : session.recording.cameras) {
+  for (const wave::CameraRecording& camera : samples.recording.cameras) {
     const square::CameraSightings& seen = camera.sightings;
     captured.cameras.push_back(seen.name);
     if (!seen.identity.empty())

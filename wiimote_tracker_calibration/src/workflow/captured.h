@@ -3,7 +3,7 @@
 
 #include "capture/corner_capture.h"
 #include "capture/masks.h"
-#include "session/session.h"
+#include "samples/samples.h"
 #include "wave/coverage.h"
 #include "workflow/reply.h"
 #include "workflow/square_run.h"
@@ -20,7 +20,8 @@ namespace wiimote_tracker::workflow {
 /// Facts about cameras besides where they saw the LED, by name.
 using CameraFacts = std::map<std::string, square::CameraSightings>;
 
-/// What one run of the calibration has captured.
+/// What one run of the calibration has captured: the live form of samples::Samples (toSamples(),
+/// fromSamples()).
 struct Captured {
   std::vector<std::string> cameras;            ///< Empty: nothing is started.
   std::optional<square::SquareLayout> layout;  ///< Nothing: a run without a square.
@@ -62,12 +63,12 @@ Captured newRun(const std::vector<std::string>& cameras,
                 const std::string& world_frame);
 
 /// @param live facts of the cameras now; not used for what comes from a samples file.
-session::Session toSession(const Captured& captured,
+samples::Samples toSamples(const Captured& captured,
                            const CameraFacts& live,
                            const capture::Masks& masks);
 
 /// The inverse. @throws wave::WaveError: coverage options out of range.
-Captured fromSession(const session::Session& session,
+Captured fromSamples(const samples::Samples& samples,
                      const capture::CornerCaptureOptions& capture,
                      const wave::CoverageOptions& coverage);
 

@@ -87,9 +87,9 @@ NextStep complete(const Calibration& calibration) {
           "start_wave", "begin the wave"};
 }
 
-NextStep solved(const session::Verdict& verdict) {
-  if (verdict.grade != session::Grade::kRedo)
-    return {verdict.grade == session::Grade::kGood ? "Good" : "Usable",
+NextStep solved(const samples::Verdict& verdict) {
+  if (verdict.grade != samples::Grade::kRedo)
+    return {verdict.grade == samples::Grade::kGood ? "Good" : "Usable",
             "Read the verdict, then save.", "save", "save"};
   if (!verdict.redo_corner)
     return {"Again", "Do again what the verdict says, or save all the same."};
@@ -101,7 +101,7 @@ NextStep solved(const session::Verdict& verdict) {
 
 }  // namespace
 
-NextStep nextStep(const Calibration& calibration, const session::Verdict& verdict) {
+NextStep nextStep(const Calibration& calibration, const samples::Verdict& verdict) {
   switch (calibration.step()) {
     case Step::kIdle:
       return beforeStart(calibration.preparation());

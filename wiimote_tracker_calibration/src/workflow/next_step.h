@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
 #define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
 
-#include "session/verdict.h"
+#include "samples/verdict.h"
 #include "workflow/calibration.h"
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct NextStep {
 };
 
 /// @param verdict of the rig in use, if there is one.
-NextStep nextStep(const Calibration& calibration, const session::Verdict& verdict);
+NextStep nextStep(const Calibration& calibration, const samples::Verdict& verdict);
 
 }  // namespace wiimote_tracker::workflow
 

@@ -24,7 +24,7 @@ struct Uncertainty {
   /// Of the offset that cameras with the default principal point share, per axis [px]; 0: none.
   /// That is (535.0, 401.7), by the paper's matrix (2), while its corrected ones lie within 5 px of
   /// (512, 384), 1.6 and 1.3 of these standard deviations away. Predictions are right for such
-  /// lenses and for lenses that scatter about the default by 15 px (doc/session.md).
+  /// lenses and for lenses that scatter about the default by 15 px (doc/samples.md).
   double shared_principal_point = 14.0;
   double k1 = 0.02;         ///< Of the first distortion coefficient [1].
   double gravity = 0.0524;  ///< Of the accelerometer's up against the floor's normal [rad]: 3 deg.

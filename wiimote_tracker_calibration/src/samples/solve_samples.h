@@ -1,8 +1,8 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_SOLVE_SESSION_H
-#define WIIMOTE_TRACKER_CALIBRATION_SESSION_SOLVE_SESSION_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SOLVE_SAMPLES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SOLVE_SAMPLES_H
 
-#include "session/session.h"
-#include "session/verdict.h"
+#include "samples/samples.h"
+#include "samples/verdict.h"
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
@@ -12,7 +12,7 @@
 #include <limits>
 #include <optional>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 struct SolveOptions {
   /// Its uncertainty also holds for the wave; so do uncertainty and branch odds for the correction.
@@ -41,14 +41,14 @@ wave::WaveSolution solveRecording(const wave::Recording& recording,
                                   const SolveOptions& options,
                                   const wave::ProgressCallback& progress = nullptr);
 
-/// Solves a session with wave::solveWave() if it has a wave or a wand, else from its square with
-/// the method of the options. The same session and options give the same solution, bit for bit.
+/// Solves samples with wave::solveWave() if they have a wave or a wand, else from their square with
+/// the method of the options. The same samples and options give the same solution, bit for bit.
 /// @throws Error as these solvers do, or: neither square nor wave. wave::Cancelled: `progress`
 /// asked to stop.
-Solution solveSession(const Session& session,
+Solution solveSamples(const Samples& samples,
                       const SolveOptions& options,
                       const wave::ProgressCallback& progress = nullptr);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SESSION_SOLVE_SESSION_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SOLVE_SAMPLES_H

@@ -1,7 +1,7 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_NEXT_MEASUREMENT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_NEXT_MEASUREMENT_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_NEXT_MEASUREMENT_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_NEXT_MEASUREMENT_H
 
-#include "session/verdict.h"
+#include "samples/verdict.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include <Eigen/Core>
@@ -9,7 +9,7 @@
 #include <optional>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// The measurement that lowers the expected error of points at some places most: a length between
 /// two corners, or the LED on a known place. To first order: the joint covariance is updated by the
@@ -21,6 +21,6 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
                                                const std::vector<Eigen::Vector3d>& places,
                                                double pixel);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_NEXT_MEASUREMENT_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_NEXT_MEASUREMENT_H

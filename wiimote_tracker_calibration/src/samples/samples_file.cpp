@@ -1,6 +1,6 @@
-#include "session/session_file.h"
+#include "samples/samples_file.h"
 
-#include "session_yaml.h"
+#include "samples_yaml.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -18,7 +18,7 @@
 #include <utility>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -156,22 +156,22 @@ void checkCamera(const wave::CameraRecording& camera,
   }
 }
 
-/// Checks what readSessionFile() requires.
-void check(const Session& session) {
-  const wave::Recording& recording = session.recording;
-  require(!session.world_frame.empty(), "the world frame has no name");
+/// Checks what readSamplesFile() requires.
+void check(const Samples& samples) {
+  const wave::Recording& recording = samples.recording;
+  require(!samples.world_frame.empty(), "the world frame has no name");
   if (recording.square)
     recording.square->check();
   if (recording.wand)
     recording.wand->check();
-  require(session.masks.size() == recording.cameras.size(),
+  require(samples.masks.size() == recording.cameras.size(),
           "the masks are not of as many cameras as were captured");
   std::set<std::string> names;
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
     const std::string& name = recording.cameras[i].sightings.name;
     require(!name.empty(), "a camera has no name");
     require(names.insert(name).second, "two cameras are called " + name);
-    checkCamera(recording.cameras[i], session.masks[i]);
+    checkCamera(recording.cameras[i], samples.masks[i]);
     const auto& corners = recording.cameras[i].sightings.corners;
     require(recording.square || std::none_of(corners.begin(), corners.end(),
                                              [](const auto& corner) { return corner.has_value(); }),
@@ -184,11 +184,11 @@ void check(const Session& session) {
 
 }  // namespace
 
-void writeSessionFile(const Session& session, const std::string& path) {
-  check(session);
-  std::string text = yamlFromSession(session);
+void writeSamplesFile(const Samples& samples, const std::string& path) {
+  check(samples);
+  std::string text = yamlFromSamples(samples);
   text += std::string("\n") + kFramesLine + "\n";
-  for (const wave::CameraRecording& camera : session.recording.cameras) {
+  for (const wave::CameraRecording& camera : samples.recording.cameras) {
     text += std::string(kCameraLine) + "\n";
     appendFrames(camera.frames, &text);
   }
@@ -201,28 +201,28 @@ void writeSessionFile(const Session& session, const std::string& path) {
   geometry::writeFileAtomically(path, text);
 }
 
-Session readSessionFile(const std::string& path) {
+Samples readSamplesFile(const std::string& path) {
   const std::string text = geometry::readFile(path, kLargestFile);
   const std::size_t head_end = text.find(std::string("\n") + kFramesLine + "\n");
   if (head_end == std::string::npos)
     throw Error(path +
                 " is cut off, or holds no samples of a calibration; restore it from its "
                 "backup, or choose a file that save_samples wrote");
-  SessionHead head = headFromYaml(text.substr(0, head_end + 1), path);
+  SamplesHead head = headFromYaml(text.substr(0, head_end + 1), path);
   Lines lines(text, head_end + 1, path);
   lines.expect(kFramesLine);
   for (std::size_t i = 0; i < head.frames.size(); ++i) {
     lines.expect(kCameraLine);
-    head.session.recording.cameras[i].frames = lines.frames(head.frames[i]);
+    head.samples.recording.cameras[i].frames = lines.frames(head.frames[i]);
   }
   lines.expect(kEndLine);
   lines.expectEnd();
   try {
-    check(head.session);
+    check(head.samples);
   } catch (const geometry::Error& error) {
     throw Error(path + ": " + error.what());
   }
-  return head.session;
+  return head.samples;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -1,4 +1,4 @@
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 
 #include "diagnose.h"
 #include "judge.h"
@@ -10,7 +10,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -111,12 +111,12 @@ wave::WaveSolution solveRecording(const wave::Recording& recording,
   return found;
 }
 
-Solution solveSession(const Session& session,
+Solution solveSamples(const Samples& samples,
                       const SolveOptions& options,
                       const wave::ProgressCallback& progress) {
-  if (session.masks.size() != session.recording.cameras.size())
-    throw Error("the session has masks for another number of cameras: capture again");
-  wave::Recording recording = session.recording;
+  if (samples.masks.size() != samples.recording.cameras.size())
+    throw Error("the samples have masks for another number of cameras: capture again");
+  wave::Recording recording = samples.recording;
   for (wave::CameraRecording& camera : recording.cameras) {
     if (!options.use_gravity)
       camera.sightings.gravity.reset();
@@ -128,23 +128,23 @@ Solution solveSession(const Session& session,
   wave::WaveSolution found = solveOrDiagnose(recording, options, progress, &solution.trace);
 
   geometry::Rig& rig = found.rig;
-  rig.world_frame = session.world_frame;
+  rig.world_frame = samples.world_frame;
   rig.ray_model = options.ray_model;
   rig.virtual_hfov = options.virtual_hfov;
   for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const square::CameraSightings& sightings = session.recording.cameras[i].sightings;
+    const square::CameraSightings& sightings = samples.recording.cameras[i].sightings;
     for (geometry::RigCamera& camera : rig.cameras) {
       if (camera.camera.name != sightings.name)
         continue;
-      camera.masks = session.masks[i];
+      camera.masks = samples.masks[i];
       camera.gravity = sightings.gravity;
     }
   }
-  solution.verdict = judge(session, found, options.square.uncertainty.pixel);
+  solution.verdict = judge(samples, found, options.square.uncertainty.pixel);
   rig.verdict = solution.verdict.text;
   rig.check();
   solution.rig = std::move(rig);
   return solution;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <string>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -137,4 +137,4 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
   return best;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -13,7 +13,7 @@
 #include <limits>
 #include <string>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -21,7 +21,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 // Height of the paper's cube above the corners [m].
 constexpr double kAbove = 2.5;
 // Limits of a point's predicted error, as a share of its distance from the cameras
-// (doc/session.md).
+// (doc/samples.md).
 constexpr double kGoodShare = 0.004;
 constexpr double kUsableShare = 0.02;
 // Chi-squared difference between the worst corner and the next: a likelihood ratio of 100.
@@ -66,15 +66,15 @@ CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
 
 /// RMS distance of the corners, triangulated with the rig from their captured spots, from their
 /// nominal places, over those that two cameras saw [m]; NaN when there is none.
-double cornerError(const Session& session, const geometry::Rig& rig, bool z_up) {
-  const square::Corners nominal = session.recording.square->corners(z_up);
+double cornerError(const Samples& samples, const geometry::Rig& rig, bool z_up) {
+  const square::Corners nominal = samples.recording.square->corners(z_up);
   const std::vector<geometry::Camera> cameras = rig.rayCameras();
   double sum = 0.0;
   int count = 0;
   for (std::size_t c = 0; c < nominal.size(); ++c) {
     std::vector<geometry::Observation> observations;
     for (const geometry::Camera& camera : cameras) {
-      for (const wave::CameraRecording& recorded : session.recording.cameras) {
+      for (const wave::CameraRecording& recorded : samples.recording.cameras) {
         const auto& pixel = recorded.sightings.corners[c];
         if (recorded.sightings.name == camera.name && pixel)
           observations.push_back({&camera, *pixel});
@@ -124,12 +124,12 @@ struct Accuracy {
   std::string text;
 };
 
-Accuracy accuracyOf(const Session& session,
+Accuracy accuracyOf(const Samples& samples,
                     const wave::WaveSolution& found,
                     const Verdict& verdict) {
   const geometry::Rig& rig = found.rig;
   Accuracy accuracy;
-  if (!session.recording.square) {
+  if (!samples.recording.square) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& place : found.path)
       middle += place / static_cast<double>(found.path.size());
@@ -139,7 +139,7 @@ Accuracy accuracyOf(const Session& session,
     return accuracy;
   }
   if (rig.ray_model == geometry::RayModel::kImageCenter) {
-    const double error = cornerError(session, rig, found.z_up);
+    const double error = cornerError(samples, rig, found.z_up);
     accuracy.share = error / meanDistance(rig, verdict.predicted_at[0]);
     accuracy.text = "the corners are measured " + millimetres(error) +
                     " beside their places (RMS), and points elsewhere farther off, because the "
@@ -176,19 +176,19 @@ bool concernsQuality(const std::string& warning) {
 }
 
 /// Why the rig is not good, or empty.
-std::vector<std::string> shortcomings(const Session& session,
+std::vector<std::string> shortcomings(const Samples& samples,
                                       const Accuracy& accuracy,
                                       const wave::WaveSolution& found,
                                       const Verdict& verdict) {
   std::vector<std::string> reasons;
-  const std::string question = scaleQuestion(session.recording, found.rig, found.path);
+  const std::string question = scaleQuestion(samples.recording, found.rig, found.path);
   if (!question.empty())
     reasons.push_back(question);
   if (!(accuracy.share <= kGoodShare))
     reasons.push_back(
         std::isnan(accuracy.share)
             ? std::string("its accuracy is unknown: point two cameras or more at the square")
-            : "it is not as accurate as it could be: " + improvement(session.recording));
+            : "it is not as accurate as it could be: " + improvement(samples.recording));
   for (const CameraVerdict& camera : verdict.cameras) {
     if (camera.inlier_share < kGoodInliers)
       reasons.push_back(
@@ -240,12 +240,12 @@ Verdict verdictOf(const geometry::Rig& rig) {
   return verdict;
 }
 
-Verdict judge(const Session& session, const wave::WaveSolution& found, double pixel) {
+Verdict judge(const Samples& samples, const wave::WaveSolution& found, double pixel) {
   Verdict verdict = verdictOf(found.rig);
-  if (session.recording.square)
-    predict(*session.recording.square, found, pixel, &verdict);
-  const Accuracy accuracy = accuracyOf(session, found, verdict);
-  const std::vector<std::string> reasons = shortcomings(session, accuracy, found, verdict);
+  if (samples.recording.square)
+    predict(*samples.recording.square, found, pixel, &verdict);
+  const Accuracy accuracy = accuracyOf(samples, found, verdict);
+  const std::vector<std::string> reasons = shortcomings(samples, accuracy, found, verdict);
   std::string reason;
   if (found.suspect && square::isDisplaced(*found.suspect)) {
     verdict.grade = Grade::kRedo;
@@ -256,7 +256,7 @@ Verdict judge(const Session& session, const wave::WaveSolution& found, double pi
     reason =
         ": points would be far off; place the cameras so that they look from different sides, "
         "and " +
-        improvement(session.recording);
+        improvement(samples.recording);
   } else if (!reasons.empty()) {
     verdict.grade = Grade::kUsable;
     reason = ": " + joined(reasons, ", and ");
@@ -270,4 +270,4 @@ Verdict judge(const Session& session, const wave::WaveSolution& found, double pi
   return verdict;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -7,7 +7,7 @@
 #include <limits>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -96,4 +96,4 @@ std::optional<double> clockLag(const wave::Recording& recording, std::size_t cam
   return result;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -1,4 +1,4 @@
-#include "session_yaml.h"
+#include "samples_yaml.h"
 
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/yaml_map.h>
@@ -10,7 +10,7 @@
 #include <limits>
 #include <optional>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -229,7 +229,7 @@ void readPixels(YamlMap& map, const std::string& key, const std::string& count, 
     throw map.error(key, "is not a list of " + count + " places, each two numbers or null");
 }
 
-void readCamera(YamlMap map, SessionHead* head) {
+void readCamera(YamlMap map, SamplesHead* head) {
   wave::CameraRecording camera;
   square::CameraSightings& sightings = camera.sightings;
   sightings.name = map.get<std::string>("name");
@@ -242,52 +242,52 @@ void readCamera(YamlMap map, SessionHead* head) {
   readPixels(map, "corners", "four", &sightings.corners);
   if (map.has("places")) {
     sightings.places.resize(
-        head->session.recording.square ? head->session.recording.square->places.size() : 0);
+        head->samples.recording.square ? head->samples.recording.square->places.size() : 0);
     readPixels(map, "places", "the square's", &sightings.places);
   }
-  head->session.masks.emplace_back();
+  head->samples.masks.emplace_back();
   for (YamlMap& mask : map.maps("masks")) {
     const Eigen::Vector2d center = readVector(mask, "center", 2);
-    head->session.masks.back().push_back({center, mask.get<double>("radius")});
+    head->samples.masks.back().push_back({center, mask.get<double>("radius")});
     mask.refuseUnknown();
   }
   head->frames.push_back(
       map.bounded<std::size_t>("frames", 0, std::numeric_limits<std::int32_t>::max()));
   map.refuseUnknown();
-  head->session.recording.cameras.push_back(camera);
+  head->samples.recording.cameras.push_back(camera);
 }
 
 }  // namespace
 
-std::string yamlFromSession(const Session& session) {
+std::string yamlFromSamples(const Samples& samples) {
   YAML::Emitter out;
-  out << YAML::Comment("What was captured to calibrate a rig; units as in doc/session.md.");
+  out << YAML::Comment("What was captured to calibrate a rig; units as in doc/samples.md.");
   out << YAML::BeginMap;
   out << YAML::Key << "format" << YAML::Value << kFormat;
   out << YAML::Key << "version" << YAML::Value << kVersion;
-  out << YAML::Key << "world_frame" << YAML::Value << YAML::DoubleQuoted << session.world_frame;
-  emitSquare(session.recording.square, out);
-  emitWand(session.recording.wand, out);
+  out << YAML::Key << "world_frame" << YAML::Value << YAML::DoubleQuoted << samples.world_frame;
+  emitSquare(samples.recording.square, out);
+  emitWand(samples.recording.wand, out);
   out << YAML::Key << "cameras" << YAML::Value << YAML::BeginSeq;
-  for (std::size_t i = 0; i < session.recording.cameras.size(); ++i)
-    emitCamera(session.recording.cameras[i], session.masks[i], out);
+  for (std::size_t i = 0; i < samples.recording.cameras.size(); ++i)
+    emitCamera(samples.recording.cameras[i], samples.masks[i], out);
   out << YAML::EndSeq << YAML::EndMap;
   return out.c_str();
 }
 
-SessionHead headFromYaml(const std::string& text, const std::string& where) {
+SamplesHead headFromYaml(const std::string& text, const std::string& where) {
   YamlMap map = YamlMap::parse(text, where, "choose a file that save_samples wrote");
   map.checkFormat(kFormat, kVersion);
-  SessionHead head;
-  head.session.world_frame = map.get<std::string>("world_frame");
+  SamplesHead head;
+  head.samples.world_frame = map.get<std::string>("world_frame");
   if (!map.get<YAML::Node>("square").IsNull())
-    head.session.recording.square = readSquare(map.map("square"));
+    head.samples.recording.square = readSquare(map.map("square"));
   if (!map.get<YAML::Node>("wand").IsNull())
-    head.session.recording.wand = readWand(map.map("wand"));
+    head.samples.recording.wand = readWand(map.map("wand"));
   for (const YamlMap& camera : map.maps("cameras"))
     readCamera(camera, &head);
   map.refuseUnknown();
   return head;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -1,8 +1,8 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_JUDGE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_JUDGE_H
 
-#include "session/session.h"
-#include "session/verdict.h"
+#include "samples/samples.h"
+#include "samples/verdict.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// Asks whether the lengths are in metres, if a camera is too far from the LED for a Wii Remote, or
 /// too near; else empty. @param led where it was seen, world [m].
@@ -25,10 +25,10 @@ Verdict verdictOf(const geometry::Rig& rig);
 
 /// Grades a solution, as of solveRecording(). @param found the verdict of its rig is the solver's,
 /// and is appended. @param pixel standard deviation of a still LED, per axis [px].
-Verdict judge(const Session& session,
+Verdict judge(const Samples& samples,
               const wave::WaveSolution& found,
               double pixel = square::Uncertainty().pixel);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_JUDGE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_JUDGE_H

@@ -1,10 +1,10 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_GRADE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_GRADE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_GRADE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_GRADE_H
 
 #include <cstddef>
 #include <string>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// How good a rig is. Values as in CalibrationVerdict.msg.
 enum class Grade { kGood = 0, kUsable = 1, kRedo = 2 };
@@ -24,6 +24,6 @@ inline Grade gradeOf(const std::string& verdict) {
   return Grade::kUsable;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_GRADE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_GRADE_H

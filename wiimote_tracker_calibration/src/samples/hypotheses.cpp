@@ -10,7 +10,7 @@
 #include <cmath>
 #include <utility>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -206,4 +206,4 @@ Hypotheses wrongCameras(const Hypothesis& as_is) {
   return all;
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

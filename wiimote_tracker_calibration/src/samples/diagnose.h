@@ -1,13 +1,13 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_DIAGNOSE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_DIAGNOSE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_DIAGNOSE_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_DIAGNOSE_H
 
-#include "session/solve_session.h"
+#include "samples/solve_samples.h"
 
 #include <cstddef>
 #include <optional>
 #include <string>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// The most likely mistake.
 struct Mistake {
@@ -26,6 +26,6 @@ std::optional<Mistake> diagnose(const wave::Recording& recording,
                                 bool contradicts,
                                 const wave::ProgressCallback& progress);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_DIAGNOSE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_DIAGNOSE_H

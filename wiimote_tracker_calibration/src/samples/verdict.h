@@ -1,7 +1,7 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SAMPLES_VERDICT_H
+#define WIIMOTE_TRACKER_CALIBRATION_SAMPLES_VERDICT_H
 
-#include "session/grade.h"
+#include "samples/grade.h"
 
 #include <Eigen/Core>
 
@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// How well one camera was calibrated. Fields as in CameraVerdict.msg: standard deviations are 0
 /// where held fixed, NaN is unknown. The residuals of a wave and of self_calibrate are corrected
@@ -58,6 +58,6 @@ struct Verdict {
   static constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 };
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SESSION_VERDICT_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SAMPLES_VERDICT_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_HYPOTHESES_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_HYPOTHESES_H
 
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 /// The solution of a recording, by solveRecording().
 using Attempt = wave::WaveSolution;
@@ -34,6 +34,6 @@ Hypotheses movedCameras(const Hypothesis& as_is);
 /// A camera that contradicts all others.
 Hypotheses wrongCameras(const Hypothesis& as_is);
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SESSION_HYPOTHESES_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_HYPOTHESES_H

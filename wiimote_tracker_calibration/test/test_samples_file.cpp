@@ -1,6 +1,6 @@
 // The file of what was captured: every number comes back, and damage is refused.
 
-#include "session/session_file.h"
+#include "samples/samples_file.h"
 
 #include "expect_says.h"
 
@@ -22,18 +22,18 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 namespace {
 
 /// A file that is gone after the test.
-class SessionFile : public ::testing::Test {
+class SamplesFile : public ::testing::Test {
  protected:
-  SessionFile() {
+  SamplesFile() {
     folder_ = std::filesystem::temp_directory_path() /
-              ("test_session_file_" + std::to_string(::getpid()));
+              ("test_samples_file_" + std::to_string(::getpid()));
     path_ = (folder_ / "deeper" / "samples.yaml").string();
   }
-  ~SessionFile() override { std::filesystem::remove_all(folder_); }
+  ~SamplesFile() override { std::filesystem::remove_all(folder_); }
 
   void write(const std::string& text) {
     std::filesystem::create_directories(std::filesystem::path(path_).parent_path());
@@ -42,7 +42,7 @@ class SessionFile : public ::testing::Test {
 
   std::string refusal() {
     try {
-      readSessionFile(path_);
+      readSamplesFile(path_);
     } catch (const Error& error) {
       return error.what();
     }
@@ -53,7 +53,7 @@ class SessionFile : public ::testing::Test {
   std::string path_;
 };
 
-const char* const kText = R"(# What was captured to calibrate a rig; units as in doc/session.md.
+const char* const kText = R"(# What was captured to calibrate a rig; units as in doc/samples.md.
 format: wiimote_tracker_samples
 version: 1
 world_frame: "world"
@@ -120,9 +120,9 @@ cameras:
 ...
 )";
 
-Session expectedSession() {
-  Session session;
-  wave::Recording& recording = session.recording;
+Samples expectedSamples() {
+  Samples samples;
+  wave::Recording& recording = samples.recording;
   recording.square = square::SquareLayout();
   recording.square->side_x = 2.5;
   recording.square->side_y = 2.0;
@@ -153,31 +153,31 @@ Session expectedSession() {
   lens.distortion_model = geometry::DistortionModel::kEquidistant;
   lens.distortion = {0.1, 0.2, 0.3, 0.4, 0.0};
   two.frames = {{1700000000.13, {}}, {1700000000.14, {{5.0, 6.0}}}, {1700000000.15, {}}};
-  session.masks = {{{Eigen::Vector2d(10.0, 20.0), 6.5}}, {}};
-  return session;
+  samples.masks = {{{Eigen::Vector2d(10.0, 20.0), 6.5}}, {}};
+  return samples;
 }
 
 /// Compares bits: 0 is not -0.
-void expectSameSession(double a, double b) {
+void expectSameSamples(double a, double b) {
   EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << a << " " << b;
 }
 
 template <typename A, typename B>
 void expectSameVector(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   for (Eigen::Index i = 0; i < a.size(); ++i)
-    expectSameSession(a(i), b(i));
+    expectSameSamples(a(i), b(i));
 }
 
 void expectSameLens(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
-  expectSameSession(a.fx, b.fx);
-  expectSameSession(a.fy, b.fy);
-  expectSameSession(a.cx, b.cx);
-  expectSameSession(a.cy, b.cy);
+  expectSameSamples(a.fx, b.fx);
+  expectSameSamples(a.fy, b.fy);
+  expectSameSamples(a.cx, b.cx);
+  expectSameSamples(a.cy, b.cy);
   EXPECT_EQ(a.distortion_model, b.distortion_model);
   for (std::size_t i = 0; i < a.distortion.size(); ++i)
-    expectSameSession(a.distortion[i], b.distortion[i]);
+    expectSameSamples(a.distortion[i], b.distortion[i]);
 }
 
 void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecording& b) {
@@ -195,27 +195,27 @@ void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecordin
   EXPECT_EQ(a.clock_epoch, b.clock_epoch);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
-    expectSameSession(a.frames[i].stamp, b.frames[i].stamp);
+    expectSameSamples(a.frames[i].stamp, b.frames[i].stamp);
     ASSERT_EQ(a.frames[i].spots.size(), b.frames[i].spots.size());
     for (std::size_t s = 0; s < a.frames[i].spots.size(); ++s)
       expectSameVector(a.frames[i].spots[s], b.frames[i].spots[s]);
   }
 }
 
-void expectSameSession(const Session& a, const Session& b) {
+void expectSameSamples(const Samples& a, const Samples& b) {
   EXPECT_EQ(a.world_frame, b.world_frame);
   ASSERT_EQ(a.recording.square.has_value(), b.recording.square.has_value());
   if (a.recording.square) {
-    expectSameSession(a.recording.square->side_x, b.recording.square->side_x);
-    expectSameSession(a.recording.square->side_y, b.recording.square->side_y);
-    expectSameSession(a.recording.square->led_height, b.recording.square->led_height);
+    expectSameSamples(a.recording.square->side_x, b.recording.square->side_x);
+    expectSameSamples(a.recording.square->side_y, b.recording.square->side_y);
+    expectSameSamples(a.recording.square->led_height, b.recording.square->led_height);
     expectSameVector(a.recording.square->origin, b.recording.square->origin);
-    expectSameSession(a.recording.square->yaw, b.recording.square->yaw);
+    expectSameSamples(a.recording.square->yaw, b.recording.square->yaw);
   }
   ASSERT_EQ(a.recording.wand.has_value(), b.recording.wand.has_value());
   if (a.recording.wand) {
-    expectSameSession(a.recording.wand->length, b.recording.wand->length);
-    expectSameSession(a.recording.wand->stddev, b.recording.wand->stddev);
+    expectSameSamples(a.recording.wand->length, b.recording.wand->length);
+    expectSameSamples(a.recording.wand->stddev, b.recording.wand->stddev);
     EXPECT_EQ(a.recording.wand->led_height, b.recording.wand->led_height);
   }
   ASSERT_EQ(a.recording.cameras.size(), b.recording.cameras.size());
@@ -225,56 +225,56 @@ void expectSameSession(const Session& a, const Session& b) {
     ASSERT_EQ(a.masks[i].size(), b.masks[i].size());
     for (std::size_t m = 0; m < a.masks[i].size(); ++m) {
       expectSameVector(a.masks[i][m].center, b.masks[i][m].center);
-      expectSameSession(a.masks[i][m].radius, b.masks[i][m].radius);
+      expectSameSamples(a.masks[i][m].radius, b.masks[i][m].radius);
     }
   }
 }
 
-TEST_F(SessionFile, IsWhatTheDocumentationShows) {
+TEST_F(SamplesFile, IsWhatTheDocumentationShows) {
   write(kText);
-  expectSameSession(readSessionFile(path_), expectedSession());
+  expectSameSamples(readSamplesFile(path_), expectedSamples());
   std::filesystem::remove(path_);
-  writeSessionFile(expectedSession(), path_);
+  writeSamplesFile(expectedSamples(), path_);
   EXPECT_EQ(geometry::readFile(path_), kText);
 }
 
-TEST_F(SessionFile, KeepsAWandOnTheFloor) {
-  Session session = expectedSession();
-  session.recording.wand->led_height = 0.03;
-  writeSessionFile(session, path_);
-  expectSameSession(readSessionFile(path_), session);
-  session.recording.wand->led_height = -0.03;
-  EXPECT_THROW(writeSessionFile(session, path_), Error);
+TEST_F(SamplesFile, KeepsAWandOnTheFloor) {
+  Samples samples = expectedSamples();
+  samples.recording.wand->led_height = 0.03;
+  writeSamplesFile(samples, path_);
+  expectSameSamples(readSamplesFile(path_), samples);
+  samples.recording.wand->led_height = -0.03;
+  EXPECT_THROW(writeSamplesFile(samples, path_), Error);
 }
 
-TEST_F(SessionFile, KeepsKnownPlaces) {
-  Session session = expectedSession();
-  session.recording.square->places = {{{0.25, -1.0, 2.0}, 0.001}, {{1.0, 1.0, 1e-7}, 0.002}};
-  session.recording.cameras[0].sightings.places = {std::nullopt, Eigen::Vector2d(5.0, 6.25)};
-  session.recording.cameras[1].sightings.places = {Eigen::Vector2d(1.0, 2.0), std::nullopt};
-  writeSessionFile(session, path_);
-  const wave::Recording read = readSessionFile(path_).recording;
+TEST_F(SamplesFile, KeepsKnownPlaces) {
+  Samples samples = expectedSamples();
+  samples.recording.square->places = {{{0.25, -1.0, 2.0}, 0.001}, {{1.0, 1.0, 1e-7}, 0.002}};
+  samples.recording.cameras[0].sightings.places = {std::nullopt, Eigen::Vector2d(5.0, 6.25)};
+  samples.recording.cameras[1].sightings.places = {Eigen::Vector2d(1.0, 2.0), std::nullopt};
+  writeSamplesFile(samples, path_);
+  const wave::Recording read = readSamplesFile(path_).recording;
   const std::vector<square::KnownPlace> places = read.square.value().places;
   ASSERT_EQ(places.size(), 2U);
   expectSameVector(places[1].position, Eigen::Vector3d(1.0, 1.0, 1e-7));
-  expectSameSession(places[1].stddev, 0.002);
+  expectSameSamples(places[1].stddev, 0.002);
   ASSERT_EQ(read.cameras[0].sightings.places.size(), 2U);
   EXPECT_FALSE(read.cameras[0].sightings.places[0]);
   expectSameVector(*read.cameras[0].sightings.places[1], Eigen::Vector2d(5.0, 6.25));
-  session.recording.square->places.pop_back();
-  EXPECT_THROW(writeSessionFile(session, path_), Error);
+  samples.recording.square->places.pop_back();
+  EXPECT_THROW(writeSamplesFile(samples, path_), Error);
 }
 
-TEST_F(SessionFile, KeepsLengthsByTape) {
-  Session session = expectedSession();
-  session.recording.square->lengths = {{0, 2, 3.2015621187164243, 0.001}, {3, 1, 3.2, 0.002}};
-  writeSessionFile(session, path_);
-  const auto lengths = readSessionFile(path_).recording.square->lengths;
+TEST_F(SamplesFile, KeepsLengthsByTape) {
+  Samples samples = expectedSamples();
+  samples.recording.square->lengths = {{0, 2, 3.2015621187164243, 0.001}, {3, 1, 3.2, 0.002}};
+  writeSamplesFile(samples, path_);
+  const auto lengths = readSamplesFile(path_).recording.square->lengths;
   ASSERT_EQ(lengths.size(), 2U);
   EXPECT_EQ(lengths[0].from, 0U);
   EXPECT_EQ(lengths[0].to, 2U);
-  expectSameSession(lengths[0].length, 3.2015621187164243);
-  expectSameSession(lengths[0].stddev, 0.001);
+  expectSameSamples(lengths[0].length, 3.2015621187164243);
+  expectSameSamples(lengths[0].stddev, 0.001);
   EXPECT_EQ(lengths[1].from, 3U);
   const std::string text = geometry::readFile(path_);
   for (const auto& [from, to, part] :
@@ -288,7 +288,7 @@ TEST_F(SessionFile, KeepsLengthsByTape) {
   }
 }
 
-TEST_F(SessionFile, KeepsAnyNumberAndName) {
+TEST_F(SamplesFile, KeepsAnyNumberAndName) {
   std::mt19937_64 random(1);
   const auto any = [&random] {
     double value = 0.0;
@@ -298,43 +298,43 @@ TEST_F(SessionFile, KeepsAnyNumberAndName) {
     } while (!std::isfinite(value));
     return value;
   };
-  Session session = expectedSession();
-  session.world_frame = "map: #1 \"\xc3\xbc\"\n---\n";
-  session.recording.cameras[0].sightings.name = "/room 1/wiimote";
-  session.recording.cameras[1].sightings.name = "~";
-  session.recording.cameras[0].sightings.gravity = Eigen::Vector3d(any(), any(), -0.0);
+  Samples samples = expectedSamples();
+  samples.world_frame = "map: #1 \"\xc3\xbc\"\n---\n";
+  samples.recording.cameras[0].sightings.name = "/room 1/wiimote";
+  samples.recording.cameras[1].sightings.name = "~";
+  samples.recording.cameras[0].sightings.gravity = Eigen::Vector3d(any(), any(), -0.0);
   std::set<double> stamps = {std::numeric_limits<double>::denorm_min()};
   while (stamps.size() < 2001)
     stamps.insert(any());
-  session.recording.cameras[1].frames.clear();
+  samples.recording.cameras[1].frames.clear();
   for (const double stamp : stamps)
-    session.recording.cameras[1].frames.push_back({stamp, {{any(), any()}, {any(), any()}}});
-  session.recording.cameras[1].frames[1000].spots = {{-0.0, std::numeric_limits<double>::max()}};
-  writeSessionFile(session, path_);
-  expectSameSession(readSessionFile(path_), session);
+    samples.recording.cameras[1].frames.push_back({stamp, {{any(), any()}, {any(), any()}}});
+  samples.recording.cameras[1].frames[1000].spots = {{-0.0, std::numeric_limits<double>::max()}};
+  writeSamplesFile(samples, path_);
+  expectSameSamples(readSamplesFile(path_), samples);
 }
 
-TEST_F(SessionFile, HasADecimalPointInEveryLocale) {
+TEST_F(SamplesFile, HasADecimalPointInEveryLocale) {
   if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8"))
     GTEST_SKIP() << "no German locale here";
-  writeSessionFile(expectedSession(), path_);
+  writeSamplesFile(expectedSamples(), path_);
   EXPECT_EQ(geometry::readFile(path_), kText);
-  expectSameSession(readSessionFile(path_), expectedSession());
+  expectSameSamples(readSamplesFile(path_), expectedSamples());
   std::setlocale(LC_NUMERIC, "C");
 }
 
-TEST_F(SessionFile, KeepsWhatWasThereBefore) {
-  Session session = expectedSession();
-  writeSessionFile(session, path_);
-  session.recording.square->side_x = 3.0;
-  writeSessionFile(session, path_);
+TEST_F(SamplesFile, KeepsWhatWasThereBefore) {
+  Samples samples = expectedSamples();
+  writeSamplesFile(samples, path_);
+  samples.recording.square->side_x = 3.0;
+  writeSamplesFile(samples, path_);
   EXPECT_EQ(geometry::readFile(path_ + ".bak"), kText);
-  session.recording.cameras[0].frames[0].spots[0].x() = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(writeSessionFile(session, path_), Error);
-  EXPECT_EQ(readSessionFile(path_).recording.square->side_x, 3.0);
+  samples.recording.cameras[0].frames[0].spots[0].x() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(writeSamplesFile(samples, path_), Error);
+  EXPECT_EQ(readSamplesFile(path_).recording.square->side_x, 3.0);
 }
 
-TEST_F(SessionFile, CutOffAnywhereIsRefused) {
+TEST_F(SamplesFile, CutOffAnywhereIsRefused) {
   const std::string text = kText;
   for (std::size_t length = 0; length < text.size(); ++length) {
     write(text.substr(0, length));
@@ -342,7 +342,7 @@ TEST_F(SessionFile, CutOffAnywhereIsRefused) {
   }
 }
 
-TEST_F(SessionFile, DamageIsRefusedOrHarmless) {
+TEST_F(SamplesFile, DamageIsRefusedOrHarmless) {
   const std::string text = kText;
   std::mt19937_64 random(2);
   int refused = 0;
@@ -356,7 +356,7 @@ TEST_F(SessionFile, DamageIsRefusedOrHarmless) {
     write(damaged);
     try {
       // What can be read can be written.
-      writeSessionFile(readSessionFile(path_), path_ + ".again");
+      writeSamplesFile(readSamplesFile(path_), path_ + ".again");
     } catch (const Error& error) {
       ++refused;
       EXPECT_GT(std::strlen(error.what()), 20U);
@@ -365,7 +365,7 @@ TEST_F(SessionFile, DamageIsRefusedOrHarmless) {
   EXPECT_GT(refused, static_cast<int>(text.size()));
 }
 
-TEST_F(SessionFile, SaysWhatIsWrongWithIt) {
+TEST_F(SamplesFile, SaysWhatIsWrongWithIt) {
   EXPECT_SAYS(refusal(), "(No such file or directory); check its name");
   write("wiimote_tracker_rig: 1\n");
   EXPECT_SAYS(refusal(), "holds no samples");
@@ -395,4 +395,4 @@ TEST_F(SessionFile, SaysWhatIsWrongWithIt) {
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 
 namespace {
 
@@ -117,4 +117,4 @@ std::optional<Mistake> diagnose(const wave::Recording& recording,
   return Diagnosis(recording, options, progress).run(contradicts);
 }
 
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

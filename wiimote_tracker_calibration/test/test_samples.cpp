@@ -4,9 +4,9 @@
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
-#include "session/judge.h"
-#include "session/session_file.h"
-#include "session/solve_session.h"
+#include "samples/judge.h"
+#include "samples/samples_file.h"
+#include "samples/solve_samples.h"
 #include "square/error.h"
 #include "wave/error.h"
 
@@ -24,7 +24,7 @@
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::session {
+namespace wiimote_tracker::samples {
 namespace {
 
 std::string refusalOf(const std::function<void()>& action) {
@@ -58,12 +58,12 @@ void expectSame(const Solution& a, const Solution& b) {
   }
 }
 
-Session throughFile(const Session& session) {
+Samples throughFile(const Samples& samples) {
   const std::filesystem::path folder =
-      std::filesystem::temp_directory_path() / ("test_session_" + std::to_string(::getpid()));
+      std::filesystem::temp_directory_path() / ("test_samples_" + std::to_string(::getpid()));
   const std::string path = (folder / "samples.yaml").string();
-  writeSessionFile(session, path);
-  const Session read = readSessionFile(path);
+  writeSamplesFile(samples, path);
+  const Samples read = readSamplesFile(path);
   std::filesystem::remove_all(folder);
   return read;
 }
@@ -79,23 +79,23 @@ square::SimulatedSquare paperScene(std::size_t cameras,
   return square::simulateSquare(poses, paperSquare(), true, uncertainty, true, random);
 }
 
-Session sessionOf(const square::SquareLayout& layout,
+Samples samplesOf(const square::SquareLayout& layout,
                   const std::vector<square::CameraSightings>& sightings) {
-  Session session;
-  session.recording.square = layout;
+  Samples samples;
+  samples.recording.square = layout;
   for (const square::CameraSightings& camera : sightings) {
-    session.recording.cameras.emplace_back();
-    session.recording.cameras.back().sightings = camera;
+    samples.recording.cameras.emplace_back();
+    samples.recording.cameras.back().sightings = camera;
   }
-  session.masks.resize(sightings.size());
-  return session;
+  samples.masks.resize(sightings.size());
+  return samples;
 }
 
-Session sessionOf(const wave::SimulatedWave& wave) {
-  Session session;
-  session.recording = wave.recording;
-  session.masks.resize(wave.recording.cameras.size());
-  return session;
+Samples samplesOf(const wave::SimulatedWave& wave) {
+  Samples samples;
+  samples.recording = wave.recording;
+  samples.masks.resize(wave.recording.cameras.size());
+  return samples;
 }
 
 SolveOptions optionsOf(const wave::WaveScene& scene) {
@@ -112,36 +112,36 @@ wave::WaveScene shortScene() {
   return scene;
 }
 
-TEST(SolveSession, TheSquareAloneIsSolvedByTheChosenMethod) {
+TEST(SolveSamples, TheSquareAloneIsSolvedByTheChosenMethod) {
   square::Random random(1);
-  Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
-  session.world_frame = "hall";
-  session.masks[2] = {{Eigen::Vector2d(100.0, 200.0), 12.0}};
+  Samples samples = samplesOf(paperSquare(), paperScene(4, random).sightings);
+  samples.world_frame = "hall";
+  samples.masks[2] = {{Eigen::Vector2d(100.0, 200.0), 12.0}};
   SolveOptions options;
   for (const square::Method method : {square::Method::kJoint, square::Method::kPerCamera}) {
     options.square.method = method;
     std::vector<square::CameraSightings> sightings;
-    for (const wave::CameraRecording& camera : session.recording.cameras)
+    for (const wave::CameraRecording& camera : samples.recording.cameras)
       sightings.push_back(camera.sightings);
     geometry::Rig expected = square::solveSquare(paperSquare(), sightings, options.square).rig;
     expected.world_frame = "hall";
-    expected.cameras[2].masks = session.masks[2];
-    const Solution solution = solveSession(session, options);
+    expected.cameras[2].masks = samples.masks[2];
+    const Solution solution = solveSamples(samples, options);
     EXPECT_EQ(solution.rig.id(), expected.id());
     EXPECT_EQ(solution.rig.method, expected.method);
     EXPECT_TRUE(solution.rig.covariance == expected.covariance);
     EXPECT_SAYS(solution.rig.verdict, expected.verdict);
     EXPECT_FALSE(solution.trace);
-    expectSame(solution, solveSession(throughFile(session), options));
+    expectSame(solution, solveSamples(throughFile(samples), options));
   }
 }
 
-TEST(SolveSession, WhatOnlyTheJointMethodUsesIsRefusedOtherwise) {
+TEST(SolveSamples, WhatOnlyTheJointMethodUsesIsRefusedOtherwise) {
   square::Random random(1);
-  Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
-  session.recording.square->lengths = {{0, 2, paperSquare().lengthBetween(0, 2), 0.001}};
+  Samples samples = samplesOf(paperSquare(), paperScene(4, random).sightings);
+  samples.recording.square->lengths = {{0, 2, paperSquare().lengthBetween(0, 2), 0.001}};
   SolveOptions options;
-  const auto solve = [&] { solveSession(session, options); };
+  const auto solve = [&] { solveSamples(samples, options); };
   EXPECT_NO_THROW(solve());
   options.square.method = square::Method::kPerCamera;
   EXPECT_SAYS(refusalOf(solve), "need the method joint");
@@ -150,27 +150,27 @@ TEST(SolveSession, WhatOnlyTheJointMethodUsesIsRefusedOtherwise) {
   EXPECT_SAYS(refusalOf(solve), "need the method joint");
 }
 
-TEST(SolveSession, GravityIsKeptAlsoWhereItIsNotUsed) {
+TEST(SolveSamples, GravityIsKeptAlsoWhereItIsNotUsed) {
   square::Random random(2);
-  Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  Samples samples = samplesOf(paperSquare(), paperScene(4, random).sightings);
   SolveOptions options;
   options.use_gravity = false;
-  const Solution solution = solveSession(session, options);
+  const Solution solution = solveSamples(samples, options);
   for (const geometry::RigCamera& camera : solution.rig.cameras)
     EXPECT_TRUE(camera.gravity);
-  for (wave::CameraRecording& camera : session.recording.cameras)
+  for (wave::CameraRecording& camera : samples.recording.cameras)
     camera.sightings.gravity.reset();
-  EXPECT_EQ(solution.rig.id(), solveSession(session, SolveOptions()).rig.id());
+  EXPECT_EQ(solution.rig.id(), solveSamples(samples, SolveOptions()).rig.id());
 }
 
-TEST(SolveSession, PrincipalPointsAreCorrectedOnRequest) {
+TEST(SolveSamples, PrincipalPointsAreCorrectedOnRequest) {
   square::Random random(3);
-  const Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  const Samples samples = samplesOf(paperSquare(), paperScene(4, random).sightings);
   SolveOptions options;
   options.correct_principal_points = true;
   options.correction.rounds = 3;
   options.ray_model = geometry::RayModel::kImageCenter;
-  const Solution solution = solveSession(session, options);
+  const Solution solution = solveSamples(samples, options);
   ASSERT_TRUE(solution.trace);
   ASSERT_EQ(solution.trace->rounds.size(), 4U);
   EXPECT_LT(solution.trace->rounds.back().origin_error, solution.trace->rounds[0].origin_error);
@@ -181,17 +181,17 @@ TEST(SolveSession, PrincipalPointsAreCorrectedOnRequest) {
   for (const double stddev : solution.verdict.predicted_stddev)
     EXPECT_TRUE(std::isnan(stddev));
   EXPECT_SAYS(solution.verdict.text, "the corners are measured");
-  expectSame(solution, solveSession(throughFile(session), options));
+  expectSame(solution, solveSamples(throughFile(samples), options));
 }
 
-TEST(SolveSession, CamerasThatSawLittleOfTheSquareComeFromTheWave) {
+TEST(SolveSamples, CamerasThatSawLittleOfTheSquareComeFromTheWave) {
   const wave::WaveScene scene = shortScene();
   wave::SimulatedWave wave = wave::simulateWave(scene, 4);
   wave.recording.cameras[1].sightings.corners[2].reset();
   wave.recording.cameras[3].sightings.corners.fill(std::nullopt);
-  const Session session = sessionOf(wave);
+  const Samples samples = samplesOf(wave);
   const SolveOptions options = optionsOf(scene);
-  const Solution solution = solveSession(session, options);
+  const Solution solution = solveSamples(samples, options);
   EXPECT_EQ(solution.rig.method, "square+wave");
   ASSERT_EQ(solution.rig.cameras.size(), 4U);
   for (std::size_t i = 0; i < 4; ++i) {
@@ -206,15 +206,15 @@ TEST(SolveSession, CamerasThatSawLittleOfTheSquareComeFromTheWave) {
   EXPECT_EQ(read.grade, solution.verdict.grade);
   EXPECT_EQ(read.text, solution.verdict.text);
   EXPECT_EQ(read.cameras[1].position_stddev, solution.verdict.cameras[1].position_stddev);
-  expectSame(solution, solveSession(throughFile(session), options));
+  expectSame(solution, solveSamples(throughFile(samples), options));
 }
 
-TEST(SolveSession, AWandNeedsNoSquare) {
+TEST(SolveSamples, AWandNeedsNoSquare) {
   wave::WaveScene scene = shortScene();
   scene.square = false;
   scene.length = 0.5;
-  const Session session = sessionOf(wave::simulateWave(scene, 5));
-  const Solution solution = solveSession(session, optionsOf(scene));
+  const Samples samples = samplesOf(wave::simulateWave(scene, 5));
+  const Solution solution = solveSamples(samples, optionsOf(scene));
   EXPECT_EQ(solution.rig.method, "wand");
   EXPECT_TRUE(solution.verdict.predicted_at.empty());
   EXPECT_TRUE(solution.verdict.predicted_stddev.empty());
@@ -222,32 +222,32 @@ TEST(SolveSession, AWandNeedsNoSquare) {
   EXPECT_SAYS(solution.verdict.text, "to one another");
 }
 
-TEST(SolveSession, PassesOnTheRefusalsOfTheSolvers) {
+TEST(SolveSamples, PassesOnTheRefusalsOfTheSolvers) {
   square::Random random(6);
   const square::SimulatedSquare scene = paperScene(2, random);
-  Session session = sessionOf(paperSquare(), scene.sightings);
-  const auto refusal = [&] { return refusalOf([&] { solveSession(session, SolveOptions()); }); };
-  session.recording.cameras[1].sightings.corners[1].reset();
-  session.recording.cameras[1].sightings.corners[2].reset();
-  EXPECT_THROW(solveSession(session, SolveOptions()), square::SquareError);
+  Samples samples = samplesOf(paperSquare(), scene.sightings);
+  const auto refusal = [&] { return refusalOf([&] { solveSamples(samples, SolveOptions()); }); };
+  samples.recording.cameras[1].sightings.corners[1].reset();
+  samples.recording.cameras[1].sightings.corners[2].reset();
+  EXPECT_THROW(solveSamples(samples, SolveOptions()), square::SquareError);
   EXPECT_SAYS(refusal(), "camera_2 did not see");
-  session.recording.square.reset();
+  samples.recording.square.reset();
   EXPECT_SAYS(refusal(), "nothing was captured");
-  session.recording.cameras[0].frames.resize(200);
-  EXPECT_THROW(solveSession(session, SolveOptions()), wave::WaveError);
+  samples.recording.cameras[0].frames.resize(200);
+  EXPECT_THROW(solveSamples(samples, SolveOptions()), wave::WaveError);
   EXPECT_SAYS(refusal(), "the scale is not determined");
-  session.masks.pop_back();
+  samples.masks.pop_back();
   EXPECT_SAYS(refusal(), "masks for another number of cameras");
 }
 
-TEST(SolveSession, CanBeCancelled) {
+TEST(SolveSamples, CanBeCancelled) {
   square::Random random(7);
-  const Session session = sessionOf(paperSquare(), paperScene(4, random).sightings);
+  const Samples samples = samplesOf(paperSquare(), paperScene(4, random).sightings);
   SolveOptions options;
-  EXPECT_THROW(solveSession(session, options, [](const wave::Progress&) { return false; }),
+  EXPECT_THROW(solveSamples(samples, options, [](const wave::Progress&) { return false; }),
                wave::Cancelled);
   options.correct_principal_points = true;
-  EXPECT_THROW(solveSession(session, options,
+  EXPECT_THROW(solveSamples(samples, options,
                             [](const wave::Progress& progress) { return progress.fraction < 0.1; }),
                wave::Cancelled);
 }
@@ -291,7 +291,7 @@ TEST(ExtensiveVerdict, PredictsTheErrorsOfASquare) {
       int displaced = 0;
       for (int run = 0; run < 60; ++run) {
         const square::SimulatedSquare scene = paperScene(cameras, random);
-        const Solution solution = solveSession(sessionOf(paperSquare(), scene.sightings), options);
+        const Solution solution = solveSamples(samplesOf(paperSquare(), scene.sightings), options);
         errors.add(solution, scene.truth);
         displaced += solution.verdict.redo_corner ? 1 : 0;
       }
@@ -308,7 +308,7 @@ TEST(ExtensiveVerdict, PredictsTheErrorsOfAWave) {
   Errors errors;
   for (std::uint64_t seed = 100; seed < 115; ++seed) {
     const wave::SimulatedWave wave = wave::simulateWave(scene, seed);
-    const Solution solution = solveSession(sessionOf(wave), optionsOf(scene));
+    const Solution solution = solveSamples(samplesOf(wave), optionsOf(scene));
     errors.add(solution, wave.cameras);
   }
   EXPECT_GT(errors.ratio(), 0.75);
@@ -338,7 +338,7 @@ TEST(ExtensiveVerdict, NamesACornerThatWasDisplaced) {
       scene.sightings[i].corners[corner] = *scene.truth[i].project(beside);
     const std::string name = "corner " + std::to_string(corner + 1);
     try {
-      const Solution solution = solveSession(sessionOf(paperSquare(), scene.sightings), options);
+      const Solution solution = solveSamples(samplesOf(paperSquare(), scene.sightings), options);
       const Verdict& verdict = solution.verdict;
       if (!verdict.redo_corner)
         continue;
@@ -364,11 +364,11 @@ TEST(Verdict, QuestionsAnImplausibleScale) {
   square::Random random(12);
   const square::SimulatedSquare scene = paperScene(4, random);
   for (const double side : {250.0, 8.2, 0.025}) {  // cm, feet, 100 m for 1 m
-    Session session = sessionOf(paperSquare(), scene.sightings);
-    session.recording.square->side_x = session.recording.square->side_y = side;
+    Samples samples = samplesOf(paperSquare(), scene.sightings);
+    samples.recording.square->side_x = samples.recording.square->side_y = side;
     SolveOptions options;
     options.square.uncertainty.placement *= side / 2.5;
-    const Verdict verdict = solveSession(session, options).verdict;
+    const Verdict verdict = solveSamples(samples, options).verdict;
     EXPECT_NE(verdict.grade, Grade::kGood) << side;
     EXPECT_SAYS(verdict.text, "from the LED, but a Wii Remote sees one at 0.3 to 12 m") << side;
   }
@@ -380,11 +380,11 @@ TEST(ExtensiveVerdict, NamesACornerThatTheWaveContradicts) {
   const Eigen::Vector3d beside = wave.corners[2] + Eigen::Vector3d(0.05, 0.02, 0.0);
   for (std::size_t i = 0; i < 4; ++i)
     wave.recording.cameras[i].sightings.corners[2] = *wave.cameras[i].project(beside);
-  const Solution solution = solveSession(sessionOf(wave), optionsOf(scene));
+  const Solution solution = solveSamples(samplesOf(wave), optionsOf(scene));
   EXPECT_EQ(solution.verdict.grade, Grade::kRedo);
   EXPECT_EQ(solution.verdict.redo_corner, std::size_t{2}) << solution.verdict.text;
   EXPECT_SAYS(solution.verdict.text, "redo corner 3: ");
 }
 
 }  // namespace
-}  // namespace wiimote_tracker::session
+}  // namespace wiimote_tracker::samples

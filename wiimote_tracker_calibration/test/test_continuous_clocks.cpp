@@ -6,19 +6,49 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <gtest/gtest.h>
+#include <Eigen/Geometry>
+
+#include <optional>
 
 namespace wiimote_tracker::continuous {
 namespace {
 
-TEST(Continuous, NoKnockIsFoundAmongNewClocksAndTheyAreNamed) {
+/// [rad]
+double turnBetween(const geometry::RigCamera& a, const geometry::RigCamera& b) {
+  return Eigen::AngleAxisd(a.camera.world_from_camera.linear().transpose() *
+                           b.camera.world_from_camera.linear())
+      .angle();
+}
+
+/// A camera that was turned while the computer was off.
+TEST(Continuous, AmongNewClocksAKnockIsSolvedAfterThem) {
   square::Random random(8);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  geometry::Rig rig = paperRigWith(wellCalibrated());
   WavedLed led(drawTruth(rig, random), 800);
   led.epoch = 8;
   led.truth[1] = turned(led.truth[1], 0.03, random);
-  ContinuousCalibration watch(rig, {});
-  led.runUntil(40.0, [&](const capture::Image& image) { EXPECT_FALSE(watch.add(image)); });
-  EXPECT_EQ(joined(watch.newClocks()), "camera_1, camera_2, camera_3, camera_4");
+  std::optional<ContinuousCalibration> watch;
+  std::optional<Proposal> proposal;
+  const auto waveUntil = [&](double time) {
+    watch.emplace(rig, Options{});
+    proposal.reset();
+    led.runUntil(time, [&](const capture::Image& image) {
+      if (!proposal)
+        proposal = watch->add(image);
+    });
+  };
+  waveUntil(60.0);
+  ASSERT_TRUE(proposal);
+  EXPECT_EQ(proposal->cause, Cause::kReconnect);
+  EXPECT_EQ(joined(watch->newClocks()), "camera_1, camera_2, camera_3, camera_4");
+  EXPECT_FALSE(proposal->rig.cameras[0].hasNewClock(8));
+  EXPECT_TRUE(proposal->rig.cameras[1].hasNewClock(8)) << "it has no place yet";
+  EXPECT_GT(turnBetween(proposal->rig.cameras[1], led.truth[1]), 0.02);
+  rig = proposal->rig;
+  waveUntil(120.0);
+  ASSERT_TRUE(proposal);
+  EXPECT_EQ(joined(proposal->cameras), "camera_2");
+  EXPECT_LT(turnBetween(proposal->rig.cameras[1], led.truth[1]), 0.001);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -131,6 +132,8 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
     proposal = solvedAgainstOthers(*suspect);
   if (has_moved && !proposal) {
     proposal = adjustedTogether(motion_.images());
+    if (!proposal && newClocks().size() > 1)
+      proposal = adjustedWithoutKnocked(motion_.images());
     has_drifted_ = proposal.has_value();
   }
   return proposal;
@@ -206,6 +209,26 @@ std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImag
   if (keeps_poses)
     proposal.rig.solved_at = rig_.solved_at;
   return proposal;
+}
+
+std::optional<Proposal> ContinuousCalibration::adjustedWithoutKnocked(
+    const MotionImages& images) const {
+  const auto rig = adjustRig(rig_, images.to_solve);
+  if (!rig)
+    return std::nullopt;
+  const Drifts drifts = driftsOf(withNewClocks(rig_, *rig), images.to_check);
+  const auto isOff = [](const auto& drift) { return drift && drift->ratio >= 1.0; };
+  if (std::count_if(drifts.begin(), drifts.end(), isOff) != 1)
+    return std::nullopt;
+  const auto knocked = std::find_if(drifts.begin(), drifts.end(), isOff) - drifts.begin();
+  const std::string& name = rig_.cameras[static_cast<std::size_t>(knocked)].camera.name;
+  const auto ofOthers = [&](const std::vector<capture::Image>& all) {
+    std::vector<capture::Image> others;
+    std::copy_if(all.begin(), all.end(), std::back_inserter(others),
+                 [&](const capture::Image& image) { return image.camera != name; });
+    return others;
+  };
+  return adjustedTogether({ofOthers(images.to_solve), ofOthers(images.to_check)});
 }
 
 std::string idWithoutMasks(geometry::Rig rig) {

@@ -62,7 +62,7 @@ class ContinuousCalibration {
   }
 
   /// Names of the cameras whose time offset is unknown, since they reconnected. While there are
-  /// several, no knock is found.
+  /// several, no camera is solved against the others; these get their clocks first.
   std::vector<std::string> newClocks() const { return knock_.newClocks(); }
 
   /// Which cameras contradict each other, and what to do, if nothing tells which of them were
@@ -77,6 +77,9 @@ class ContinuousCalibration {
   std::optional<Proposal> solvedAgainstOthers(const Evidence& evidence);
   /// All cameras adjusted together.
   std::optional<Proposal> adjustedTogether(const MotionImages& images) const;
+  /// The same but for the one that contradicts the others, which then get their new clocks. With
+  /// these it is solved.
+  std::optional<Proposal> adjustedWithoutKnocked(const MotionImages& images) const;
 
   geometry::Rig rig_;
   Options options_;

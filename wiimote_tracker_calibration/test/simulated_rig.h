@@ -69,8 +69,8 @@ inline geometry::Rig paperRigWith(const RigErrors& errors, std::size_t cameras =
   Eigen::VectorXd stddev = Eigen::VectorXd::Zero(size);
   stddev.segment<3>(geometry::kRotation).setConstant(errors.rotation);
   stddev.segment<3>(geometry::kPosition).setConstant(errors.position);
-  stddev.segment<2>(geometry::kLens).setConstant(errors.focal);
-  stddev.segment<2>(geometry::kLens + 2).setConstant(errors.principal_point);
+  stddev.segment<2>(geometry::kIntrinsics).setConstant(errors.focal);
+  stddev.segment<2>(geometry::kIntrinsics + 2).setConstant(errors.principal_point);
   stddev[geometry::kDistortion] = errors.k1;
   stddev[geometry::kDistortion + 1] = errors.k2;
   stddev[geometry::kTimeOffset] = errors.time_offset;
@@ -90,10 +90,10 @@ inline geometry::RigCamera displaced(geometry::RigCamera camera, const Eigen::Ve
   const Eigen::Vector3d w = delta.segment<3>(geometry::kRotation);
   c.world_from_camera.linear() = geometry::so3::exp(w) * c.world_from_camera.linear();
   c.world_from_camera.translation() += delta.segment<3>(geometry::kPosition);
-  c.intrinsics.fx += delta[geometry::kLens];
-  c.intrinsics.fy += delta[geometry::kLens + 1];
-  c.intrinsics.cx += delta[geometry::kLens + 2];
-  c.intrinsics.cy += delta[geometry::kLens + 3];
+  c.intrinsics.fx += delta[geometry::kIntrinsics];
+  c.intrinsics.fy += delta[geometry::kIntrinsics + 1];
+  c.intrinsics.cx += delta[geometry::kIntrinsics + 2];
+  c.intrinsics.cy += delta[geometry::kIntrinsics + 3];
   for (Eigen::Index k = geometry::kDistortion; k < geometry::kTimeOffset; ++k)
     c.intrinsics.distortion[static_cast<std::size_t>(k - geometry::kDistortion)] += delta[k];
   camera.time_offset += delta[geometry::kTimeOffset];

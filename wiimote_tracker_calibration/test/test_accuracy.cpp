@@ -63,7 +63,7 @@ TEST(ExtensiveAccuracy, OneCameraReachesTheCramerRaoBoundAndOpencv) {
   const std::vector<Eigen::Isometry3d> poses = {paperRig()[0]};
   for (int trial = 0; trial < kTrials; ++trial) {
     const SimulatedSquare simulated = simulateSquare(poses, layout, true, errors, false, random);
-    const RigModel model(simulated.sightings, layout, true, Uncertainty());
+    const SquareModel model(simulated.sightings, layout, true, Uncertainty());
     const std::vector<Branch> branches = findBranches(model, 0);
     ASSERT_FALSE(branches.empty());
     const Eigen::Vector3d truth = simulated.truth[0].center();

@@ -103,7 +103,7 @@ TEST(Approach, UsesNewClocksAtOnceAndStatesWhatIsLeft) {
     EXPECT_LT(half.angularDistance(Eigen::Quaterniond(camera.world_from_camera.linear())), 1e-9);
     EXPECT_NEAR(from.intrinsics.fx + 0.25, camera.intrinsics.fx, 1e-9);
     // The variance of a position or an angle: the goal's, and the square of what is left.
-    const Eigen::Index fx = geometry::firstParameter(i) + geometry::kLens;
+    const Eigen::Index fx = geometry::firstParameter(i) + geometry::kIntrinsics;
     EXPECT_NEAR(goal.covariance(fx, fx) + 0.75 * 0.75, rig.covariance(fx, fx), 1e-9);
     const Eigen::Index first = geometry::firstParameter(i);
     EXPECT_NEAR(goal.covariance.diagonal().segment<3>(first).sum() + std::pow(0.75 * 0.001, 2),

@@ -51,7 +51,7 @@ TEST(ExtensiveBranches, BothAreFoundAndTheOtherIsTheMirrorImageAtTheLineOfSight)
   const SquareLayout layout = squareOf(0.3);
   const Eigen::Isometry3d pose = poseFrom(layout, 5.0, 40.0 * kDegree, 0.3);
   const SimulatedSquare simulated = simulateSquare({pose}, layout, true, noErrors(), false, random);
-  const RigModel model(simulated.sightings, layout, true, Uncertainty());
+  const SquareModel model(simulated.sightings, layout, true, Uncertainty());
   const std::vector<Branch> branches = findBranches(model, 0);
   ASSERT_EQ(branches.size(), 2U);
   EXPECT_TRUE(isSamePose(branches[0].world_from_camera, pose, layout.corners(true)));
@@ -77,7 +77,7 @@ TEST(ExtensiveBranches, EveryFitIsAStationaryPointOfTheReprojectionError) {
     Uncertainty errors = noErrors();
     errors.pixel = 0.3;
     const SimulatedSquare simulated = simulateSquare({pose}, layout, true, errors, false, random);
-    const RigModel model(simulated.sightings, layout, true, Uncertainty());
+    const SquareModel model(simulated.sightings, layout, true, Uncertainty());
     for (const Branch& branch : findBranches(model, 0)) {
       ++fits;
       const RigState at = model.start({branch.world_from_camera});
@@ -153,7 +153,7 @@ TEST(ExtensiveBranches, TheOtherCamerasResolveACameraThatCannotTell) {
     options.uncertainty.principal_point = 1.0;
     options.uncertainty.shared_principal_point = 0.0;
     options.uncertainty.k1 = 0.001;
-    const RigModel model(simulated.sightings, layout, true, options.uncertainty);
+    const SquareModel model(simulated.sightings, layout, true, options.uncertainty);
     const std::vector<Branch> alone = findBranches(model, 0);
     ASSERT_EQ(alone.size(), 2U);
     const bool misled = (alone[0].world_from_camera.translation() - far.translation()).norm() > 1.0;

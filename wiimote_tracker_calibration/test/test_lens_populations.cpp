@@ -50,7 +50,7 @@ double errorsOverPredicted(const Samples& samples,
   Eigen::MatrixXd by_principal_points(rig.covariance.rows(), 2 * cameras);
   for (std::size_t i = 0; i < cameras; ++i)
     by_principal_points.middleCols<2>(static_cast<Eigen::Index>(2 * i)) =
-        rig.covariance.middleCols<2>(geometry::firstParameter(i) + geometry::kLens + 2);
+        rig.covariance.middleCols<2>(geometry::firstParameter(i) + geometry::kIntrinsics + 2);
   const square::Uncertainty& u = options.square.uncertainty;
   const Eigen::MatrixXd prior =
       Population{u.principal_point, u.shared_principal_point, Eigen::Vector2d::Zero()}.moments(

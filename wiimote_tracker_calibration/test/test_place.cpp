@@ -80,12 +80,12 @@ TEST(CameraParameters, ParametersSetByTheRayModelHaveNoUncertainty) {
   const Eigen::Vector3d point(1.0, 1.2, 1.0);
   auto projection = geometry::rayProjection(rig, 0, point);
   ASSERT_TRUE(projection);
-  EXPECT_GT(projection->by_parameters.col(geometry::kLens).norm(), 0.0);
+  EXPECT_GT(projection->by_parameters.col(geometry::kIntrinsics).norm(), 0.0);
   EXPECT_EQ(projection->by_parameters.rightCols<8>().norm(), 0.0);
   rig.virtual_hfov = 0.7;
   projection = geometry::rayProjection(rig, 0, point);
   ASSERT_TRUE(projection);
-  EXPECT_EQ(projection->by_parameters.col(geometry::kLens).norm(), 0.0);
+  EXPECT_EQ(projection->by_parameters.col(geometry::kIntrinsics).norm(), 0.0);
   EXPECT_GT(projection->by_parameters.col(geometry::kPosition).norm(), 0.0);
 }
 

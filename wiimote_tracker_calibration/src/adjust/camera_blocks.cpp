@@ -12,7 +12,7 @@ CameraBlocks::CameraBlocks(const geometry::Camera& camera, double offset)
   position = {center.x(), center.y(), center.z()};
   const geometry::Intrinsics& in = camera.intrinsics;
   lens = {in.fx, in.fy, in.cx, in.cy, in.distortion[0]};
-  std::copy(in.distortion.begin() + 1, in.distortion.end(), distortion.begin());
+  std::copy(in.distortion.begin() + 1, in.distortion.end(), higher_distortion.begin());
 }
 
 geometry::Camera CameraBlocks::cameraLike(const geometry::Camera& other) const {
@@ -28,7 +28,7 @@ geometry::Camera CameraBlocks::cameraLike(const geometry::Camera& other) const {
   in.cx = lens[2];
   in.cy = lens[3];
   in.distortion[0] = lens[4];
-  std::copy(distortion.begin(), distortion.end(), in.distortion.begin() + 1);
+  std::copy(higher_distortion.begin(), higher_distortion.end(), in.distortion.begin() + 1);
   return camera;
 }
 

@@ -14,11 +14,11 @@ namespace wiimote_tracker::adjust {
 
 // Parameter blocks of one camera. Side by side they are its parameters in the order of a rig's
 // covariance (geometry/camera_parameters.h); a solver holds the blocks that it does not estimate
-// with ceres::Problem::SetParameterBlockConstant().
-constexpr int kRotationSize = 3;    ///< w [rad]: R = exp([w]x) R_start, about the world's axes.
-constexpr int kPositionSize = 3;    ///< Optical centre in the world [m].
-constexpr int kLensSize = 5;        ///< fx, fy, cx, cy [px], k1 [1].
-constexpr int kDistortionSize = 4;  ///< The coefficients after k1 [1].
+// with ceres::Problem::SetParameterBlockConstant(): the higher distortion but in self_calibrate.
+constexpr int kRotationSize = 3;  ///< w [rad]: R = exp([w]x) R_start, about the world's axes.
+constexpr int kPositionSize = 3;  ///< Optical centre in the world [m].
+constexpr int kLensSize = 5;      ///< fx, fy, cx, cy [px], k1 [1].
+constexpr int kHigherDistortionSize = 4;  ///< The coefficients after k1 [1].
 
 struct CameraBlocks {
   explicit CameraBlocks(const geometry::Camera& camera, double time_offset = 0.0);
@@ -28,7 +28,7 @@ struct CameraBlocks {
 
   /// The blocks in the order of a rig's covariance.
   std::vector<double*> all() {
-    return {rotation.data(), position.data(), lens.data(), distortion.data(), &time_offset};
+    return {rotation.data(), position.data(), lens.data(), higher_distortion.data(), &time_offset};
   }
 
   /// Adds a residual of the first four blocks and of some others to a problem.
@@ -39,14 +39,14 @@ struct CameraBlocks {
                                ceres::LossFunction* loss,
                                Others*... others) {
     return problem->AddResidualBlock(cost, loss, rotation.data(), position.data(), lens.data(),
-                                     distortion.data(), others...);
+                                     higher_distortion.data(), others...);
   }
 
   Eigen::Matrix3d world_from_start;  ///< Rotation that `rotation` starts from; not estimated.
   std::array<double, kRotationSize> rotation;
   std::array<double, kPositionSize> position;
   std::array<double, kLensSize> lens;
-  std::array<double, kDistortionSize> distortion;
+  std::array<double, kHigherDistortionSize> higher_distortion;
   double time_offset;  ///< Exposure time minus stamp [s].
 };
 

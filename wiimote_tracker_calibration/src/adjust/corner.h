@@ -19,7 +19,7 @@ struct CornerPixelError {
 
   ceres::CostFunction* cost() const {
     return new ceres::AutoDiffCostFunction<CornerPixelError, 2, kRotationSize, kPositionSize,
-                                           kLensSize, kDistortionSize, 2>(
+                                           kLensSize, kHigherDistortionSize, 2>(
         new CornerPixelError(*this));
   }
 

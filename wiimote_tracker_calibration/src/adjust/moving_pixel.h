@@ -15,7 +15,7 @@ struct MovingPixelError {
 
   ceres::CostFunction* cost() const {
     return new ceres::AutoDiffCostFunction<MovingPixelError, 2, kRotationSize, kPositionSize,
-                                           kLensSize, kDistortionSize, 1>(
+                                           kLensSize, kHigherDistortionSize, 1>(
         new MovingPixelError(*this));
   }
 
@@ -44,7 +44,7 @@ struct InterpolatedPixelError {
 
   ceres::CostFunction* cost() const {
     return new ceres::AutoDiffCostFunction<InterpolatedPixelError, 2, kRotationSize, kPositionSize,
-                                           kLensSize, kDistortionSize, 1, 3>(
+                                           kLensSize, kHigherDistortionSize, 1, 3>(
         new InterpolatedPixelError(*this));
   }
 

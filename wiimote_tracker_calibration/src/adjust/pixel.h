@@ -46,7 +46,7 @@ struct PixelError {
 
   ceres::CostFunction* cost() const {
     return new ceres::AutoDiffCostFunction<PixelError, 2, kRotationSize, kPositionSize, kLensSize,
-                                           kDistortionSize, 3>(new PixelError(*this));
+                                           kHigherDistortionSize, 3>(new PixelError(*this));
   }
 
   /// False when the point is not in front of the camera: the solver then tries a smaller step.
@@ -63,9 +63,9 @@ struct PixelError {
     cameraFromWorld(rotation, world_from_start, from_center, in_camera);
     if (!(in_camera[2] > T(1e-6)))
       return false;
-    T all[kLensSize + kDistortionSize];
+    T all[kLensSize + kHigherDistortionSize];
     std::copy(lens, lens + kLensSize, all);
-    std::copy(distortion, distortion + kDistortionSize, all + kLensSize);
+    std::copy(distortion, distortion + kHigherDistortionSize, all + kLensSize);
     const Eigen::Matrix<T, 2, 1> normalized(in_camera[0] / in_camera[2],
                                             in_camera[1] / in_camera[2]);
     const Eigen::Matrix<T, 2, 1> error =

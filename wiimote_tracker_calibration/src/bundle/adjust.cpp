@@ -37,7 +37,7 @@ class BundleProblem {
                         "): record the light in more places");
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       cameras_[i].lens = lensOf(i).lens;
-      cameras_[i].distortion = lensOf(i).distortion;
+      cameras_[i].higher_distortion = lensOf(i).higher_distortion;
       geometry::Camera& camera = reconstruction_.cameras[i];
       camera = cameras_[i].cameraLike(camera);
     }
@@ -61,7 +61,7 @@ class BundleProblem {
                                                 observation.pixel, 1.0);
       problem_.AddResidualBlock(error.cost(), new ceres::HuberLoss(options_.loss_scale),
                                 camera.rotation.data(), camera.position.data(), lens.lens.data(),
-                                lens.distortion.data(), point);
+                                lens.higher_distortion.data(), point);
       if (held_.points)
         problem_.SetParameterBlockConstant(point);
       else
@@ -93,7 +93,7 @@ class BundleProblem {
       return;
     if (held_.intrinsics) {
       problem_.SetParameterBlockConstant(camera.lens.data());
-      problem_.SetParameterBlockConstant(camera.distortion.data());
+      problem_.SetParameterBlockConstant(camera.higher_distortion.data());
       return;
     }
     const LensPrior& prior = options_.lens;
@@ -110,7 +110,7 @@ class BundleProblem {
     problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
     const Eigen::Map<const Eigen::Vector4d> distortion(prior.distortion.data() + 1);
     problem_.AddResidualBlock(adjust::priorOf(Eigen::Vector4d::Zero(), weight * distortion),
-                              nullptr, camera.distortion.data());
+                              nullptr, camera.higher_distortion.data());
   }
 
   ceres::Solver::Options solverOptions() {

@@ -15,7 +15,7 @@ namespace wiimote_tracker::bundle {
 namespace {
 
 constexpr int kPoseSize = 6;
-constexpr int kLensSize = 9;
+constexpr int kIntrinsicsSize = 9;
 constexpr double kGiven = 1e12;  // information of a parameter that is held
 
 }  // namespace
@@ -35,7 +35,7 @@ double pixelStddev(const Reconstruction& reconstruction,
   }
   const auto cameras = static_cast<double>(reconstruction.cameras.size());
   const double lenses = fixed_lenses ? 0.0 : options.one_lens ? 1.0 : cameras;
-  const double parameters = cameras * kPoseSize + lenses * kLensSize;
+  const double parameters = cameras * kPoseSize + lenses * kIntrinsicsSize;
   double freedom = 7.0 - parameters;  // a similarity is not observed
   for (const std::size_t count : views) {
     if (count >= 2)
@@ -62,12 +62,12 @@ Certainty::Certainty(const Reconstruction& reconstruction,
 
 /// Where the parameters of a camera stand, in the order of geometry/camera_parameters.h.
 Eigen::Index Certainty::lensColumn(std::size_t camera) const {
-  return one_lens_ ? 0 : kLensSize * static_cast<Eigen::Index>(camera);
+  return one_lens_ ? 0 : kIntrinsicsSize * static_cast<Eigen::Index>(camera);
 }
 
 Eigen::Index Certainty::poseColumn(std::size_t camera) const {
   const std::size_t lenses = one_lens_ ? 1 : camera_count_;
-  return static_cast<Eigen::Index>(kLensSize * lenses + kPoseSize * camera);
+  return static_cast<Eigen::Index>(kIntrinsicsSize * lenses + kPoseSize * camera);
 }
 
 /// Information of the observations about lenses and poses, the points being free.
@@ -97,8 +97,8 @@ void Certainty::addObservations(const Reconstruction& reconstruction, double std
       const Eigen::Vector2d error = view->pixel - projection->pixel;
       by_parameters.block<2, kPoseSize>(row, poseColumn(view->camera)) =
           projection->by_parameters.leftCols<kPoseSize>() / stddev;
-      by_parameters.block<2, kLensSize>(row, lensColumn(view->camera)) =
-          projection->by_parameters.middleCols<kLensSize>(geometry::kLens) / stddev;
+      by_parameters.block<2, kIntrinsicsSize>(row, lensColumn(view->camera)) =
+          projection->by_parameters.middleCols<kIntrinsicsSize>(geometry::kIntrinsics) / stddev;
       by_point.middleRows<2>(row) = projection->by_point / stddev;
       residual.segment<2>(row) = error / stddev;
       row += 2;
@@ -117,10 +117,11 @@ void Certainty::addLensPrior(const Reconstruction& reconstruction, const Options
   for (std::size_t camera = 0; camera < (one_lens_ ? 1 : camera_count_); ++camera) {
     const geometry::Intrinsics& lens = reconstruction.cameras[camera].intrinsics;
     const Eigen::Index first = lensColumn(camera);
-    using Lens = Eigen::Matrix<double, kLensSize, 1>;
+    using Lens = Eigen::Matrix<double, kIntrinsicsSize, 1>;
     const auto add = [&](const Lens& by_lens, double residual) {
-      information_.block<kLensSize, kLensSize>(first, first) += by_lens * by_lens.transpose();
-      gradient_.segment<kLensSize>(first) -= by_lens * residual;
+      information_.block<kIntrinsicsSize, kIntrinsicsSize>(first, first) +=
+          by_lens * by_lens.transpose();
+      gradient_.segment<kIntrinsicsSize>(first) -= by_lens * residual;
     };
     Lens by_aspect = Lens::Zero();
     by_aspect[0] = 1.0 / (lens.fx * prior.aspect);
@@ -160,11 +161,11 @@ std::optional<Eigen::MatrixXd> Certainty::lensCovariance(std::size_t camera) con
   if (!covariance_)
     return std::nullopt;
   const Eigen::Index first = lensColumn(camera);
-  return Eigen::MatrixXd(covariance_->block(first, first, kLensSize, kLensSize));
+  return Eigen::MatrixXd(covariance_->block(first, first, kIntrinsicsSize, kIntrinsicsSize));
 }
 
 Eigen::VectorXd Certainty::lensStep(std::size_t camera) const {
-  return covariance_->middleRows(lensColumn(camera), kLensSize) * gradient_;
+  return covariance_->middleRows(lensColumn(camera), kIntrinsicsSize) * gradient_;
 }
 
 /// The points' covariance is P + D C D^T: P of each point for exact cameras, C of the cameras, and

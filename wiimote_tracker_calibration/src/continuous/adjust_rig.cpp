@@ -177,7 +177,7 @@ class RigProblem {
       const std::vector<double*> starts = start.all();
       const std::vector<double*> blocks = (*cameras)[i].all();
       const std::int32_t kSizes[] = {adjust::kRotationSize, adjust::kPositionSize,
-                                     adjust::kLensSize, adjust::kDistortionSize, 1};
+                                     adjust::kLensSize, adjust::kHigherDistortionSize, 1};
       for (std::size_t k = 0; k < blocks.size(); ++k) {
         mean.segment(first, kSizes[k]) = Eigen::Map<Eigen::VectorXd>(starts[k], kSizes[k]);
         first += kSizes[k];

@@ -20,7 +20,7 @@ using Parameters = Eigen::Matrix<double, geometry::kParameters, 1>;
 
 Parameters lensOf(const geometry::Intrinsics& lens) {
   Parameters parameters = Parameters::Zero();
-  parameters.segment<4>(geometry::kLens) << lens.fx, lens.fy, lens.cx, lens.cy;
+  parameters.segment<4>(geometry::kIntrinsics) << lens.fx, lens.fy, lens.cx, lens.cy;
   parameters.segment<5>(geometry::kDistortion) =
       Eigen::Map<const Eigen::Matrix<double, 5, 1>>(lens.distortion.data());
   return parameters;
@@ -41,10 +41,10 @@ void add(const Parameters& difference, geometry::Camera* camera) {
       so3::exp(difference.segment<3>(geometry::kRotation)).toRotationMatrix() * pose.linear();
   pose.translation() += difference.segment<3>(geometry::kPosition);
   geometry::Intrinsics& lens = camera->intrinsics;
-  lens.fx += difference[geometry::kLens];
-  lens.fy += difference[geometry::kLens + 1];
-  lens.cx += difference[geometry::kLens + 2];
-  lens.cy += difference[geometry::kLens + 3];
+  lens.fx += difference[geometry::kIntrinsics];
+  lens.fy += difference[geometry::kIntrinsics + 1];
+  lens.cx += difference[geometry::kIntrinsics + 2];
+  lens.cy += difference[geometry::kIntrinsics + 3];
   for (std::size_t i = 0; i < lens.distortion.size(); ++i)
     lens.distortion[i] += difference[geometry::kDistortion + static_cast<Eigen::Index>(i)];
 }

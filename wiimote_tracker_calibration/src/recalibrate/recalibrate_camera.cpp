@@ -24,7 +24,7 @@ namespace wiimote_tracker::recalibrate {
 namespace {
 
 using geometry::firstParameter;
-using geometry::kLens;
+using geometry::kIntrinsics;
 using geometry::kParameters;
 using geometry::kPosition;
 using geometry::kRotation;
@@ -39,8 +39,8 @@ constexpr double kMinimumExtent = 0.1;
 // same.
 constexpr double kLargestImageError = 2.0;
 // The distortion beyond k1, which is not estimated, in geometry/camera_parameters.h.
-constexpr Eigen::Index kHeld = kLens + adjust::kLensSize;
-constexpr Eigen::Index kHeldSize = adjust::kDistortionSize;
+constexpr Eigen::Index kHeld = kIntrinsics + adjust::kLensSize;
+constexpr Eigen::Index kHeldSize = adjust::kHigherDistortionSize;
 // Number of matches for which the derivatives by the others' parameters are computed.
 constexpr std::size_t kDerivatives = 200;
 
@@ -89,7 +89,7 @@ Prior priorOf(const geometry::Rig& rig,
   Prior prior;
   prior.lens = same ? calibrated.camera.intrinsics : request.intrinsics;
   prior.uncertainty = options.uncertainty;
-  const Eigen::Index first = firstParameter(index) + kLens;
+  const Eigen::Index first = firstParameter(index) + kIntrinsics;
   if (same && geometry::hasCovariance(rig))
     prior.lens_covariance =
         rig.covariance.block<adjust::kLensSize, adjust::kLensSize>(first, first);
@@ -171,8 +171,8 @@ Eigen::MatrixXd sensitivityToRig(const geometry::Rig& rig,
   right *= static_cast<double>(fit.matches.size()) / used;
   // The prior mean of the lens is a parameter of the rig, too.
   if (prior.lens_covariance)
-    right.block<adjust::kLensSize, adjust::kLensSize>(kLens, firstParameter(index) + kLens) +=
-        prior.lensInformation();
+    right.block<adjust::kLensSize, adjust::kLensSize>(
+        kIntrinsics, firstParameter(index) + kIntrinsics) += prior.lensInformation();
   Eigen::MatrixXd by_rig = covariance * right;
   if (prior.lens_covariance)
     by_rig.block<kHeldSize, kHeldSize>(kHeld, firstParameter(index) + kHeld).setIdentity();
@@ -192,8 +192,8 @@ ParameterMatrix updateCovariance(const SeenPath& path,
   ParameterMatrix own = covariance;
   // What the prior of the lens contributes comes with the rig's covariance, below.
   if (prior.lens_covariance)
-    own -= covariance.middleCols<adjust::kLensSize>(kLens) * prior.lensInformation() *
-           covariance.middleRows<adjust::kLensSize>(kLens);
+    own -= covariance.middleCols<adjust::kLensSize>(kIntrinsics) * prior.lensInformation() *
+           covariance.middleRows<adjust::kLensSize>(kIntrinsics);
   own(kTimeOffset, kTimeOffset) += adjust::meanStampVariance(options.wander, fit.duration);
   if (!geometry::hasCovariance(*rig))
     return own;

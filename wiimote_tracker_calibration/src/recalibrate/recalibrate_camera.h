@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H
 
 #include "capture/image.h"
-#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 

@@ -188,7 +188,7 @@ class ResectionProblem {
                                            fit.time_offset};
       matches_.push_back(blocks_.addTo(&problem_, error.cost(), nullptr, &blocks_.time_offset));
     }
-    problem_.SetParameterBlockConstant(blocks_.distortion.data());
+    problem_.SetParameterBlockConstant(blocks_.higher_distortion.data());
     problem_.AddResidualBlock(adjust::priorOf(prior.time_offset, kOffsetStddev), nullptr,
                               &blocks_.time_offset);
     problem_.AddResidualBlock(lensCost(prior), nullptr, blocks_.lens.data());

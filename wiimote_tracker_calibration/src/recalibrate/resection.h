@@ -5,7 +5,7 @@
 #include "seen_path.h"
 
 #include "adjust/camera_blocks.h"
-#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>

@@ -55,9 +55,9 @@ CameraVerdict judgeCamera(const geometry::Rig& rig, std::size_t index) {
   verdict.rotation_stddev = rootOfTrace(geometry::kRotation);
   verdict.position_stddev = rootOfTrace(geometry::kPosition);
   verdict.focal_stddev =
-      std::sqrt(std::max(variance(geometry::kLens), variance(geometry::kLens + 1)));
+      std::sqrt(std::max(variance(geometry::kIntrinsics), variance(geometry::kIntrinsics + 1)));
   verdict.principal_point_stddev =
-      std::sqrt(std::max(variance(geometry::kLens + 2), variance(geometry::kLens + 3)));
+      std::sqrt(std::max(variance(geometry::kIntrinsics + 2), variance(geometry::kIntrinsics + 3)));
   verdict.k1_stddev = std::sqrt(variance(geometry::kDistortion));
   verdict.time_offset_stddev =
       std::isnan(camera.time_offset) ? kNan : std::sqrt(variance(geometry::kTimeOffset));

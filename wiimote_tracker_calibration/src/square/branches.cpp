@@ -19,7 +19,7 @@ constexpr double kClear = 60.0;
 constexpr std::size_t kExhaustive = 4;
 
 /// The rig on these branches; which cameras are undecided is open.
-std::optional<BranchChoice> evaluate(const RigModel& model,
+std::optional<BranchChoice> evaluate(const SquareModel& model,
                                      const std::vector<std::vector<Branch>>& branches,
                                      const std::vector<std::size_t>& chosen) {
   std::vector<Eigen::Isometry3d> poses;
@@ -27,14 +27,14 @@ std::optional<BranchChoice> evaluate(const RigModel& model,
     poses.push_back(branches[i][chosen[i]].world_from_camera);
   BranchChoice combination{model.start(poses), 0.0, chosen, {}};
   const std::optional<double> cost =
-      model.refineAll(&combination.state, RigModel::Precision::kCoarse);
+      model.refineAll(&combination.state, SquareModel::Precision::kCoarse);
   if (!cost)
     return std::nullopt;
   combination.cost = *cost;
   return combination;
 }
 
-std::vector<BranchChoice> allCombinations(const RigModel& model,
+std::vector<BranchChoice> allCombinations(const SquareModel& model,
                                           const std::vector<std::vector<Branch>>& branches,
                                           const std::vector<std::size_t>& ambiguous) {
   std::vector<BranchChoice> combinations;
@@ -50,7 +50,7 @@ std::vector<BranchChoice> allCombinations(const RigModel& model,
 
 /// Changes one camera at a time for as long as that helps. Contains the best combination that was
 /// found, and all that differ from it in one camera.
-std::vector<BranchChoice> singleChanges(const RigModel& model,
+std::vector<BranchChoice> singleChanges(const SquareModel& model,
                                         const std::vector<std::vector<Branch>>& branches,
                                         const std::vector<std::size_t>& ambiguous) {
   std::vector<BranchChoice> combinations;
@@ -81,15 +81,15 @@ std::vector<BranchChoice> singleChanges(const RigModel& model,
 
 }  // namespace
 
-std::vector<Branch> findBranches(const RigModel& model, std::size_t camera) {
-  const RigModel alone = model.only(camera);
+std::vector<Branch> findBranches(const SquareModel& model, std::size_t camera) {
+  const SquareModel alone = model.only(camera);
   const CameraSightings& seen = alone.sightings().front();
   std::vector<Branch> branches;
   for (const PlanarPose& pose :
        cornerPoses(seen.intrinsics, seen.corners, alone.nominalCorners())) {
     const RigState start = alone.start({pose.world_from_camera});
     RigState probable = start;
-    const std::optional<double> cost = alone.refineAll(&probable, RigModel::Precision::kCoarse);
+    const std::optional<double> cost = alone.refineAll(&probable, SquareModel::Precision::kCoarse);
     const double error = alone.reprojectionError(start, 0);
     if (cost && std::isfinite(error))
       branches.push_back({pose.world_from_camera, error, *cost});
@@ -99,7 +99,7 @@ std::vector<Branch> findBranches(const RigModel& model, std::size_t camera) {
   return branches;
 }
 
-BranchChoice chooseBranches(const RigModel& model,
+BranchChoice chooseBranches(const SquareModel& model,
                             const std::vector<std::vector<Branch>>& branches,
                             double odds) {
   std::vector<std::size_t> ambiguous;

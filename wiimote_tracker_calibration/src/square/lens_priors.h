@@ -4,7 +4,7 @@
 #include "adjust/lens_prior.h"
 #include "adjust/prior.h"
 
-#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include <ceres/problem.h>
 

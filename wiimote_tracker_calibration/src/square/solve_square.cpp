@@ -35,7 +35,9 @@ struct Candidates {
 
 /// The branches of all cameras. A camera that saw three corners keeps only its most probable
 /// branch, which its own accelerometer must determine; otherwise it is left out.
-Candidates findCandidates(const RigModel& model, double odds, std::vector<std::string>* warnings) {
+Candidates findCandidates(const SquareModel& model,
+                          double odds,
+                          std::vector<std::string>* warnings) {
   Candidates result;
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
     const CameraSightings& camera = model.sightings()[i];
@@ -70,7 +72,7 @@ Candidates findCandidates(const RigModel& model, double odds, std::vector<std::s
   return result;
 }
 
-void refuseUndecided(const RigModel& model,
+void refuseUndecided(const SquareModel& model,
                      const std::vector<std::vector<Branch>>& branches,
                      const BranchChoice& choice) {
   if (choice.undecided.empty())
@@ -90,7 +92,7 @@ void refuseUndecided(const RigModel& model,
 
 /// Whether the best solution is implausible: a lens far from its starting value, or a corner behind
 /// the camera or in its centre.
-bool isImplausible(const RigModel& model, const RigState& state) {
+bool isImplausible(const SquareModel& model, const RigState& state) {
   for (std::size_t i = 0; i < model.sightings().size(); ++i) {
     if (model.lensDeviation(state, i) > kLensLimit ||
         !std::isfinite(model.reprojectionError(state, i)))
@@ -99,7 +101,7 @@ bool isImplausible(const RigModel& model, const RigState& state) {
   return false;
 }
 
-void checkGravity(const RigModel& model,
+void checkGravity(const SquareModel& model,
                   const RigState& state,
                   bool z_up,
                   const Uncertainty& uncertainty) {
@@ -116,7 +118,7 @@ void checkGravity(const RigModel& model,
 }
 
 /// Warns about, or refuses, residuals that the uncertainties do not explain.
-void checkMisfit(const RigModel& model, const BranchChoice& choice, Solution* solution) {
+void checkMisfit(const SquareModel& model, const BranchChoice& choice, Solution* solution) {
   const int freedom = model.degreesOfFreedom();
   solution->misfit = std::sqrt(choice.cost / std::max(1, freedom));
   const bool implausible = isImplausible(model, choice.state);
@@ -136,14 +138,14 @@ void checkMisfit(const RigModel& model, const BranchChoice& choice, Solution* so
 }
 
 /// Displacement of the corners from the layout.
-Corners offsetsOf(const RigModel& model, const RigState& state) {
+Corners offsetsOf(const SquareModel& model, const RigState& state) {
   Corners offsets;
   for (std::size_t c = 0; c < offsets.size(); ++c)
     offsets[c] = state.corners[c] - model.nominalCorners()[c];
   return offsets;
 }
 
-geometry::RigCamera rigCamera(const RigModel& model, const RigState& state, std::size_t i) {
+geometry::RigCamera rigCamera(const SquareModel& model, const RigState& state, std::size_t i) {
   geometry::RigCamera result;
   result.camera = state.cameras[i];
   result.gravity = model.sightings()[i].gravity;
@@ -191,9 +193,9 @@ Solution solveSquare(const SquareLayout& layout,
   solution.z_up = usable.z_up;
   solution.warnings = usable.warnings;
   const Candidates candidates =
-      findCandidates(RigModel(usable.cameras, layout, usable.z_up, options.uncertainty),
+      findCandidates(SquareModel(usable.cameras, layout, usable.z_up, options.uncertainty),
                      options.branch_odds, &solution.warnings);
-  const RigModel model(candidates.cameras, layout, usable.z_up, options.uncertainty);
+  const SquareModel model(candidates.cameras, layout, usable.z_up, options.uncertainty);
   const std::vector<std::vector<Branch>>& branches = candidates.branches;
   const BranchChoice choice = chooseBranches(model, branches, options.branch_odds);
   checkGravity(model, choice.state, usable.z_up, options.uncertainty);

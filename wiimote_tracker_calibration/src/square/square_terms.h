@@ -5,9 +5,9 @@
 #include "adjust/corner.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
-#include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include <ceres/problem.h>
 

@@ -206,7 +206,7 @@ class WaveProblem {
         start, options_.uncertainty, camera.lens.data(), shared_offset_.data(), &problem_));
     if (i > 0)  // the first one's is held at 0: it cannot disagree
       addPrior(0.0, options_.offset, &camera.time_offset);
-    problem_.SetParameterBlockConstant(camera.distortion.data());
+    problem_.SetParameterBlockConstant(camera.higher_distortion.data());
   }
 
   void addSquare() {

@@ -10,7 +10,7 @@ namespace wiimote_tracker::geometry {
 
 namespace {
 
-constexpr Eigen::Index kLensParameters = kTimeOffset - kLens;
+constexpr Eigen::Index kLensParameters = kTimeOffset - kIntrinsics;
 using LensJacobian = Eigen::Matrix<double, 2, kLensParameters>;
 
 /// Pixels are linear in each parameter of the lens, so that differences are exact.
@@ -26,7 +26,7 @@ LensJacobian lensJacobian(const Intrinsics& lens, const Eigen::Vector2d& normali
   for (std::size_t k = 0; k < coefficientCount(lens.distortion_model); ++k) {
     std::array<double, 5> one{};
     one[k] = 1.0;
-    jacobian.col(kDistortion - kLens + static_cast<Eigen::Index>(k)) =
+    jacobian.col(kDistortion - kIntrinsics + static_cast<Eigen::Index>(k)) =
         focal.cwiseProduct(distorted(one) - undistorted);
   }
   return jacobian;
@@ -48,7 +48,7 @@ std::optional<Projection> projectionOf(const Camera& camera, const Eigen::Vector
   // exp([w]x) turns the camera, which is turning the point the other way.
   projection.by_parameters.middleCols<3>(kRotation) = projection.by_point * so3::skew(from_center);
   projection.by_parameters.middleCols<3>(kPosition) = -projection.by_point;
-  projection.by_parameters.middleCols<kLensParameters>(kLens) =
+  projection.by_parameters.middleCols<kLensParameters>(kIntrinsics) =
       lensJacobian(camera.intrinsics, normalized);
   return projection;
 }
@@ -65,7 +65,7 @@ std::optional<Projection> rayProjection(const Rig& rig,
   auto projection = projectionOf(rig.rayCamera(nameless), point);
   if (projection) {
     // The virtual model keeps at most the focal length of the calibrated one.
-    const Eigen::Index first = std::isnan(rig.virtual_hfov) ? kLens + 2 : kLens;
+    const Eigen::Index first = std::isnan(rig.virtual_hfov) ? kIntrinsics + 2 : kIntrinsics;
     projection->by_parameters.middleCols(first, kTimeOffset - first).setZero();
   }
   return projection;

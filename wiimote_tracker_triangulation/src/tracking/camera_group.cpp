@@ -54,7 +54,7 @@ std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std:
   for (std::size_t i = 0; i < members.size(); ++i) {
     const geometry::Camera& camera = rig.cameras[members[i]].camera;
     const Eigen::Index first = geometry::firstParameter(members[i]);
-    const Eigen::Index focal = first + geometry::kLens;
+    const Eigen::Index focal = first + geometry::kIntrinsics;
     const Eigen::Vector3d axis = camera.world_from_camera.linear().col(2);
     const Eigen::Matrix3d turn = rig.covariance.block<3, 3>(first, first);
     const double stretch = rig.covariance(focal, focal) / std::pow(camera.intrinsics.fx, 2);

@@ -51,7 +51,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
     else if (is_merged || candidate.expected)
       candidate.track->miss(image.camera, image.time);
     else if (candidate.in_view && image.full)
-      candidate.track->crowdOut(image.camera, image.time);
+      candidate.track->noteSaturated(image.camera, image.time);
   }
 }
 

@@ -31,11 +31,13 @@ CameraRecord& Track::recordOf(std::size_t camera) {
   if (record != records_.end())
     return *record;
   if (records_.size() == kMaximumCameras)
-    records_.erase(std::min_element(records_.begin(), records_.end(),
-                                    [](auto& a, auto& b) { return a.time < b.time; }));
+    records_.erase(std::min_element(records_.begin(), records_.end(), [](auto& a, auto& b) {
+      return a.last_expected < b.last_expected;
+    }));
   CameraRecord& added = records_.emplace_back();
   added.camera = camera;
-  added.time = added.full = added.hit = added.own = -std::numeric_limits<double>::infinity();
+  added.last_expected = added.last_saturated = added.last_detected = added.last_detected_alone =
+      -std::numeric_limits<double>::infinity();
   return added;
 }
 
@@ -52,13 +54,13 @@ Track::Track(const motion::MotionFilter& start, std::uint32_t led_id)
 
 void Track::miss(std::size_t camera, double time) {
   CameraRecord& record = recordOf(camera);
-  record.time = time;
+  record.last_expected = time;
   record.recent = record.recent << 1 & kRecentImages;
   ++misses_in_a_row_;
 }
 
-void Track::crowdOut(std::size_t camera, double time) {
-  recordOf(camera).full = time;
+void Track::noteSaturated(std::size_t camera, double time) {
+  recordOf(camera).last_saturated = time;
 }
 
 void Track::hit(std::size_t camera,
@@ -69,10 +71,10 @@ void Track::hit(std::size_t camera,
   CameraRecord& record = recordOf(camera);
   if (!record.recent)
     record.ray = RayOffset();
-  record.time = time;
-  record.hit = time;
+  record.last_expected = time;
+  record.last_detected = time;
   if (is_own)
-    record.own = time;
+    record.last_detected_alone = time;
   record.squared_residual = residual.squaredNorm();
   record.recent = (record.recent << 1 | 1) & kRecentImages;
   misses_in_a_row_ = 0;
@@ -103,7 +105,7 @@ bool Track::isDuplicate() const {
 
 void Track::addInitialSpot(std::size_t camera, double time, double residual) {
   CameraRecord& record = recordOf(camera);
-  record.time = record.hit = record.own = time;
+  record.last_expected = record.last_detected = record.last_detected_alone = time;
   started_ = std::min(started_, time);
   ++initial_spots_;
   record.squared_residual = residual * residual;
@@ -127,8 +129,8 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
   std::size_t possible = 0;
   double squares = 0.0;  // residuals [px^2]
   for (const CameraRecord& record : records_) {
-    possible += record.time >= time - options.tracked_time;
-    if (record.hit < time - options.tracked_time)
+    possible += record.last_expected >= time - options.tracked_time;
+    if (record.last_detected < time - options.tracked_time)
       continue;
     ++seen_by;
     squares += record.squared_residual;
@@ -172,7 +174,7 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
 std::size_t Track::camerasInView(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
       std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-        return std::max(record.time, record.full) >= time - options.tracked_time;
+        return std::max(record.last_expected, record.last_saturated) >= time - options.tracked_time;
       }));
 }
 
@@ -186,7 +188,7 @@ void Track::weighRays(double time, const TrackerOptions& options) {
   std::array<const RayOffset*, 2> rays;
   std::size_t count = 0;
   for (const CameraRecord& record : records_) {
-    if (record.hit < time - options.tracked_time)
+    if (record.last_detected < time - options.tracked_time)
       continue;
     if (count < 2)
       rays[count] = &record.ray;
@@ -204,7 +206,7 @@ void Track::weighRays(double time, const TrackerOptions& options) {
 std::size_t Track::supportingCameras(double time, const TrackerOptions& options) const {
   return static_cast<std::size_t>(
       std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-        return record.time >= time - options.tracked_time &&
+        return record.last_expected >= time - options.tracked_time &&
                std::bitset<4>(record.recent).count() >= 2;
       }));
 }
@@ -216,8 +218,9 @@ Eigen::Vector3d Track::approximatePosition(double time) const {
 bool Track::isShownBeside(const Track& other, double since) const {
   for (const CameraRecord& record : records_) {
     for (const CameraRecord& others : other.records_) {
-      if (record.camera == others.camera && record.own == others.own && record.own >= since &&
-          std::isfinite(record.own))
+      if (record.camera == others.camera &&
+          record.last_detected_alone == others.last_detected_alone &&
+          record.last_detected_alone >= since && std::isfinite(record.last_detected_alone))
         return true;
     }
   }
@@ -233,16 +236,16 @@ bool Track::wasMissedBy(std::size_t camera) const {
 Track::Cameras Track::othersSeeing(std::size_t camera, double since) const {
   Cameras others;
   for (const CameraRecord& record : records_) {
-    if (record.camera != camera && record.hit >= since)
+    if (record.camera != camera && record.last_detected >= since)
       others.push_back(record.camera);
   }
   return others;
 }
 
 std::size_t Track::camerasShowing(double since) const {
-  return static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.end(),
-                    [&](const CameraRecord& record) { return record.own >= since; }));
+  return static_cast<std::size_t>(std::count_if(
+      records_.begin(), records_.end(),
+      [&](const CameraRecord& record) { return record.last_detected_alone >= since; }));
 }
 
 void Track::report(double time,
@@ -263,10 +266,10 @@ void Track::report(double time,
   led->rays_possible = 0;
   double squares = 0.0;
   for (const CameraRecord& record : records_) {
-    if (record.time < time - options.tracked_time)
+    if (record.last_expected < time - options.tracked_time)
       continue;
     ++led->rays_possible;
-    if (record.hit < time - options.tracked_time)
+    if (record.last_detected < time - options.tracked_time)
       continue;
     led->cameras.push_back(rig_index[record.camera]);
     squares += record.squared_residual;

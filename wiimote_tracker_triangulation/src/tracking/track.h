@@ -16,14 +16,15 @@ namespace wiimote_tracker::tracking {
 
 /// A camera's latest images of one track.
 struct CameraRecord {
-  std::size_t camera = 0;         // in its group
-  double time = 0.0;              // last image that should show the LED [s]
-  double full = 0.0;              // last image that should show it but is full, see crowdOut() [s]
-  double hit = 0.0;               // last image with a spot of the LED [s]
-  double own = 0.0;               // last image with a spot that was not assigned to another LED [s]
-  double squared_residual = 0.0;  // of the last spot [px^2]
-  RayOffset ray;                  // of recent spots of its own
-  unsigned recent = 0;            // one bit per image, the newest lowest: detected or missed
+  std::size_t camera = 0;  // in its group
+  // Times of the last image [s]:
+  double last_expected = 0.0;        // that should show the LED
+  double last_saturated = 0.0;       // that should show it, but has as many spots as it can have
+  double last_detected = 0.0;        // with a spot of the LED
+  double last_detected_alone = 0.0;  // with a spot that was not assigned to another LED, too
+  double squared_residual = 0.0;     // of the last spot [px^2]
+  RayOffset ray;                     // of recent spots of its own
+  unsigned recent = 0;               // one bit per image, the newest lowest: detected or missed
 };
 
 /// The track of one LED, tentative or confirmed. A value type that never allocates.
@@ -38,7 +39,7 @@ class Track {
   void miss(std::size_t camera, double time);
 
   /// The camera has the LED in view, but shows as many others as it can.
-  void crowdOut(std::size_t camera, double time);
+  void noteSaturated(std::size_t camera, double time);
 
   /// The filter was updated with a camera's spot, at its present time. @param residual [px]
   /// @param other with which it may be merged; null: the spot is of this LED alone.

@@ -71,10 +71,10 @@ TEST(Disagreement, OfAnErrorOfTheCameraAloneIsThatOfItsPixel) {
   // A principal point shifts all pixels of its camera.
   Matrix2d shift;
   shift << 4.0, 1.5, 1.5, 9.0;
-  const Eigen::Index center = firstParameter(kCamera) + kLens + 2;
+  const Eigen::Index center = firstParameter(kCamera) + kIntrinsics + 2;
   rig.covariance.block<2, 2>(center, center) = shift;
   // That of a camera that is not asked does not matter.
-  const Eigen::Index unasked = firstParameter(2) + kLens + 2;
+  const Eigen::Index unasked = firstParameter(2) + kIntrinsics + 2;
   rig.covariance.block<2, 2>(unasked, unasked) = 100.0 * shift;
   const auto covariance = disagreement(rig, {0.1, 0.2, 0.3});
   ASSERT_TRUE(covariance);

@@ -21,7 +21,7 @@ inline Eigen::MatrixXd randomCovariance(Random& random, int cameras, double size
   for (Eigen::Index i = 0; i < n; ++i) {
     const Eigen::Index k = i % kParameters;
     scale[i] = size * (k < kPosition     ? 1e-3
-                       : k < kLens       ? 3e-3
+                       : k < kIntrinsics ? 3e-3
                        : k < kDistortion ? 2.0
                        : k < kTimeOffset ? 1e-3
                                          : 0.0);

@@ -1,9 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
 #define WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
 
-#include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H
 
-#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>

@@ -1,9 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
 #define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
 
-#include "wiimote_tracker_calibration/square/rig_model.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 #include "wiimote_tracker_calibration/square/suspect_corner.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>

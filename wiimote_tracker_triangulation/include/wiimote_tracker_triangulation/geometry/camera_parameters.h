@@ -13,9 +13,9 @@ namespace wiimote_tracker::geometry {
 
 /// Number of a camera's parameters in Rig::covariance, and the indices among them.
 constexpr Eigen::Index kParameters = 16;
-constexpr Eigen::Index kRotation = 0;  ///< w about the world axes [rad]: exp([w]x) R.
-constexpr Eigen::Index kPosition = 3;  ///< World [m].
-constexpr Eigen::Index kLens = 6;      ///< fx, fy, cx, cy [px], then the distortion.
+constexpr Eigen::Index kRotation = 0;    ///< w about the world axes [rad]: exp([w]x) R.
+constexpr Eigen::Index kPosition = 3;    ///< World [m].
+constexpr Eigen::Index kIntrinsics = 6;  ///< fx, fy, cx, cy [px], then the distortion.
 constexpr Eigen::Index kDistortion = 10;
 constexpr Eigen::Index kTimeOffset = 15;  ///< [s]
 

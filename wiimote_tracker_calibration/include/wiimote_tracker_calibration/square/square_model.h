@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_RIG_MODEL_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_RIG_MODEL_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_MODEL_H
+#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_MODEL_H
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -50,19 +50,19 @@ struct RigState {
 /// All that was observed of one square, and the statistical model of it: Gaussian errors of the
 /// pixels, of the placement of the LED, of the starting intrinsics, and of the accelerometers.
 /// Every camera must have seen three corners or four.
-class RigModel {
+class SquareModel {
  public:
   /// @param z_up as in SquareLayout::corners().
-  RigModel(std::vector<CameraSightings> sightings,
-           const SquareLayout& layout,
-           bool z_up,
-           const Uncertainty& uncertainty);
+  SquareModel(std::vector<CameraSightings> sightings,
+              const SquareLayout& layout,
+              bool z_up,
+              const Uncertainty& uncertainty);
 
   const std::vector<CameraSightings>& sightings() const { return sightings_; }
   const Corners& nominalCorners() const { return nominal_corners_; }
 
   /// A model of one of the cameras alone.
-  RigModel only(std::size_t camera) const;
+  SquareModel only(std::size_t camera) const;
 
   /// Starting intrinsics, nominal corners, and the given poses.
   RigState start(const std::vector<Eigen::Isometry3d>& world_from_camera) const;
@@ -109,4 +109,4 @@ class RigModel {
 
 }  // namespace wiimote_tracker::square
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_RIG_MODEL_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_MODEL_H

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/square/rig_model.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include "square/error.h"
 
@@ -48,9 +48,9 @@ void Uncertainty::check() const {
 }
 
 /// The least-squares problem around one state.
-class RigModel::Problem {
+class SquareModel::Problem {
  public:
-  Problem(const RigModel& model, const RigState& state) : model_(model), state_(state) {
+  Problem(const SquareModel& model, const RigState& state) : model_(model), state_(state) {
     for (const geometry::Camera& camera : state.cameras)
       cameras_.emplace_back(camera);
     for (std::size_t c = 0; c < 4; ++c)
@@ -88,7 +88,7 @@ class RigModel::Problem {
     return 2.0 * summary.final_cost;
   }
 
-  /// As RigModel::covarianceOfAll().
+  /// As SquareModel::covarianceOfAll().
   Eigen::MatrixXd covariance() {
     std::vector<double*> blocks;
     for (adjust::CameraBlocks& camera : cameras_) {
@@ -111,7 +111,7 @@ class RigModel::Problem {
     const geometry::Camera& camera = state_.cameras[i];
     const CameraSightings& sightings = model_.sightings_[i];
     const Uncertainty& uncertainty = model_.uncertainty_;
-    problem_.SetParameterBlockConstant(blocks.distortion.data());
+    problem_.SetParameterBlockConstant(blocks.higher_distortion.data());
     problem_.AddParameterBlock(&blocks.time_offset, 1);
     problem_.SetParameterBlockConstant(&blocks.time_offset);
     addLensPriorGivenOffset(sightings.intrinsics, uncertainty, blocks.lens.data(),
@@ -124,7 +124,7 @@ class RigModel::Problem {
           nullptr, blocks.rotation.data());
   }
 
-  const RigModel& model_;
+  const SquareModel& model_;
   const RigState state_;
   ceres::Problem problem_;
   std::vector<adjust::CameraBlocks> cameras_;
@@ -133,21 +133,21 @@ class RigModel::Problem {
   SquareBlocks square_{&corners_, {}};
 };
 
-RigModel::RigModel(std::vector<CameraSightings> sightings,
-                   const SquareLayout& layout,
-                   bool z_up,
-                   const Uncertainty& uncertainty)
+SquareModel::SquareModel(std::vector<CameraSightings> sightings,
+                         const SquareLayout& layout,
+                         bool z_up,
+                         const Uncertainty& uncertainty)
     : sightings_(std::move(sightings)),
       layout_(layout),
       z_up_(z_up),
       uncertainty_(uncertainty),
       nominal_corners_(layout.corners(z_up)) {}
 
-RigModel RigModel::only(std::size_t camera) const {
-  return RigModel({sightings_[camera]}, layout_, z_up_, uncertainty_);
+SquareModel SquareModel::only(std::size_t camera) const {
+  return SquareModel({sightings_[camera]}, layout_, z_up_, uncertainty_);
 }
 
-RigState RigModel::start(const std::vector<Eigen::Isometry3d>& world_from_camera) const {
+RigState SquareModel::start(const std::vector<Eigen::Isometry3d>& world_from_camera) const {
   RigState state;
   state.corners = nominal_corners_;
   for (std::size_t i = 0; i < sightings_.size(); ++i)
@@ -155,11 +155,11 @@ RigState RigModel::start(const std::vector<Eigen::Isometry3d>& world_from_camera
   return state;
 }
 
-std::optional<double> RigModel::refineAll(RigState* state, Precision precision) const {
+std::optional<double> SquareModel::refineAll(RigState* state, Precision precision) const {
   return Problem(*this, *state).solve(state, precision);
 }
 
-int RigModel::degreesOfFreedom() const {
+int SquareModel::degreesOfFreedom() const {
   int result = static_cast<int>(layout_.lengths.size()) - (uncertainty_.unknown_corner ? 2 : 0);
   // Pixel coordinates, and six parameters of the pose; every other parameter has its prior.
   for (const CameraSightings& sightings : sightings_)
@@ -168,21 +168,21 @@ int RigModel::degreesOfFreedom() const {
   return result;
 }
 
-Eigen::MatrixXd RigModel::covarianceOfAll(const RigState& state) const {
+Eigen::MatrixXd SquareModel::covarianceOfAll(const RigState& state) const {
   return Problem(*this, state).covariance();
 }
 
-Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
+Eigen::MatrixXd SquareModel::covarianceOfPoses(const RigState& state) const {
   const Uncertainty& stated = uncertainty_;
   const auto cameras = static_cast<Eigen::Index>(sightings_.size());
   constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
-  constexpr Eigen::Index kLens = adjust::kLensSize;
+  constexpr Eigen::Index kLensSize = adjust::kLensSize;
   constexpr Eigen::Index kShared = 2;
   constexpr Eigen::Index kPixels = 8;
   // Estimated parameters as a linear function of independent unit errors: of all corners, of the
   // principal points' shared offset, then of the lens and the pixels camera by camera. The sign of
   // an error does not matter where it enters nothing but poses: of corners and pixels.
-  const Eigen::Index errors = kCornerParameters + kShared + (kLens + kPixels) * cameras;
+  const Eigen::Index errors = kCornerParameters + kShared + (kLensSize + kPixels) * cameras;
   Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras, errors);
   for (std::size_t i = 0; i < sightings_.size(); ++i) {
     const CameraSightings& seen = sightings_[i];
@@ -201,26 +201,27 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
       pixel += 2;
     }
     const geometry::Intrinsics& lens = state.cameras[i].intrinsics;
-    Eigen::Matrix<double, kLens, kLens> lens_by_error = Eigen::Matrix<double, kLens, kLens>::Zero();
+    Eigen::Matrix<double, kLensSize, kLensSize> lens_by_error =
+        Eigen::Matrix<double, kLensSize, kLensSize>::Zero();
     lens_by_error.topLeftCorner<2, 2>() << lens.fx * stated.focal, 0.5 * lens.fx * stated.aspect,
         lens.fy * stated.focal, -0.5 * lens.fy * stated.aspect;
     lens_by_error.diagonal().tail<3>() << stated.principal_point, stated.principal_point, stated.k1;
 
     const Eigen::MatrixXd pose_by_pixels = -geometry::pseudoInverse(by_camera.leftCols<kPose>());
     const Eigen::MatrixXd pose_by_lens =
-        pose_by_pixels * by_camera.middleCols<kLens>(geometry::kLens);
+        pose_by_pixels * by_camera.middleCols<kLensSize>(geometry::kIntrinsics);
     const Eigen::Index own =
-        kCornerParameters + kShared + (kLens + kPixels) * static_cast<Eigen::Index>(i);
+        kCornerParameters + kShared + (kLensSize + kPixels) * static_cast<Eigen::Index>(i);
     auto rows = by_errors.middleRows<geometry::kParameters>(geometry::firstParameter(i));
     rows.topLeftCorner<kPose, kCornerParameters>() = stated.placement * pose_by_pixels * by_corners;
-    rows.block<kPose, kLens>(0, own) = pose_by_lens * lens_by_error;
-    rows.block(0, own + kLens, kPose, pixels) = stated.pixel * pose_by_pixels;
-    rows.block<kLens, kLens>(geometry::kLens, own) = lens_by_error;
+    rows.block<kPose, kLensSize>(0, own) = pose_by_lens * lens_by_error;
+    rows.block(0, own + kLensSize, kPose, pixels) = stated.pixel * pose_by_pixels;
+    rows.block<kLensSize, kLensSize>(geometry::kIntrinsics, own) = lens_by_error;
     if (sharesOffset(seen.intrinsics)) {
       const double shared = stated.shared_principal_point;
       rows.block<kPose, kShared>(0, kCornerParameters) =
           shared * pose_by_lens.middleCols<kShared>(2);
-      rows.block<kShared, kShared>(geometry::kLens + 2, kCornerParameters)
+      rows.block<kShared, kShared>(geometry::kIntrinsics + 2, kCornerParameters)
           .diagonal()
           .setConstant(shared);
     }
@@ -228,7 +229,7 @@ Eigen::MatrixXd RigModel::covarianceOfPoses(const RigState& state) const {
   return by_errors * by_errors.transpose();
 }
 
-double RigModel::reprojectionError(const RigState& state, std::size_t camera) const {
+double SquareModel::reprojectionError(const RigState& state, std::size_t camera) const {
   double sum = 0.0;
   for (std::size_t c = 0; c < 4; ++c) {
     if (!sightings_[camera].corners[c])
@@ -241,7 +242,7 @@ double RigModel::reprojectionError(const RigState& state, std::size_t camera) co
   return std::sqrt(sum / static_cast<double>(sightings_[camera].cornersSeen()));
 }
 
-double RigModel::lensDeviation(const RigState& state, std::size_t camera) const {
+double SquareModel::lensDeviation(const RigState& state, std::size_t camera) const {
   return marginalLensPrior(sightings_[camera].intrinsics, uncertainty_)
       .deviation(state.cameras[camera].intrinsics);
 }

@@ -1,9 +1,9 @@
 // The services and the watch that need a calibrated rig, with cameras that this test plays: the
 // rig that is loaded is not always the true one.
 
-#include "continuous/approach.h"
+#include "calibrated_node.h"
 
-#include "node_fixture.h"
+#include "continuous/approach.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
@@ -24,53 +24,6 @@ using wiimote_tracker_msgs::CheckPlace;
 using wiimote_tracker_msgs::FitRemap;
 using wiimote_tracker_msgs::LearnMasks;
 using wiimote_tracker_msgs::RecalibrateCamera;
-
-class CalibratedNode : public Node {
- protected:
-  /// The rig as it stands, with no uncertainty but that of the pixels.
-  static geometry::Rig trueRig() {
-    geometry::Rig rig;
-    for (std::size_t i = 0; i < cameras_->truth.size(); ++i) {
-      geometry::RigCamera camera;
-      camera.camera = cameras_->truth[i];
-      camera.camera.identity = "00:1e:35:00:00:0" + std::to_string(i + 1);
-      camera.time_offset = 0.0;
-      camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
-      rig.cameras.push_back(camera);
-    }
-    rig.cameras[0].gravity =
-        9.81 * cameras_->truth[0].world_from_camera.linear().row(2).transpose();
-    rig.method = "test";
-    rig.covariance = Eigen::MatrixXd::Zero(64, 64);
-    return rig;
-  }
-
-  static void load(const geometry::Rig& rig, const std::string& service = "calibration/load") {
-    LoadRig::Request request;
-    request.path = folder_ + "/loaded.yaml";
-    geometry::writeRigFile(rig, request.path);
-    const auto response = call<LoadRig>(service, request);
-    ASSERT_TRUE(response.success) << response.message;
-  }
-
-  /// @param duration longest wait [s]; 0: the parameter.
-  static CheckPlace::Response check(const Eigen::Vector3d& known, double duration = 0.0) {
-    CheckPlace::Request request;
-    request.duration = duration;
-    request.known = pointOf(known);
-    request.known_stddev = 0.001;
-    return call<CheckPlace>("calibration/check", request);
-  }
-
-  static std::string health(const std::string& camera) {
-    const auto status = status_->get();
-    for (const auto& each : status->cameras) {
-      if (each.name == camera)
-        return each.health;
-    }
-    return "";
-  }
-};
 
 TEST_F(CalibratedNode, ChecksAKnownPlace) {
   load(trueRig());

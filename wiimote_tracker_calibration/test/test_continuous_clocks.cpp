@@ -9,6 +9,9 @@
 #include <Eigen/Geometry>
 
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::continuous {
 namespace {
@@ -49,6 +52,28 @@ TEST(Continuous, AmongNewClocksAKnockIsSolvedAfterThem) {
   ASSERT_TRUE(proposal);
   EXPECT_EQ(joined(proposal->cameras), "camera_2");
   EXPECT_LT(turnBetween(proposal->rig.cameras[1], led.truth[1]), 0.001);
+}
+
+/// As when somebody changes the batteries of one camera and bumps into another one.
+TEST(Continuous, BesideOneNewClockAnotherKnockedCameraIsSolved) {
+  square::Random random(9);
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(drawTruth(rig, random), 801);
+  led.truth[1] = turned(led.truth[1], 0.03, random);
+  std::vector<std::string> found;
+  std::optional<ContinuousCalibration> watch(std::in_place, rig, Options{});
+  led.runUntil(120.0, [&](capture::Image image) {
+    image.clock_epoch = image.camera == "camera_1" ? 8 : 7;
+    if (const auto proposal = watch->add(image)) {
+      found.push_back(joined(proposal->cameras));
+      rig = proposal->rig;
+      watch.emplace(rig, Options{});
+    }
+  });
+  ASSERT_GE(found.size(), 2u) << joined(found);
+  EXPECT_EQ(found[0], "camera_1");
+  EXPECT_EQ(found[1], "camera_2");
+  EXPECT_LT(turnBetween(rig.cameras[1], led.truth[1]), 0.001);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@ namespace wiimote_tracker::capture {
 
 namespace {
 
-// Least share of images with exactly one spot: at the edge of the field of summary the LED is
+// Least share of images with exactly one spot: at the edge of the field of view the LED is
 // missed now and then.
 constexpr double kShareWithOneSpot = 0.9;
 

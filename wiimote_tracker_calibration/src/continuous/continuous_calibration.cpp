@@ -132,7 +132,7 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
     proposal = solvedAgainstOthers(*suspect);
   if (has_moved && !proposal) {
     proposal = adjustedTogether(motion_.images());
-    if (!proposal && newClocks().size() > 1)
+    if (!proposal && !newClocks().empty())
       proposal = adjustedWithoutKnocked(motion_.images());
     has_drifted_ = proposal.has_value();
   }
@@ -155,6 +155,7 @@ std::optional<Proposal> ContinuousCalibration::solvedAgainstOthers(const Evidenc
       contradiction_ = contradiction;
     if (pairs.size() != 1)
       return std::nullopt;
+    contradiction_.clear();
     knocked = pairs.front();
   }
   const auto solved = solveAgainstOthers(rig_, knocked, evidence, options_.recalibrate);
@@ -222,6 +223,8 @@ std::optional<Proposal> ContinuousCalibration::adjustedWithoutKnocked(
     return std::nullopt;
   const auto knocked = std::find_if(drifts.begin(), drifts.end(), isOff) - drifts.begin();
   const std::string& name = rig_.cameras[static_cast<std::size_t>(knocked)].camera.name;
+  if (newClocks() == std::vector<std::string>{name})
+    return std::nullopt;  // it is solved against the others
   const auto ofOthers = [&](const std::vector<capture::Image>& all) {
     std::vector<capture::Image> others;
     std::copy_if(all.begin(), all.end(), std::back_inserter(others),

@@ -66,7 +66,7 @@ class ContinuousCalibration {
   std::vector<std::string> newClocks() const { return knock_.newClocks(); }
 
   /// Which cameras contradict each other, and what to do, if nothing tells which of them were
-  /// moved; else empty.
+  /// moved; else empty. It stays while several cameras are off.
   const std::string& contradiction() const { return contradiction_; }
 
   /// A reading of a camera's accelerometer, optical frame [m/s^2].

@@ -144,14 +144,20 @@ std::vector<Cameras> pairsToSolve(const geometry::Rig& rig, const Evidence& evid
   images.insert(images.end(), evidence.images.to_check.begin(), evidence.images.to_check.end());
   std::vector<std::pair<double, Cameras>> misfits;
   const std::size_t count = rig.cameras.size();
+  const Drifts drifts = driftsOf(rig, images);
+  if (!std::all_of(drifts.begin(), drifts.end(),
+                   [](const auto& drift) { return drift.has_value(); }))
+    return {};
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       bool can_hold = true;
       for (std::size_t i = 0; i < count; ++i)
         can_hold = can_hold && (i == a || i == b || !isTilted(rig.cameras[i], evidence.gravity[i]));
+      if (!can_hold)
+        continue;
       const Cameras pair = {a, b};
       const double misfit = misfitWithout(rig, pair, images);
-      if (can_hold && std::isfinite(misfit))
+      if (std::isfinite(misfit))
         misfits.emplace_back(misfit, pair);
     }
   }
@@ -161,6 +167,7 @@ std::vector<Cameras> pairsToSolve(const geometry::Rig& rig, const Evidence& evid
     if (misfit < kAlike * misfits.front().first)
       pairs.push_back(pair);
   }
+  std::sort(pairs.begin(), pairs.end());
   return pairs;
 }
 

@@ -15,7 +15,7 @@ namespace wiimote_tracker::intrinsics {
 
 namespace {
 
-// Largest error_px, as a share of the board's size: distortion bends the mapping by some percent.
+// Largest error, as a share of the board's size: distortion bends the mapping by some percent.
 constexpr double kLargestError = 0.06;
 
 Eigen::Vector2d mapped(const cv::Mat& homography, const Eigen::Vector3d& point) {

@@ -12,7 +12,7 @@
 namespace wiimote_tracker::remap {
 
 /// The known points to fit a correction of the volume to. All are measured with one calibration,
-/// without the present correction.
+/// which continuous calibration may have adjusted since, without the present correction.
 class MeasuredPoints {
  public:
   /// Sets the calibration in use (geometry::Rig::id()). @returns how many points of another one
@@ -26,7 +26,7 @@ class MeasuredPoints {
     return dropped;
   }
 
-  /// The calibration has another id now, though no camera has moved.
+  /// The calibration has another id now, by masks or small adjustments.
   void renameRig(const std::string& before, const std::string& now) {
     if (rig_id_ == before)
       rig_id_ = now;

@@ -98,7 +98,7 @@ class ContinuousServices {
     }
     const bool is_news = !proposal_ || proposal_->cameras != proposal->cameras;
     proposal_ = proposal;
-    context_.status(lock).setProposal(proposal->cameras.front(), proposal->message + kApply);
+    context_.status(lock).setProposal(proposal->cameras, proposal->message + kApply);
     if (applies) {
       const Reply applied = applyProposal(&lock);
       ROS_WARN_STREAM(applied.message);
@@ -170,7 +170,7 @@ class ContinuousServices {
 
   void forgetProposal(const Lock& lock) {
     proposal_.reset();
-    context_.status(lock).setProposal("", "");
+    context_.status(lock).setProposal({}, "");
   }
 
   std::optional<continuous::Proposal> newestProposal(const std::vector<Input>& inputs) {
@@ -187,6 +187,8 @@ class ContinuousServices {
   Reply apply(Lock& lock) { return applyProposal(&lock); }
 
   std::string whatIsNeeded() const {
+    if (!contradiction_.empty())
+      return contradiction_;
     if (new_clocks_.size() > 1)
       return joined(new_clocks_) +
              " have new clocks since they were calibrated, which are solved while one LED moves "

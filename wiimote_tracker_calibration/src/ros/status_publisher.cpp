@@ -6,6 +6,7 @@
 #include <std_msgs/String.h>
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 
@@ -47,7 +48,7 @@ bool StatusPublisher::isWalked() const {
 std::string StatusPublisher::health(const std::string& camera) const {
   const auto found = health_.find(camera);
   const std::string finding = found != health_.end() ? found->second : "";
-  if (proposal_.first != camera || proposal_.second.empty())
+  if (std::count(proposal_.first.begin(), proposal_.first.end(), camera) == 0)
     return finding;
   return finding + (finding.empty() ? "" : "; ") + proposal_.second;
 }

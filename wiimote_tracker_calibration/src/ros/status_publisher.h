@@ -43,10 +43,9 @@ class StatusPublisher {
   /// What is found of the cameras' health from now on, by their names; empty or none: all is well.
   void setHealth(const std::map<std::string, std::string>& texts) { health_ = texts; }
 
-  /// What continuous calibration proposes to change, shown with the camera's health; no text:
-  /// nothing.
-  void setProposal(const std::string& camera, const std::string& text) {
-    proposal_ = {camera, text};
+  /// What continuous calibration proposes to change, shown with the health of these cameras.
+  void setProposal(const std::vector<std::string>& cameras, const std::string& text) {
+    proposal_ = {cameras, text};
   }
   /// CalibrationCameraStatus.health of a camera.
   std::string health(const std::string& camera) const;
@@ -77,7 +76,7 @@ class StatusPublisher {
   capture::Walk walk_;
   bool walk_is_wanted_ = false;  // though there is a rig
   std::map<std::string, std::string> health_;
-  std::pair<std::string, std::string> proposal_;  // Camera and text.
+  std::pair<std::vector<std::string>, std::string> proposal_;  // Cameras and text.
 };
 
 }  // namespace wiimote_tracker

@@ -47,9 +47,9 @@ def main(argv=None):
         solver, source, topic = ((hand_eye, poses, arguments.odom) if arguments.odom else
                                  (inertial, inertial, arguments.imu))
         report(f'reads {arguments.bag}')
+        body = poses.read(arguments.bag, arguments.body)
+        base = source.read(arguments.bag, topic)
         try:
-            body = poses.read(arguments.bag, arguments.body)
-            base = source.read(arguments.bag, topic)
             found = solver.solve(body, base, arguments.largest_offset, report)
         except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
             raise ExperimentError(f'no solution was found ({error}); record a minute with turns '

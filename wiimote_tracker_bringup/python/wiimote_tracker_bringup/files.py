@@ -27,8 +27,8 @@ def keep_copy(path: str) -> None:
 def prepare(folder: str, names: Iterable[str], mark: str) -> None:
     """Makes a folder for results; removes files and folders of an earlier run with these names.
 
-    mark: a file that every run leaves. Throws ExperimentError if it is missing beside others: a
-    person may have put them there.
+    mark: a file that every run leaves, empty at first. Throws ExperimentError if it is missing
+    beside others: a person may have put them there.
     """
     names = [name for name in (*names, mark) if os.path.lexists(os.path.join(folder, name))]
     if names and names[-1] != mark:
@@ -42,6 +42,7 @@ def prepare(folder: str, names: Iterable[str], mark: str) -> None:
                 shutil.rmtree(path)
             else:
                 os.remove(path)
+        open(os.path.join(folder, mark), 'w').close()
     except OSError as error:
         raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '
                               'with --output')

@@ -67,20 +67,20 @@ std::string RosInput::masterProblem() {
 
 void RosInput::run() {
   subscribeTracker();
-  std::string master_words;
+  std::string master_problem;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!must_end_) {
     lock.unlock();
     // What is subscribed later makes rviz known, but not what it had subscribed before.
-    if (master_words != kForgotten)
-      master_words = lookForMaster();
+    if (master_problem != kForgotten)
+      master_problem = lookForMaster();
     const auto cameras = findCameras();
     if (cameras) {
       for (const std::string& name : *cameras)
         subscribeCamera(name);
     }
     lock.lock();
-    master_problem_ = master_words;
+    master_problem_ = master_problem;
     if (cameras)
       cameras_ = cameras;
     changed_.wait_for(lock, kSearchPeriod, [this] { return must_end_; });

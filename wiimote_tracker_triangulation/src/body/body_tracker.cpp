@@ -90,8 +90,13 @@ void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
   carryOver(&state_);
   history_.changeStates(carryOver);
   auto& images = history_.images();
-  for (std::uint64_t i = images.begin(); i < images.end(); ++i)
-    images.at(i).starts.clear();
+  for (std::uint64_t i = images.begin(); i < images.end(); ++i) {
+    for (const LabelStart& start : std::exchange(images.at(i).starts, {})) {
+      const auto now = std::find(former.begin(), former.end(), start.body);
+      if (now != former.end())
+        images.at(i).starts.push_back({static_cast<std::size_t>(now - former.begin()), start.pose});
+    }
+  }
   estimates_.assign(constellations_.size(), std::nullopt);
   estimate();
 }
@@ -214,13 +219,17 @@ void BodyTracker::assign(const Image& image) {
 }
 
 /// Whether a spot of the same body, other than this one, fits only as that of several LEDs.
-bool BodyTracker::hasMerged(const LedGroups& groups, const Image& image, std::size_t spot) const {
+bool BodyTracker::hasMerged(const LedGroups& groups,
+                            const Image& image,
+                            std::size_t spot,
+                            const std::array<bool, kMaximumLeds>& has_spot) const {
   std::array<bool, kMaximumLeds> all_have_spots;
   all_have_spots.fill(true);
   for (std::size_t s = 0; s < image.pixels.size(); ++s) {
     const std::optional<SpotLed>& other = led_of_spot_[s];
     if (s != spot && other && other->body == led_of_spot_[spot]->body &&
-        !groups.best(other->led, image.pixels[s], all_have_spots))
+        !groups.best(other->led, image.pixels[s], all_have_spots) &&
+        groups.best(other->led, image.pixels[s], has_spot))
       return true;
   }
   return false;
@@ -258,7 +267,7 @@ void BodyTracker::follow(const Image& image) {
     const LedGroups groups = groupsOf(spot.body, image, spots);
     if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot)) {
       update(spot.body, *group, pixels[s], cameras_[image.camera], &last);
-    } else if (!hasMerged(groups, image, s)) {
+    } else if (!hasMerged(groups, image, s, has_spot)) {
       // Another light, or the pose is wrong: the search needs this spot.
       spots_taken_[s] = false;
       last.free.push_back(pixels[s]);

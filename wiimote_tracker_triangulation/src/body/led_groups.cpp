@@ -20,11 +20,16 @@ constexpr double kFurtherLed = 2.0;  // cost of each LED beyond the first
 // over half of the distance between them, with a standard deviation of 1/sqrt(48) of that distance.
 constexpr double kPlaceBetween = 0.1443;
 
-/// Whether no other LED of the body could be taken for this one.
-bool isCertain(const LedPrediction& led, double nearest, const geometry::Camera& camera) {
+/// Whether no other LED of the body could be taken for this one. An error of the image's time moves
+/// all of them alike.
+bool isCertain(const LedPrediction& led,
+               double nearest,
+               const geometry::Camera& camera,
+               double pixel_stddev) {
   const double pixels = nearest * camera.intrinsics.fx / led.depth;
   const double widest = std::clamp(kWidestShare * pixels, kLeastWidest, kWidest);
-  return led.covariance.trace() < 2.0 * widest * widest;
+  return (led.covariance - led.noise).trace() + 2.0 * pixel_stddev * pixel_stddev <
+         2.0 * widest * widest;
 }
 
 }  // namespace
@@ -52,7 +57,8 @@ LedGroups::LedGroups(const PoseState& state,
   const std::size_t leds = constellation.leds.size();
   for (std::size_t i = 0; i < leds; ++i) {
     singles_[i] = predictLed(state, camera, constellation.leds[i], noise);
-    if (singles_[i] && !isCertain(*singles_[i], distanceToNearest(constellation.leds, i), camera))
+    if (singles_[i] && !isCertain(*singles_[i], distanceToNearest(constellation.leds, i), camera,
+                                  noise.pixel_stddev))
       singles_[i].reset();
   }
   const auto areNear = [&](std::size_t a, std::size_t b) {

@@ -16,16 +16,16 @@ class CameraCrowd {
  public:
   using Pixels = boost::container::static_vector<Eigen::Vector2d, association::kMaximumSpots>;
 
-  /// @param full whether the image has as many spots as the camera can report.
-  /// @param unknown its spots of no confirmed LED. A false detection is at another place in each
-  /// image; a light moves by less than a distance [px].
-  void add(bool full, const Pixels& unknown, double distance) {
+  /// @param is_overfull whether the image has as many spots as the camera can report, and none of a
+  /// confirmed LED in view. @param unknown its spots of no confirmed LED. A false detection is at
+  /// another place in each image; a light moves by less than a distance [px].
+  void add(bool is_overfull, const Pixels& unknown, double distance) {
     constexpr double kMemory = 5.0;  // images
     const bool has_light = std::any_of(unknown.begin(), unknown.end(), [&](auto& spot) {
       return std::any_of(unknown_.begin(), unknown_.end(),
                          [&](auto& before) { return (spot - before).norm() < distance; });
     });
-    share_ += ((full && has_light ? 1.0 : 0.0) - share_) / kMemory;
+    share_ += ((is_overfull && has_light ? 1.0 : 0.0) - share_) / kMemory;
     unknown_ = unknown;
   }
 
@@ -33,7 +33,7 @@ class CameraCrowd {
 
  private:
   Pixels unknown_;      // of the last image
-  double share_ = 0.0;  // of full images that show an unknown light
+  double share_ = 0.0;  // of overfull images that show an unknown light
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -222,7 +222,7 @@ void CameraGroup::measureCrowd(const StoredImage& image) {
         !state_.tracks[static_cast<std::size_t>(track)].isConfirmed())
       unknown.push_back(image.pixels[spot]);
   }
-  state_.crowds[image.camera].add(image.full, unknown, kFarthest);
+  state_.crowds[image.camera].add(update_->isOverfull(), unknown, kFarthest);
 }
 
 bool CameraGroup::isCrowded() const {
@@ -323,6 +323,7 @@ void CameraGroup::clear() {
   state_.tracks.clear();
   state_.pairs.clear();
   std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());
+  std::fill(state_.crowds.begin(), state_.crowds.end(), CameraCrowd());
 }
 
 std::vector<std::vector<std::size_t>> groupsOf(

@@ -348,7 +348,14 @@ TEST(BodyTracker, AStartByLabelsSurvivesALateImage) {
   tracker.add(0, tracker.time() - 0.005, 0.0, {});
   ASSERT_TRUE(tracker.bodies()[0]) << "the newest image was computed again";
   EXPECT_EQ(tracker.bodies()[0]->first_seen, first_seen);
-  EXPECT_LT(rotationError(pose, tracker.bodies()[0]->world_from_body).norm(), 0.01);
+  // Also after another body has come first.
+  const Constellation other{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}};
+  tracker.setBodies({other, square});
+  tracker.add(1, tracker.time() - 0.005, 0.0, {});
+  EXPECT_FALSE(tracker.bodies()[0]);
+  ASSERT_TRUE(tracker.bodies()[1]);
+  EXPECT_EQ(tracker.bodies()[1]->first_seen, first_seen);
+  EXPECT_LT(rotationError(pose, tracker.bodies()[1]->world_from_body).norm(), 0.01);
 }
 
 TEST(BodyTracker, ASilentCameraIsNotReported) {

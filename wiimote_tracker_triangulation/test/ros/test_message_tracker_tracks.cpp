@@ -245,6 +245,28 @@ TEST(ImuOfABody, IsMissedOnlyUntilTheBodyIsLost) {
   EXPECT_TRUE(studio.tracker.bodiesWithoutSamples().empty());
 }
 
+TEST(Bodies, ThatAreNoLongerWantedAreReportedLostOnce) {
+  using wiimote_tracker_msgs::TrackedBody;
+  Studio studio(parametersOf(Mode::kTracks));
+  const body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};
+  studio.tracker.setBodies({wand});
+  Paths leds;
+  for (const Vector3d& led : wand.leds)
+    leds.push_back([led](double) { return led; });
+  studio.film(1.0, leds);
+  auto& heard = studio.heard.bodies;
+  ASSERT_EQ(heard.back().bodies.size(), 1u);
+  ASSERT_EQ(heard.back().bodies[0].state, TrackedBody::TRACKED);
+  heard.clear();
+  studio.tracker.setBodies({});
+  ASSERT_EQ(heard.size(), 1u);
+  ASSERT_EQ(heard[0].bodies.size(), 1u);
+  EXPECT_EQ(heard[0].bodies[0].name, "wand");
+  EXPECT_EQ(heard[0].bodies[0].state, TrackedBody::LOST);
+  studio.tracker.setBodies({wand});
+  EXPECT_EQ(heard.size(), 1u);
+}
+
 /// Free LEDs show the offset of a camera that has reconnected; the body is in no view.
 TEST(Bodies, AreAtTheTimesThatMotionHasCorrected) {
   constexpr double kLate = 0.002;  // stamps of camera 2, which exposes at 6 ms of each period [s]

@@ -21,9 +21,13 @@ struct Points {
 
 /// Adds the tracked points of one run; wrong: farther than 50 mm and five standard deviations from
 /// every LED.
-void addRun(const std::vector<Path>& leds, SceneOptions options, unsigned seed, Points* points) {
+void addRun(const std::vector<Path>& leds,
+            SceneOptions options,
+            unsigned seed,
+            Points* points,
+            const TrackerOptions& tracker_options = exactOptions()) {
   options.merging_distance = 24.0;
-  Tracker tracker(paperRig(), exactOptions());
+  Tracker tracker(paperRig(), tracker_options);
   for (const Snapshot& snapshot :
        track(&tracker, imagesOf(paperRig(), leds, options, kImages, seed))) {
     for (const TrackedLed& point : snapshot.leds) {
@@ -60,6 +64,7 @@ TEST(TrackerCrowds, TheCovarianceAllowsForUnknownLedsThatMerge) {
     addRun(leds, options, seed, &all);
   }
   EXPECT_GT(all.tracked, 80000u);
+  EXPECT_LT(all.stddev / all.tracked, 0.03);
   EXPECT_LE(all.wrong, 3e-4 * all.tracked) << all.tracked;
 }
 
@@ -74,6 +79,23 @@ TEST(TrackerCrowds, ItStaysExactWhereAllLedsAreKnown) {
   }
   EXPECT_GT(all.tracked, 5u * 4 * kImages * 98 / 100);
   EXPECT_LT(all.stddev / all.tracked, 0.003);
+}
+
+// Three LEDs and a reflection fill the images, but hide nobody.
+TEST(TrackerCrowds, ItStaysExactBesideALightThatIsLeftOut) {
+  Points all;
+  for (unsigned seed = 1; seed <= 4; ++seed) {
+    geometry::test::Random random(seed);
+    std::vector<Path> leds;
+    for (int i = 0; i < 3; ++i)
+      leds.push_back(wandering(random, {0.6 + 0.6 * i, 0.8 + 0.3 * i, 1.0}, 0.2, 0.5));
+    leds.push_back(still({1.2, 1.2, 0.1}));
+    TrackerOptions options = exactOptions();
+    options.minimum_corner.z() = 0.3;
+    addRun(leds, SceneOptions(), seed, &all, options);
+  }
+  EXPECT_GT(all.tracked, 3u * 4 * kImages * 98 / 100);
+  EXPECT_LT(all.stddev / all.tracked, 0.004);
 }
 
 }  // namespace

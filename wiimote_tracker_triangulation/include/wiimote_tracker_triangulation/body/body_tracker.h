@@ -208,7 +208,10 @@ class BodyTracker {
   SpotNoise noiseOf(const Image& image, double spots) const;
   LedGroups groupsOf(std::size_t body, const Image& image, double spots) const;
   void assign(const Image& image);
-  bool hasMerged(const LedGroups& groups, const Image& image, std::size_t spot) const;
+  bool hasMerged(const LedGroups& groups,
+                 const Image& image,
+                 std::size_t spot,
+                 const std::array<bool, kMaximumLeds>& has_spot) const;
   void leaveToSearch(double time);
   bool isSeen(std::size_t body, const LastImage& image);
   void dropLost(double time);

@@ -161,7 +161,10 @@ TEST_F(JoinRigs, ExactRigsMakeAnExactOne) {
 TEST_F(JoinRigs, WhatIsLostIsNamed) {
   EXPECT_EQ(joinRigs(first_, second_).message.find("left out"), std::string::npos);
   first_.zones = {{"door", Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
-  first_.remap.emplace();
+  const std::vector<Eigen::Vector3d> tetrahedron = {
+      {0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}};
+  first_.remap =
+      remap::Remap{first_.id(), remap::Model::kAffine, std::vector<double>(12, 0.0), tetrahedron};
   second_.zones = {{"desk", Eigen::Vector3d::Zero(), Eigen::Vector3d::Ones()}};
   const JoinedRigs joined = joinRigs(first_, second_);
   EXPECT_SAYS(joined.message, "the zones of the second rig (desk) are left out");

@@ -324,10 +324,12 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   load(rig);
   const Eigen::Vector3d place(1.25, 1.25, 1.0);
   putLed(place);
+  cameras_->blind({"camera_2"});  // whose pose in the rig is wrong
   AddKnownPlace::Request known;
   known.known = pointOf(place);
   const auto measured = call<AddKnownPlace>("calibration/known_places/add", known);
   ASSERT_TRUE(measured.success) << measured.message;
+  cameras_->blind({});
   cameras_->waveLed(true);
   ASSERT_TRUE(
       waitUntil([] { return health("camera_3").find("continuous/apply") != std::string::npos; }));

@@ -2,8 +2,6 @@
 
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -72,7 +70,6 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
     : options_(options), members_(members), clocks_(members.size()) {
   state_.fits.resize(members_.size(),
                      {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo});
-  state_.crowds.resize(members_.size());
   state_.clock_regressions.resize(members_.size());
   state_.unassigned.resize(members_.size());
   useRig(rig, partners);
@@ -162,7 +159,6 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   update_->apply(camera, image, &state_.fits, &state_.clock_regressions[image.camera], &tracks,
                  &state_.pairs);
   removeMergedPairs(image.time);
-  measureCrowd(image);
   show(image, views);
   collectUnassigned(image);
   initiation_->apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
@@ -211,41 +207,6 @@ void CameraGroup::doubtPartnerOf(std::uint32_t ended) {
     if (Track* track = continuing(partner, pair.openedAt()))
       track->noteMeeting(0.5);
   }
-}
-
-void CameraGroup::measureCrowd(const StoredImage& image) {
-  constexpr double kFarthest = 24.0;  // that a spot moves between images [px]
-  CameraCrowd::Pixels unknown;
-  for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
-    const int track = update_->trackOfSpot()[spot];
-    if (track == association::kFalseDetection ||
-        !state_.tracks[static_cast<std::size_t>(track)].isConfirmed())
-      unknown.push_back(image.pixels[spot]);
-  }
-  state_.crowds[image.camera].add(update_->isOverfull(), unknown, kFarthest);
-}
-
-bool CameraGroup::isCrowded() const {
-  return std::count_if(state_.crowds.begin(), state_.crowds.end(),
-                       [](const CameraCrowd& crowd) { return crowd.isCrowded(); }) >= 2;
-}
-
-/// A merged spot is between two LEDs, as far from either as half of their distance: anywhere in a
-/// circle of half the merging_distance. A third camera does not always show the error.
-Eigen::Matrix3d CameraGroup::mergingCovariance(const TrackedLed& led) const {
-  constexpr double kSingular = 1e-10;
-  const double stddev = 0.25 * options_.merging_distance;  // of a coordinate in the circle [px]
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (std::size_t member = 0; member < members_.size(); ++member) {
-    Eigen::Matrix<double, 2, 3> jacobian;
-    if (std::binary_search(led.cameras.begin(), led.cameras.end(), members_[member]) &&
-        cameras_[member].forRays().project(led.position, &jacobian))
-      information.noalias() += jacobian.transpose() * jacobian;
-  }
-  const double trace = information.trace();
-  if (!(information.determinant() > kSingular * trace * trace * trace))
-    return Eigen::Matrix3d::Zero();
-  return stddev * stddev * information.inverse();
 }
 
 /// The track of that id, unless it was reacquired later than this [s].
@@ -323,7 +284,6 @@ void CameraGroup::clear() {
   state_.tracks.clear();
   state_.pairs.clear();
   std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());
-  std::fill(state_.crowds.begin(), state_.crowds.end(), CameraCrowd());
 }
 
 std::vector<std::vector<std::size_t>> groupsOf(

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
 #include "camera_clocks.h"
-#include "camera_crowd.h"
 #include "camera_fit.h"
 #include "group_camera.h"
 #include "ids.h"
@@ -13,10 +12,7 @@
 #include "track_initiation.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/history.h"
-#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
-
-#include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
@@ -58,13 +54,6 @@ class CameraGroup {
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  /// Whether unknown LEDs may be merged with the known ones. What a single camera sees may be a
-  /// lamp.
-  bool isCrowded() const;
-
-  /// Covariance that this adds to an LED's position [m^2]; zero where its cameras do not locate it.
-  Eigen::Matrix3d mergingCovariance(const TrackedLed& led) const;
-
   CameraClocks& clocks() { return clocks_; }
   const CameraClocks& clocks() const { return clocks_; }
 
@@ -87,7 +76,6 @@ class CameraGroup {
     std::vector<MergedPair> pairs;
     std::vector<UnassignedSpots> unassigned;         // per camera
     std::vector<CameraFit> fits;                     // per camera
-    std::vector<CameraCrowd> crowds;                 // per camera
     std::vector<ClockRegression> clock_regressions;  // per camera, since the last correction
     std::uint32_t clocks = 0;                        // version of the corrections of their clocks
   };
@@ -96,7 +84,6 @@ class CameraGroup {
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
   void removeMergedPairs(double time);
   void doubtPartnerOf(std::uint32_t ended);
-  void measureCrowd(const StoredImage& image);
   Track* continuing(std::uint32_t id, double since);
   void collectUnassigned(const StoredImage& image);
   void show(const StoredImage& image, std::vector<CameraView>* views) const;

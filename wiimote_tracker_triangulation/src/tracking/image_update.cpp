@@ -26,7 +26,6 @@ void ImageUpdate::apply(const GroupCamera& camera,
   camera_ = &camera;
   image_ = &image;
   tracks_ = tracks;
-  is_overfull_ = false;
   noise_ = camera.noise(image.stamp_stddev);
   collectCandidates();
   assign();
@@ -51,10 +50,8 @@ void ImageUpdate::apply(const GroupCamera& camera,
       updateTrack(candidate, other);
     else if (is_merged || candidate.expected)
       candidate.track->miss(image.camera, image.time);
-    else if (candidate.in_view && image.full) {
+    else if (candidate.in_view && image.full)
       candidate.track->noteSaturated(image.camera, image.time);
-      is_overfull_ = is_overfull_ || candidate.track->isConfirmed();
-    }
   }
 }
 

@@ -42,9 +42,6 @@ class ImageUpdate {
   /// For each spot of that image its index in `tracks`, or association::kFalseDetection.
   const std::array<int, association::kMaximumSpots>& trackOfSpot() const { return track_of_spot_; }
 
-  /// Whether a confirmed LED in view has no spot, since there are as many as the camera can report.
-  bool isOverfull() const { return is_overfull_; }
-
  private:
   /// A track that may be in this camera's image.
   struct Candidate {
@@ -93,7 +90,6 @@ class ImageUpdate {
   std::vector<Candidate> candidates_;  // at most kMaximumTracks
   association::SpotCosts costs_;
   std::array<int, association::kMaximumSpots> track_of_spot_;
-  bool is_overfull_ = false;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -232,8 +232,6 @@ void Tracker::report(double time, Snapshot* snapshot) const {
       track.report(time, options_, group->members(), &*led);
       if (led->state == TrackState::kTracked && group->isDoubtful())
         led->state = TrackState::kPredicted;
-      if (group->isCrowded())
-        led->position_covariance += group->mergingCovariance(*led);
       ++led;
     }
   }

@@ -68,8 +68,8 @@ BenchmarkSection knockSection() {
 BenchmarkSection twoKnocksSection() {
   return {"two_knocks",
           "two cameras of four or five that are turned while one LED moves: runs in which both "
-          "were found, "
-          "in which another one was changed; time until then, RMS error of the volume then",
+          "were found, in which another one was changed; time until then, RMS error of the volume "
+          "then",
           runTwoKnocks};
 }
 

@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -221,17 +220,12 @@ std::optional<Proposal> ContinuousCalibration::adjustedWithoutKnocked(
   const auto isOff = [](const auto& drift) { return drift && drift->ratio >= 1.0; };
   if (std::count_if(drifts.begin(), drifts.end(), isOff) != 1)
     return std::nullopt;
-  const auto knocked = std::find_if(drifts.begin(), drifts.end(), isOff) - drifts.begin();
-  const std::string& name = rig_.cameras[static_cast<std::size_t>(knocked)].camera.name;
-  if (newClocks() == std::vector<std::string>{name})
+  const auto found = std::find_if(drifts.begin(), drifts.end(), isOff);
+  const Cameras knocked = {static_cast<std::size_t>(found - drifts.begin())};
+  if (newClocks() == std::vector<std::string>{rig_.cameras[knocked.front()].camera.name})
     return std::nullopt;  // it is solved against the others
-  const auto ofOthers = [&](const std::vector<capture::Image>& all) {
-    std::vector<capture::Image> others;
-    std::copy_if(all.begin(), all.end(), std::back_inserter(others),
-                 [&](const capture::Image& image) { return image.camera != name; });
-    return others;
-  };
-  return adjustedTogether({ofOthers(images.to_solve), ofOthers(images.to_check)});
+  return adjustedTogether(
+      {without(rig_, knocked, images.to_solve), without(rig_, knocked, images.to_check)});
 }
 
 std::string idWithoutMasks(geometry::Rig rig) {

@@ -34,7 +34,7 @@ enum class Cause { kKnock, kReconnect, kDrift };
 /// A rig that explains what was seen better than the one in use.
 struct Proposal {
   Cause cause;
-  /// That were knocked; of drift that which has changed most.
+  /// Those that were knocked; of drift the one that has changed most.
   std::vector<std::string> cameras;
   geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
   double gain;          ///< Of drift: misfit of the images that it explains, RMS [px]; else 0.
@@ -44,10 +44,10 @@ struct Proposal {
   std::vector<Eigen::Vector3d> places;
 };
 
-/// Corrects a rig from ordinary tracking of one LED. One or two cameras that no longer
-/// fit the others are solved against them; when all fit nearly, they are adjusted together. A
-/// deterministic function of the images and readings. A change must also explain later images than
-/// those it was solved from.
+/// Corrects a rig from ordinary tracking of one LED. One or two cameras that no longer fit the
+/// others are solved against them; when all fit nearly, they are adjusted together. A deterministic
+/// function of the images and readings. A change must also explain later images than those it was
+/// solved from.
 class ContinuousCalibration {
  public:
   ContinuousCalibration(const geometry::Rig& rig, const Options& options);
@@ -77,8 +77,8 @@ class ContinuousCalibration {
   std::optional<Proposal> solvedAgainstOthers(const Evidence& evidence);
   /// All cameras adjusted together.
   std::optional<Proposal> adjustedTogether(const MotionImages& images) const;
-  /// The same but for the one that contradicts the others, which then get their new clocks. With
-  /// these it is solved.
+  /// All cameras adjusted together but the one that contradicts the others. So these get their new
+  /// clocks, with which that one can be solved.
   std::optional<Proposal> adjustedWithoutKnocked(const MotionImages& images) const;
 
   geometry::Rig rig_;

@@ -22,26 +22,12 @@ constexpr double kDegreesPerRadian = 180.0 / M_PI;
 // light that moves with the LED [m].
 constexpr double kFarthest = 0.2;
 
-// Sets of cameras of which one misses by less than so many times as much as another cannot be told
-// apart.
+// Two pairs of cameras whose misfits differ by less than this ratio explain the images equally
+// well.
 constexpr double kAlike = 2.0;
 
 bool contains(const Cameras& cameras, std::size_t camera) {
   return std::find(cameras.begin(), cameras.end(), camera) != cameras.end();
-}
-
-/// The images of all cameras but these.
-std::vector<capture::Image> without(const geometry::Rig& rig,
-                                    const Cameras& cameras,
-                                    const std::vector<capture::Image>& images) {
-  std::vector<capture::Image> rest;
-  std::copy_if(images.begin(), images.end(), std::back_inserter(rest),
-               [&](const capture::Image& image) {
-                 return std::none_of(cameras.begin(), cameras.end(), [&](std::size_t camera) {
-                   return rig.cameras[camera].camera.name == image.camera;
-                 });
-               });
-  return rest;
 }
 
 Cameras othersOf(std::size_t camera, Cameras cameras) {
@@ -104,6 +90,19 @@ bool isTilted(const geometry::RigCamera& camera, const std::optional<Eigen::Vect
 }
 
 }  // namespace
+
+std::vector<capture::Image> without(const geometry::Rig& rig,
+                                    const Cameras& cameras,
+                                    const std::vector<capture::Image>& images) {
+  std::vector<capture::Image> rest;
+  std::copy_if(images.begin(), images.end(), std::back_inserter(rest),
+               [&](const capture::Image& image) {
+                 return std::none_of(cameras.begin(), cameras.end(), [&](std::size_t camera) {
+                   return rig.cameras[camera].camera.name == image.camera;
+                 });
+               });
+  return rest;
+}
 
 std::optional<SolvedCameras> solveAgainstOthers(const geometry::Rig& rig,
                                                 const Cameras& cameras,

@@ -16,6 +16,11 @@ namespace wiimote_tracker::continuous {
 /// Cameras of a rig, as it counts them, ascending.
 using Cameras = std::vector<std::size_t>;
 
+/// The images of all cameras but these.
+std::vector<capture::Image> without(const geometry::Rig& rig,
+                                    const Cameras& cameras,
+                                    const std::vector<capture::Image>& images);
+
 /// Cameras that were solved against the others.
 struct SolvedCameras {
   geometry::Rig rig;    ///< Its covariance includes the drift of the others. Without solved_at.

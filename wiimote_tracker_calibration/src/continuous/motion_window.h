@@ -21,9 +21,9 @@ struct MotionOptions {
   /// Later samples, which the solution does not use [>= 40: fewer are not judged, see medianDrift()
   /// in health/drift_residuals.h].
   std::size_t to_check = 0;
-  std::size_t most_to_solve =
-      0;                    ///< As the motion goes on; less than to_solve: not more than that.
-  std::size_t cameras = 3;  ///< Of a sample [>= 1].
+  /// Samples, to which these grow while the motion goes on; below to_solve: they do not grow.
+  std::size_t most_to_solve = 0;
+  std::size_t cameras = 3;  ///< That must see the LED in a sample [>= 1].
 };
 
 /// Images of all cameras while an LED moved.

@@ -92,7 +92,7 @@ void HealthWatch::addImage(const capture::Image& image) {
     Watched& judged = cameras_[i];
     judged.health.drift = drift;
     judged.drift_alarm.judge(drift->ratio);
-    // Until the alarm ends, it is told by the last judgement that supports it.
+    // The text of an alarm shows the latest judgement that supports it, not those that end it.
     if (!judged.drift_alarm.on() || drift->ratio >= 1.0)
       judged.drift_finding = *drift;
     describe(&judged);

@@ -297,65 +297,68 @@ TEST(BodyTracker, ABodyThatComesBackElsewhereIsTheSame) {
   EXPECT_EQ(tracker.bodies()[0]->first_seen, first_seen);
 }
 
-TEST(BodyTracker, LabelsResolveASymmetricBody) {
-  const Constellation square{
-      "square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {"a", "b", "c", "d"}};
-  BodyTrackerOptions options;
-  options.minimum_margin = 0.0;
-  BodyTracker tracker(paperRig(), {square}, options);
-  Random random(43);
-  const Isometry3d pose = randomPose(random, {1.2, 1.3, 1.1});
-  showExactly(pose, square.leds, 0, 40, &tracker);
-  EXPECT_FALSE(tracker.bodies()[0]) << "its shape is ambiguous";
+/// A square of LEDs, seen for some images: its shape alone has four poses.
+class SymmetricBody : public ::testing::Test {
+ protected:
+  SymmetricBody() { showExactly(pose_, square_.leds, 0, 40, &tracker_); }
+
+  static BodyTrackerOptions options() {
+    BodyTrackerOptions options;
+    options.minimum_margin = 0.0;
+    return options;
+  }
+
+  Random random_{43};
+  const Constellation square_{"square",
+                              {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}},
+                              {"a", "b", "c", "d"}};
+  const Isometry3d pose_ = randomPose(random_, {1.2, 1.3, 1.1});
+  BodyTracker tracker_{paperRig(), {square_}, options()};
+};
+
+TEST_F(SymmetricBody, IsFoundByItsLabels) {
+  EXPECT_FALSE(tracker_.bodies()[0]) << "its shape is ambiguous";
   std::vector<LabelledPoint> points;
   for (const std::size_t led : {3, 0, 2})
     points.push_back(
-        {square.labels[led], pose * square.leds[led], 1e-6 * Eigen::Matrix3d::Identity()});
+        {square_.labels[led], pose_ * square_.leds[led], 1e-6 * Eigen::Matrix3d::Identity()});
   points.push_back({"else", Vector3d(0, 0, 0), 1e-6 * Eigen::Matrix3d::Identity()});
   std::vector<LabelledPoint> wrong = points;
   std::swap(wrong[0].position, wrong[1].position);
   wrong[2].position.z() += 0.1;
-  tracker.startFromLabels(wrong);
-  EXPECT_FALSE(tracker.bodies()[0]) << "they do not lie as on the body";
-  tracker.startFromLabels({points[0], points[1]});
-  EXPECT_FALSE(tracker.bodies()[0]) << "two are not enough";
-  tracker.startFromLabels(points);
-  showExactly(pose, square.leds, 40, 200, &tracker);
-  ASSERT_TRUE(tracker.bodies()[0]);
-  EXPECT_LT(rotationError(pose, tracker.bodies()[0]->world_from_body).norm(), 0.01);
+  tracker_.startFromLabels(wrong);
+  EXPECT_FALSE(tracker_.bodies()[0]) << "they do not lie as on the body";
+  tracker_.startFromLabels({points[0], points[1]});
+  EXPECT_FALSE(tracker_.bodies()[0]) << "two are not enough";
+  tracker_.startFromLabels(points);
+  showExactly(pose_, square_.leds, 40, 200, &tracker_);
+  ASSERT_TRUE(tracker_.bodies()[0]);
+  EXPECT_LT(rotationError(pose_, tracker_.bodies()[0]->world_from_body).norm(), 0.01);
   // It keeps its state, and is not initialised again.
-  const MotionCovariance covariance = tracker.bodies()[0]->covariance;
-  tracker.startFromLabels(points);
-  EXPECT_EQ(tracker.bodies()[0]->covariance, covariance);
+  const MotionCovariance covariance = tracker_.bodies()[0]->covariance;
+  tracker_.startFromLabels(points);
+  EXPECT_EQ(tracker_.bodies()[0]->covariance, covariance);
 }
 
-TEST(BodyTracker, AStartByLabelsSurvivesALateImage) {
-  const Constellation square{
-      "square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}, {"a", "b", "c", "d"}};
-  BodyTrackerOptions options;
-  options.minimum_margin = 0.0;
-  BodyTracker tracker(paperRig(), {square}, options);
-  Random random(43);
-  const Isometry3d pose = randomPose(random, {1.2, 1.3, 1.1});
-  showExactly(pose, square.leds, 0, 40, &tracker);
+TEST_F(SymmetricBody, FoundByItsLabelsSurvivesALateImage) {
   std::vector<LabelledPoint> points;
   for (std::size_t led = 0; led < 3; ++led)
     points.push_back(
-        {square.labels[led], pose * square.leds[led], 1e-6 * Eigen::Matrix3d::Identity()});
-  tracker.startFromLabels(points);
-  ASSERT_TRUE(tracker.bodies()[0]);
-  const double first_seen = tracker.bodies()[0]->first_seen;
-  tracker.add(0, tracker.time() - 0.005, 0.0, {});
-  ASSERT_TRUE(tracker.bodies()[0]) << "the newest image was computed again";
-  EXPECT_EQ(tracker.bodies()[0]->first_seen, first_seen);
+        {square_.labels[led], pose_ * square_.leds[led], 1e-6 * Eigen::Matrix3d::Identity()});
+  tracker_.startFromLabels(points);
+  ASSERT_TRUE(tracker_.bodies()[0]);
+  const double first_seen = tracker_.bodies()[0]->first_seen;
+  tracker_.add(0, tracker_.time() - 0.005, 0.0, {});
+  ASSERT_TRUE(tracker_.bodies()[0]) << "the newest image was computed again";
+  EXPECT_EQ(tracker_.bodies()[0]->first_seen, first_seen);
   // Also after another body has come first.
   const Constellation other{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}};
-  tracker.setBodies({other, square});
-  tracker.add(1, tracker.time() - 0.005, 0.0, {});
-  EXPECT_FALSE(tracker.bodies()[0]);
-  ASSERT_TRUE(tracker.bodies()[1]);
-  EXPECT_EQ(tracker.bodies()[1]->first_seen, first_seen);
-  EXPECT_LT(rotationError(pose, tracker.bodies()[1]->world_from_body).norm(), 0.01);
+  tracker_.setBodies({other, square_});
+  tracker_.add(1, tracker_.time() - 0.005, 0.0, {});
+  EXPECT_FALSE(tracker_.bodies()[0]);
+  ASSERT_TRUE(tracker_.bodies()[1]);
+  EXPECT_EQ(tracker_.bodies()[1]->first_seen, first_seen);
+  EXPECT_LT(rotationError(pose_, tracker_.bodies()[1]->world_from_body).norm(), 0.01);
 }
 
 TEST(BodyTracker, ASilentCameraIsNotReported) {

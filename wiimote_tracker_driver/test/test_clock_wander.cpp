@@ -1,6 +1,6 @@
 // Remotes like two recorded ones: the phase wanders by several ms in 10 s, and a program polls for
 // reports. Remotes that share an adapter. Errors and claimed standard deviations; a wrong period is
-// left.
+// left. What a start changes.
 #include "shared_radio.h"
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
@@ -89,6 +89,31 @@ Score meanOverRemotes(RadioModel::Polling polling, double loss) {
   return mean;
 }
 
+/// The constant part of the delay, from 10 to 30 s after a start [s].
+template <typename Report>
+double constantPart(const std::vector<Report>& reports) {
+  ExposureClock clock;
+  std::vector<double> errors;
+  for (const Report& report : reports) {
+    const Estimate estimate = clock.update(report.arrival);
+    if (report.exposure >= 10.0)
+      errors.push_back(estimate.exposure - report.exposure);
+  }
+  std::nth_element(errors.begin(), errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2),
+                   errors.end());
+  return errors[errors.size() / 2];
+}
+
+double stddevOf(const std::vector<double>& values) {
+  double mean = 0.0;
+  for (const double value : values)
+    mean += value / static_cast<double>(values.size());
+  double squares = 0.0;
+  for (const double value : values)
+    squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
 TEST(ExtensiveClockWander, ExposuresOfRemotesThatWanderAsRecorded) {
   Score mean;
   constexpr int kSessions = 12;
@@ -148,6 +173,30 @@ TEST(ExtensiveClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {
     in_time += left < 5.0;
   }
   EXPECT_GE(in_time, 140) << "of " << kStarts;
+}
+
+// So a restarted driver, whose clock epochs begin at 0 again, may keep the time offsets of a rig.
+TEST(ExtensiveClockWander, TheConstantPartIsTheSameAtEachStart) {
+  constexpr std::uint64_t kStarts = 10;
+  std::vector<double> recorded;
+  for (std::uint64_t seed = 1; seed <= kStarts; ++seed) {
+    FrameTimes times(recordedRemote(0.010035), seed);
+    recorded.push_back(constantPart(polled(times, 30.0)));
+  }
+  EXPECT_LT(stddevOf(recorded), 0.15e-3);
+  for (const auto polling : {RadioModel::Polling::kAtRandom, RadioModel::Polling::kInTurn,
+                             RadioModel::Polling::kSniff}) {
+    for (const double loss : {0.0, 0.05}) {
+      RadioModel model;
+      model.remotes = polling == RadioModel::Polling::kSniff ? 1 : 4;
+      model.loss = loss;
+      model.polling = polling;
+      std::vector<double> parts;
+      for (std::uint64_t seed = 1; seed <= kStarts; ++seed)
+        parts.push_back(constantPart(simulateRadio(model, 30.0, seed).front()));
+      EXPECT_LT(stddevOf(parts), 0.4e-3) << static_cast<int>(polling) << ", " << loss;
+    }
+  }
 }
 
 }  // namespace

@@ -252,6 +252,13 @@ TEST(Recalibrate, RefusesWithTheReason) {
   EXPECT_SAYS(refusal(unclocked, record(&in_step, "camera_2")),
               "those of camera_1, camera_3, camera_4 are not known");
 
+  // As after new batteries: continuous calibration solves that clock alone.
+  request = good;
+  for (capture::Image& image : request.images)
+    image.clock_epoch += image.camera == "camera_1" ? 1 : 0;
+  EXPECT_SAYS(refusal(rig, request), "those of camera_1 are not known since a reconnection; move");
+  EXPECT_SAYS(refusal(rig, request), "call calibration/continuous/apply");
+
   Options options;
   options.maximum_offset_stddev = 1e-6;
   EXPECT_SAYS(refusal(rig, good, options), "time offset");

@@ -234,18 +234,26 @@ void checkCertainty(const Fit& fit,
                     const Options& options) {
   const std::string& name = fit.camera.name;
   std::vector<std::string> unclocked;  // a longer wave does not help against their offsets
+  bool were_known = true;
   for (const std::size_t i : path.cameras()) {
-    if (!path.clockKnown(i))
-      unclocked.push_back(result.rig.cameras[i].camera.name);
+    const geometry::RigCamera& other = result.rig.cameras[i];
+    if (path.clockKnown(i))
+      continue;
+    unclocked.push_back(other.camera.name);
+    were_known = were_known && other.time_offset_rule != geometry::TimeOffsetRule::kNone;
   }
   if (result.offset_stddev > options.maximum_offset_stddev)
-    throw Error("the time offset of " + name +
-                format(" would be known to %.2f ms only, but %.2f ms are needed: ",
-                       1000.0 * result.offset_stddev, 1000.0 * options.maximum_offset_stddev) +
-                (unclocked.empty()
-                     ? "wave longer and faster"
-                     : "those of " + joined(unclocked) +
-                           " are not known; calibrate all cameras again, with a waved LED"));
+    throw Error(
+        "the time offset of " + name +
+        format(" would be known to %.2f ms only, but %.2f ms are needed: ",
+               1000.0 * result.offset_stddev, 1000.0 * options.maximum_offset_stddev) +
+        (unclocked.empty()
+             ? "wave longer and faster"
+             : "those of " + joined(unclocked) + " are not known" +
+                   (were_known ? " since a reconnection; move one LED where all cameras see it, "
+                                 "call calibration/continuous/apply, and recalibrate " +
+                                     name + " again"
+                               : "; calibrate all cameras again, with a waved LED")));
   const double error = imageError(fit, covariance);
   if (error > kLargestImageError)
     throw Error("where " + name + " sees a point would be known to " + format("%.1f px", error) +

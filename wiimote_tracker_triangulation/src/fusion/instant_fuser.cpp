@@ -94,7 +94,8 @@ void InstantFuser::Parts::describeRays(const Locator::Point& point, TrackedLed* 
   led->residual = point.located.reprojection_error;
   for (std::size_t i = 0; i < point.spot_count; ++i) {
     const association::SpotReference& ray = locator->spots()[point.first_spot + i];
-    led->cameras.push_back(ray.view);
+    if (led->cameras.size() < led->cameras.capacity())
+      led->cameras.push_back(ray.view);
     tracking::SeenSpot& spot = snapshot.views[ray.view].spots[ray.spot];
     spot.use = SpotUse::kAssigned;
     spot.led = led->id;

@@ -89,7 +89,7 @@ bool ImageUpdate::isTooUncertain(const Track& track,
 }
 
 /// Other cameras that saw the track's LED lately.
-Track::Cameras ImageUpdate::othersSeeing(const Track& track) const {
+CameraList ImageUpdate::othersSeeing(const Track& track) const {
   return track.othersSeeing(image_->camera, image_->time - options_.birth_window);
 }
 
@@ -132,7 +132,7 @@ bool ImageUpdate::isExplained(const Candidate& candidate) const {
   const auto spot = nearestUnassigned(predicted, kFarthest);
   if (!spot)
     return false;
-  Track::Cameras others = othersSeeing(*candidate.track);
+  CameraList others = othersSeeing(*candidate.track);
   for (std::size_t& other : others)
     other = members_[other];
   const auto of_calibration =

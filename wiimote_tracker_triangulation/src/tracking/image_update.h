@@ -59,7 +59,7 @@ class ImageUpdate {
 
   void collectCandidates();
   bool isTooUncertain(const Track& track, const motion::PixelPrediction& prediction) const;
-  Track::Cameras othersSeeing(const Track& track) const;
+  CameraList othersSeeing(const Track& track) const;
   void assign();
   void assignSpot(std::size_t spot, Candidate* candidate);
   void measureFit(std::vector<CameraFit>* fits) const;

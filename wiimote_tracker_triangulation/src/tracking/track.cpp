@@ -233,8 +233,8 @@ bool Track::wasMissedBy(std::size_t camera) const {
   });
 }
 
-Track::Cameras Track::othersSeeing(std::size_t camera, double since) const {
-  Cameras others;
+CameraList Track::othersSeeing(std::size_t camera, double since) const {
+  CameraList others;
   for (const CameraRecord& record : records_) {
     if (record.camera != camera && record.last_detected >= since)
       others.push_back(record.camera);

@@ -30,9 +30,6 @@ struct CameraRecord {
 /// The track of one LED, tentative or confirmed. A value type that never allocates.
 class Track {
  public:
-  static constexpr std::size_t kMaximumCameras = 64;  ///< Whose images it remembers.
-  using Cameras = boost::container::static_vector<std::size_t, kMaximumCameras>;
-
   Track(const motion::MotionFilter& start, std::uint32_t led_id);
 
   /// Missed detection: the camera should have shown the LED and did not.
@@ -78,7 +75,7 @@ class Track {
   bool wasMissedBy(std::size_t camera) const;
 
   /// Other cameras that detected it at a time [s] or later.
-  Cameras othersSeeing(std::size_t camera, double since) const;
+  CameraList othersSeeing(std::size_t camera, double since) const;
 
   /// Cameras with a spot of this LED's own at a time [s] or later.
   std::size_t camerasShowing(double since) const;

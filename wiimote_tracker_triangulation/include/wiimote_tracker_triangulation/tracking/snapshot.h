@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H
 
 #include <Eigen/Core>
-#include <boost/container/small_vector.hpp>
+#include <boost/container/static_vector.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -15,9 +15,11 @@ namespace wiimote_tracker::tracking {
 /// As in TrackedPoint.msg.
 enum class TrackState { kTentative, kTracked, kPredicted, kLost };
 
-/// Indices of cameras in a rig. Up to 64 take no memory of their own, so that LEDs are copied,
-/// added and removed without allocating.
-using CameraList = boost::container::small_vector<std::size_t, 64>;
+/// Cameras of one LED that are remembered.
+constexpr std::size_t kMaximumCameras = 64;
+
+/// Indices of cameras. Never allocates.
+using CameraList = boost::container::static_vector<std::size_t, kMaximumCameras>;
 
 /// One LED at the time of its snapshot; fields as in TrackedPoint.msg.
 struct TrackedLed {
@@ -27,7 +29,7 @@ struct TrackedLed {
   Eigen::Matrix3d position_covariance = Eigen::Matrix3d::Zero();  ///< World [m^2].
   std::optional<Eigen::Vector3d> velocity;                        ///< World [m/s].
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; with a velocity.
-  CameraList cameras;             ///< Whose rays were used, in the order of the rig.
+  CameraList cameras;             ///< In the rig; whose rays were used, ascending.
   std::size_t rays_possible = 0;  ///< Cameras that should see it, or whose rays were used.
 
   /// sqrt(mean(du^2 + dv^2)) over the rays used [px]; NaN without any.

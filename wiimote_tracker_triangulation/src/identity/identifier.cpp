@@ -1,35 +1,9 @@
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 
-#include "wiimote_tracker_triangulation/geometry/error.h"
-
-#include <wiimote_tracker_msgs/text.h>
-
 namespace wiimote_tracker::identity {
-namespace {
-
-const IdentifierOptions& checked(const IdentifierOptions& options) {
-  options.check();
-  return options;
-}
-
-}  // namespace
-
-void IdentifierOptions::check() const {
-  const auto within = [](const char* name, double value, double least, double most) {
-    if (!(value >= least && value <= most))
-      throw Error(format("%s is %g; choose a value from %g to %g", name, value, least, most));
-  };
-  within("seen_when_on", seeing.seen_when_on, 0.5, 0.999);
-  within("seen_when_off", seeing.seen_when_off, 0.0001, 0.2);
-  within("hidden", seeing.hidden, 1e-6, 0.1);
-  within("steady", steady, 1e-9, 0.5);
-  within("decide_at", decide_at, 0.6, 0.999999);
-  within("memory", memory, 0.1, 60.0);
-  within("interval", interval, 0.0, 1.0);
-}
 
 Identifier::Identifier(const BlinkCodes& codes, const IdentifierOptions& options)
-    : options_(checked(options)),
+    : options_(options),
       hypotheses_(codes, options.seeing, options.memory),
       posterior_(hypotheses_, options.steady) {}
 

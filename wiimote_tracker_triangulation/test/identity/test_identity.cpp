@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -188,16 +187,7 @@ TEST(Identifier, ThePapersSchemeWithSomeInView) {
   EXPECT_EQ(0u, blinking.labelOf(1));
 }
 
-TEST(Identifier, OptionsOutOfRangeAreRefused) {
-  IdentifierOptions options;
-  options.decide_at = 0.3;
-  EXPECT_THROW(Identifier(fourWords(), options), Error);
-  options = {};
-  options.seeing.seen_when_off = 0.0;
-  EXPECT_THROW(Identifier(fourWords(), options), Error);
-  options = {};
-  options.memory = std::nan("");
-  EXPECT_THROW(Identifier(fourWords(), options), Error);
+TEST(Identifier, RefusesToWorkWithoutCodes) {
   EXPECT_THROW(Identifier(BlinkCodes(), {}), Error);
 }
 

@@ -10,6 +10,7 @@
 
 namespace wiimote_tracker::identity {
 
+/// The ranges are not checked here.
 struct IdentifierOptions {
   SeeingModel seeing;
 
@@ -24,9 +25,6 @@ struct IdentifierOptions {
 
   /// Shortest time between two decisions [s, 0..1].
   double interval = 0.02;
-
-  /// @throws Error: out of range.
-  void check() const;
 };
 
 /// The present decision about an LED.
@@ -43,7 +41,7 @@ struct Identity {
 /// the sequence of calls only. Does not allocate once warm.
 class Identifier {
  public:
-  /// @throws Error.
+  /// @throws Error (see BlinkCodes::check).
   Identifier(const BlinkCodes& codes, const IdentifierOptions& options);
 
   /// Adds a sighting of the LED with the tracker's id `led`. Sightings of one camera must be in

@@ -14,6 +14,12 @@ bool isUtf8(const std::string& text) {
   return boost::locale::conv::utf_to_utf<char>(text) == text;
 }
 
+TEST(UtcDate, IsOfThePatternAndEmptyWithoutADate) {
+  EXPECT_EQ("2023-11-14 22:13:20 UTC", utcDate(1.7e9));
+  EXPECT_EQ("20231114_221320", utcDate(1.7e9, "%Y%m%d_%H%M%S"));
+  EXPECT_EQ("", utcDate(9e18));
+}
+
 TEST(ValidUtf8, KeepsEveryCharacter) {
   for (const std::string text :
        {"", "a\n~", "\xC2\x80\xDF\xBF", "\xE0\xA0\x80\xED\x9F\xBF\xEE\x80\x80\xEF\xBF\xBF",

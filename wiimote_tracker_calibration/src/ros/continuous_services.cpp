@@ -8,7 +8,6 @@
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
 #include <algorithm>
-#include <ctime>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,16 +29,6 @@ const char kApply[] = "; call calibration/continuous/apply to use it";
 const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
                                   1000.0 * continuous::Approach::kLongestStep,
                                   continuous::Approach::kPeriod);
-
-/// A date as part of a file's name.
-std::string dateOf(double time) {
-  const auto seconds = static_cast<std::time_t>(time);
-  std::tm date{};
-  gmtime_r(&seconds, &date);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y%m%d_%H%M%S", &date);
-  return text;
-}
 
 class ContinuousServices {
  public:
@@ -244,7 +233,8 @@ class ContinuousServices {
   std::string keepVersion(const geometry::Rig& rig, Lock* lock) {
     const std::string path =
         std::filesystem::path(context_.parameters(*lock).rig_file)
-            .replace_filename("versions/" + dateOf(NodeContext::now()) + "_" + rig.id() + ".yaml")
+            .replace_filename("versions/" + utcDate(NodeContext::now(), "%Y%m%d_%H%M%S") + "_" +
+                              rig.id() + ".yaml")
             .string();
     try {
       context_.compute(lock, [&] { geometry::writeRigFile(rig, path); });

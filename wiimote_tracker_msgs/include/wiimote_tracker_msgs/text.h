@@ -6,6 +6,7 @@
 #include <cstdarg>
 #include <cstddef>
 #include <cstdio>
+#include <ctime>
 #include <limits>
 #include <locale>
 #include <sstream>
@@ -43,6 +44,16 @@ inline std::string exactNumber(double value) {
     if (stream >> back && back == value)
       break;
   }
+  return text;
+}
+
+/// The date of a time since 1970 [s], in UTC. @param pattern of std::strftime
+inline std::string utcDate(double time, const char* pattern = "%Y-%m-%d %H:%M:%S UTC") {
+  const auto seconds = static_cast<std::time_t>(time);
+  std::tm date{};
+  char text[64];
+  if (!gmtime_r(&seconds, &date) || std::strftime(text, sizeof text, pattern, &date) == 0)
+    return "";
   return text;
 }
 

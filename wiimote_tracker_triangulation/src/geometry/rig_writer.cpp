@@ -10,7 +10,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -152,16 +151,6 @@ void emitRemap(const remap::Remap& remap, YAML::Emitter& out) {
   out << YAML::EndSeq << YAML::EndMap;
 }
 
-std::string dateOf(double seconds) {
-  const auto time = static_cast<std::time_t>(seconds);
-  std::tm utc{};
-  char text[64];
-  if (!gmtime_r(&time, &utc) ||
-      std::strftime(text, sizeof text, "%Y-%m-%d %H:%M:%S UTC", &utc) == 0)
-    return "";
-  return text;
-}
-
 /// @throws FileError: readRigFile would refuse the file.
 void checkReadable(const std::string& text, const Rig& rig, const std::string& path) {
   if (text.size() > kLargestReadable)
@@ -185,7 +174,7 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   out << YAML::Key << "version" << YAML::Value << kRigFormatVersion;
   emitText("world_frame", rig.world_frame, out);
   emitNumber("solved_at", rig.solved_at, out);
-  out << YAML::Comment(dateOf(rig.solved_at));
+  out << YAML::Comment(utcDate(rig.solved_at));
   emitText("method", rig.method, out);
   emitText("verdict", rig.verdict, out);
   out << YAML::Key << "ray_model" << YAML::Value

@@ -4,8 +4,6 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -35,15 +33,6 @@ const char* nameOf(std::uint8_t id) {
   if (known != kNames.end())
     return known->second;
   return protocol::isDataReport(id) ? "other data" : "unknown";
-}
-
-std::string dateOf(double seconds) {
-  const auto whole = static_cast<time_t>(seconds);
-  tm date{};
-  ::gmtime_r(&whole, &date);
-  char text[64];
-  ::strftime(text, sizeof(text), "%Y-%m-%d %H:%M:%S UTC", &date);
-  return text;
 }
 
 std::string orNone(const std::string& text) {
@@ -128,7 +117,7 @@ Summary summarize(recording::Reader& reader) {
 
 std::string describe(const Summary& summary) {
   std::string text = "made by        " + summary.header.software + "\nbegin          " +
-                     dateOf(summary.header.wall_time) + "\n" +
+                     utcDate(summary.header.wall_time) + "\n" +
                      format("duration       %.3f s\n", summary.duration) +
                      format("connections    %zu\n", summary.connections.size());
   std::size_t number = 0;

@@ -82,10 +82,8 @@ void RecordedRemote::learn(const Record& record) {
       store(report, settings_);
   } else if (record.kind == Record::Kind::kReceived) {
     ++received_[report.id()];
-    if (protocol::decodeStatus(report)) {
+    if (protocol::decodeStatus(report))
       status_ = report;
-      status_known_ = true;
-    }
     learnMemory(report);
   }
 }
@@ -118,7 +116,7 @@ void RecordedRemote::answer(const Report& request, std::deque<Report>& answers) 
   constexpr std::uint8_t kWantsAcknowledgement = 0x02;
   switch (request.id()) {
     case protocol::kStatusRequestId:
-      answers.push_back(status_);
+      answers.push_back(status_.value_or(Report{0x20, 0, 0, 0, 0, 0, 0}));
       break;
     case protocol::kReadMemoryId:
       answerRead(request, answers);

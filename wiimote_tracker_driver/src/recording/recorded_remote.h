@@ -36,7 +36,7 @@ class RecordedRemote {
   void putOwnValuesInto(protocol::Report& report) const;
 
   /// Whether a status was recorded; else answer() invents one.
-  bool statusKnown() const { return status_known_; }
+  bool statusKnown() const { return status_.has_value(); }
 
   /// Format of the recorded images; nothing when there are none.
   std::optional<protocol::IrFormat> irFormat() const;
@@ -53,8 +53,7 @@ class RecordedRemote {
   void answerRead(const protocol::Report& request, std::deque<protocol::Report>& answers) const;
   bool differs(std::uint32_t first, std::uint32_t last) const;
 
-  protocol::Report status_{0x20, 0, 0, 0, 0, 0, 0};
-  bool status_known_ = false;
+  std::optional<protocol::Report> status_;  ///< The last one.
   Memory memory_;    ///< As the recorded host read it, and the present one wrote it.
   Memory settings_;  ///< Last values written by the recorded host.
   std::array<std::uint64_t, 256> received_{};  ///< Per report id.

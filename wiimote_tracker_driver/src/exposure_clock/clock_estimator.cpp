@@ -176,7 +176,6 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
   history_.add(counter_, arrival, 0.0);
   Estimate e;
   e.frame = frame;
-  e.dropped = static_cast<int>(std::clamp<std::int64_t>(frame - frame_ - 1, 0, 1000000));
   frame_ = frame;
   unexplained_ = uncertain_ = 0;
   log_evidence_ = std::log(kUnexplained);
@@ -336,7 +335,6 @@ Estimate ClockEstimator::estimate(double arrival) {
   e.stddev = std::sqrt(variance + number_variance);
   uncertain_ = e.stddev > period_ ? uncertain_ + 1 : 0;
   e.frame = frame_;
-  e.dropped = static_cast<int>(std::max<std::int64_t>(0, frame_ - previous - 1));
   e.stale = arrival - time > kStaleAge;
   last_arrival_ = arrival;
   last_exposure_ = exposure;

@@ -18,7 +18,6 @@ struct Estimate {
   double stddev = 0.0;  ///< of exposure, including the uncertain frame number [s]
   double clock_stddev = 0.0;  ///< of exposure, given the frame number [s]
   std::int64_t frame = 0;  ///< most probable frame number; later reports may correct it downwards
-  int dropped = 0;         ///< frames lost between the previous report and this one, as known now
   bool stale = false;      ///< arrived more than 30 ms late, e.g. after a stall
   bool restarted = false;  ///< the phase was lost, and is estimated anew from this report on
 };

@@ -4,6 +4,7 @@
 #include "transport/transport.h"
 
 #include <wiimote_tracker_msgs/text.h>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -12,6 +13,7 @@
 namespace wiimote_tracker::transport {
 namespace {
 
+using boost::algorithm::ends_with;
 namespace fs = std::filesystem;
 
 /// The KEY=VALUE lines of a uevent file.
@@ -25,10 +27,6 @@ std::map<std::string, std::string> valuesOf(const fs::path& path) {
   return values;
 }
 
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
-}
-
 }  // namespace
 
 std::vector<KernelRemote> kernelRemotes(const std::string& root) {
@@ -38,12 +36,12 @@ std::vector<KernelRemote> kernelRemotes(const std::string& root) {
     // HID_ID is bus:vendor:product, "0005:0000057E:00000306".
     const std::string id = lowerCase(values["HID_ID"]);
     KernelRemote remote;
-    remote.plus = endsWith(id, ":0000057e:00000330");
-    if (!remote.plus && !endsWith(id, ":0000057e:00000306"))
+    remote.plus = ends_with(id, ":0000057e:00000330");
+    if (!remote.plus && !ends_with(id, ":0000057e:00000306"))
       continue;
     // The Wii U Pro Controller and the Balance Board share the ids, but have no camera.
     const std::string& name = values["HID_NAME"];
-    if (endsWith(name, "RVL-CNT-01-UC") || endsWith(name, "RVL-WBC-01"))
+    if (ends_with(name, "RVL-CNT-01-UC") || ends_with(name, "RVL-WBC-01"))
       continue;
     remote.address = lowerCase(values["HID_UNIQ"]);
     // For a Bluetooth device this is its adapter, for others a location.

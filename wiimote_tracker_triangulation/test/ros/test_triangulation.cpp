@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_ros/transform_listener.h>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -167,9 +168,7 @@ bool reports(const std::function<bool(const diagnostic_msgs::DiagnosticStatus&)>
 
 /// The first part of its name is the process, that is a nodelet's manager.
 bool isOf(const std::string& camera, const diagnostic_msgs::DiagnosticStatus& status) {
-  const std::string end = ": " + camera;
-  return status.name.size() > end.size() &&
-         status.name.compare(status.name.size() - end.size(), end.size(), end) == 0;
+  return boost::algorithm::ends_with(status.name, ": " + camera);
 }
 
 bool warns(const std::string& camera, const std::string& words) {

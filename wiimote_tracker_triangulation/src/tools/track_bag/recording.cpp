@@ -5,6 +5,7 @@
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/text.h>
+#include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
 #include <cstdint>
@@ -24,10 +25,6 @@ constexpr std::uint64_t kShortestRestart = 100'000'000;
 /// When an image arrived [ns], as the tracker reads it.
 std::uint64_t arrivalOf(const IrBlobArray& image) {
   return (image.arrival.isZero() ? image.header.stamp : image.arrival).toNSec();
-}
-
-bool endsWith(const std::string& text, const std::string& end) {
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 }  // namespace
@@ -62,7 +59,8 @@ void Recording::sort() {
   places.reserve(messages_.size());
   for (std::size_t i = 0; i < messages_.size(); ++i) {
     const auto image = read<IrBlobArray>(messages_[i]);
-    if (read<RigCalibration>(messages_[i]) && endsWith(messages_[i].getTopic(), "/calibration/rig"))
+    if (read<RigCalibration>(messages_[i]) &&
+        boost::algorithm::ends_with(messages_[i].getTopic(), "/calibration/rig"))
       rig_topics_.insert(messages_[i].getTopic());
     places.push_back(
         {image ? arrivalOf(*image) : UINT64_MAX, image != nullptr, i, image ? image->frame : 0});

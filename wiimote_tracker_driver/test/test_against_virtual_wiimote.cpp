@@ -5,10 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <deque>
 #include <random>
-#include <utility>
 
 namespace wiimote_tracker::wiimote {
 namespace {

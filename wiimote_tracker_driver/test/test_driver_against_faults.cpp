@@ -9,7 +9,6 @@
 #include <deque>
 #include <memory>
 #include <ostream>
-#include <string>
 #include <vector>
 
 namespace wiimote_tracker::virtual_wiimote {

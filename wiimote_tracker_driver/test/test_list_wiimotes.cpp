@@ -12,7 +12,6 @@
 
 #include <filesystem>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace wiimote_tracker::list_wiimotes {

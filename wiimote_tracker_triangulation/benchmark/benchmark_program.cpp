@@ -1,7 +1,6 @@
 #include "benchmark_program.h"
 
 #include <cstdio>
-#include <ctime>
 
 namespace wiimote_tracker {
 

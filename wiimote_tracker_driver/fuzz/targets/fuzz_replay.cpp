@@ -9,7 +9,6 @@
 #include <unistd.h>
 
 #include <cmath>
-#include <memory>
 #include <sstream>
 #include <string>
 

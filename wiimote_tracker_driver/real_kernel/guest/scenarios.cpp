@@ -14,13 +14,11 @@
 
 #include <algorithm>
 #include <deque>
-#include <iterator>
 #include <map>
 #include <memory>
 #include <set>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 namespace wiimote_tracker::real_kernel {
 namespace {

@@ -5,7 +5,6 @@
 
 #include <sys/stat.h>
 
-#include <limits>
 
 namespace wiimote_tracker::geometry::test {
 namespace {

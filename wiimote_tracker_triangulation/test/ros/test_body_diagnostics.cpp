@@ -6,7 +6,6 @@
 #include <ros/ros.h>
 
 #include <string>
-#include <vector>
 
 namespace wiimote_tracker {
 namespace {

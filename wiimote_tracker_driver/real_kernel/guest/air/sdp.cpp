@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <utility>
 
 namespace wiimote_tracker::real_kernel {
 namespace {

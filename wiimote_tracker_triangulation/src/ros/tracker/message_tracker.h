@@ -35,7 +35,7 @@
 
 namespace wiimote_tracker {
 
-/// Receives the results of MessageTracker.
+/// Receives the results of MessageTracker, as far as it overrides the functions.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;
@@ -51,8 +51,8 @@ class MessageSink {
 
   /// The LEDs at one time; times increase strictly until time jumps back. `views`: what the cameras
   /// saw. The message must not be changed.
-  virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
-                        const std::vector<tracking::CameraView>& views) = 0;
+  virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& /*points*/,
+                        const std::vector<tracking::CameraView>& /*views*/) {}
 
   /// The rigid bodies at the time of an image, before the points of that image. Times increase
   /// strictly too. Only while bodies are tracked. `bridged`: for each body of the message,
@@ -60,13 +60,13 @@ class MessageSink {
   virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/,
                         const std::vector<bool>& /*bridged*/) {}
 
-  virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) = 0;
+  virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& /*event*/) {}
 
   /// The LEDs at the time of a trigger.
-  virtual void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) = 0;
+  virtual void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& /*points*/) {}
 
   /// A problem: one sentence that says what to do. Faults of cameras: see FaultReports.
-  virtual void onProblem(const std::string& sentence) = 0;
+  virtual void onProblem(const std::string& /*sentence*/) {}
 };
 
 /// The tracker without a node: takes messages (rigs, images, triggers) and gives messages (points,

@@ -10,7 +10,6 @@
 #include <deque>
 #include <map>
 #include <optional>
-#include <string>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -24,11 +23,6 @@ class SmoothedTracks : public MessageSink {
   // The first time; onRig() both times.
   void onRig(const geometry::Rig& rig) override;
   const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) override;
-  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr&,
-                const std::vector<tracking::CameraView>&) override {}
-  void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent&) override {}
-  void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray&) override {}
-  void onProblem(const std::string&) override {}
 
   /// Between the two.
   void smooth();

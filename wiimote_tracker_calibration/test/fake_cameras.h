@@ -160,6 +160,7 @@ class FakeCameras {
           message.width = 1024;
           message.height = 768;
           message.max_blobs = 4;
+          message.clock_epoch = 1;  // they have reconnected
           std::vector<Eigen::Vector3d> lights = lamps_;
           if (led_on_ && blind_.count(truth[i].name) == 0)
             lights.push_back(led_);

@@ -323,7 +323,7 @@ TEST(Tracker, AppliesTheTimeOffsetsOfTheRig) {
   rig.cameras[1].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
   rig.cameras[1].time_offset_epoch = 7;
   for (SceneImage& image : images)  // later images are of another epoch
-    image.image.clock_epoch = image.camera == 1 && image.image.stamp < 1001.0 ? 7 : 0;
+    image.image.clock_epoch = image.camera == 1 && image.image.stamp < 1001.0 ? 7 : 8;
   Tracker plain(rig, exactOptions());
   track(&plain, images);
   rig.cameras[1].time_offset = 0.25;

@@ -61,9 +61,10 @@ struct RigCamera {
   /// is not known.
   std::optional<double> timeOffsetIn(std::uint32_t clock_epoch) const;
 
-  /// Whether its time offset was calibrated for another epoch of its clock.
+  /// Whether it reconnected after its time offset was calibrated. Epochs are counted from 0 at each
+  /// start of a driver, over the same link with the same offset: a lower one is not new.
   bool hasNewClock(std::uint32_t clock_epoch) const {
-    return time_offset_rule == TimeOffsetRule::kOneEpoch && time_offset_epoch != clock_epoch;
+    return time_offset_rule == TimeOffsetRule::kOneEpoch && clock_epoch > time_offset_epoch;
   }
 };
 

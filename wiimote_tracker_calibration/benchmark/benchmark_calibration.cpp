@@ -9,10 +9,9 @@ using namespace wiimote_tracker;
 
 int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {
-      poseSection(),      poseMethodsSection(), waveSection(),       floorSection(),
-      waveTimeSection(),  measureSection(),     mistakesSection(),   paperSection(),
-      remapSection(),     roomsSection(),       continuousSection(), knockSection(),
-      twoKnocksSection(), misledSection(),      restSection(),       monthSection()};
+      poseSection(),   waveSection(),  floorSection(),      measureSection(), paperSection(),
+      remapSection(),  roomsSection(), continuousSection(), knockSection(),   twoKnocksSection(),
+      misledSection(), restSection(),  monthSection()};
   std::vector<std::string> names;
   names.reserve(sections.size());
   for (const BenchmarkSection& section : sections)

@@ -18,12 +18,9 @@ struct BenchmarkSection {
 
 // What each measures is in its explanation.
 BenchmarkSection poseSection();
-BenchmarkSection poseMethodsSection();
 BenchmarkSection waveSection();
 BenchmarkSection floorSection();
-BenchmarkSection waveTimeSection();
 BenchmarkSection measureSection();
-BenchmarkSection mistakesSection();
 BenchmarkSection paperSection();
 BenchmarkSection remapSection();
 BenchmarkSection roomsSection();

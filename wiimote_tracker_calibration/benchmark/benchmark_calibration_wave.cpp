@@ -6,9 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -115,34 +113,6 @@ void runFloor(int runs, const RowCallback& row) {
   }
 }
 
-void runTime(int runs, const RowCallback& row) {
-  constexpr std::pair<int, double> kSizes[] = {{4, 5.0}, {4, 25.0}, {16, 50.0}};
-  for (const auto& [cameras, duration] : kSizes) {
-    WaveScene scene;
-    scene.duration = duration;
-    for (int i = 0; i < cameras; ++i) {
-      const double angle = 2.0 * M_PI * (i + 0.5) / cameras;
-      scene.cameras.push_back(
-          geometry::lookAt({1.25 + 6.3 * std::cos(angle), 1.25 + 6.3 * std::sin(angle), 2.0},
-                           {1.25, 1.25, 1.0}, Eigen::Vector3d::UnitZ()));
-    }
-    double slowest = 0.0;
-    double sum = 0.0;
-    const int kMost = 5;
-    const int count = std::min(runs, kMost);
-    for (int seed = 1; seed <= count; ++seed) {
-      const SimulatedWave wave = simulateWave(scene, static_cast<std::uint64_t>(seed));
-      const std::clock_t start = std::clock();
-      solveWave(wave.recording, optionsFor(scene));
-      const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-      slowest = std::max(slowest, seconds);
-      sum += seconds;
-    }
-    row({format("%d cameras, %.0f images each", cameras, scene.rate * duration),
-         {{"mean [s]", sum / count}, {"slowest", slowest}}});
-  }
-}
-
 }  // namespace
 
 BenchmarkSection waveSection() {
@@ -165,10 +135,6 @@ BenchmarkSection floorSection() {
       "0.3 px before rounding; accelerometers off by 3 degrees (RMS about each axis), the wand's "
       "ends by 5 mm in height.",
       runFloor};
-}
-
-BenchmarkSection waveTimeSection() {
-  return {"wave_time", "seconds of processor time to solve a square and a wave.", runTime};
 }
 
 }  // namespace wiimote_tracker

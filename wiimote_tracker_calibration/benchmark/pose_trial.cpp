@@ -244,21 +244,6 @@ std::vector<square::PlanarPose> multiStartPoses(const PoseTrial& trial,
   return minima;
 }
 
-void PoseErrors::add(const PoseTrial& trial,
-                     const std::vector<square::PlanarPose>& minima,
-                     const Eigen::Isometry3d& world_from_camera) {
-  wrong += isWrongBranch(trial, minima, world_from_camera);
-  if (!isJudged(trial, minima))
-    return;
-  ++judged;
-  const Vector6 error = poseError(trial, world_from_camera);
-  nees += error.dot(poseInformation(trial) * error);
-}
-
-double PoseErrors::whitened() const {
-  return std::sqrt(nees / (6.0 * judged));
-}
-
 void PoseTally::add(const PoseTrial& trial,
                     const square::PlanarPoses& found,
                     const std::vector<square::PlanarPose>& minima) {
@@ -273,7 +258,17 @@ void PoseTally::add(const PoseTrial& trial,
   wrong_multi_start += isWrongBranch(trial, minima, minima[0].world_from_camera);
   if (minima.size() > 1 && chiSquared(minima[1].cost - minima[0].cost) < kClear)
     missed += found.size() < 2 || chiSquared(found[1].cost - minima[1].cost) > 1e-6;
-  PoseErrors::add(trial, minima, found[0].world_from_camera);
+  const Eigen::Isometry3d& pose = found[0].world_from_camera;
+  wrong += isWrongBranch(trial, minima, pose);
+  if (!isJudged(trial, minima))
+    return;
+  ++judged;
+  const Vector6 error = poseError(trial, pose);
+  nees += error.dot(poseInformation(trial) * error);
+}
+
+double PoseTally::whitened() const {
+  return std::sqrt(nees / (6.0 * judged));
 }
 
 }  // namespace wiimote_tracker

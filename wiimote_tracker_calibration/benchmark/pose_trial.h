@@ -49,33 +49,25 @@ std::vector<square::PlanarPose> multiStartPoses(const PoseTrial& trial,
                                                 int starts,
                                                 std::mt19937_64& random);
 
-/// Sums over trials of one method's best poses.
-struct PoseErrors {
-  int wrong = 0;  ///< Poses that belong to another of the minima than the truth does.
+/// Sums over trials of planarPoses() beside multiStartPoses().
+struct PoseTally {
+  int poses = 0;
+  int wrong = 0;  ///< Best poses that belong to another of the minima than the truth does.
+  int wrong_multi_start = 0;
   /// Trials of which the truth is so well determined that errors are Gaussian: rotation known to
   /// 1.5 degrees (Cramer-Rao), and no second minimum within 80 in chi^2.
   int judged = 0;
   double nees = 0.0;
-
-  void add(const PoseTrial& trial,
-           const std::vector<square::PlanarPose>& minima,
-           const Eigen::Isometry3d& world_from_camera);
-  /// Errors of the judged poses in standard deviations, RMS over the six parameters.
-  double whitened() const;
-};
-
-/// Sums over trials of planarPoses() beside multiStartPoses().
-struct PoseTally : PoseErrors {
-  int poses = 0;
   double worst_excess = 0.0;  ///< Of the best cost over the multi-start's [chi^2].
-  int wrong_multi_start = 0;
-  int two = 0;  ///< Two branches found.
+  int two = 0;                ///< Two branches found.
   int two_multi_start = 0;
   int missed = 0;  ///< Second minima within 80 in chi^2 that only the multi-start found.
 
   void add(const PoseTrial& trial,
            const square::PlanarPoses& found,
            const std::vector<square::PlanarPose>& minima);
+  /// Errors of the judged poses in standard deviations, RMS over the six parameters.
+  double whitened() const;
 };
 
 }  // namespace wiimote_tracker

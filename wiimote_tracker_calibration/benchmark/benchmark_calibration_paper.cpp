@@ -37,7 +37,7 @@ BenchmarkRow rowOf(const std::string& name, PaperSession session, int runs) {
       origin += last.origin_error;
       for (const Eigen::Vector2d& point : last.principal_points)
         moved = std::max(moved, (point - kStart).norm());
-      lost += result.correction.outcome == Outcome::kLost;
+      lost += result.correction.lost;
     } catch (const geometry::Error&) {
       // Counted below.
     }

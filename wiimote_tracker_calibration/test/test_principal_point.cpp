@@ -137,7 +137,7 @@ TEST(PrincipalPoint, TheGapClosesUntilTheOriginIsWhereItShouldBe) {
   options.rounds = 60;
   options.limit = 1e-4;
   const CorrectionResult result = correctPrincipalPoints(paperSquare(), cameras, options);
-  EXPECT_EQ(result.outcome, Outcome::kLimitReached);
+  EXPECT_LT(result.trace.rounds.size(), 61U);
   EXPECT_LT(result.trace.rounds.back().origin_error, 1e-4);
   EXPECT_GT(result.trace.rounds.front().origin_error, 0.05);
   EXPECT_EQ(result.rig.ray_model, geometry::RayModel::kImageCenter);
@@ -208,16 +208,17 @@ TEST(PrincipalPoint, ProgressSeesEveryRoundAndCanStopIt) {
   const auto cameras = exactSightings({}, paperSquare().corners(true));
   CorrectionOptions options;
   options.ray_model = geometry::RayModel::kImageCenter;
+  options.rounds = 2;
   std::vector<int> seen;
-  const CorrectionResult result =
-      correctPrincipalPoints(paperSquare(), cameras, options, [&](int done, const Trace& trace) {
-        EXPECT_EQ(trace.rounds.size(), static_cast<std::size_t>(done) + 1);
-        seen.push_back(done);
-        return done < 2;
-      });
-  EXPECT_EQ(result.outcome, Outcome::kCancelled);
+  const CorrectionResult result = correctPrincipalPoints(paperSquare(), cameras, options,
+                                                         [&](int done) { seen.push_back(done); });
   EXPECT_EQ(seen, (std::vector<int>{0, 1, 2}));
   EXPECT_EQ(result.trace.rounds.size(), 3U);
+  const auto stop = [](int done) {
+    if (done == 1)
+      throw Error("stopped");
+  };
+  EXPECT_THROW(correctPrincipalPoints(paperSquare(), cameras, options, stop), Error);
   // The rig is that of the last round.
   EXPECT_DOUBLE_EQ(result.rig.cameras[1].camera.intrinsics.cx,
                    result.trace.rounds[2].principal_points[1].x());

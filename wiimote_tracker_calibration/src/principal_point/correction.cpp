@@ -112,7 +112,7 @@ double errorOf(const Round& round, Points points) {
 std::vector<std::string> warningsOf(const CorrectionOptions& options,
                                     const CorrectionResult& result) {
   std::vector<std::string> warnings;
-  if (result.outcome == Outcome::kLost)
+  if (result.lost)
     warnings.push_back(
         format("the principal point correction was stopped after round %zu, because its next step "
                "led to no usable rig: do without it, and check the starting intrinsics",
@@ -188,16 +188,10 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
         "at the square from different sides, and check the starting intrinsics");
   result.trace.rounds.push_back(*round);
   for (int done = 0;; ++done) {
-    if (progress && !progress(done, result.trace)) {
-      result.outcome = Outcome::kCancelled;
-      break;
-    }
+    if (progress)
+      progress(done);
     const Round& last = result.trace.rounds.back();
-    if (errorOf(last, options.points) < options.limit) {
-      result.outcome = Outcome::kLimitReached;
-      break;
-    }
-    if (done == options.rounds)
+    if (done == options.rounds || errorOf(last, options.points) < options.limit)
       break;
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       sightings[i].intrinsics.cx += options.step * last.differences[i].x();
@@ -212,7 +206,7 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
       round.reset();
     }
     if (!round) {
-      result.outcome = Outcome::kLost;
+      result.lost = true;
       break;
     }
     result.trace.rounds.push_back(*round);

@@ -25,14 +25,11 @@ void correctPrincipalPoints(const wave::Recording& recording,
       options.correction, options.ray_model, options.virtual_hfov, options.square.uncertainty,
       options.square.branch_odds};
   const principal_point::CorrectionResult result = principal_point::correctPrincipalPoints(
-      *recording.square, recording.sightings(), correction,
-      [&](int rounds, const principal_point::Trace&) {
-        return !progress ||
-               progress({"correcting the principal points",
-                         static_cast<double>(rounds) / std::max(1, correction.rounds)});
+      *recording.square, recording.sightings(), correction, [&](int rounds) {
+        if (progress && !progress({"correcting the principal points",
+                                   static_cast<double>(rounds) / std::max(1, correction.rounds)}))
+          throw wave::Cancelled();
       });
-  if (result.outcome == principal_point::Outcome::kCancelled)
-    throw wave::Cancelled();
   found->rig = result.rig;
   found->joint_covariance.resize(0, 0);
   found->z_up = result.z_up;

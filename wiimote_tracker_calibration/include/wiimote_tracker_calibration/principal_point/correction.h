@@ -61,26 +61,18 @@ struct Trace {
 /// The trace as a text table, one line per round.
 std::string table(const Trace& trace);
 
-enum class Outcome {
-  kLimitReached,  ///< The error of the points is below the limit.
-  kRoundsDone,    ///< All rounds were done.
-  kLost,          ///< The square cannot be solved with the principal points of the last step.
-  kCancelled,
-};
-
 struct CorrectionResult {
   /// Solved in the last round of the trace, with Method::kPerCamera and the ray model of the
   /// options. Its covariance does not include the correction.
   geometry::Rig rig;
   bool z_up = true;
   Trace trace;
-  Outcome outcome = Outcome::kRoundsDone;
+  bool lost = false;                  ///< The last step led to no usable rig.
   std::vector<std::string> warnings;  ///< One sentence each; also in rig.verdict.
 };
 
-/// Called after each solving with the number of rounds done, and the trace so far.
-/// @returns false to stop.
-using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
+/// Called after each solving with the number of rounds done. What it throws ends the correction.
+using RoundCallback = std::function<void(int rounds_done)>;
 
 /// The paper's principal point correction (section IV.C; doc/principal_point.md): solve each
 /// camera's pose from the square; measure the origin with the rig; project the difference between
@@ -98,8 +90,7 @@ using RoundCallback = std::function<bool(int rounds_done, const Trace& trace)>;
 /// some hundredths of a second.
 /// @throws Error: an option is out of range; the points cannot be measured at all, or one camera
 /// alone saw one of them.
-/// square::SquareError: as solveSquare(), before the first step; later that ends in
-/// Outcome::kLost.
+/// square::SquareError: as solveSquare(), before the first step; later that ends it as `lost`.
 CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
                                         const std::vector<square::CameraSightings>& cameras,
                                         const CorrectionOptions& options,

@@ -243,7 +243,6 @@ TEST(MeasurePlace, RefusesWhatDoesNotDetermineAPoint) {
   twice.cameras[1].camera.world_from_camera = twice.cameras[0].camera.world_from_camera;
   EXPECT_SAYS(refusal(twice, {{"camera_1", all.at("camera_1")}, {"camera_2", all.at("camera_1")}}),
               "parallel");
-  EXPECT_THROW(measurePlace(rig, all, 0.0), Error);
 }
 
 }  // namespace

@@ -13,7 +13,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <limits>
 #include <string>
 
 namespace wiimote_tracker::principal_point {
@@ -254,28 +253,6 @@ TEST(PrincipalPoint, ACornerThatOneCameraSawIsNamed) {
 
 TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {
   auto cameras = exactSightings({}, paperSquare().corners(true));
-  const auto refusal = [&](const CorrectionOptions& options) -> std::string {
-    try {
-      correctPrincipalPoints(paperSquare(), cameras, options);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "not refused";
-  };
-  CorrectionOptions options;
-  options.rounds = -1;
-  EXPECT_SAYS(refusal(options), "rounds is -1");
-  options = {};
-  options.limit = -1.0;
-  EXPECT_SAYS(refusal(options), "limit is -1");
-  for (const double step : {0.0, 1.5, std::numeric_limits<double>::quiet_NaN()}) {
-    options = {};
-    options.step = step;
-    EXPECT_SAYS(refusal(options), "step is ");
-  }
-  options = {};
-  options.virtual_hfov = 4.0;
-  EXPECT_SAYS(refusal(options), "virtual_hfov is 4");
   cameras.pop_back();
   EXPECT_THROW(correctPrincipalPoints(paperSquare(), cameras, {}), square::SquareError);
 }

@@ -4,7 +4,6 @@
 #include "expect_says.h"
 
 #include "wave/coverage.h"
-#include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -173,12 +172,6 @@ TEST(Coverage, SlowWavesLampsAndBlindCamerasAreNamed) {
   EXPECT_SAYS(missing(report), "camera_4 has not seen the LED move");
   EXPECT_EQ(report.cameras[3].image_share, 0.0);
   EXPECT_GT(report.cameras[0].distraction, 0.5);
-}
-
-TEST(Coverage, OptionsOutOfRangeAreRefused) {
-  CoverageOptions options;
-  options.image_share = 1.5;
-  EXPECT_THROW(Coverage({}, false, 1, options), WaveError);
 }
 
 }  // namespace

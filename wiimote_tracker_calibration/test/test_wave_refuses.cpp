@@ -157,13 +157,7 @@ TEST(WaveRefuses, LensThatCannotBe) {
 TEST(WaveRefuses, ValuesOutOfRange) {
   WaveScene scene;
   SimulatedWave wave = simulateWave(scene, 1);
-  WaveOptions options = optionsFor(scene);
-  options.knot_spacing = 0.2;
-  EXPECT_SAYS(refusalOf(wave.recording, options), "knot_spacing");
-  options = optionsFor(scene);
-  options.pixel = std::nan("");
-  EXPECT_SAYS(refusalOf(wave.recording, options), "pixel");
-  options = optionsFor(scene);
+  const WaveOptions options = optionsFor(scene);
   for (const double length : {-0.5, 50.0, std::nan("")}) {  // 0.5 m typed in centimetres
     wave.recording.wand = Wand{length};
     EXPECT_SAYS(refusalOf(wave.recording, options), "wand_length");

@@ -13,13 +13,9 @@
 
 namespace wiimote_tracker::bundle {
 
-void checkObservations(const Reconstruction& reconstruction, const Options& options) {
+void checkObservations(const Reconstruction& reconstruction) {
   if (reconstruction.cameras.size() < 2)
     throw BundleError("give two cameras or more: one alone does not determine depth");
-  if (!(options.maximum_error > 0.0) || !(options.loss_scale > 0.0) ||
-      options.minimum_common_points < 8)
-    throw BundleError(
-        "maximum_error and loss_scale must be above 0, minimum_common_points 8 or more");
   for (const geometry::Camera& camera : reconstruction.cameras) {
     try {
       camera.intrinsics.check();

@@ -9,8 +9,8 @@
 
 namespace wiimote_tracker::bundle {
 
-/// @throws BundleError: invalid options or observations, fewer than two cameras.
-void checkObservations(const Reconstruction& reconstruction, const Options& options);
+/// @throws BundleError: invalid observations, fewer than two cameras.
+void checkObservations(const Reconstruction& reconstruction);
 
 /// @throws BundleError if most observations of some camera are outliers.
 void refuseUnexplained(const Reconstruction& reconstruction, const Options& options);

@@ -311,7 +311,7 @@ SelfCalibration selfCalibrate(Reconstruction observed,
     for (geometry::Camera& camera : observed.cameras)
       camera.intrinsics = guessedLens(camera.intrinsics.width, camera.intrinsics.height, 1.0, 0.0);
   }
-  checkObservations(observed, options.bundle);
+  checkObservations(observed);
   if (isOnALine(observed))
     throw BundleError("the light moved on a line only: move it through all of the room");
   SelfCalibration result;

@@ -46,7 +46,7 @@ void startFromPair(const Options& options, Reconstruction* reconstruction) {
 }  // namespace
 
 Reconstruction solve(Reconstruction reconstruction, const Options& options) {
-  checkObservations(reconstruction, options);
+  checkObservations(reconstruction);
   std::vector<bool>& placed = reconstruction.placed;
   placed.assign(reconstruction.cameras.size(), false);
   startFromPair(options, &reconstruction);

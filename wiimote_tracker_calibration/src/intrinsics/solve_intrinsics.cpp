@@ -63,10 +63,6 @@ void checkInput(const Samples& samples, const SolverOptions& options) {
   samples.board.check();
   if (samples.width < 1 || samples.height < 1)
     throw Error("the image size must be above 0 px: check the camera's driver");
-  if (!(options.minimum_views >= 3 && options.start_focal_length > 0.0 &&
-        options.maximum_focal_stddev > 0.0 && options.maximum_pixel_stddev > 0.0 &&
-        options.maximum_aspect_error > 0.0))
-    throw Error("an option of the intrinsics solver is out of range: see SolverOptions");
   if (samples.views.size() < static_cast<std::size_t>(options.minimum_views))
     throw Error(format("%zu views of the board, at least %d are needed: show it from more sides",
                        samples.views.size(), options.minimum_views));

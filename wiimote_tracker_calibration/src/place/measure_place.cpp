@@ -113,8 +113,6 @@ std::vector<std::string> suspectsOf(const geometry::Rig& rig,
 MeasuredPlace measurePlace(const geometry::Rig& rig,
                            const capture::CapturedCorner& seen,
                            double pixel_stddev) {
-  if (!(pixel_stddev > 0.0))
-    throw Error("pixel_stddev must be above 0: correct it");
   std::vector<View> views;
   std::vector<std::string> seeing;
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {

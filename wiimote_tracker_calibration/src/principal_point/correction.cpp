@@ -156,23 +156,10 @@ std::string table(const Trace& trace) {
   return text;
 }
 
-void CorrectionOptions::check() const {
-  if (rounds < 0 || rounds > 1000)
-    throw Error("rounds is " + std::to_string(rounds) + ": choose 0 to 1000");
-  if (!std::isfinite(limit) || limit < 0.0)
-    throw Error("limit is " + std::to_string(limit) + " m: choose 0 or more");
-  if (!(std::abs(step) <= 1.0) || step == 0.0)
-    throw Error("step is " + std::to_string(step) + ": choose -1 to 1, but not 0");
-  if (!std::isnan(virtual_hfov) && !(virtual_hfov > 0.0 && virtual_hfov < M_PI))
-    throw Error("virtual_hfov is " + std::to_string(virtual_hfov) +
-                " rad: choose a value between 0 and pi, or NaN for none");
-}
-
 CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
                                         const std::vector<square::CameraSightings>& cameras,
                                         const CorrectionOptions& options,
                                         const RoundCallback& progress) {
-  options.check();
   square::Solution solution = solve(layout, cameras, options);
   std::vector<square::CameraSightings> sightings = solvedOnes(cameras, solution.rig);
   checkCorners(sightings);

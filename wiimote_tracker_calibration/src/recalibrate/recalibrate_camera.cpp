@@ -53,11 +53,8 @@ std::size_t indexOf(const geometry::Rig& rig, const std::string& name) {
   throw Error("the rig has no camera '" + name + "': name one of " + joined(names));
 }
 
-void checkInput(const geometry::Rig& rig, const Request& request, const Options& options) {
+void checkInput(const geometry::Rig& rig, const Request& request) {
   rig.check();
-  options.uncertainty.check();
-  if (!(options.pixel > 0.0) || !(options.wander >= 0.0) || !(options.maximum_offset_stddev > 0.0))
-    throw Error("pixel and maximum_offset_stddev must be above 0, wander at least 0: correct them");
   if (rig.ray_model != geometry::RayModel::kCalibrated)
     throw Error(
         "the rig's rays are built through the image centre, which does not fit its cameras: "
@@ -292,7 +289,7 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
                                 const Request& request,
                                 const Options& options) {
   const std::size_t index = indexOf(rig, request.camera);
-  checkInput(rig, request, options);
+  checkInput(rig, request);
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
   const std::vector<capture::Image> images =

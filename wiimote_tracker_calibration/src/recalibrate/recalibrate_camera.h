@@ -54,7 +54,7 @@ struct Recalibration {
 /// request's for another device. False detections are left out by gating.
 /// @throws Error: the rig lacks the camera, or fewer than two others saw the LED; too
 /// few common images; an LED that hardly moved, or in a plane only; contradictory images; a result
-/// that is too uncertain; a rig with RayModel::kImageCenter; values out of range.
+/// that is too uncertain; a rig with RayModel::kImageCenter.
 Recalibration recalibrateCamera(const geometry::Rig& rig,
                                 const Request& request,
                                 const Options& options);

@@ -187,7 +187,6 @@ Solution solveSquare(const SquareLayout& layout,
                      const std::vector<CameraSightings>& cameras,
                      const SolveOptions& options) {
   layout.check();
-  options.uncertainty.check();
   const UsableCameras usable = usableCameras(cameras);
   Solution solution;
   solution.z_up = usable.z_up;

@@ -18,34 +18,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <string>
 #include <utility>
 
 namespace wiimote_tracker::square {
-
-namespace {
-
-void checkStddev(const char* what, double value) {
-  if (!std::isfinite(value) || value <= 0.0)
-    throw SquareError("the standard deviation of the " + std::string(what) + " is " +
-                      std::to_string(value) + ", but must be greater than 0: correct it");
-}
-
-}  // namespace
-
-void Uncertainty::check() const {
-  checkStddev("pixels", pixel);
-  checkStddev("placement", placement);
-  checkStddev("focal length", focal);
-  checkStddev("aspect ratio", aspect);
-  checkStddev("principal point", principal_point);
-  if (!std::isfinite(shared_principal_point) || shared_principal_point < 0.0)
-    throw SquareError("the standard deviation of the principal points' shared offset is " +
-                      std::to_string(shared_principal_point) +
-                      ", but must be 0 or greater: correct it");
-  checkStddev("distortion coefficient k1", k1);
-  checkStddev("gravity direction", gravity);
-}
 
 /// The least-squares problem around one state.
 class SquareModel::Problem {

@@ -35,27 +35,6 @@ bool isOnFloor(const Recording& recording) {
   return recording.wand && recording.wand->led_height;
 }
 
-void require(bool good, const char* name, double value, const char* range) {
-  if (!good)
-    throw WaveError(format("%s is %g, but must be %s: correct it", name, value, range));
-}
-
-void checkOptions(const WaveOptions& options) {
-  options.uncertainty.check();
-  const auto positive = [](double value) { return std::isfinite(value) && value > 0.0; };
-  require(positive(options.pixel), "pixel", options.pixel, "above 0");
-  require(std::isfinite(options.stamp) && options.stamp >= 0.0, "stamp", options.stamp,
-          "0 or above");
-  require(std::isfinite(options.wander) && options.wander >= 0.0, "wander", options.wander,
-          "0 or above");
-  require(positive(options.offset), "offset", options.offset, "above 0");
-  require(options.knot_spacing >= 0.005 && options.knot_spacing <= 0.05, "knot_spacing",
-          options.knot_spacing, "0.005 to 0.05");
-  require(positive(options.acceleration), "acceleration", options.acceleration, "above 0");
-  require(positive(options.maximum_offset_stddev), "maximum_offset_stddev",
-          options.maximum_offset_stddev, "above 0");
-}
-
 void checkFrames(const CameraRecording& camera, bool wand) {
   const std::string& name = camera.sightings.name;
   std::size_t usable = 0;
@@ -96,8 +75,7 @@ void Wand::check() const {
     refuse("led_height", *led_height, "0 or above");
 }
 
-void checkInput(const Recording& recording, const WaveOptions& options) {
-  checkOptions(options);
+void checkInput(const Recording& recording) {
   if (recording.cameras.size() < 2)
     throw WaveError("one camera alone does not determine depth: use two or more");
   if (!recording.square && !recording.wand)

@@ -10,8 +10,8 @@
 
 namespace wiimote_tracker::wave {
 
-/// @throws WaveError: values out of range; too few data; neither square nor wand.
-void checkInput(const Recording& recording, const WaveOptions& options);
+/// @throws WaveError: too few data; neither square nor wand.
+void checkInput(const Recording& recording);
 
 /// @throws WaveError: a camera most of whose spots contradict the others, or with too few.
 void checkMatching(const Recording& recording, const Matching& matching);

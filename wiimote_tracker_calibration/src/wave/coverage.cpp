@@ -1,7 +1,5 @@
 #include "wave/coverage.h"
 
-#include "wave/error.h"
-
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -27,11 +25,6 @@ constexpr double kCell = 0.25;
 constexpr double kSameTime = 0.012;
 // Time a camera must share with others to be solved [s].
 constexpr double kLeastTogether = 3.0;
-
-void checkRange(const char* name, double value, double low, double high) {
-  if (!(value >= low) || !(value <= high))
-    throw WaveError(format("%s is %g, but must be %g to %g: correct it", name, value, low, high));
-}
 
 /// Where in the image most cells are still empty; of equals the one nearer to the middle.
 std::string emptiestPart(const capture::ImageCells& cells) {
@@ -128,12 +121,6 @@ Coverage::Coverage(std::vector<geometry::Camera> cameras,
                    std::size_t leds,
                    const CoverageOptions& options)
     : cameras_(std::move(cameras)), posed_(posed), leds_(leds), options_(options) {
-  checkRange("seconds", options.seconds, 1e-3, 900.0);
-  checkRange("image_share", options.image_share, 0.0, 1.0);
-  checkRange("image_speed", options.image_speed, 0.0, 1e4);
-  checkRange("volume", options.volume, 0.0, 1e4);
-  checkRange("speed", options.speed, 0.0, 10.0);
-  checkRange("distraction", options.distraction, 0.0, 1.0);
   views_.resize(cameras_.size());
 }
 

@@ -58,7 +58,7 @@ struct CoverageReport {
 class Coverage {
  public:
   /// @param cameras names and image sizes; poses are used only when `posed`.
-  /// @param leds 1, or 2 for a wand. @throws WaveError: options out of range.
+  /// @param leds 1, or 2 for a wand.
   Coverage(std::vector<geometry::Camera> cameras,
            bool posed,
            std::size_t leds,

@@ -262,7 +262,7 @@ WaveSolution solveWave(const Recording& input,
                        const ProgressCallback& progress) {
   Recording waved = input;
   FloorSpots floor = takeFloor(&waved);
-  checkInput(waved, options);
+  checkInput(waved);
   Reporter reporter(progress);
   const Task task = {prepared(std::move(waved)), options, std::move(floor)};
   std::exception_ptr refusal;

@@ -96,10 +96,10 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
   try {
     if (wand)
       wand->check();
-    captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
   } catch (const wave::WaveError& error) {
     return refusal(error.what());
   }
+  captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
   busy_ = Step::kWaving;
   just_solved_ = false;
   if (captured_.wave->needsFloor())

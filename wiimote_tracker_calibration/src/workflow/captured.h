@@ -67,7 +67,7 @@ samples::Samples toSamples(const Captured& captured,
                            const CameraFacts& live,
                            const capture::Masks& masks);
 
-/// The inverse. @throws wave::WaveError: coverage options out of range.
+/// The inverse.
 Captured fromSamples(const samples::Samples& samples,
                      const capture::CornerCaptureOptions& capture,
                      const wave::CoverageOptions& coverage);

@@ -33,7 +33,6 @@ class WaveRecorder {
 
   /// @param cameras names and image sizes, poses if `posed`. @param wand nothing: one LED is waved.
   /// @param start earlier images are not recorded [s].
-  /// @throws wave::WaveError: options out of range.
   WaveRecorder(const std::vector<geometry::Camera>& cameras,
                bool posed,
                const std::optional<wave::Wand>& wand,

@@ -67,7 +67,7 @@ struct IntrinsicsSolution {
 /// @throws Error: too few views; a view with too few LEDs, in one line, mirrored or not a
 /// grid; the board never moved in the image or never tilted; views that do not fit the board;
 /// spacings that make fx and fy differ; a focal length less certain than the options ask for; no
-/// model that holds over the image; values out of range.
+/// model that holds over the image.
 IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options);
 
 }  // namespace wiimote_tracker::intrinsics

@@ -38,9 +38,6 @@ struct CorrectionOptions : CorrectionSteps {
   double virtual_hfov = std::numeric_limits<double>::quiet_NaN();  ///< As in geometry::Rig [rad].
   square::Uncertainty uncertainty;
   double branch_odds = 100.0;  ///< As in square::SolveOptions.
-
-  /// @throws Error naming the value that is out of range.
-  void check() const;
 };
 
 /// The rig after a number of rounds of the correction.
@@ -88,7 +85,7 @@ using RoundCallback = std::function<void(int rounds_done)>;
 ///
 /// The points are triangulated from the pixels that the cameras were solved from. A round takes
 /// some hundredths of a second.
-/// @throws Error: an option is out of range; the points cannot be measured at all, or one camera
+/// @throws Error: the points cannot be measured at all, or one camera
 /// alone saw one of them.
 /// square::SquareError: as solveSquare(), before the first step; later that ends it as `lost`.
 CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,

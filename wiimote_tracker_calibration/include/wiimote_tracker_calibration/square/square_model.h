@@ -36,9 +36,6 @@ struct Uncertainty {
   double placementOf(std::size_t corner) const {
     return corner == unknown_corner ? 1.0 : placement;
   }
-
-  /// @throws SquareError naming the value that is not greater than 0.
-  void check() const;
 };
 
 /// Cameras that saw the corners, and the corners.

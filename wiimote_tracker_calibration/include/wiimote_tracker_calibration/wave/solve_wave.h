@@ -62,7 +62,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// wand; an LED that hardly moved, or on a line or a plane only; images that contradict one another
 /// (mirrored, moved, other order of corners); a time offset less certain than the options ask for;
 /// a wand on the floor that moved, was not level, or of which two cameras did not see both LEDs; no
-/// accelerometer for it; values out of range. square::SquareError: the corners contradict the
+/// accelerometer for it. square::SquareError: the corners contradict the
 /// layout. Cancelled.
 WaveSolution solveWave(const Recording& recording,
                        const WaveOptions& options,

@@ -162,29 +162,6 @@ TEST(Bundle, HeldPositionsStayAndOrientationsAreFound) {
   }
 }
 
-TEST(Bundle, HeldCamerasStayAndPointsAreFound) {
-  const SyntheticRig rig(3, 50, 18);
-  Reconstruction start;
-  start.cameras = rig.cameras;
-  start.observations = rig.observations;
-  start.inliers.assign(rig.observations.size(), true);
-  for (const Eigen::Vector3d& point : rig.points)
-    start.points.emplace_back(point + Eigen::Vector3d(0.02, -0.01, 0.03));
-  Held held;
-  held.rotations = true;
-  held.positions = true;
-  adjust(&start, Options(), held);
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    EXPECT_EQ(start.cameras[i].center(), rig.cameras[i].center());
-    EXPECT_TRUE(
-        start.cameras[i].world_from_camera.isApprox(rig.cameras[i].world_from_camera, 1e-14));
-  }
-  const auto [found, truth] = rig.paired(start);
-  ASSERT_GT(found.size(), 25u);
-  for (std::size_t i = 0; i < found.size(); ++i)
-    EXPECT_LT((found[i] - truth[i]).norm(), 1e-8);
-}
-
 TEST(Bundle, RefusesWhatCannotBeSolved) {
   const SyntheticRig rig(3, 60, 10);
   Reconstruction alone;

@@ -75,11 +75,11 @@ class BundleProblem {
 
   /// One camera keeps its pose, unless something else fixes the world.
   void holdPoses() {
-    bool world_fixed = held_.rotations || held_.positions || held_.points;
+    bool world_fixed = held_.positions || held_.points;
     for (adjust::CameraBlocks& camera : cameras_) {
       if (!problem_.HasParameterBlock(camera.rotation.data()))
         continue;
-      if (held_.rotations || !world_fixed)
+      if (!world_fixed)
         problem_.SetParameterBlockConstant(camera.rotation.data());
       if (held_.positions || !world_fixed)
         problem_.SetParameterBlockConstant(camera.position.data());

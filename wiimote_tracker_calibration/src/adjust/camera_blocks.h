@@ -50,6 +50,16 @@ struct CameraBlocks {
   double time_offset;  ///< Exposure time minus stamp [s].
 };
 
+/// Those of several cameras, one after the other.
+inline std::vector<double*> blocksOf(std::vector<CameraBlocks>* cameras) {
+  std::vector<double*> blocks;
+  for (CameraBlocks& camera : *cameras) {
+    for (double* const block : camera.all())
+      blocks.push_back(block);
+  }
+  return blocks;
+}
+
 }  // namespace wiimote_tracker::adjust
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H

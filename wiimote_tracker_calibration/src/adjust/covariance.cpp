@@ -87,6 +87,15 @@ std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
   return 0.5 * (result + result.transpose());  // symmetric to the last bit
 }
 
+double squaresOf(ceres::Problem* problem, const std::vector<ceres::ResidualBlockId>& residuals) {
+  ceres::Problem::EvaluateOptions options;
+  options.residual_blocks = residuals;
+  options.apply_loss_function = false;
+  double half_sum = 0.0;
+  problem->Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
+  return 2.0 * half_sum;
+}
+
 double degreesOfFreedom(ceres::Problem* problem,
                         const std::vector<ceres::ResidualBlockId>& residuals) {
   ceres::Problem::EvaluateOptions options;

@@ -20,6 +20,9 @@ namespace wiimote_tracker::adjust {
 std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
                                             const std::vector<double*>& blocks);
 
+/// Sum of squares of some residuals at the present values of a problem, loss functions aside.
+double squaresOf(ceres::Problem* problem, const std::vector<ceres::ResidualBlockId>& residuals);
+
 /// What to expect of the sum of squares of some whitened residuals at the solution of a problem
 /// without loss functions: their number less what the fit takes, the trace of J C J^T with their
 /// Jacobian J and the covariance C of the parameters (Foerstner 1979: redundancy numbers). Their

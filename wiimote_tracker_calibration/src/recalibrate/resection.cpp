@@ -207,11 +207,8 @@ class ResectionProblem {
 
   /// Root mean square of the whitened residuals of the matches.
   double noiseRatio() {
-    ceres::Problem::EvaluateOptions options;
-    options.residual_blocks = matches_;
-    double half_sum = 0.0;
-    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return std::sqrt(half_sum / static_cast<double>(matches_.size()));  // two residuals each
+    const double residuals = 2.0 * static_cast<double>(matches_.size());
+    return std::sqrt(adjust::squaresOf(&problem_, matches_) / residuals);
   }
 
   std::optional<Eigen::MatrixXd> covariance() {

@@ -65,11 +65,7 @@ class SquareModel::Problem {
 
   /// As SquareModel::covarianceOfAll().
   Eigen::MatrixXd covariance() {
-    std::vector<double*> blocks;
-    for (adjust::CameraBlocks& camera : cameras_) {
-      for (double* block : camera.all())
-        blocks.push_back(block);
-    }
+    std::vector<double*> blocks = adjust::blocksOf(&cameras_);
     for (auto& corner : corners_)
       blocks.push_back(corner.data());
     const auto covariance = adjust::covarianceOf(&problem_, blocks);

@@ -104,7 +104,8 @@ class WaveProblem {
   }
 
   double noiseRatio() {
-    return std::sqrt(squaresOf(matches_) / residuals() / redundancy().value_or(1.0));
+    return std::sqrt(adjust::squaresOf(&problem_, matches_) / residuals() /
+                     redundancy().value_or(1.0));
   }
 
   std::optional<double> redundancy() const {
@@ -114,15 +115,12 @@ class WaveProblem {
 
   Agreement agreement() {
     // Two directions differ by two angles, in three residuals.
-    return {squaresOf(known_), adjust::degreesOfFreedom(&problem_, known_) - accelerometers_};
+    return {adjust::squaresOf(&problem_, known_),
+            adjust::degreesOfFreedom(&problem_, known_) - accelerometers_};
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
-    std::vector<double*> blocks;
-    for (adjust::CameraBlocks& camera : cameras_) {
-      for (double* block : camera.all())
-        blocks.push_back(block);
-    }
+    std::vector<double*> blocks = adjust::blocksOf(&cameras_);
     if (recording_.square) {
       for (Eigen::Vector2d& corner : state_.corner_offsets)
         blocks.push_back(corner.data());
@@ -132,16 +130,6 @@ class WaveProblem {
 
  private:
   double residuals() const { return 2.0 * static_cast<double>(matches_.size()); }
-
-  /// Sum of squared residuals.
-  double squaresOf(const std::vector<ceres::ResidualBlockId>& blocks) {
-    ceres::Problem::EvaluateOptions options;
-    options.residual_blocks = blocks;
-    options.apply_loss_function = false;
-    double half_sum = 0.0;
-    problem_.Evaluate(options, &half_sum, nullptr, nullptr, nullptr);
-    return 2.0 * half_sum;
-  }
 
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
     // The problem owns it.

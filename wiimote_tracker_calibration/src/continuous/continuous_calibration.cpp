@@ -114,10 +114,7 @@ ContinuousCalibration::ContinuousCalibration(const geometry::Rig& rig, const Opt
 
 std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) {
   const geometry::RigCamera* camera = rig_.find(image.camera);
-  if (camera == nullptr)
-    return std::nullopt;
-  const std::string& calibrated = camera->camera.identity;
-  if (!calibrated.empty() && !image.identity.empty() && image.identity != calibrated)
+  if (camera == nullptr || camera->camera.isOtherDevice(image.identity))
     return std::nullopt;
   const auto suspect = knock_.add(image);
   if (!knock_.severalAreSuspect())

@@ -38,8 +38,7 @@ HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
     : options_(options), solved_at_(rig.solved_at), drift_(rig, options.drift) {
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     Watched& camera = cameras_.emplace_back();
-    camera.name = rig_camera.camera.name;
-    camera.calibrated_identity = rig_camera.camera.identity;
+    camera.calibrated = rig_camera.camera;
     if (rig_camera.gravity && rig_camera.gravity->norm() > 0.0)
       camera.tilt.emplace(*rig_camera.gravity, options.tilt);
   }
@@ -49,8 +48,8 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
   const bool is_same =
       std::equal(cameras_.begin(), cameras_.end(), rig.cameras.begin(), rig.cameras.end(),
                  [](const Watched& watched, const geometry::RigCamera& now) {
-                   return watched.name == now.camera.name &&
-                          watched.calibrated_identity == now.camera.identity;
+                   return watched.calibrated.name == now.camera.name &&
+                          watched.calibrated.identity == now.camera.identity;
                  });
   if (!is_same || rig.solved_at != solved_at_)
     return false;
@@ -61,13 +60,14 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
 std::map<std::string, CameraHealth> HealthWatch::healths() const {
   std::map<std::string, CameraHealth> healths;
   for (const Watched& camera : cameras_)
-    healths[camera.name] = camera.health;
+    healths[camera.calibrated.name] = camera.health;
   return healths;
 }
 
 HealthWatch::Watched* HealthWatch::find(const std::string& name) {
-  const auto found = std::find_if(cameras_.begin(), cameras_.end(),
-                                  [&](const Watched& camera) { return camera.name == name; });
+  const auto found = std::find_if(cameras_.begin(), cameras_.end(), [&](const Watched& camera) {
+    return camera.calibrated.name == name;
+  });
   return found == cameras_.end() ? nullptr : &*found;
 }
 
@@ -75,9 +75,8 @@ void HealthWatch::addImage(const capture::Image& image) {
   Watched* const seen_by = find(image.camera);
   if (!seen_by)
     return;
-  const bool other = !image.identity.empty() && !seen_by->calibrated_identity.empty() &&
-                     image.identity != seen_by->calibrated_identity;
-  const std::string other_device = other ? image.identity : "";
+  const std::string other_device =
+      seen_by->calibrated.isOtherDevice(image.identity) ? image.identity : "";
   if (other_device != seen_by->other_device) {
     seen_by->other_device = other_device;
     describe(seen_by);
@@ -124,14 +123,14 @@ void HealthWatch::describe(Watched* camera) {
   std::vector<std::string> findings;
   if (!camera->other_device.empty())
     findings.push_back("is another device (" + camera->other_device + ") than was calibrated (" +
-                       camera->calibrated_identity + "): recalibrate this camera");
+                       camera->calibrated.identity + "): recalibrate this camera");
   if (camera->tilt_alarm.on())
     findings.push_back(tiltText(*health.tilt) + (findings.empty() ? kAdvice : ""));
   if (camera->drift_alarm.on())  // of several findings the first one says what to do
     findings.push_back(driftText(camera->drift_finding, findings.empty()));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
-    news_.push_back(camera->name + " " + health.text);
+    news_.push_back(camera->calibrated.name + " " + health.text);
 }
 
 }  // namespace wiimote_tracker::health

@@ -54,8 +54,7 @@ class HealthWatch {
 
  private:
   struct Watched {
-    std::string name;
-    std::string calibrated_identity;
+    geometry::Camera calibrated;
     std::string other_device;  // Empty: the one that was calibrated.
     std::optional<TiltWatch> tilt;
     Alarm tilt_alarm;

@@ -69,11 +69,6 @@ void checkInput(const geometry::Rig& rig, const Request& request) {
     throw Error(request.camera + " " + capture::kSendsNoImages);
 }
 
-bool sameDevice(const geometry::RigCamera& calibrated, const Request& request) {
-  const std::string& before = calibrated.camera.identity;
-  return before.empty() || request.identity.empty() || before == request.identity;
-}
-
 /// The prior of the camera: its lens is the rig's, unless it is another device.
 /// @param images of the camera
 Prior priorOf(const geometry::Rig& rig,
@@ -82,7 +77,7 @@ Prior priorOf(const geometry::Rig& rig,
               const std::vector<capture::Image>& images,
               const Options& options) {
   const geometry::RigCamera& calibrated = rig.cameras[index];
-  const bool same = sameDevice(calibrated, request);
+  const bool same = !calibrated.camera.isOtherDevice(request.identity);
   Prior prior;
   prior.lens = same ? calibrated.camera.intrinsics : request.intrinsics;
   prior.uncertainty = options.uncertainty;

@@ -41,8 +41,7 @@ void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
   for (const geometry::RigCamera& camera : second.cameras) {
     const std::string& identity = camera.camera.identity;
     const geometry::RigCamera* same = first.find(camera.camera.name);
-    if (same && !identity.empty() && !same->camera.identity.empty() &&
-        identity != same->camera.identity)
+    if (same && same->camera.isOtherDevice(identity))
       throw Error(camera.camera.name + " is another device in the second rig (" + identity +
                   ") than in the first (" + same->camera.identity +
                   "): give it another name, or calibrate again with the same device");

@@ -52,9 +52,7 @@ std::vector<std::string> describeLost(const geometry::Rig& rig, const std::strin
   std::vector<std::string> cameras;
   for (const geometry::RigCamera& lost : old.cameras) {
     const geometry::RigCamera* same = rig.find(lost.camera.name);
-    const std::string& identity = lost.camera.identity;  // empty: unknown
-    if (!same ||
-        (!identity.empty() && !same->camera.identity.empty() && identity != same->camera.identity))
+    if (!same || lost.camera.isOtherDevice(same->camera.identity))
       cameras.push_back(lost.camera.name);
   }
   if (!cameras.empty() && cameras.size() == old.cameras.size())

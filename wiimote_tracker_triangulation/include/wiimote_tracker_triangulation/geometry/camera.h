@@ -63,6 +63,11 @@ struct Camera {
   Intrinsics intrinsics;
   Eigen::Isometry3d world_from_camera = Eigen::Isometry3d::Identity();  ///< [m]
 
+  /// Whether both identities are known, and differ.
+  bool isOtherDevice(const std::string& other) const {
+    return !identity.empty() && !other.empty() && identity != other;
+  }
+
   /// Optical centre in the world [m].
   Eigen::Vector3d center() const { return world_from_camera.translation(); }
 

@@ -33,8 +33,7 @@ ImageFault faultOf(const IrBlobArray& message, const geometry::Camera& calibrate
     return ImageFault::kAfterArrival;
   if (!message.camera.empty() && message.camera != calibrated.name)
     return ImageFault::kOtherCamera;
-  if (!message.identity.empty() && !calibrated.identity.empty() &&
-      message.identity != calibrated.identity)
+  if (calibrated.isOtherDevice(message.identity))
     return ImageFault::kOtherDevice;
   if (static_cast<std::int64_t>(message.width) != calibrated.intrinsics.width ||
       static_cast<std::int64_t>(message.height) != calibrated.intrinsics.height)

@@ -1,7 +1,7 @@
 #include "units.h"
 
-#include "begin_wave.h"
 #include "capture_server.h"
+#include "wave_services.h"
 
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>

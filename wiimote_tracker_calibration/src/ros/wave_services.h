@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_BEGIN_WAVE_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_BEGIN_WAVE_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_WAVE_SERVICES_H
+#define WIIMOTE_TRACKER_CALIBRATION_ROS_WAVE_SERVICES_H
 
 #include "node_context.h"
 
@@ -16,4 +16,4 @@ workflow::Reply beginWave(const std::optional<wave::Wand>& wand, NodeContext* co
 
 }  // namespace wiimote_tracker
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_BEGIN_WAVE_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_WAVE_SERVICES_H

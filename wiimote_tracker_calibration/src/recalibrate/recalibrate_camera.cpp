@@ -44,15 +44,6 @@ constexpr Eigen::Index kHeldSize = adjust::kHigherDistortionSize;
 // Number of matches for which the derivatives by the others' parameters are computed.
 constexpr std::size_t kDerivatives = 200;
 
-std::size_t indexOf(const geometry::Rig& rig, const std::string& name) {
-  if (const geometry::RigCamera* const camera = rig.find(name))
-    return static_cast<std::size_t>(camera - rig.cameras.data());
-  std::vector<std::string> names;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    names.push_back(camera.camera.name);
-  throw Error("the rig has no camera '" + name + "': name one of " + joined(names));
-}
-
 void checkInput(const geometry::Rig& rig, const Request& request) {
   rig.check();
   if (rig.ray_model != geometry::RayModel::kCalibrated)
@@ -280,11 +271,21 @@ geometry::RigCamera rigCamera(const geometry::RigCamera& before,
 
 }  // namespace
 
+void requireCamera(const geometry::Rig& rig, const std::string& name) {
+  if (rig.find(name))
+    return;
+  std::vector<std::string> names;
+  for (const geometry::RigCamera& camera : rig.cameras)
+    names.push_back(camera.camera.name);
+  throw Error("the rig has no camera '" + name + "': name one of " + joined(names));
+}
+
 Recalibration recalibrateCamera(const geometry::Rig& rig,
                                 const Request& request,
                                 const Options& options) {
-  const std::size_t index = indexOf(rig, request.camera);
+  requireCamera(rig, request.camera);
   checkInput(rig, request);
+  const auto index = static_cast<std::size_t>(rig.find(request.camera) - rig.cameras.data());
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
   const std::vector<capture::Image> images =

@@ -48,6 +48,9 @@ struct Recalibration {
   std::string message;           ///< One sentence: how far it moved, how sure that is.
 };
 
+/// @throws Error: the rig lacks the camera.
+void requireCamera(const geometry::Rig& rig, const std::string& name);
+
 /// Estimates pose, lens and time offset of one camera, the others being fixed: maximum a posteriori
 /// by Levenberg-Marquardt. The LED's positions are triangulated from the others, interpolated to
 /// the camera's times. The prior of the lens is the rig's lens with its covariance, or the

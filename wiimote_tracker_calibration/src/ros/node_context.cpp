@@ -68,9 +68,7 @@ workflow::Reply NodeContext::run(const Job& job,
 }
 
 void NodeContext::discover(Lock* lock) {
-  lock->unlock();
-  const AtEnd relock{[&] { lock->lock(); }};
-  inputs_.discover();
+  unlocked(lock, [this] { inputs_.discover(); });
 }
 
 bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>& done) {

@@ -4,7 +4,6 @@
 #include "recalibrate/recalibrate_camera.h"
 
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
-#include <wiimote_tracker_msgs/text.h>
 
 #include <optional>
 #include <string>
@@ -48,12 +47,7 @@ class RecalibrateServices {
     if (!(duration > 0.0 && duration <= kLongestDuration))
       throw Refusal("the duration must be within 0 and 300 s: correct it");
     const geometry::Rig rig = context_.existingRig("with this camera", lock);
-    if (rig.find(camera) == nullptr) {
-      std::vector<std::string> names;
-      for (const geometry::RigCamera& each : rig.cameras)
-        names.push_back(each.camera.name);
-      throw Refusal("the rig has no camera '" + camera + "': name one of " + joined(names));
-    }
+    recalibrate::requireCamera(rig, camera);
     const Job job = {Step::kMeasuring,
                      "wave the LED where " + camera + " and two other cameras or more see it",
                      "the rig is as it was", true};

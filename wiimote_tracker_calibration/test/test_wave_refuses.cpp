@@ -163,14 +163,8 @@ TEST(WaveRefuses, ValuesOutOfRange) {
     EXPECT_SAYS(refusalOf(wave.recording, options), "wand_length");
   }
   wave.recording.wand.reset();
-  wave.recording.cameras[1].frames[10].stamp = wave.recording.cameras[1].frames[9].stamp;
-  EXPECT_SAYS(refusalOf(wave.recording, options), "camera_2");
-  wave = simulateWave(scene, 1);
   wave.recording.cameras[1].frames.back().stamp += 1e6;
   EXPECT_SAYS(refusalOf(wave.recording, options), "same clock");
-  wave = simulateWave(scene, 1);
-  wave.recording.cameras[1].sightings.name = "camera_1";
-  EXPECT_SAYS(refusalOf(wave.recording, options), "rename one");
 }
 
 }  // namespace

@@ -244,12 +244,15 @@ TEST(SolveSamples, CanBeCancelled) {
   square::Random random(7);
   const Samples samples = samplesOf(paperSquare(), paperScene(4, random).sightings);
   SolveOptions options;
-  EXPECT_THROW(solveSamples(samples, options, [](const wave::Progress&) { return false; }),
-               wave::Cancelled);
-  options.correct_principal_points = true;
-  EXPECT_THROW(solveSamples(samples, options,
-                            [](const wave::Progress& progress) { return progress.fraction < 0.1; }),
-               wave::Cancelled);
+  struct Stopped {};
+  for (const double last : {0.0, 0.1}) {
+    const auto stop = [last](const std::string&, double fraction) {
+      if (fraction >= last)
+        throw Stopped();
+    };
+    EXPECT_THROW(solveSamples(samples, options, stop), Stopped);
+    options.correct_principal_points = true;
+  }
 }
 
 /// Squared errors at the places of the verdict, of points from perfect pixels, and their predicted

@@ -135,9 +135,8 @@ TEST(Wave, AWrongStartIsRepeatedWithOtherPoints) {
   for (std::uint64_t seed = 1015; starts < 2 && seed < 1025; ++seed) {
     const SimulatedWave wave = simulateWave(scene, seed);
     starts = 0;
-    const auto count = [&](const Progress& progress) {
-      starts += progress.step == "finding where the cameras stand";
-      return true;
+    const auto count = [&](const std::string& step, double) {
+      starts += step == "finding where the cameras stand";
     };
     const WaveSolution solution = solveWave(wave.recording, optionsFor(scene), count);
     EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.005) << seed;
@@ -325,21 +324,23 @@ TEST(Wave, ProgressGrowsAndCanBeStopped) {
   const SimulatedWave wave = simulateWave(scene, 9);
   double last = -1.0;
   int calls = 0;
-  solveWave(wave.recording, optionsFor(scene), [&](const Progress& progress) {
-    EXPECT_FALSE(progress.step.empty());
-    EXPECT_GE(progress.fraction, last);
-    EXPECT_LE(progress.fraction, 1.0);
-    last = progress.fraction;
+  solveWave(wave.recording, optionsFor(scene), [&](const std::string& step, double fraction) {
+    EXPECT_FALSE(step.empty());
+    EXPECT_GE(fraction, last);
+    EXPECT_LE(fraction, 1.0);
+    last = fraction;
     ++calls;
-    return true;
   });
   EXPECT_EQ(last, 1.0);
   EXPECT_GT(calls, 5);
+  struct Stopped {};
   for (int stop = 1; stop < calls; stop += 5) {
     int left = stop;
-    EXPECT_THROW(
-        solveWave(wave.recording, optionsFor(scene), [&](const Progress&) { return --left > 0; }),
-        Cancelled);
+    const auto count_down = [&](const std::string&, double) {
+      if (--left == 0)
+        throw Stopped();
+    };
+    EXPECT_THROW(solveWave(wave.recording, optionsFor(scene), count_down), Stopped);
   }
 }
 

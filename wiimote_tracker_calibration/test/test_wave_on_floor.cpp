@@ -220,10 +220,9 @@ int adjustmentsBefore(const std::string& words, const WaveScene& scene, const Si
   int begun = 0;
   std::string before;
   try {
-    solveWave(wave.recording, optionsFor(scene), [&](const Progress& progress) {
-      begun += progress.step != before && progress.step.find("adjusting") == 0 ? 1 : 0;
-      before = progress.step;
-      return true;
+    solveWave(wave.recording, optionsFor(scene), [&](const std::string& step, double) {
+      begun += step != before && step.find("adjusting") == 0 ? 1 : 0;
+      before = step;
     });
     ADD_FAILURE() << "not refused";
   } catch (const geometry::Error& error) {

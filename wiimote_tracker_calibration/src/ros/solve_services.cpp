@@ -31,10 +31,11 @@ class SolveServices {
       const samples::Samples samples = context_.samples(lock);
       const samples::SolveOptions options = context_.parameters(lock).solve;
       samples::Solution solution = context_.compute(&lock, [&] {
-        return samples::solveSamples(samples, options, [this](const wave::Progress& progress) {
+        return samples::solveSamples(samples, options, [this](const std::string&, double fraction) {
           const Lock inner(context_.mutex());
-          context_.setProgress(progress.fraction, inner);
-          return !context_.isCancelled(Step::kSolving, inner) && ros::ok();
+          context_.setProgress(fraction, inner);
+          if (context_.isCancelled(Step::kSolving, inner) || !ros::ok())
+            throw Refusal("the calibration was cancelled: nothing was changed");
         });
       });
       if (context_.isCancelled(Step::kSolving, lock))

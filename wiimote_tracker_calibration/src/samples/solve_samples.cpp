@@ -26,9 +26,9 @@ void correctPrincipalPoints(const wave::Recording& recording,
       options.square.branch_odds};
   const principal_point::CorrectionResult result = principal_point::correctPrincipalPoints(
       *recording.square, recording.sightings(), correction, [&](int rounds) {
-        if (progress && !progress({"correcting the principal points",
-                                   static_cast<double>(rounds) / std::max(1, correction.rounds)}))
-          throw wave::Cancelled();
+        if (progress)
+          progress("correcting the principal points",
+                   static_cast<double>(rounds) / std::max(1, correction.rounds));
       });
   found->rig = result.rig;
   found->joint_covariance.resize(0, 0);
@@ -49,8 +49,8 @@ wave::WaveSolution solve(const wave::Recording& recording,
           "; the principal points were not corrected, because the wave determines them itself";
     return found;
   }
-  if (progress && !progress({"solving the square", 0.0}))
-    throw wave::Cancelled();
+  if (progress)
+    progress("solving the square", 0.0);
   const bool exact =
       options.square.method == square::Method::kPerCamera || options.correct_principal_points;
   if (exact && !(recording.square->lengths.empty() && recording.square->places.empty()))
@@ -83,8 +83,6 @@ wave::WaveSolution solveOrDiagnose(const wave::Recording& recording,
         found.suspect.reset();
     }
     return found;
-  } catch (const wave::Cancelled&) {
-    throw;
   } catch (const square::SquareContradiction& error) {
     throw square::SquareError(words(error, true));
   } catch (const wave::WaveError& error) {

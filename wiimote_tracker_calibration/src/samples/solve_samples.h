@@ -43,8 +43,7 @@ wave::WaveSolution solveRecording(const wave::Recording& recording,
 
 /// Solves samples with wave::solveWave() if they have a wave or a wand, else from their square with
 /// the method of the options. The same samples and options give the same solution, bit for bit.
-/// @throws Error as these solvers do, or: neither square nor wave. wave::Cancelled: `progress`
-/// asked to stop.
+/// @throws Error as these solvers do, or: neither square nor wave; what `progress` throws.
 Solution solveSamples(const Samples& samples,
                       const SolveOptions& options,
                       const wave::ProgressCallback& progress = nullptr);

@@ -16,6 +16,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <exception>
 #include <limits>
 #include <optional>
 #include <set>
@@ -37,17 +38,30 @@ constexpr double kLeastRedundancy = 0.1;
 
 constexpr double kNoLoss = std::numeric_limits<double>::infinity();
 
-/// Asks before each iteration whether to go on.
-class KeepGoing : public ceres::IterationCallback {
+/// Reports before each iteration. What that throws waits until Ceres, which knows no exceptions,
+/// has ended.
+class Reporting : public ceres::IterationCallback {
  public:
-  explicit KeepGoing(const std::function<bool()>& keep_going) : keep_going_(keep_going) {}
+  explicit Reporting(const std::function<void()>& report) : report_(report) {}
 
   ceres::CallbackReturnType operator()(const ceres::IterationSummary& /*summary*/) override {
-    return keep_going_() ? ceres::SOLVER_CONTINUE : ceres::SOLVER_ABORT;
+    try {
+      report_();
+      return ceres::SOLVER_CONTINUE;
+    } catch (...) {
+      thrown_ = std::current_exception();
+      return ceres::SOLVER_ABORT;
+    }
+  }
+
+  void rethrow() const {
+    if (thrown_)
+      std::rethrow_exception(thrown_);
   }
 
  private:
-  const std::function<bool()>& keep_going_;
+  const std::function<void()>& report_;
+  std::exception_ptr thrown_;
 };
 
 /// The least-squares problem around one state, whose path, corners and wand it changes in place.
@@ -77,8 +91,8 @@ class WaveProblem {
   }
 
   /// @param tolerance relative change of the sum of squares at which it ends.
-  void solve(double tolerance, const std::function<bool()>& keep_going) {
-    KeepGoing callback(keep_going);
+  void solve(double tolerance, const std::function<void()>& report) {
+    Reporting callback(report);
     ceres::Solver::Options options;
     options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
     options.max_num_iterations = 60;
@@ -91,8 +105,7 @@ class WaveProblem {
     options.callbacks = {&callback};
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
-    if (summary.termination_type == ceres::USER_FAILURE)
-      throw Cancelled();
+    callback.rethrow();
     if (!summary.IsSolutionUsable())
       throw WaveContradiction(
           "the LED would be behind the cameras in the solution: check that nobody moved a camera, "
@@ -269,11 +282,11 @@ class WaveProblem {
 Refinement refine(const Task& task,
                   const std::vector<Match>& matches,
                   double loss_scale,
-                  const std::function<bool()>& keep_going,
+                  const std::function<void()>& report,
                   State* state) {
   WaveProblem problem(task, matches, loss_scale, state);
   // A robust fit is only the start of a tighter one.
-  problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, keep_going);
+  problem.solve(std::isfinite(loss_scale) ? 1e-4 : 1e-9, report);
   return {problem.redundancy(), problem.noiseRatio()};
 }
 

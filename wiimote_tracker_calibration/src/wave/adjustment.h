@@ -32,12 +32,12 @@ struct Agreement {
 /// (Levenberg-Marquardt, in place).
 /// @param loss_scale the error beyond which a match counts less (Cauchy), in standard deviations;
 /// infinite: plain least squares.
-/// @param keep_going is asked before each iteration; false throws Cancelled.
+/// @param report is called before each iteration; what it throws ends the work.
 /// @throws WaveError: the minimisation fails.
 Refinement refine(const Task& task,
                   const std::vector<Match>& matches,
                   double loss_scale,
-                  const std::function<bool()>& keep_going,
+                  const std::function<void()>& report,
                   State* state);
 
 Agreement agreementOf(const Task& task, const std::vector<Match>& matches, State solution);

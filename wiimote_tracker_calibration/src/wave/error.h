@@ -21,11 +21,6 @@ struct WandMislaid : WaveError {
   using WaveError::WaveError;
 };
 
-/// The progress callback asked to stop.
-struct Cancelled : WaveError {
-  Cancelled() : WaveError("the calibration was cancelled: nothing was changed") {}
-};
-
 }  // namespace wiimote_tracker::wave
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H

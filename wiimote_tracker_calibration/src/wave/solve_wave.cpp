@@ -56,20 +56,15 @@ constexpr int kAttempts = 5;
 constexpr double kStartDone = 0.2;
 constexpr double kPathDone = 0.35;
 
-/// Passes progress on and stops the work when asked to.
+/// Passes progress on, which only grows.
 class Reporter {
  public:
   explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
 
-  bool keepGoing(const char* step, double fraction) {
-    fraction_ = std::max(fraction_, fraction);
-    return !callback_ || callback_({step, fraction_});
-  }
-
-  /// @throws Cancelled.
   void report(const char* step, double fraction) {
-    if (!keepGoing(step, fraction))
-      throw Cancelled();
+    fraction_ = std::max(fraction_, fraction);
+    if (callback_)
+      callback_(step, fraction_);
   }
 
  private:
@@ -123,7 +118,7 @@ struct ClockJump {
 /// step is measured again: a true one grows.
 std::optional<ClockJump> findJump(const Task& task,
                                   const Gate& gate,
-                                  const std::function<bool()>& keep_going,
+                                  const std::function<void()>& report,
                                   State state) {
   // Images before or after a jump may be far off.
   Gate wide = gate;
@@ -153,7 +148,7 @@ std::optional<ClockJump> findJump(const Task& task,
     matching = matchSpots(corrected.recording, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
       return std::nullopt;  // not a step: the camera would fit nowhere
-    refine(corrected, matching.matches, kInfinity, keep_going, &state);
+    refine(corrected, matching.matches, kInfinity, report, &state);
     steps = stepsOf(task.recording);
   }
   if (std::abs(steps[camera].size) < kLeastGrowth * apparent ||
@@ -197,9 +192,9 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   const char* const kStep = "adjusting cameras, clocks and path";
   reporter->report(kStep, kPathDone);
   double fraction = kPathDone;
-  const auto keep_going = [&] {
+  const auto report = [&] {
     fraction += 0.05 * (1.0 - fraction);
-    return reporter->keepGoing(kStep, fraction);
+    reporter->report(kStep, fraction);
   };
   Matching matching;
   Refinement refinement{};
@@ -207,7 +202,7 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
   const auto matchAndRefine = [&](const Gate& gate, double loss_scale) {
     matching = matchSpots(task.recording, state, gate);
     checkMatching(task.recording, matching);
-    refinement = refine(task, matching.matches, loss_scale, keep_going, &state);
+    refinement = refine(task, matching.matches, loss_scale, report, &state);
     // Without redundancy it is no reason to expect less noise.
     return refinement.redundancy ? refinement.noise_ratio : std::max(1.0, refinement.noise_ratio);
   };
@@ -223,12 +218,12 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
       break;
     pixel_stddev *= ratio;
   }
-  if (const auto jump = findJump(task, {pixel_stddev, stamp, kGate}, keep_going, state))
+  if (const auto jump = findJump(task, {pixel_stddev, stamp, kGate}, report, state))
     refuse(*jump, task.recording);
   checkNoise(options, pixel_stddev);
   if (!task.floor.empty()) {
     useFloorAsWorld(task, &state);
-    refinement = refine(task, matching.matches, kInfinity, keep_going, &state);
+    refinement = refine(task, matching.matches, kInfinity, report, &state);
   }
   return summarise(task, state, matching, refinement, pixel_stddev);
 }
@@ -275,8 +270,6 @@ WaveSolution solveWave(const Recording& input,
       WaveSolution solution = solveFrom(std::move(poses), task, &reporter);
       reporter.report("done", 1.0);
       return solution;
-    } catch (const Cancelled&) {
-      throw;
     } catch (const WandMislaid&) {
       throw;
     } catch (const WaveError&) {

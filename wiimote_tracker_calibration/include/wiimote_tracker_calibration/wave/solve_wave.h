@@ -44,14 +44,9 @@ struct WaveSolution : square::Solution {
   double expected_shape_error = 0.0;
 };
 
-/// Progress, reported a few times per second or more.
-struct Progress {
-  std::string step;       ///< What is being done, in words.
-  double fraction = 0.0;  ///< 0 to 1, growing.
-};
-
-/// @returns false to stop.
-using ProgressCallback = std::function<bool(const Progress&)>;
+/// Called a few times per second or more with what is being done, in words, and the share of the
+/// work that is done [0..1], which grows. What it throws ends the work, unless it is a WaveError.
+using ProgressCallback = std::function<void(const std::string& step, double fraction)>;
 
 /// One bundle adjustment over all that was recorded: poses, focal lengths, principal points, k1,
 /// time offsets (the first camera's is 0), placement of the corners, length of the wand, and the
@@ -63,7 +58,7 @@ using ProgressCallback = std::function<bool(const Progress&)>;
 /// (mirrored, moved, other order of corners); a time offset less certain than the options ask for;
 /// a wand on the floor that moved, was not level, or of which two cameras did not see both LEDs; no
 /// accelerometer for it. square::SquareError: the corners contradict the
-/// layout. Cancelled.
+/// layout.
 WaveSolution solveWave(const Recording& recording,
                        const WaveOptions& options,
                        const ProgressCallback& progress = nullptr);

@@ -315,12 +315,6 @@ TEST(Remap, EachKindOfUselessPointsHasItsOwnRefusal) {
   expectRefused({good.begin(), good.begin() + 5}, "too few");
   expectRefused(std::vector<KnownPoint>(501, good[0]), "at most 500");
   std::vector<KnownPoint> bad = good;
-  bad[4].measured.x() = NAN;
-  expectRefused(bad, "known point 5 is not finite");
-  bad = good;
-  bad[7].known = bad[2].known;
-  expectRefused(bad, "known points 3 and 8 are one place");
-  bad = good;
   for (KnownPoint& point : bad)
     point.known.z() = 0.0;
   for (std::size_t i = 0; i < bad.size(); ++i)
@@ -338,7 +332,6 @@ TEST(Remap, EachKindOfUselessPointsHasItsOwnRefusal) {
   for (const Eigen::Vector3d& point : measured)
     bad.push_back({point, point + noise(random, 0.002)});
   expectRefused(bad, "better than none");
-  EXPECT_THROW(fitRemap(good, ""), Error);
 }
 
 TEST(Remap, AModelThatNeedsMorePointsSaysSoAndTheOthersAreUsed) {
@@ -376,7 +369,7 @@ TEST(MeasuredPoints, AreNotTakenTwice) {
   points.add({second, second});
   try {
     points.requireNew(second);
-    ADD_FAILURE() << "fitRemap() would refuse it";
+    ADD_FAILURE() << "not refused";
   } catch (const Error& e) {
     EXPECT_SAYS(std::string(e.what()), "place 2 has these coordinates already");
   }

@@ -26,10 +26,7 @@ void checkSpread(const std::vector<Eigen::Vector3d>& points, const std::string& 
 
 }  // namespace
 
-void checkPoints(const std::vector<KnownPoint>& points, const std::string& rig_id) {
-  if (rig_id.empty())
-    throw Error(
-        "the points belong to no calibration: calibrate the rig first, then measure them with it");
+void checkPoints(const std::vector<KnownPoint>& points) {
   if (points.size() < kFewest)
     throw Error(std::to_string(points.size()) +
                 " known points are too few for any correction of the volume: measure at least "
@@ -37,17 +34,6 @@ void checkPoints(const std::vector<KnownPoint>& points, const std::string& rig_i
   if (points.size() > kMost)
     throw Error(std::to_string(points.size()) +
                 " known points are more than can be handled: choose at most 500");
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    if (!points[i].known.allFinite() || !points[i].measured.allFinite())
-      throw Error("known point " + std::to_string(i + 1) +
-                  " is not finite: measure it again, or leave it out");
-    for (std::size_t j = 0; j < i; ++j) {
-      if (isSamePlace(points[i].known, points[j].known))
-        throw Error("known points " + std::to_string(j + 1) + " and " + std::to_string(i + 1) +
-                    " are one place: give each place once, with the mean of what was measured "
-                    "there");
-    }
-  }
   std::vector<Eigen::Vector3d> known;
   std::vector<Eigen::Vector3d> measured;
   Eigen::Vector3d mean = Eigen::Vector3d::Zero();

@@ -9,7 +9,7 @@
 namespace wiimote_tracker::remap {
 
 /// @throws Error when no model at all can be fitted to the points; see fitRemap().
-void checkPoints(const std::vector<KnownPoint>& points, const std::string& rig_id);
+void checkPoints(const std::vector<KnownPoint>& points);
 
 }  // namespace wiimote_tracker::remap
 

@@ -139,7 +139,7 @@ bool reachInside(const std::vector<Eigen::Vector3d>& support) {
 FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const std::string& rig_id,
                    const std::vector<Model>& allowed) {
-  checkPoints(points, rig_id);
+  checkPoints(points);
   std::vector<Model> models = allowed;
   if (models.empty())
     models = {Model::kAffine, Model::kProjective, Model::kTrilinear, Model::kThinPlate};

@@ -8,6 +8,8 @@ namespace {
 
 // An LED that was not carried on is measured within this distance of where it was [m].
 constexpr double kUnmoved = 0.01;
+// Known places nearer to each other are one [m].
+constexpr double kSamePlace = 0.001;
 // No correction brings places farther apart than this so near to each other [m].
 constexpr double kApart = 0.1;
 
@@ -15,7 +17,7 @@ constexpr double kApart = 0.1;
 
 void MeasuredPoints::requireNew(const Eigen::Vector3d& known) const {
   for (std::size_t i = 0; i < points_.size(); ++i) {
-    if (isSamePlace(known, points_[i].known))
+    if ((known - points_[i].known).norm() < kSamePlace)
       throw Error(
           format("place %zu has these coordinates already: correct them or, if that one is wrong, "
                  "drop the places from %zu on and measure them again",

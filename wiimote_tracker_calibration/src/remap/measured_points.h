@@ -32,7 +32,7 @@ class MeasuredPoints {
       rig_id_ = now;
   }
 
-  /// @throws Error: a place with these coordinates is there already; no fit takes it twice.
+  /// @throws Error: a place with these coordinates is there already.
   void requireNew(const Eigen::Vector3d& known) const;
 
   /// A clause about an earlier place elsewhere that was measured where this one was, as when the

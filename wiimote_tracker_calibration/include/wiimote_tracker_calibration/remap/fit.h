@@ -16,11 +16,6 @@ struct KnownPoint {
   Eigen::Vector3d known;     ///< World [m].
 };
 
-/// Whether two known places [m] are one, which fitRemap() refuses.
-inline bool isSamePlace(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
-  return (one - other).norm() < 0.001;
-}
-
 /// The result of one model.
 struct ModelReport {
   Model model = Model::kAffine;
@@ -49,9 +44,9 @@ struct FitResult {
 /// difference of their squared errors. The smoothing of a thin plate is chosen in the same way.
 /// Takes milliseconds for tens of points, seconds for hundreds.
 /// @param allowed models to choose from; empty: all.
-/// @throws Error: fewer than 6 or more than 500 points, points on one line or in one plane,
-/// twice in one place, not finite; mirrored; no rig id; no model determined by the points, or none
-/// better than no correction.
+/// @param points finite, no two known places the same. @param rig_id not empty.
+/// @throws Error: fewer than 6 or more than 500 points, points on one line or in one plane;
+/// mirrored; no model determined by the points, or none better than no correction.
 FitResult fitRemap(const std::vector<KnownPoint>& points,
                    const std::string& rig_id,
                    const std::vector<Model>& allowed = {});

@@ -37,6 +37,10 @@ TEST(ViewCollector, BarsAreThoseOfTheDefinition) {
   EXPECT_EQ(coverage.missing.size(), 4u);  // views, x, size, skew
 }
 
+TEST(ViewCollector, RefusesABoardWithoutSpacing) {
+  EXPECT_THROW(ViewCollector(Board{0.0, 0.1}, 1024, 768, 12), Error);
+}
+
 TEST(ViewCollector, KeepsWhatDiffersAndSaysWhyNot) {
   ViewCollector collector(Board(), 1024, 768, 12);
   EXPECT_EQ(collector.add(frontView(100.0, 100.0, 200.0)), "");

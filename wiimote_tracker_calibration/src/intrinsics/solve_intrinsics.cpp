@@ -60,9 +60,6 @@ std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit, const Points& poin
 }
 
 void checkInput(const Samples& samples, const SolverOptions& options) {
-  samples.board.check();
-  if (samples.width < 1 || samples.height < 1)
-    throw Error("the image size must be above 0 px: check the camera's driver");
   if (samples.views.size() < static_cast<std::size_t>(options.minimum_views))
     throw Error(format("%zu views of the board, at least %d are needed: show it from more sides",
                        samples.views.size(), options.minimum_views));

@@ -29,7 +29,10 @@ double placeBetweenEdges(double center, double board, double image) {
 
 ViewCollector::ViewCollector(const Board& board, int width, int height, int minimum_views)
     : samples_{board, width, height, {}}, minimum_views_(minimum_views) {
-  board.check();
+  for (const double spacing : {board.column_spacing, board.row_spacing}) {
+    if (!(std::isfinite(spacing) && spacing > 0.0))
+      throw Error("the board's spacings must be above 0 m: measure them");
+  }
   if (width < 1 || height < 1)
     throw Error("the image size must be above 0 px: check the camera's driver");
 }

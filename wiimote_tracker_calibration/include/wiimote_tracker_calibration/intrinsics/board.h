@@ -22,9 +22,6 @@ struct Board {
 
   /// Place of an LED in the board frame [m].
   Eigen::Vector3d position(int led) const;
-
-  /// @throws Error: a spacing is not above 0.
-  void check() const;
 };
 
 /// One view of the board, held still.

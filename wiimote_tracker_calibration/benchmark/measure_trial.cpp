@@ -37,7 +37,6 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
   for (int done = 0;; ++done) {
     Samples samples;
     samples.recording = truth.recording;
-    samples.masks.resize(truth.cameras.size());
     const Solution solution = solveSamples(samples, options);
     const Verdict& verdict = solution.verdict;
     steps.push_back({verdict.expected_error, rms(truth, solution),

@@ -392,7 +392,7 @@ TEST_F(Workflow, SamplesThatAreRestoredAreTheSameSamples) {
       EXPECT_EQ(a.frames[k].spots, b.frames[k].spots);
     }
   }
-  EXPECT_EQ(again.masks[1].size(), 1U);
+  EXPECT_EQ(again.recording.cameras[1].masks.size(), 1U);
 }
 
 }  // namespace

@@ -22,7 +22,6 @@ namespace {
 std::string outcomeOf(const wave::Recording& recording, const SolveOptions& options) {
   Samples samples;
   samples.recording = recording;
-  samples.masks.resize(recording.cameras.size());
   try {
     return solveSamples(samples, options).rig.verdict;
   } catch (const Error& error) {

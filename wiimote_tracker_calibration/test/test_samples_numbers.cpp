@@ -39,7 +39,6 @@ TEST(SamplesNumbers, HaveADecimalPointWhereAProgramSetsAComma) {
   samples.recording.cameras.resize(1);
   samples.recording.cameras[0].sightings.name = "camera_1";
   samples.recording.cameras[0].frames = {{1700000000.125, {{512.5, 384.25}}}};
-  samples.masks.resize(1);
   std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
   const std::string text = written(samples);
   std::locale::global(std::locale::classic());

@@ -286,11 +286,11 @@ TEST_F(ThrownErrors, AChangedRigLeavesTheMasksOfLoadedSamples) {
   NodeContext& context = node->context();
   const Lock lock(context.mutex());
   samples::Samples samples = context.samples(lock);
-  samples.masks[0] = {{{1000.0, 20.0}, 5.0}};
+  samples.recording.cameras[0].masks = {{{1000.0, 20.0}, 5.0}};
   ASSERT_TRUE(context.setSamples(samples, lock).success);
   const geometry::Rig rig = context.existingRig("to change", lock);
   context.setRig(rig, "changed", lock);
-  EXPECT_EQ(context.samples(lock).masks[0].size(), 1U);
+  EXPECT_EQ(context.samples(lock).recording.cameras[0].masks.size(), 1U);
   context.setMasks({}, lock);
 }
 

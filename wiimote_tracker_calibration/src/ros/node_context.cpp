@@ -129,8 +129,8 @@ samples::Samples NodeContext::samples(const Lock& lock) const {
 workflow::Reply NodeContext::setSamples(const samples::Samples& samples, const Lock&) {
   const workflow::Reply reply = calibration_.restore(samples);
   if (reply.success) {
-    for (std::size_t i = 0; i < samples.masks.size(); ++i)
-      inputs_.setMasks(samples.recording.cameras[i].sightings.name, samples.masks[i]);
+    for (const wave::CameraRecording& camera : samples.recording.cameras)
+      inputs_.setMasks(camera.sightings.name, camera.masks);
   }
   return reply;
 }

@@ -3,10 +3,7 @@
 
 #include "wiimote_tracker_calibration/wave/recording.h"
 
-#include <wiimote_tracker_triangulation/geometry/rig.h>
-
 #include <string>
-#include <vector>
 
 namespace wiimote_tracker::samples {
 
@@ -15,8 +12,6 @@ namespace wiimote_tracker::samples {
 struct Samples {
   std::string world_frame = "world";
   wave::Recording recording;
-  /// Masked regions of the images, per camera of the recording. Its spots are without them.
-  std::vector<std::vector<geometry::ImageMask>> masks;
 };
 
 }  // namespace wiimote_tracker::samples

@@ -132,8 +132,7 @@ void require(bool condition, const std::string& what) {
     throw Error(what + "; correct it or capture again");
 }
 
-void checkCamera(const wave::CameraRecording& camera,
-                 const std::vector<geometry::ImageMask>& masks) {
+void checkCamera(const wave::CameraRecording& camera) {
   const square::CameraSightings& sightings = camera.sightings;
   const std::string& name = sightings.name;
   sightings.intrinsics.check();
@@ -143,7 +142,7 @@ void checkCamera(const wave::CameraRecording& camera,
     require(!place || place->allFinite(), "a place that " + name + " saw is not finite");
   require(!sightings.gravity || sightings.gravity->allFinite(),
           "the gravity of " + name + " is not finite");
-  for (const geometry::ImageMask& mask : masks)
+  for (const geometry::ImageMask& mask : camera.masks)
     require(mask.center.allFinite() && std::isfinite(mask.radius) && mask.radius > 0.0,
             "a mask of " + name + " is not finite or its radius not above 0");
   double before = -std::numeric_limits<double>::infinity();
@@ -164,21 +163,19 @@ void check(const Samples& samples) {
     recording.square->check();
   if (recording.wand)
     recording.wand->check();
-  require(samples.masks.size() == recording.cameras.size(),
-          "the masks are not of as many cameras as were captured");
   std::set<std::string> names;
-  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const std::string& name = recording.cameras[i].sightings.name;
+  for (const wave::CameraRecording& camera : recording.cameras) {
+    const std::string& name = camera.sightings.name;
     require(!name.empty(), "a camera has no name");
     require(names.insert(name).second, "two cameras are called " + name);
-    checkCamera(recording.cameras[i], samples.masks[i]);
-    const auto& corners = recording.cameras[i].sightings.corners;
+    checkCamera(camera);
+    const auto& corners = camera.sightings.corners;
     require(recording.square || std::none_of(corners.begin(), corners.end(),
                                              [](const auto& corner) { return corner.has_value(); }),
             "there is no square, but " + name + " saw a corner of it");
-    require(recording.cameras[i].sightings.places.size() ==
-                (recording.square ? recording.square->places.size() : 0),
-            "the known places are not as many as " + name + " has pixels for");
+    require(
+        camera.sightings.places.size() == (recording.square ? recording.square->places.size() : 0),
+        "the known places are not as many as " + name + " has pixels for");
   }
 }
 

@@ -120,9 +120,7 @@ void emitPixels(const char* key, const Pixels& pixels, YAML::Emitter& out) {
   out << YAML::EndSeq;
 }
 
-void emitCamera(const wave::CameraRecording& camera,
-                const std::vector<geometry::ImageMask>& masks,
-                YAML::Emitter& out) {
+void emitCamera(const wave::CameraRecording& camera, YAML::Emitter& out) {
   const square::CameraSightings& sightings = camera.sightings;
   out << YAML::BeginMap;
   out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << sightings.name;
@@ -138,7 +136,7 @@ void emitCamera(const wave::CameraRecording& camera,
   if (!sightings.places.empty())
     emitPixels("places", sightings.places, out);
   out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
-  for (const geometry::ImageMask& mask : masks) {
+  for (const geometry::ImageMask& mask : camera.masks) {
     out << YAML::Flow << YAML::BeginMap << YAML::Key << "center" << YAML::Value;
     emitNumbers(mask.center, out);
     emitKey("radius", mask.radius, out);
@@ -245,10 +243,9 @@ void readCamera(YamlMap map, SamplesHead* head) {
         head->samples.recording.square ? head->samples.recording.square->places.size() : 0);
     readPixels(map, "places", "the square's", &sightings.places);
   }
-  head->samples.masks.emplace_back();
   for (YamlMap& mask : map.maps("masks")) {
     const Eigen::Vector2d center = readVector(mask, "center", 2);
-    head->samples.masks.back().push_back({center, mask.get<double>("radius")});
+    camera.masks.push_back({center, mask.get<double>("radius")});
     mask.refuseUnknown();
   }
   head->frames.push_back(
@@ -269,8 +266,8 @@ std::string yamlFromSamples(const Samples& samples) {
   emitSquare(samples.recording.square, out);
   emitWand(samples.recording.wand, out);
   out << YAML::Key << "cameras" << YAML::Value << YAML::BeginSeq;
-  for (std::size_t i = 0; i < samples.recording.cameras.size(); ++i)
-    emitCamera(samples.recording.cameras[i], samples.masks[i], out);
+  for (const wave::CameraRecording& camera : samples.recording.cameras)
+    emitCamera(camera, out);
   out << YAML::EndSeq << YAML::EndMap;
   return out.c_str();
 }

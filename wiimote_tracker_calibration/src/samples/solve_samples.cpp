@@ -109,8 +109,6 @@ wave::WaveSolution solveRecording(const wave::Recording& recording,
 Solution solveSamples(const Samples& samples,
                       const SolveOptions& options,
                       const wave::ProgressCallback& progress) {
-  if (samples.masks.size() != samples.recording.cameras.size())
-    throw Error("the samples have masks for another number of cameras: capture again");
   wave::Recording recording = samples.recording;
   for (wave::CameraRecording& camera : recording.cameras) {
     if (!options.use_gravity)
@@ -126,13 +124,12 @@ Solution solveSamples(const Samples& samples,
   rig.world_frame = samples.world_frame;
   rig.ray_model = options.ray_model;
   rig.virtual_hfov = options.virtual_hfov;
-  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
-    const square::CameraSightings& sightings = samples.recording.cameras[i].sightings;
+  for (const wave::CameraRecording& captured : samples.recording.cameras) {
     for (geometry::RigCamera& camera : rig.cameras) {
-      if (camera.camera.name != sightings.name)
+      if (camera.camera.name != captured.sightings.name)
         continue;
-      camera.masks = samples.masks[i];
-      camera.gravity = sightings.gravity;
+      camera.masks = captured.masks;
+      camera.gravity = captured.sightings.gravity;
     }
   }
   solution.verdict = judge(samples, found, options.square.uncertainty.pixel);

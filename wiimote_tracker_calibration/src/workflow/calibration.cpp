@@ -264,8 +264,8 @@ Reply Calibration::restore(const samples::Samples& samples) {
   if (!reply.success)
     return reply;
   updateStep();
-  for (const std::vector<geometry::ImageMask>& masks : samples.masks)
-    preparation_.lights_learned |= !masks.empty();
+  for (const wave::CameraRecording& camera : samples.recording.cameras)
+    preparation_.lights_learned |= !camera.masks.empty();
   return {true, "samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
                     std::to_string(captured_.square.corners().size()) + " corners" +
                     (captured_.wave ? " and a wave" : "") + " are loaded: " +

@@ -195,9 +195,8 @@ samples::Samples toSamples(const Captured& captured,
     samples.recording.wand = captured.wave->wand();
   for (const std::string& name : captured.cameras) {
     samples.recording.cameras.push_back(recordingOf(captured, name, facts));
-    const auto mask = masks.find(name);
-    samples.masks.push_back(mask != masks.end() ? mask->second
-                                                : std::vector<geometry::ImageMask>());
+    if (const auto found = masks.find(name); found != masks.end())
+      samples.recording.cameras.back().masks = found->second;
   }
   return samples;
 }

@@ -4,6 +4,8 @@
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
 #include <Eigen/Core>
 
 #include <algorithm>
@@ -26,6 +28,8 @@ struct CameraRecording {
   square::CameraSightings sightings;
   std::uint32_t clock_epoch = 0;  ///< Of the stamps; the time offset holds for this epoch only.
   std::vector<Frame> frames;      ///< In the order of their stamps.
+  /// Regions of the images whose light was left out. The solvers do without them; a rig has them.
+  std::vector<geometry::ImageMask> masks;
 };
 
 /// Two LEDs on a stick.

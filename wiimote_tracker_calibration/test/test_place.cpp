@@ -201,9 +201,9 @@ TEST(CheckPlace, StatesErrorAndExpectedError) {
   EXPECT_FALSE(place.calibration_known);
   EXPECT_SAYS(checkPlace(place, wrong, 0.0).message, "only the pixels");
 
-  EXPECT_THROW(checkPlace(place, led, -1.0), Error);
+  EXPECT_THROW(requirePlace(led, -1.0), Error);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_THROW(checkPlace(place, {nan, 0.0, 0.0}, 0.0), Error);
+  EXPECT_THROW(requirePlace({nan, 0.0, 0.0}, 0.0), Error);
 }
 
 // A correction that moves all points up by 50 mm; one of another calibration does nothing.

@@ -21,7 +21,7 @@ struct PlaceCheck {
 /// @throws Error: values out of range or not finite.
 void requirePlace(const Eigen::Vector3d& known, double known_stddev);
 
-/// @throws Error as requirePlace().
+/// @param known and its standard deviation, as requirePlace() lets them pass.
 PlaceCheck checkPlace(const MeasuredPlace& measured,
                       const Eigen::Vector3d& known,
                       double known_stddev);

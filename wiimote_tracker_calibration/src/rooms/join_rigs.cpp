@@ -60,20 +60,15 @@ Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
   return derivative;
 }
 
-/// @throws Error: too few places, values out of range, or all on one line.
-void checkPlaces(const std::vector<remap::KnownPoint>& places, double stddev) {
+/// @throws Error: too few places, or all on one line.
+void checkPlaces(const std::vector<remap::KnownPoint>& places) {
   if (places.size() < 3)
     throw Error(std::to_string(places.size()) +
                 " common places do not determine the pose between the rigs: measure three or "
                 "more, not on one line");
   std::vector<Eigen::Vector3d> points;
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    if (!places[i].known.allFinite() || !places[i].measured.allFinite() ||
-        !(std::isfinite(stddev) && stddev > 0.0))
-      throw Error("place " + std::to_string(i + 1) +
-                  " is not finite, or its standard deviation not above 0: correct it");
-    points.push_back(places[i].measured);
-  }
+  for (const remap::KnownPoint& place : places)
+    points.push_back(place.measured);
   const Eigen::Vector3d extent = geometry::spreadOf(points);
   if (!(extent[1] > kThinnest * extent[0]))
     throw Error("the common places are on one line: measure one beside it, too");
@@ -83,7 +78,7 @@ JoinedRigs joinOver(const std::vector<remap::KnownPoint>& places,
                     double stddev,
                     const geometry::Rig& first,
                     const geometry::Rig& second) {
-  checkPlaces(places, stddev);
+  checkPlaces(places);
   std::vector<Eigen::Vector3d> in_first;
   std::vector<Eigen::Vector3d> in_second;
   std::vector<Shared> shared;

@@ -3,6 +3,7 @@ make."""
 
 import pytest
 
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.recordings import program, replay, reprojection
 
 
@@ -22,12 +23,16 @@ def test_a_bag_that_does_not_exist(tmp_path, monkeypatch):
         program.main()
 
 
-def test_numbers_that_cannot_be_used_are_refused_in_words(monkeypatch):
+@pytest.mark.parametrize('raised, seen', [
+    (ExperimentError('no points'), SystemExit('evaluate_recording: no points')),
+    (ValueError('no points'), ValueError('no points'))])
+def test_only_refusals_are_told_in_words(raised, seen, monkeypatch):
+    """A mistake of the program shows where it was made."""
     def fail(*_):
-        raise ValueError('an alignment needs finite points')
+        raise raised
     monkeypatch.setattr(replay, 'evaluate', fail)
     monkeypatch.setattr('sys.argv', ['evaluate_recording', 'bag', 'in.bag'])
-    with pytest.raises(SystemExit, match='^evaluate_recording: an alignment needs finite points$'):
+    with pytest.raises(type(seen), match=f'^{seen}$'):
         program.main()
 
 

@@ -9,6 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, bound, experiment, scene
+from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation.demo import animation, report, scoring
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -64,7 +65,7 @@ def test_no_small_change_of_the_alignment_fits_better(with_scale):
     (np.eye(3)[:2], 'three points or more'), (np.full((4, 3), np.nan), 'finite points'),
     (np.zeros((3, 2)), 'two N x 3 arrays')])
 def test_alignment_refuses_points_that_do_not_determine_it(points, reason):
-    with pytest.raises(ValueError, match=reason):
+    with pytest.raises(ExperimentError, match=reason):
         alignment.fit(points, points, with_scale=True)
 
 
@@ -299,7 +300,7 @@ def test_score_of_a_recording_with_known_errors(hand_made):
 def test_a_place_without_points_is_named(hand_made):
     segment = hand_made.segments[0]
     late = type(segment)('test', 'P11', segment.target, 1.0, 2.0)
-    with pytest.raises(ValueError, match='P11'):
+    with pytest.raises(ExperimentError, match='P11'):
         scoring.score(hand_made.recording, hand_made.segments + [late])
 
 

@@ -133,12 +133,12 @@ def test_table_needs_its_marks(text):
         results_table.written(text, content_of(1.0, None))
 
 
-def test_a_document_without_marks_is_left_as_it_is(tmp_path, capsys):
+def test_a_document_without_marks_is_left_as_it_is(tmp_path):
     readme, figures_file = tmp_path / 'README.md', tmp_path / 'figures.json'
     readme.write_text('no marks', encoding='utf-8')
     figures_file.write_text(json.dumps(content_of(1.0, None)), encoding='utf-8')
-    assert results_table.main([str(figures_file), str(readme)]) == 1
-    assert 'once each' in capsys.readouterr().err
+    with pytest.raises(SystemExit, match='^results_table: .* once each'):
+        results_table.main([str(figures_file), str(readme)])
     assert readme.read_text(encoding='utf-8') == 'no marks'
 
 
@@ -146,13 +146,13 @@ def test_a_document_without_marks_is_left_as_it_is(tmp_path, capsys):
     (None, 'figures.json: No such file or directory; check its name'),
     ('no JSON', 'figures.json is no figures.json: name one that evaluate wrote'),
     ('{}', 'figures.json is no figures.json: name one that evaluate wrote')])
-def test_a_table_needs_figures(figures, words, tmp_path, capsys):
+def test_a_table_needs_figures(figures, words, tmp_path):
     readme, figures_file = tmp_path / 'README.md', tmp_path / 'figures.json'
     readme.write_text(README, encoding='utf-8')
     if figures is not None:
         figures_file.write_text(figures, encoding='utf-8')
-    assert results_table.main([str(figures_file), str(readme)]) == 1
-    assert words in capsys.readouterr().err
+    with pytest.raises(SystemExit, match=words):
+        results_table.main([str(figures_file), str(readme)])
     assert readme.read_text(encoding='utf-8') == README
 
 

@@ -46,7 +46,7 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
     truth = truth.at(estimate.times)
     try:
         fitted = alignment.fit_kind(kind, estimate.positions, truth.positions, line=True)
-    except ValueError as error:
+    except ExperimentError as error:
         raise ExperimentError(f'{error}; use --alignment absolute') from error
     aligned = dataclasses.replace(estimate, positions=fitted.apply(estimate.positions),
                                   rotations=Rotation.from_matrix(fitted.rotation)

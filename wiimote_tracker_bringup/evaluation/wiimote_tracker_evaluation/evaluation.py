@@ -9,8 +9,7 @@ from typing import List, Optional
 from wiimote_tracker_bringup import descriptions, ranges, stack
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.files import prepare
-from wiimote_tracker_bringup.interruption import (
-    EXIT_STATUS, Interrupted, answered, raise_when_interrupted)
+from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_evaluation import sections
 from wiimote_tracker_evaluation.progress import Progress
@@ -113,7 +112,8 @@ def carry_out(module, run, live):
 
 
 def evaluate(options: argparse.Namespace) -> int:
-    """Runs the sections. Returns 0 if all succeeded."""
+    """Runs the sections. Returns 0 if all succeeded. After an interruption the report has the
+    results so far."""
     modules = {name: sections.load(name) for name in options.sections}
     prepare(options.output, ['report.html', 'report.md', *options.sections], 'figures.json')
     progress = Progress([module.SECONDS[not options.quick] for module in modules.values()])
@@ -132,14 +132,10 @@ def evaluate(options: argparse.Namespace) -> int:
                 run.duration = time.monotonic() - started
                 write_report(options, runs, time.time() - begin)
             progress.end('failed: ' + run.failure if run.failure else 'done')
-    except Interrupted:
-        progress.line('Interrupted; the report contains the results so far.')
-        progress.line(os.path.join(options.output, 'report.html'))
-        return EXIT_STATUS
     finally:
         stack.stop_all()
+        progress.line(os.path.join(options.output, 'report.html'))
     failed = [run.name for run in runs if run.failure]
-    progress.line(os.path.join(options.output, 'report.html'))
     if failed:
         progress.line(f"Failed: {', '.join(failed)}; the report says why.")
     return 1 if failed else 0

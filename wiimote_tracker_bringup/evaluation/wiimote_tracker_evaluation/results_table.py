@@ -2,11 +2,11 @@
 
 import argparse
 import json
-import sys
 import types
 from typing import Dict, List, Optional, Tuple
 
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.interruption import answered
 from wiimote_tracker_evaluation.report import words
 
 BEGIN, END = '<!-- results: begin -->', '<!-- results: end -->'
@@ -67,19 +67,15 @@ def read(path: str) -> Dict:
     return content
 
 
-def main(arguments: Optional[List[str]] = None) -> int:
+def main(arguments: Optional[List[str]] = None) -> None:
     parser = argparse.ArgumentParser(prog='results_table', description=__doc__)
     parser.add_argument('figures', help='figures.json of an evaluation')
     parser.add_argument('document', help='Markdown file with the two marks')
     options = parser.parse_args(arguments)
-    try:
+    with answered('results_table'):
         content = read(options.figures)
         with open(options.document, encoding='utf-8') as file:
             text = file.read()
         text = written(text, content)  # before the document is emptied: it may refuse
         with open(options.document, 'w', encoding='utf-8') as file:
             file.write(text)
-    except (OSError, ValueError, ExperimentError) as error:
-        print(sentence_of(error), file=sys.stderr)
-        return 1
-    return 0

@@ -4,20 +4,14 @@ import contextlib
 import signal
 import sys
 
-import numpy as np
-
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
 
 EXIT_STATUS = 130  # as a shell gives it for a program that SIGINT ended
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-class Interrupted(BaseException):
-    """The user wants to stop."""
-
-
 def raise_when_interrupted() -> None:
-    """From now on the first signal raises Interrupted."""
+    """From now on the first of SIGNALS raises KeyboardInterrupt."""
     for number in SIGNALS:
         signal.signal(number, interrupt)
 
@@ -26,16 +20,17 @@ def interrupt(number, frame):
     # A second signal must not disturb the cleanup.
     for each in SIGNALS:
         signal.signal(each, signal.SIG_IGN)
-    raise Interrupted()
+    raise KeyboardInterrupt
 
 
 @contextlib.contextmanager
 def answered(program: str):
-    """A block after which the program ends, in words, if it is interrupted or refuses its input."""
+    """A block after which the program ends, in words, if it is interrupted or refuses its input;
+    any other exception is a mistake of the program, and shows where."""
     try:
         yield
-    except (KeyboardInterrupt, Interrupted):
+    except KeyboardInterrupt:
         print(f'{program}: interrupted', file=sys.stderr)
         sys.exit(EXIT_STATUS)
-    except (ExperimentError, OSError, ValueError, np.linalg.LinAlgError) as error:
+    except (ExperimentError, OSError) as error:
         sys.exit(f'{program}: {sentence_of(error)}')

@@ -144,7 +144,7 @@ def main():
     except KeyError as error:
         rospy.logfatal('the parameter %s is missing: use plan.launch', error)
         return 1
-    except (ExperimentError, OSError, ValueError) as error:
+    except (ExperimentError, OSError) as error:
         rospy.logfatal('%s', sentence_of(error))
         return 1
     rospy.spin()

@@ -110,7 +110,7 @@ def read_rig(path):
         rig = descriptions.with_absolute_files(descriptions.read(path), os.path.dirname(path))
         places_of(rig)
         return rig
-    except (AttributeError, KeyError, TypeError, yaml.YAMLError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
         raise ExperimentError(f'{path} is no rig description with position and look_at of each '
                               'camera, such as simulation/paper_rig.yaml') from error
 

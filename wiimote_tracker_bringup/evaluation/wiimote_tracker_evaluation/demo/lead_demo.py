@@ -3,13 +3,12 @@
 import argparse
 import math
 import os
-import sys
 import time
 
 from wiimote_tracker_bringup import bound, experiment, scene as scene_module, stack
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.files import prepare
-from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_evaluation.terminal import Terminal
 
@@ -64,6 +63,7 @@ class Demo:
             return self._finish(segments, samples)
         finally:
             stack.stop_all()
+            self._progress.line('')  # in the place of the status
 
     def file(self, name):
         return os.path.join(self._output, name)
@@ -153,10 +153,7 @@ class Demo:
         if not os.path.exists(self.file('demo.bag')):
             raise ExperimentError('rosbag left no demo.bag; see ' + self.file('nodes.log'))
         recorded = published.read_bag(self.file('demo.bag'), LED)
-        try:
-            score = scoring.score(recorded, segments)
-        except ValueError as error:
-            raise ExperimentError(f"{error}; see {self.file('nodes.log')}")
+        score = scoring.score(recorded, segments)
         bounds = bound.position_bounds(
             self._scene, experiment.CORNERS, experiment.TEST_POINTS,
             experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
@@ -187,12 +184,5 @@ def main(arguments=None):
                              'as in the paper')
     options = parser.parse_args(arguments)
     raise_when_interrupted()
-    try:
+    with answered('lead_demo'):
         print(Demo(os.path.abspath(options.output), options.mode).run())
-        return 0
-    except Interrupted:
-        print('\nInterrupted; all started processes have ended.', file=sys.stderr)
-        return EXIT_STATUS
-    except ExperimentError as error:
-        print(f'\nThe demo failed: {error}', file=sys.stderr)
-        return 1

@@ -7,7 +7,7 @@ import subprocess
 from typing import List, Optional
 
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_bringup.interruption import EXIT_STATUS, Interrupted, raise_when_interrupted
+from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.processes import Processes
 from wiimote_tracker_evaluation.faults import (
     of_files, of_images, of_load, of_master, of_messages, of_network, of_processes, of_time,
@@ -105,7 +105,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
     options = parse(arguments)
     raise_when_interrupted()
     results = []
-    try:
+    with answered('fault_matrix'):
         matrix = Matrix(options.log)
         try:
             print(HEAD)
@@ -118,12 +118,9 @@ def main(arguments: Optional[List[str]] = None) -> int:
                 print(line(results[-1]), flush=True)
         finally:
             matrix.stop()
-    except Interrupted:
-        return EXIT_STATUS
-    finally:
-        if options.json:
-            with open(options.json, 'w') as file:
-                json.dump([dataclasses.asdict(result) for result in results], file, indent=1)
+            if options.json:
+                with open(options.json, 'w') as file:
+                    json.dump([dataclasses.asdict(result) for result in results], file, indent=1)
     failed = [result.name for result in results if result.problems]
     print(f'{len(results) - len(failed)} of {len(results)} faults were survived'
           + (f"; not: {', '.join(failed)}" if failed else ''))

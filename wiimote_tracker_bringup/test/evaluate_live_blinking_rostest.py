@@ -6,7 +6,7 @@ import threading
 import rospy
 import rostest
 from evaluate_live_rostest import LiveEvaluation, Person
-from wiimote_tracker_bringup import descriptions
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_evaluation.live.identification import LABEL_TIMEOUT, QUICK_TRIES
 from wiimote_tracker_msgs.srv import SetLedRequest
 
@@ -41,7 +41,7 @@ class Switcher(Person):
 
 class EvaluateLiveBlinking(LiveEvaluation):
     def test_blinking_leds_are_switched_and_get_their_names(self):
-        leds = list(descriptions.read(self.path)['leds'])
+        leds = list(read_yaml(self.path)['leds'])
         _, figures = self.evaluate('identification', lambda terminal: Switcher(terminal, leds))
         success, time = (figures['identification', name] for name in ('live_success', 'live_time'))
         self.assertEqual((success['value'], success['samples']), (100.0, QUICK_TRIES))

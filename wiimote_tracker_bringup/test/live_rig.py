@@ -8,7 +8,8 @@ import unittest
 import numpy as np
 import rospy
 from geometry_msgs.msg import PointStamped
-from wiimote_tracker_bringup import descriptions, scene
+from wiimote_tracker_bringup import scene
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_bringup.true_rig import true_rig
 from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration, TrackedPointArray
 
@@ -35,7 +36,7 @@ class LiveRigTest(NodeTest):
     def setUpClass(cls):
         rospy.init_node(cls.__name__.lower() + '_rostest')
         cls.path = rospy.get_param('~description')
-        cls.description = descriptions.read(cls.path)
+        cls.description = read_yaml(cls.path)
         cls.scene = scene.read_scene(cls.path)
         cls.leds = sorted(cls.description['leds'])
         cls.images = collections.Counter()

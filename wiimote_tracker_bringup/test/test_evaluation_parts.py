@@ -159,9 +159,9 @@ def test_a_table_needs_figures(figures, words, tmp_path):
 # --- Rigs made from another one
 
 def test_more_cameras_see_the_same_space(tmp_path):
-    description = descriptions.with_cameras(descriptions.read(PAPER_RIG), 8)
+    description = descriptions.with_cameras(files.read_yaml(PAPER_RIG), 8)
     path = str(tmp_path / 'rig.yaml')
-    descriptions.write(path, description)
+    files.write_yaml(path, description)
     cameras = scene.read_scene(path).cameras
     assert len(cameras) == 8 and len({camera.name for camera in cameras}) == 8
     assert len(set(descriptions.identities(description).values())) == 8
@@ -177,7 +177,7 @@ def test_more_cameras_see_the_same_space(tmp_path):
 
 def test_the_scaled_rig_sees_its_space_about_the_origin(tmp_path):
     path = str(tmp_path / 'rig.yaml')
-    descriptions.write(path, descriptions.centred(descriptions.read(PAPER_RIG), 0.4))
+    files.write_yaml(path, descriptions.centred(files.read_yaml(PAPER_RIG), 0.4))
     corners = np.array([(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (0.0, 0.5)])
     assert not any(scene.read_scene(path).missed(corners))
 

@@ -11,6 +11,7 @@ from scipy.spatial.transform import Rotation
 from wiimote_tracker_bringup import bound, descriptions, scene
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
+from wiimote_tracker_bringup.files import read_yaml, write_yaml
 from wiimote_tracker_rig_planning import body, plan, plan_rig, prediction, search
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -164,14 +165,14 @@ def test_ctrl_c_is_answered_in_a_word(tmp_path, monkeypatch, capsys):
 def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
     room = tmp_path / 'room'
     room.mkdir()
-    rig = descriptions.read(PAPER_RIG)
+    rig = read_yaml(PAPER_RIG)
     rig['cameras'] = dict(zip(['door', 'window', 'desk', 'wall'], rig['cameras'].values()))
     rig['leds']['led']['blink'] = {'codes': 'codes.yaml', 'label': 'led'}
-    descriptions.write(str(room / 'rig.yaml'), rig)
+    write_yaml(str(room / 'rig.yaml'), rig)
     loaded = plan_rig.read_rig(str(room / 'rig.yaml'))
-    descriptions.write(str(tmp_path / 'saved.yaml'),
+    write_yaml(str(tmp_path / 'saved.yaml'),
                        descriptions.placed(loaded, np.ones((4, 3)), np.eye(4, 3)))
-    saved = descriptions.read(str(tmp_path / 'saved.yaml'))
+    saved = read_yaml(str(tmp_path / 'saved.yaml'))
     rig['leds']['led']['blink']['codes'] = str(room / 'codes.yaml')
     for drawing in rig['drawings'].values():
         drawing['file'] = str(room / drawing['file'])
@@ -182,11 +183,13 @@ def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
     assert 'since door does not see all corners' in capsys.readouterr().out
 
 
-@pytest.mark.parametrize('text', ['cameras: [', 'cameras: {a: {}}', '[]'])
-def test_what_is_no_rig_description_is_refused(text, tmp_path):
+@pytest.mark.parametrize('text, words', [
+    ('cameras: [', 'valid YAML'), ('cameras: {a: {}}', 'rig description'),
+    ('cameras: {a: {position: x, look_at: y}}', 'rig description'), ('[]', 'rig description')])
+def test_what_is_no_rig_description_is_refused(text, words, tmp_path):
     path = tmp_path / 'rig.yaml'
     path.write_text(text)
-    with pytest.raises(SystemExit, match='rig.yaml is no rig description'):
+    with pytest.raises(SystemExit, match=f'rig.yaml is (no|not) {words}'):
         plan_rig.main([EXAMPLE, '--score', str(path)])
 
 
@@ -257,7 +260,7 @@ def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
     (ROOM_TEXT + 'beam: 90\nbody: [[0, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 0], [0, 0, 1, 0, 0, 0]]',
      r'body[2] must have a direction'),
     (ROOM_TEXT + 'body: [[0, 0, 0, 1, 0, 0], [0, 1, 0, 1, 0, 0], [0, 0, 1, 0, 0, 1]]', 'give beam'),
-    ('[', 'cannot be read')])
+    ('[', 'is not valid YAML')])
 def test_a_bad_plan_is_refused_in_words(tmp_path, text, words):
     path = tmp_path / 'plan.yaml'
     path.write_text(text)

@@ -35,7 +35,6 @@ def test_numbers_of_the_range_are_taken():
     read = ranges.within(-1.0, 2.0)
     assert [read(text) for text in ('-1', '0', '2', '1e-3')] == [-1.0, 0.0, 2.0, 1e-3]
     assert ranges.within(0, 5, int)('5') == 5
-    assert ranges.check('~side', 2, 0.1, 20.0) == 2
 
 
 @pytest.mark.parametrize('value', [-1.0, 0.0, float('nan'), float('inf'), '5', None, True, [1.0]])

@@ -7,6 +7,7 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 
 FORMAT = 'wiimote_tracker_mount'
 
@@ -54,9 +55,8 @@ def write(mount, path):
 
 def read(path):
     """Throws ExperimentError if it is no such file."""
+    content = read_yaml(path)
     try:
-        with open(path) as file:
-            content = yaml.safe_load(file)
         if content['format'] != FORMAT or content['version'] != 1:
             raise ValueError(f'its format is not {FORMAT} 1')
         return Mount(Rotation.from_quat(content['quaternion_xyzw']),
@@ -65,5 +65,5 @@ def read(path):
                      content['body'], content['base'])
     except KeyError as error:
         raise ExperimentError(f'{path} is no result of body_to_base: {error} is missing') from error
-    except (TypeError, ValueError, yaml.YAMLError) as error:
+    except (TypeError, ValueError) as error:
         raise ExperimentError(f'{path} is no result of body_to_base: {error}') from error

@@ -15,7 +15,6 @@ Private parameters:
             (default: false)
 """
 
-import argparse
 import collections
 import copy
 import os
@@ -33,9 +32,8 @@ from scipy.spatial.transform import Rotation
 from std_srvs.srv import Trigger, TriggerResponse
 
 from wiimote_tracker_body_motion import pivot
-from wiimote_tracker_bringup import ranges, rigid_motion
+from wiimote_tracker_bringup import nodes, rigid_motion
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
-from wiimote_tracker_bringup.ros_master import require_master
 
 INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
 REST = 0.5  # of which a saved point is the mean [s]
@@ -156,14 +154,6 @@ class Probe:
                 and np.linalg.norm(points.mean(axis=0) - self.saved) > AWAY)
 
 
-def refuse_unknown():
-    """Throws ExperimentError if a private parameter is misspelt; the master keeps it."""
-    for name in sorted(set(rospy.get_param(rospy.get_name(), {})) - PARAMETERS):
-        parameter = rospy.resolve_name('~' + name)
-        raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and remove it '
-                              f'from the master by: rosparam delete {parameter}')
-
-
 def read_body():
     """The parameter ~body. Throws ExperimentError if it is no name."""
     body = rospy.get_param('~body', '')
@@ -191,11 +181,9 @@ class Node:
     button A of joy is pressed and, with ~at_rest, when the tip is held still elsewhere."""
 
     def __init__(self):
-        refuse_unknown()
+        nodes.refuse_unknown(rospy.get_param(rospy.get_name(), {}), PARAMETERS)
         body = read_body()
-        duration = ranges.check(rospy.resolve_name('~duration'), rospy.get_param('~duration', 10.0),
-                                0.1, 3600.0)
-        self.probe = Probe(read_tip(), duration,
+        self.probe = Probe(read_tip(), nodes.number('~duration', 10.0, 0.1, 3600.0),
                            rospy.get_param('~file', '~/probe_points.csv'), rospy.get_time)
         self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)
         self.pose = rospy.Publisher(f'{body}/tip_pose', PoseWithCovarianceStamped, queue_size=10)
@@ -252,11 +240,7 @@ class Node:
 
 
 def main():
-    argparse.ArgumentParser(
-        prog='probe', description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter,
-    ).parse_args(rospy.myargv()[1:])
-    require_master()
-    rospy.init_node('probe')
+    nodes.start('probe', __doc__)
     try:
         Node()
     except ExperimentError as error:

@@ -4,6 +4,9 @@ import re
 
 import yaml
 
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
+
 # The rules for a cameras.yaml are those of list_wiimotes; test_drivers.py compares them.
 ADDRESS = '([0-9a-fA-F]{2}:){5}[0-9a-fA-F]{2}'
 DEVICE = rf'{ADDRESS}|/dev/hidraw[0-9]+|(virtual|replay):.+'
@@ -11,10 +14,6 @@ FILE_KEYS = {'cameras', 'discover'}
 CAMERA_KEYS = {'driver', 'identity'}
 RIG_KEYS = {'extrinsics', 'position'}  # of a camera in a rig file or description
 REMOTES_PER_ADAPTER = 7  # a Bluetooth piconet has no place for more
-
-
-class CamerasError(Exception):
-    """The list of cameras cannot be used; the text says why and what to do."""
 
 
 class UniqueKeys(yaml.SafeLoader):
@@ -33,17 +32,7 @@ class UniqueKeys(yaml.SafeLoader):
 
 def read_file(path, loader=UniqueKeys):
     """The mapping in a cameras.yaml or a rig description; empty for anything else."""
-    try:
-        with open(path) as file:
-            content = loader(file).get_single_data()
-    except OSError as error:
-        raise CamerasError(f'{path} cannot be read ({error.strerror}): correct its path or its '
-                           'permissions')
-    except UnicodeDecodeError as error:
-        raise CamerasError(f'{path} is no text ({error}): correct its path')
-    except yaml.YAMLError as error:
-        raise CamerasError('%s is not valid YAML (%s): correct it' % (
-            path, str(error).replace('\n', ' ')))
+    content = read_yaml(path, loader)
     return content if isinstance(content, dict) else {}
 
 
@@ -56,17 +45,17 @@ def read_list(path):
     """The mapping in a cameras.yaml or a rig description, with no key in a wrong place."""
     content = read_file(path)
     if not isinstance(content.get('discover', False), bool):
-        raise CamerasError(f'{path}: "discover" must be true or false')
+        raise ExperimentError(f'{path}: "discover" must be true or false')
     cameras = content.get('cameras')
     if 'cameras' not in content or isinstance(cameras, dict) and any(
             map(is_of_rig, cameras.values())):
         return content
     for key in content:
         if key not in FILE_KEYS:
-            raise CamerasError(f'{path} has the unknown key {key}: it may have "discover:" and '
-                               '"cameras:", and the cameras below the latter')
+            raise ExperimentError(f'{path} has the unknown key {key}: it may have "discover:" and '
+                                  '"cameras:", and the cameras below the latter')
     if list(content)[-1] == 'discover':
-        raise CamerasError(f'{path}: write "discover:" above "cameras:"')
+        raise ExperimentError(f'{path}: write "discover:" above "cameras:"')
     return content
 
 
@@ -82,12 +71,12 @@ def read_cameras(path):
     if cameras is None and 'cameras' in content and content.get('discover'):
         return {}
     if not isinstance(cameras, dict) or not cameras:
-        raise CamerasError(f'{path} must have "cameras:" with one line "name: address" for each '
-                           'camera')
+        raise ExperimentError(f'{path} must have "cameras:" with one line "name: address" for '
+                              'each camera')
     for name in cameras:
         if not isinstance(name, str) or not re.fullmatch(r'[A-Za-z]\w*', name, re.ASCII):
-            raise CamerasError(f'{path}: camera name {name!r} must be letters (a to z), digits and '
-                               '_, a letter first')
+            raise ExperimentError(f'{path}: camera name {name!r} must be letters (a to z), digits '
+                                  'and _, a letter first')
     return cameras
 
 
@@ -100,18 +89,18 @@ def read_devices(path, socket_directory):
             device = f'virtual:{socket_directory}/{name}.sock'
         if not isinstance(device, str) or not device:
             # YAML reads some addresses without quotes as numbers to the base of 60.
-            raise CamerasError(f'{path}: give the address of camera {name} as a text in quotes'
-                               + (', after "identity:"' if isinstance(entry, dict) else ''))
+            raise ExperimentError(f'{path}: give the address of camera {name} as a text in quotes'
+                                  + (', after "identity:"' if isinstance(entry, dict) else ''))
         if not re.fullmatch(DEVICE, device, re.DOTALL):
-            raise CamerasError(f'{path}: camera {name} has the device {device}: give a Bluetooth '
-                               'address such as "00:1f:32:12:34:56", or a path such as '
-                               '/dev/hidraw0')
+            raise ExperimentError(f'{path}: camera {name} has the device {device}: give a '
+                                  'Bluetooth address such as "00:1f:32:12:34:56", or a path such '
+                                  'as /dev/hidraw0')
         devices.append((name, device))
     taken = [device.lower() for _, device in devices]
     for name, device in devices:
         if taken.count(device.lower()) > 1:
-            raise CamerasError(f'{path}: camera {name} has the device {device}, and so has '
-                               'another one: remove one of them')
+            raise ExperimentError(f'{path}: camera {name} has the device {device}, and so has '
+                                  'another one: remove one of them')
     return devices
 
 
@@ -122,13 +111,13 @@ def read_parameters(path):
         entry = entry if isinstance(entry, dict) else {}
         unknown = sorted(set(map(str, entry)) - CAMERA_KEYS)
         if unknown and not is_of_rig(entry):
-            raise CamerasError(f'{path}: camera {name} has the unknown key {unknown[0]}: it may '
-                               'have "identity:" and "driver:", and the parameters below the '
-                               'latter')
+            raise ExperimentError(f'{path}: camera {name} has the unknown key {unknown[0]}: it '
+                                  'may have "identity:" and "driver:", and the parameters below '
+                                  'the latter')
         own = entry.get('driver')
         if not isinstance(own, (dict, type(None))):
-            raise CamerasError(f'{path}: "driver" of camera {name} must have lines "parameter: '
-                               'value"')
+            raise ExperimentError(f'{path}: "driver" of camera {name} must have lines "parameter: '
+                                  'value"')
         parameters[name] = own or {}
     return parameters
 

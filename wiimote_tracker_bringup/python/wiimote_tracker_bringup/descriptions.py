@@ -6,30 +6,20 @@ import os
 from typing import Dict
 
 import numpy as np
-import yaml
 
 from wiimote_tracker_bringup import experiment
+from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 
 MIDDLE = np.array([experiment.SIDE / 2.0, experiment.SIDE / 2.0, 0.0])  # of the rig's floor [m]
 
 
-def read(path: str) -> Dict:
-    """A description, or a calibrated rig."""
-    with open(path) as file:
-        return yaml.safe_load(file)
-
-
 def is_description(path: str) -> bool:
     try:
-        content = read(path)
-    except (OSError, yaml.YAMLError):
+        content = read_yaml(path)
+    except ExperimentError:
         return False
     return isinstance(content, dict) and 'seed' in content
-
-
-def write(path: str, description: Dict) -> None:
-    with open(path, 'w') as file:
-        yaml.safe_dump(description, file, sort_keys=False)
 
 
 def with_absolute_files(description: Dict, folder: str) -> Dict:

@@ -1,8 +1,8 @@
-"""Errors of an experiment."""
+"""Refusals."""
 
 
 class ExperimentError(Exception):
-    """The experiment cannot continue; the text says why and what to do."""
+    """What was wanted is not possible; the text says why and what to do."""
 
 
 def sentence_of(error: Exception) -> str:

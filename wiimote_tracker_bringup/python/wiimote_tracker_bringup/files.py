@@ -3,9 +3,31 @@
 import os
 import shutil
 import tempfile
-from typing import Iterable, Optional
+from typing import Any, Iterable, Optional
+
+import yaml
 
 from wiimote_tracker_bringup.errors import ExperimentError
+
+
+def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:
+    """Its content. Throws ExperimentError if it cannot be read, or is no YAML."""
+    try:
+        with open(path) as file:
+            return loader(file).get_single_data()
+    except OSError as error:
+        raise ExperimentError(f'{path} cannot be read ({error.strerror}): correct its path or its '
+                              'permissions') from error
+    except UnicodeDecodeError as error:
+        raise ExperimentError(f'{path} is no text ({error}): correct its path') from error
+    except yaml.YAMLError as error:
+        raise ExperimentError('%s is not valid YAML (%s): correct it' % (
+            path, str(error).replace('\n', ' '))) from error
+
+
+def write_yaml(path: str, content: Any) -> None:
+    with open(path, 'w') as file:
+        yaml.safe_dump(content, file, sort_keys=False)
 
 
 def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional[str]]) -> None:

@@ -1,9 +1,7 @@
-"""Numbers that people give, which must be in a range."""
+"""Numbers on the command line, which must be in a range."""
 
 import argparse
 from typing import Callable, Type, TypeVar
-
-from wiimote_tracker_bringup.errors import ExperimentError
 
 Number = TypeVar('Number', int, float)
 
@@ -20,10 +18,3 @@ def within(least: Number, most: Number, kind: Type[Number] = float) -> Callable[
             raise argparse.ArgumentTypeError(f'{text} is not within {least} and {most}')
         return value
     return read
-
-
-def check(name: str, value: object, least: float, most: float) -> float:
-    """The value of a parameter. Throws ExperimentError if it is no number within the range."""
-    if isinstance(value, (int, float)) and not isinstance(value, bool) and least <= value <= most:
-        return value
-    raise ExperimentError(f'{name} is {value!r}, but must be within {least} and {most}: correct it')

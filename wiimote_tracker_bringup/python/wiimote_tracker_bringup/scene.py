@@ -8,8 +8,8 @@ from typing import List
 
 import numpy as np
 
-from wiimote_tracker_bringup import descriptions
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 
 
 class Camera:
@@ -81,7 +81,7 @@ class Scene:
 
 def read_scene(path: str) -> Scene:
     """Scene of a rig description. ExperimentError if a lens has distortion other than k1."""
-    description = descriptions.read(path)
+    description = read_yaml(path)
     cameras = []
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']

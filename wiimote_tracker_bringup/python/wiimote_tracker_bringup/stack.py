@@ -9,7 +9,7 @@ import re
 import shutil
 import tempfile
 
-from wiimote_tracker_bringup import descriptions
+from wiimote_tracker_bringup.files import write_yaml
 from wiimote_tracker_bringup.processes import Processes, free_port
 from wiimote_tracker_bringup.programs import package_file
 
@@ -52,7 +52,7 @@ def launch_rig(run, name, description, **arguments):
     """Starts the whole system on a rig, with the section's seed. Returns the description's path and
     a Conductor, once all cameras send images."""
     path = run.file(name + '_rig.yaml')
-    descriptions.write(path, dict(description, seed=run.seed))
+    write_yaml(path, dict(description, seed=run.seed))
     launch(run.folder, 'evaluation/full_stack.launch', description=path, folder='{folder}',
            **arguments)
     # Imported late: rospy reads the master's address at import.

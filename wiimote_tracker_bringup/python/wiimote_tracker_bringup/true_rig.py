@@ -4,11 +4,12 @@ from scipy.spatial.transform import Rotation
 from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
 
 from wiimote_tracker_bringup import descriptions, scene
+from wiimote_tracker_bringup.files import read_yaml
 
 
 def true_rig(path):
     """RigCalibration of the exact cameras of a rig description's file."""
-    identities = descriptions.identities(descriptions.read(path))
+    identities = descriptions.identities(read_yaml(path))
     rig = RigCalibration(format_version=RigCalibration.FORMAT_VERSION, id='', method='true',
                          ray_model=RigCalibration.RAY_MODEL_CALIBRATED,
                          virtual_hfov=float('nan'), led_height=float('nan'))

@@ -8,7 +8,6 @@ Private parameters:
   description  the rig description to begin with; empty: a quick proposal (default: empty)
 """
 
-import argparse
 import dataclasses
 import textwrap
 import threading
@@ -20,9 +19,8 @@ from sensor_msgs.msg import PointCloud2
 from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Trigger, TriggerResponse
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
-from wiimote_tracker_bringup import descriptions, files
+from wiimote_tracker_bringup import descriptions, files, nodes
 from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
-from wiimote_tracker_bringup.ros_master import require_master
 from wiimote_tracker_rig_planning import cells, handles, plan, plan_rig, prediction, search
 
 CORNERS = ('lower corner', 'upper corner')  # of the volume
@@ -116,7 +114,7 @@ class PlaceCameras:
         try:
             if not self._is_saved:  # a file of before, perhaps with comments
                 files.keep_copy(self._output)
-            descriptions.write(self._output, description)
+            files.write_yaml(self._output, description)
             self._is_saved = True
         except OSError as error:
             return TriggerResponse(False, f'not saved: {sentence_of(error)}')
@@ -125,12 +123,7 @@ class PlaceCameras:
 
 
 def main():
-    argparse.ArgumentParser(
-        prog='place_cameras', description=__doc__,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    ).parse_args(rospy.myargv()[1:])
-    require_master()
-    rospy.init_node('place_cameras')
+    nodes.start('place_cameras', __doc__)
     try:
         chosen = plan.read(rospy.get_param('~plan'))
         output = rospy.get_param('~output')

@@ -4,9 +4,9 @@ import dataclasses
 from typing import Tuple
 
 import numpy as np
-import yaml
 
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 
 Box = Tuple[float, float, float, float, float, float]  # two opposite corners, the lesser first [m]
 Light = Tuple[float, float, float, float, float, float]  # an LED on a body: place [m], direction
@@ -53,11 +53,7 @@ class Plan:
 
 def read(path: str) -> Plan:
     """Throws ExperimentError if a key is unknown, missing or out of range."""
-    try:
-        with open(path) as file:
-            content = yaml.safe_load(file)
-    except (OSError, yaml.YAMLError) as error:
-        raise ExperimentError(f'{path} cannot be read: {error}') from error
+    content = read_yaml(path)
     fields = {field.name: field for field in dataclasses.fields(Plan)}
     if not isinstance(content, dict):
         raise ExperimentError(f'{path} must have the keys {", ".join(fields)}')

@@ -5,7 +5,6 @@ import os
 import sys
 
 import numpy as np
-import yaml
 
 from wiimote_tracker_bringup import bound, descriptions, files, interruption, ranges, scene
 from wiimote_tracker_bringup.errors import ExperimentError
@@ -90,7 +89,7 @@ def with_calibration(chosen, names, positions, targets, points):
 
 def description(chosen, positions, targets):
     """A rig for simulated_rig."""
-    example = descriptions.read(package_file('simulation/paper_rig.yaml'))
+    example = files.read_yaml(package_file('simulation/paper_rig.yaml'))
     like = next(iter(example['cameras'].values()))
     focal_x, focal_y, center_x, center_y, k1 = map(float, NOMINAL_LENS)
     lens = {'fx': focal_x, 'fy': focal_y, 'cx': center_x, 'cy': center_y,
@@ -107,10 +106,10 @@ def description(chosen, positions, targets):
 def read_rig(path):
     """A rig description that can be written to another folder."""
     try:
-        rig = descriptions.with_absolute_files(descriptions.read(path), os.path.dirname(path))
+        rig = descriptions.with_absolute_files(files.read_yaml(path), os.path.dirname(path))
         places_of(rig)
         return rig
-    except (AttributeError, KeyError, TypeError, ValueError, yaml.YAMLError) as error:
+    except (AttributeError, KeyError, TypeError, ValueError) as error:
         raise ExperimentError(f'{path} is no rig description with position and look_at of each '
                               'camera, such as simulation/paper_rig.yaml') from error
 
@@ -153,7 +152,7 @@ def run(arguments):
     print('\n'.join(describe_sight(chosen, names, positions, targets)))
     if arguments.output:
         files.keep_copy(arguments.output)
-        descriptions.write(arguments.output, rig)
+        files.write_yaml(arguments.output, rig)
     if arguments.plot:
         picture.draw(chosen, positions, targets, arguments.plot)
 

@@ -1,6 +1,6 @@
 """Writes rig.yaml from a RigCalibration, independent of the tracker's own writer."""
 
-from wiimote_tracker_bringup import descriptions
+from wiimote_tracker_bringup.files import write_yaml
 
 PLANE = ('x', 'y', 'z')
 
@@ -14,7 +14,7 @@ def write_rig(path, rig):
         'camera_order': [camera.name for camera in rig.cameras],
         'cameras': {camera.name: _camera(camera, rig.header.frame_id) for camera in rig.cameras},
         'zones': [], 'covariance': {'rows': 0, 'cols': 0, 'data': []}, 'complete': True}
-    descriptions.write(path, content)
+    write_yaml(path, content)
 
 
 def _camera(camera, world):

@@ -9,6 +9,7 @@ import time
 
 from wiimote_tracker_bringup import descriptions
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml, write_yaml
 from wiimote_tracker_bringup.processes import descendants, free_port
 from wiimote_tracker_bringup.programs import find_program, package_file
 from wiimote_tracker_bringup.true_rig import true_rig
@@ -46,13 +47,13 @@ class Room:
         self._dark = DARK if dark else {}
         self.folder = tempfile.mkdtemp(prefix='wiimote_tracker_faults_')
         self.log = os.path.join(self.folder, 'nodes.log')
-        paper = descriptions.read(package_file('simulation/paper_rig.yaml'))
+        paper = read_yaml(package_file('simulation/paper_rig.yaml'))
         description = dict(
             descriptions.with_leds(descriptions.with_cameras(paper, cameras), []),
             leds=dict(LEDS, **self._dark), truth_rate=50.0)
         self.cameras = list(description['cameras'])
-        descriptions.write(self.file('room.yaml'), description)
-        descriptions.write(self.file('cameras.yaml'), {'cameras': {
+        write_yaml(self.file('room.yaml'), description)
+        write_yaml(self.file('cameras.yaml'), {'cameras': {
             name: identity for name, identity in descriptions.identities(description).items()
             if name not in relayed and name not in far}})
         write_rig(self.file('rig.yaml'), true_rig(self.file('room.yaml')))

@@ -3,9 +3,9 @@
 import time
 
 import numpy as np
-import yaml
 
 from wiimote_tracker_bringup import charts
+from wiimote_tracker_bringup.files import write_yaml
 from wiimote_tracker_evaluation.live.dialogue import SKIP
 from wiimote_tracker_evaluation.live.running_tracker import with_tracker
 
@@ -88,8 +88,7 @@ def tell(run, camera, pairs):
         run.figure(f"live_{('%g' % current).replace('.', '_')}_mA", np.mean(values), 'm',
                    len(values), note=f'Distance from which the LED is seen with {current:g} mA',
                    end_to_end=True)
-    with open(run.file('distances.yaml'), 'w') as file:
-        yaml.safe_dump({'distances': means}, file)
+    write_yaml(run.file('distances.yaml'), {'distances': means})
     run.say('`distance/distances.yaml` holds the means for a file such as `led.yaml` (`--led`).')
     run.figure('live_1_A', factor, 'm', len(pairs), note='The same with 1 A, by the inverse square '
                'law fitted to all', end_to_end=True)

@@ -7,7 +7,7 @@ import time
 import numpy as np
 
 from wiimote_tracker_bringup.errors import ExperimentError
-from wiimote_tracker_bringup.ros_master import master_problem
+from wiimote_tracker_bringup.nodes import master_problem
 from wiimote_tracker_bringup.waiting import wait_until
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 

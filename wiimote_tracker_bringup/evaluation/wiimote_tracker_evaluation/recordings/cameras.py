@@ -9,9 +9,9 @@ of the first camera, to START.
 import os
 
 import numpy as np
-import yaml
 
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_evaluation.recordings.lighthouse import read_table
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
@@ -24,14 +24,13 @@ ROUNDS = 20  # of the inversion of a lens
 def read(folder: str) -> Views:
     """@raise ExperimentError: a file is missing or has another format."""
     path = os.path.join(folder, 'cameras.yaml')
+    lenses = read_yaml(path)
     try:
-        with open(path) as file:
-            lenses = yaml.safe_load(file)
         for lens in lenses.values():
             *_, distortion, _ = [lens[key] for key in KEYS]
             if len(distortion) != 5:
                 raise ValueError(f'distortion is {distortion}, but must have 5 numbers')
-    except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise ExperimentError(f'{path} cannot be read: {error}; each camera needs '
                               + ', '.join(KEYS))
     path = os.path.join(folder, 'detections.csv')

@@ -14,7 +14,8 @@ import rosbag
 import rospy
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup import alignment, descriptions, programs
+from wiimote_tracker_bringup import alignment, programs
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_evaluation.recordings import pipeline
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and '
@@ -73,7 +74,7 @@ def figures(true_rig, number, played, folder):
     truth = points_of(true_bag, folder)
     before = points_of(disturbed_bag, folder)
     after = points_of(images_bag, folder, '--rig', corrected_rig)
-    return {**errors_of(descriptions.read(corrected_rig), true_rig.cameras[number]),
+    return {**errors_of(read_yaml(corrected_rig), true_rig.cameras[number]),
             'points_before_mm': 1e3 * rms_error(before, truth),
             'points_after_mm': 1e3 * rms_error(after, truth)}
 

@@ -15,8 +15,9 @@ import rospy
 import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
-from wiimote_tracker_bringup import descriptions, multicamselfcal, programs
+from wiimote_tracker_bringup import multicamselfcal, programs
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml, write_yaml
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 
@@ -44,8 +45,7 @@ def calibrate(views, folder, parts=None):
     rotations, positions, path = first_poses(views, folder)
     side, corners = made_up_square(rotations[list(numbers)], positions[list(numbers)], path)
     write_samples(cameras, side, corners, samples)
-    with open(parameters, 'w') as file:
-        yaml.safe_dump(dict(HELD, pixel_stddev=CORNER_STDDEV), file)
+    write_yaml(parameters, dict(HELD, pixel_stddev=CORNER_STDDEV))
     programs.run('wiimote_tracker_calibration/solve_samples', samples, '--params', parameters,
                  '--rig', rig)
     return Rig(rig)
@@ -120,11 +120,11 @@ def lenses_of(views, rig, folder):
     """A file of the rig whose covariance is that of its lenses, whose principal points are off by
     views.accuracy: poses are aligned later."""
     path = os.path.join(folder, 'lenses.yaml')
-    content = descriptions.read(rig.path)
+    content = read_yaml(rig.path)
     variances = np.zeros((len(views.cameras), PER_CAMERA))
     variances[:, PRINCIPAL_POINT] = views.accuracy ** 2
     content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())
-    descriptions.write(path, content)
+    write_yaml(path, content)
     return path
 
 
@@ -136,11 +136,11 @@ def track(views, rig, folder, smooth=False):
     write_bag(views, rig.offsets, source)
     # Each spot is known to be the body's: one of each camera starts a track, and another, which
     # tells its speed, confirms it.
-    with open(parameters, 'w') as file:
-        yaml.safe_dump({'pixel_stddev': rig.pixel_stddev(),
-                        'tracks': {'birth_window': BIRTH_WINDOW,
-                                  'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
-                                   'confirmation_hits': len(views.cameras)}}, file)
+    write_yaml(parameters, {
+        'pixel_stddev': rig.pixel_stddev(),
+        'tracks': {'birth_window': BIRTH_WINDOW,
+                   'birth_pixel_stddev': BIRTH_WINDOW * spot_speed(views),
+                   'confirmation_hits': len(views.cameras)}})
     programs.run('wiimote_tracker_triangulation/track_bag', source, target,
                  '--rig', lenses_of(views, rig, folder), '--params', parameters, '--csv', table,
                  '--results-only', *(['--smooth'] if smooth else []))
@@ -157,9 +157,8 @@ def track_light(source, folder, mode, *options):
     target, parameters = (os.path.join(folder, name) for name in ('light.bag', 'light.yaml'))
     # Frames may be missing: the light may move by metres between instants, which narrow gates do
     # not allow.
-    with open(parameters, 'w') as file:
-        yaml.safe_dump({'instant': {'maximum_leds': 1, 'maximum_speed': 1000.0,
-                                    'maximum_spot_speed': 1e5}, 'learnt_noise': False}, file)
+    write_yaml(parameters, {'instant': {'maximum_leds': 1, 'maximum_speed': 1000.0,
+                                        'maximum_spot_speed': 1e5}, 'learnt_noise': False})
     programs.run('wiimote_tracker_triangulation/track_bag', source, target, '--mode', mode,
                  '--results-only', '--params', parameters, *options)
     return target

@@ -3,8 +3,8 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup import descriptions
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_bringup.scene import Camera
 
 DISTANCE = 3.0  # of a light from cameras in a room [m]
@@ -25,7 +25,7 @@ def camera_of(message):
 def cameras_of(path):
     """The cameras of a rig's file, whose lenses are taken for plumb_bob."""
     cameras = []
-    for name, camera in descriptions.read(path)['cameras'].items():
+    for name, camera in read_yaml(path)['cameras'].items():
         pose = camera['extrinsics']['transform']
         fx, _, cx, _, fy, cy = camera['camera_matrix']['data'][:6]
         cameras.append(Camera(
@@ -54,7 +54,7 @@ class Rig:
 
     def __init__(self, path):
         self.path = path
-        cameras, entries = cameras_of(path), descriptions.read(path)['cameras'].values()
+        cameras, entries = cameras_of(path), read_yaml(path)['cameras'].values()
         self.rotations = np.array([camera.rotation for camera in cameras])
         self.positions = np.array([camera.position for camera in cameras])
         self.offsets = np.nan_to_num([entry['time_offset'] for entry in entries])

@@ -3,6 +3,7 @@
 import numpy as np
 
 from wiimote_tracker_bringup import alignment, charts, descriptions, experiment, stack, statistics
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_evaluation.live import latency as with_a_person
 from wiimote_tracker_evaluation.trace import Recorder
 
@@ -80,7 +81,7 @@ def measure(run, number, laps):
     def progress(part, what):
         run.progress(number + part, len(CASES), what)
     description = descriptions.with_cameras(
-        descriptions.centred(descriptions.read(run.rig), SIDE / experiment.SIDE), cameras)
+        descriptions.centred(read_yaml(run.rig), SIDE / experiment.SIDE), cameras)
     progress(0.0, 'starting %d virtual Wii Remotes' % cameras)
     _, conductor = stack.launch_rig(run, name, description, side_length=SIDE, origin=SIDE / 2.0)
     conductor.move(CENTRE, CARRY_SPEED)

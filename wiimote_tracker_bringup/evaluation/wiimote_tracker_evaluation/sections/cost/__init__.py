@@ -9,6 +9,7 @@ import sys
 import numpy as np
 
 from wiimote_tracker_bringup import charts, descriptions, stack, statistics
+from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_bringup.true_rig import publish, true_rig
 from wiimote_tracker_evaluation.sections.cost import load
 from wiimote_tracker_evaluation.trace import Recorder
@@ -77,7 +78,7 @@ class FullStack:
     def __init__(self, run, cameras):
         self._run, self._number = run, cameras
         description = descriptions.with_leds(
-            descriptions.with_cameras(descriptions.read(run.rig), cameras), PLACES, False)
+            descriptions.with_cameras(read_yaml(run.rig), cameras), PLACES, False)
         self._cameras, self._leds = list(description['cameras']), list(description['leds'])
         path, self._conductor = stack.launch_rig(run, '%d_cameras' % cameras, description,
                                                  labels=','.join(self._leds))

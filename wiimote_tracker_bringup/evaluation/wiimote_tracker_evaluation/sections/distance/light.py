@@ -5,9 +5,9 @@ virtual Wii Remote, whose sensor decides what is seen.
 """
 
 import numpy as np
-import yaml
 
 from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.files import read_yaml
 
 SENSITIVITIES = ('wii_1', 'wii_2', 'wii_3', 'wii_4', 'wii_5', 'max')
 
@@ -42,14 +42,13 @@ def detection_distance(brightness: float, threshold: float) -> float:
 
 def read_led(path: str) -> Led:
     """Reads an LED from a file such as led.yaml. @raise ExperimentError: says what is wrong."""
+    content = read_yaml(path)
     try:
-        with open(path) as file:
-            content = yaml.safe_load(file)
         angle = float(content['half_power_angle'])
         sensitivity = content['sensitivity']
         measured = [(float(current), float(distance))
                     for current, distance in content['distances'].items()]
-    except (OSError, yaml.YAMLError, KeyError, TypeError, ValueError, AttributeError) as error:
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise ExperimentError(f'{path} is not a description of an LED ({type(error).__name__}: '
                               f'{error}); see led.yaml of this package')
     if not 1.0 <= angle <= 179.0:

@@ -1,0 +1,52 @@
+"""How nodes begin: the ROS master, and their private parameters."""
+
+import argparse
+import sys
+from typing import Dict, Set
+
+from wiimote_tracker_bringup.errors import ExperimentError
+
+
+def master_problem(advice: str) -> str:
+    """Why no ROS master can be used, and what to do; empty if one answers. advice: without one."""
+    import rosgraph  # evaluate --help must do without
+    address = rosgraph.get_master_uri()
+    try:
+        is_online = rosgraph.is_master_online()
+    except (OSError, ValueError):  # OSError: neither http nor https
+        return (f'ROS_MASTER_URI is {address or "empty"}, but must be such as http://HOST:11311: '
+                'correct it')
+    return '' if is_online else f'there is no ROS master at {address}: {advice}'
+
+
+def start(name: str, documentation: str) -> None:
+    """Makes the program a node. Answers --help; ends the program, with what to do, if there is no
+    ROS master: rospy would wait for one for ever, even where none can be."""
+    import rospy
+    argparse.ArgumentParser(
+        prog=name, description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter,
+    ).parse_args(rospy.myargv()[1:])
+    problem = master_problem('start roscore or use roslaunch')
+    if problem:
+        sys.exit(f'{name}: {problem}')
+    rospy.init_node(name)
+
+
+def refuse_unknown(given: Dict, known: Set[str]) -> None:
+    """Throws ExperimentError if one of these private parameters is misspelt; the master keeps
+    it."""
+    import rospy
+    for name in sorted(set(given) - known):
+        parameter = rospy.resolve_name('~' + name)
+        raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and remove it '
+                              f'from the master by: rosparam delete {parameter}')
+
+
+def number(parameter: str, default: float, least: float, most: float) -> float:
+    """The value of a parameter. Throws ExperimentError if it is no number within the range."""
+    import rospy
+    value = rospy.get_param(parameter, default)
+    if isinstance(value, (int, float)) and not isinstance(value, bool) and least <= value <= most:
+        return value
+    raise ExperimentError(f'{rospy.resolve_name(parameter)} is {value!r}, but must be within '
+                          f'{least} and {most}: correct it')

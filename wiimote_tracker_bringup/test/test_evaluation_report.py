@@ -179,7 +179,7 @@ def test_results_before_an_interruption_are_kept(evaluate, tmp_path):
         evaluate(modules)
     assert figures(tmp_path)['failed'] == ['cut']
     page = (tmp_path / 'out/report.html').read_text(encoding='utf-8')
-    assert 'As far as this.' in page and 'It can be <b>trusted</b>.' in page
+    assert 'As far as this.' in page and 'It can be <strong>trusted</strong>.' in page
     assert 'About never' not in page
 
 

@@ -4,14 +4,13 @@ of results, rigs, programs and load."""
 import io
 import json
 import os
-import subprocess
 
 import numpy as np
 import pytest
 import scipy.stats
 
 from section_run import section_run
-from wiimote_tracker_bringup import descriptions, files, processes, programs, scene, statistics
+from wiimote_tracker_bringup import descriptions, files, programs, scene, statistics
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_evaluation import progress, results_table, sessions
 from wiimote_tracker_evaluation.report import words
@@ -213,21 +212,6 @@ def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path
     assert ended[-1] == (3, 3)
     with pytest.raises(ExperimentError, match='no such luck'):
         programs.run_programs([['sh', '-c', 'echo no such luck; exit 3']], log)
-
-
-def test_processes_are_found_beside_one_with_half_a_letter_in_its_name():
-    child = subprocess.Popen(['sleep', '60'])
-    with open('/proc/self/comm', 'rb+', buffering=0) as name:
-        before = name.read().strip()
-        name.write('Übersicht––'.encode()[:15])
-        try:
-            found = processes.descendants()
-        finally:
-            name.write(before)
-            child.kill()
-            child.wait()
-    assert child.pid in found and os.getpid() not in found
-    assert child.pid not in processes.descendants()
 
 
 def test_columns_of_numbers_are_read_as_numbers(tmp_path):

@@ -1,5 +1,6 @@
 """Child processes that end with their owner, with all their children."""
 
+import contextlib
 import ctypes
 import os
 import signal
@@ -7,6 +8,8 @@ import socket
 import subprocess
 import time
 from typing import List, Sequence
+
+import psutil
 
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.waiting import wait_until
@@ -34,27 +37,14 @@ def spawn(command: List[str], output: str) -> subprocess.Popen:
                                 preexec_fn=lambda: prctl(PR_SET_PDEATHSIG, signal.SIGTERM))
 
 
-def descendants() -> List[int]:
-    """Ids of all processes below this one, except zombies."""
-    parent_of = {}
-    for entry in os.listdir('/proc'):
-        if not entry.isdigit():
-            continue
+def descendants() -> List[psutil.Process]:
+    """All processes below this one, except zombies."""
+    def runs(process):
         try:
-            with open(f'/proc/{entry}/stat', errors='replace') as file:
-                # The name in parentheses may contain spaces and parentheses, and half a letter: it
-                # is cut off after 15 bytes.
-                state, parent = file.read().rpartition(')')[2].split()[:2]
-        except OSError:
-            continue  # it has ended
-        if state != 'Z':
-            parent_of[int(entry)] = int(parent)
-    found = {os.getpid()}
-    while True:
-        more = {child for child, parent in parent_of.items() if parent in found} - found
-        if not more:
-            return found - {os.getpid()}
-        found |= more
+            return process.status() != psutil.STATUS_ZOMBIE
+        except psutil.NoSuchProcess:
+            return False
+    return [each for each in psutil.Process().children(recursive=True) if runs(each)]
 
 
 class Processes:
@@ -109,25 +99,19 @@ class Processes:
                 time.sleep(0.02)
             if number is not None:
                 for process in descendants():
-                    try:
-                        os.kill(process, number)
-                    except ProcessLookupError:
-                        pass
+                    with contextlib.suppress(psutil.NoSuchProcess):
+                        process.send_signal(number)
         self._reap()
         self._started = []
 
     @staticmethod
     def _signal_group(process, number):
-        try:
+        with contextlib.suppress(ProcessLookupError):
             os.killpg(process.pid, number)
-        except ProcessLookupError:
-            pass
 
     def _reap(self):
         for _, process, _ in self._started:
             process.poll()
-        try:
+        with contextlib.suppress(ChildProcessError):
             while os.waitpid(-1, os.WNOHANG)[0]:
                 pass
-        except ChildProcessError:
-            pass

@@ -7,6 +7,8 @@ import signal
 import tempfile
 import time
 
+import psutil
+
 from wiimote_tracker_bringup import descriptions
 from wiimote_tracker_bringup.errors import ExperimentError
 from wiimote_tracker_bringup.files import read_yaml, write_yaml
@@ -124,18 +126,15 @@ class Room:
     def nodes(self):
         """Process ids by the nodes' names."""
         found = {}
-        for process in sorted(descendants()):
+        for process in sorted(descendants(), key=lambda each: each.pid):
             try:
-                with open(f'/proc/{process}/cmdline', errors='replace') as file:
-                    words = file.read().split('\0')
-                with open(f'/proc/{process}/environ', errors='replace') as file:
-                    space = dict(word.partition('=')[::2] for word in file.read().split('\0'))
-            except OSError:
+                words, variables = process.cmdline(), process.environ()
+            except psutil.Error:
                 continue  # it has ended
             for word in words:
                 if word.startswith('__name:='):
-                    name = space.get('ROS_NAMESPACE', '').strip('/') + '/' + word[len('__name:='):]
-                    found['/' + name.strip('/')] = process
+                    space = variables.get('ROS_NAMESPACE', '').strip('/')
+                    found['/' + f'{space}/{word[len("__name:="):]}'.strip('/')] = process.pid
         return found
 
     def pid(self, node):

@@ -5,6 +5,7 @@ import time
 import xmlrpc.client
 
 import numpy as np
+import psutil
 
 TICK = 1.0 / os.sysconf('SC_CLK_TCK')  # [s]
 
@@ -18,10 +19,8 @@ def process_of(node):
 
 def processor_time(process: int) -> float:
     """User and kernel time of a process and its threads so far [s]."""
-    with open('/proc/%d/stat' % process) as file:
-        # The name in parentheses may contain spaces and parentheses.
-        fields = file.read().rpartition(')')[2].split()
-    return TICK * (int(fields[11]) + int(fields[12]))
+    times = psutil.Process(process).cpu_times()
+    return times.user + times.system
 
 
 def measure(processes, seconds, check, interval=1.0):

@@ -130,6 +130,7 @@ def test_a_remote_is_paired_and_tried(computer, dialogue):
     assert (status, err) == (0, ''), out
     assert 'SYNC' in out and 'Paired.' in out and 'Connected.' in out
     assert '/dev/hidraw3: free' in out
+    assert f'--replace CAMERA {A.lower()} ' in out
     assert computer.calls() == [f'wiimote_tracker_driver list_wiimotes --device {A} --json']
 
 
@@ -301,49 +302,8 @@ def test_without_bluetoothctl(computer, monkeypatch):
     assert 'apt install bluez' in err
 
 
-def test_replacing_a_camera(computer):
-    cameras = computer.folder / 'cameras.yaml'
-    cameras.write_text('cameras:\n  wiimote_2: "00:1f:32:00:00:02"\n')
-    status, _, _ = computer.pair(FOUND + TO_THE_END, '--replace', 'wiimote_2',
-                                 '--cameras', str(cameras), '--camera-info', '/some/folder')
-    assert status == 0
-    assert computer.calls()[-1] == (
-        'wiimote_tracker_driver list_wiimotes --replace wiimote_2 %s --cameras %s '
-        '--camera-info /some/folder' % (A.lower(), cameras))
-
-
-def test_a_camera_that_is_not_in_the_list_is_refused_at_once(computer):
-    cameras = computer.folder / 'cameras.yaml'
-    cameras.write_text('cameras:\n  wiimote_2: "00:1f:32:00:00:02"\n')
-    status, out, err = computer.pair('', '--replace', 'wiimote_3', '--cameras', str(cameras))
-    assert (status, out) == (1, '')
-    assert 'no camera wiimote_3' in err
-
-
-def test_a_list_that_is_no_text_is_refused_at_once(computer):
-    cameras = computer.folder / 'cameras.yaml'
-    cameras.write_bytes(b'cameras:\n  wiimote_2: \xff\n')
-    status, out, err = computer.pair('', '--replace', 'wiimote_2', '--cameras', str(cameras))
-    assert (status, out) == (1, '')
-    assert f'{cameras} is no text' in err
-
-
-def test_a_list_that_cannot_be_read_is_refused_at_once(computer, monkeypatch):
-    cameras = computer.folder / 'cameras.yaml'
-    cameras.write_text('cameras:\n  wiimote_2: "00:1f:32:00:00:02"\n')
-
-    def refuse(path):  # as open() would, but not for root
-        raise PermissionError(13, 'Permission denied', path)
-    monkeypatch.setattr(pair, 'open', refuse, raising=False)
-    status, out, err = computer.pair('', '--replace', 'wiimote_2', '--cameras', str(cameras))
-    assert (status, out) == (1, '')
-    assert f'{cameras} cannot be read (Permission denied)' in err
-
-
 @pytest.mark.parametrize('arguments', [
-    ['--replace', 'wiimote_2'], ['--cameras', 'x'], ['--camera-info', 'x'], ['--timeout', '0'],
-    ['--address', 'hidraw0'],
-    ['--replace', 'a', '--cameras', '/nowhere/cameras.yaml'], ['--timeout', 'nan']])
+    ['--timeout', '0'], ['--timeout', 'nan'], ['--address', 'hidraw0']])
 def test_invalid_arguments_are_refused_before_anything_is_done(computer, arguments):
     with pytest.raises(SystemExit) as stop:
         computer.pair('', *arguments)

@@ -3,7 +3,7 @@
 from typing import List, Optional, Tuple
 
 from .guide import Advice, Guide
-from .layout import bar, duration, figure, fitted, padded, wrapped
+from .text import bar, duration, figure, fitted, padded, wrapped
 from .screen import COLUMNS, ROWS, is_too_small, panel, prompt_lines, too_small
 
 KEYS = ['SPACE next  n start again  u undo  s solve  v save  x cancel  q quit',

@@ -9,7 +9,7 @@ from typing import Any, Callable, Iterable, List, Optional, Sequence
 from .commands import UsageError, number
 from .dialogue import Dialogue
 from .guide import FOUND_WITHIN
-from .layout import figure
+from .text import figure
 
 PERIOD = 0.05         # [s] Between two checks for input and events.
 LONGEST_WAIT = 60.0   # [s] Default of the word wait.

@@ -4,7 +4,7 @@ import math
 from typing import List, Optional, Sequence, Tuple
 
 from .guide import Guide
-from .layout import bar, duration, figure, fitted, in_columns, padded, wrapped
+from .text import bar, duration, figure, fitted, in_columns, padded, wrapped
 
 ROWS, COLUMNS = 24, 80          # the smallest window
 CELL_ROWS, CELL_COLUMNS = 6, 8  # as CalibrationCameraStatus.image_cells

@@ -6,7 +6,7 @@ from wiimote_tracker_msgs.msg import (BoardStatus, CalibrationStatus, Calibratio
                                       CameraVerdict, PrincipalPointTrace)
 
 from fakes import NAN, camera, guide_at, status
-from guide import board_screen, commands, layout, screen
+from guide import board_screen, commands, screen, text
 from guide.guide import Guide
 
 
@@ -317,12 +317,12 @@ def test_more_cameras_than_fit_are_on_further_pages():
 
 
 def test_bars_and_wrapping():
-    assert layout.bar(0.0, 4) == '[----]'
-    assert layout.bar(0.5, 4) == '[##--]'
-    assert layout.bar(1.0, 4) == layout.bar(7.0, 4) == '[####]'
-    assert layout.bar(NAN, 4) == layout.bar(-1.0, 4) == '[----]'
-    assert layout.wrapped('one two three four', 9, 2) == ['one two', 'three...']
-    assert layout.wrapped('', 9, 2) == []
+    assert text.bar(0.0, 4) == '[----]'
+    assert text.bar(0.5, 4) == '[##--]'
+    assert text.bar(1.0, 4) == text.bar(7.0, 4) == '[####]'
+    assert text.bar(NAN, 4) == text.bar(-1.0, 4) == '[----]'
+    assert text.wrapped('one two three four', 9, 2) == ['one two', 'three...']
+    assert text.wrapped('', 9, 2) == []
 
 
 def test_the_walk_is_shown():

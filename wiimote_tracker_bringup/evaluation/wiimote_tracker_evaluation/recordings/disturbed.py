@@ -17,6 +17,7 @@ from scipy.spatial.transform import Rotation
 from wiimote_tracker_bringup import alignment, programs
 from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_evaluation.recordings import pipeline
+from wiimote_tracker_evaluation.recordings.solved_rig import camera_of, cameras_of
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and '
           'keep_calibrated corrects the rig from the recording, played to and fro')
@@ -74,7 +75,7 @@ def figures(true_rig, number, played, folder):
     truth = points_of(true_bag, folder)
     before = points_of(disturbed_bag, folder)
     after = points_of(images_bag, folder, '--rig', corrected_rig)
-    return {**errors_of(read_yaml(corrected_rig), true_rig.cameras[number]),
+    return {**errors_of(corrected_rig, true_rig.cameras[number]),
             'points_before_mm': 1e3 * rms_error(before, truth),
             'points_after_mm': 1e3 * rms_error(after, truth)}
 
@@ -82,26 +83,22 @@ def figures(true_rig, number, played, folder):
 def disturb(camera, axis):
     """Turns it by ANGLE about an axis of its own, and sets its clock off by LATE."""
     orientation = camera.world_from_camera.orientation
-    turned = rotation_of(orientation) * Rotation.from_rotvec(ANGLE * axis / np.linalg.norm(axis))
+    turned = Rotation.from_matrix(camera_of(camera).rotation) * Rotation.from_rotvec(
+        ANGLE * axis / np.linalg.norm(axis))
     orientation.x, orientation.y, orientation.z, orientation.w = turned.as_quat()
     camera.time_offset = LATE
 
 
-def errors_of(corrected_rig, true_camera):
-    """Of the camera in the content of a rig's file."""
-    found = corrected_rig['cameras'][true_camera.name]
-    pose, true_pose = found['extrinsics']['transform'], true_camera.world_from_camera
-    remaining = rotation_of(true_pose.orientation).inv() * Rotation.from_quat(
-        [pose['rotation'][axis] for axis in 'xyzw'])
-    moved = [pose['translation'][axis] - getattr(true_pose.position, axis) for axis in 'xyz']
-    changed = found['time_offset'] != LATE
+def errors_of(path, true_message):
+    """Of a camera in a rig's file."""
+    content, true = read_yaml(path), camera_of(true_message)
+    found = next(each for each in cameras_of(path) if each.name == true.name)
+    remaining = Rotation.from_matrix(true.rotation.T @ found.rotation)
+    offset = content['cameras'][true.name]['time_offset']
     return {'turned_deg': float(np.degrees(remaining.magnitude())),
-            'moved_mm': float(1e3 * np.linalg.norm(moved)), 'clock_ms': 1e3 * found['time_offset'],
-            'after_s': corrected_rig['solved_at'] - START if changed else None}
-
-
-def rotation_of(orientation):
-    return Rotation.from_quat([orientation.x, orientation.y, orientation.z, orientation.w])
+            'moved_mm': float(1e3 * np.linalg.norm(found.position - true.position)),
+            'clock_ms': 1e3 * offset,
+            'after_s': content['solved_at'] - START if offset != LATE else None}
 
 
 def write_bag(rig, played, path):

@@ -9,35 +9,31 @@ import sys
 import pytest
 
 PACKAGE = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..')
+NODES = ('launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
+         'rig_planning/place_cameras', 'body_motion/probe')
+NOWHERE = 'http://localhost:1'
 
 
-@pytest.mark.parametrize('program, words', [
-    ('launch/drivers', '(default: 10)'),
-    ('launch/master_watch', 'no parameters'),
-    ('simulation/simulated_hand', '[m]'),
-    ('rig_planning/place_cameras', 'needed'),
-    ('body_motion/probe', '[s] (default: 10)'),
-])
+@pytest.mark.parametrize('program, words', zip(NODES, (
+    '(default: 10)', 'no parameters', '[m]', 'needed', '[s] (default: 10)')))
 def test_help_tells_the_parameters(program, words):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program), '__name:=other',
                            '--help'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
                           universal_newlines=True,
-                          env=dict(os.environ, ROS_MASTER_URI='http://localhost:1'))
+                          env=dict(os.environ, ROS_MASTER_URI=NOWHERE))
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.startswith(f'usage: {os.path.basename(program)} ')
     assert words in done.stdout
 
 
-@pytest.mark.parametrize('program', [
-    'launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
-    'rig_planning/place_cameras', 'body_motion/probe'])
-@pytest.mark.parametrize('address, advice', [
-    ('', 'ROS_MASTER_URI is empty, but must be such as http://HOST:11311: correct it'),
-    ('htp://x', 'ROS_MASTER_URI is htp://x, but must be such as http://HOST:11311: correct it'),
-    ('http://x.invalid:11311', 'there is no ROS master at http://x.invalid:11311: start roscore or '
-     'use roslaunch'),
-    ('http://localhost:1', 'there is no ROS master at http://localhost:1: start roscore or use '
-     'roslaunch')])
+@pytest.mark.parametrize('program, address, advice', [
+    (NODES[0], '', 'ROS_MASTER_URI is empty, but must be such as http://HOST:11311: correct it'),
+    (NODES[0], 'htp://x',
+     'ROS_MASTER_URI is htp://x, but must be such as http://HOST:11311: correct it'),
+    (NODES[0], 'http://x.invalid:11311',
+     'there is no ROS master at http://x.invalid:11311: start roscore or use roslaunch'),
+    *((program, NOWHERE, f'there is no ROS master at {NOWHERE}: start roscore or use roslaunch')
+      for program in NODES)])
 def test_without_a_master_it_ends_with_what_to_do(program, address, advice):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
@@ -48,9 +44,7 @@ def test_without_a_master_it_ends_with_what_to_do(program, address, advice):
     assert done.stderr == f'{os.path.basename(program)}: {advice}\n'
 
 
-@pytest.mark.parametrize('program', [
-    'launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
-    'rig_planning/place_cameras'])
+@pytest.mark.parametrize('program', NODES[:-1])
 def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
     """As by roslaunch, when another node ends that is required."""
     (tmp_path / 'rospy.py').write_text('import os, signal, time\n'

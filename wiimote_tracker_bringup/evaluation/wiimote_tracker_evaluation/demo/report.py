@@ -5,7 +5,7 @@ import json
 
 import numpy as np
 
-from wiimote_tracker_bringup import experiment
+from wiimote_tracker_bringup import charts, experiment
 from wiimote_tracker_bringup.alignment import KINDS
 from wiimote_tracker_evaluation.demo.scoring import milli
 
@@ -84,11 +84,7 @@ def write_csv(path, recording, segments):
 
 
 def draw_tracks(path, recording, segments, score):
-    import matplotlib
-    matplotlib.use('Agg')
-    import matplotlib.pyplot as plt
-
-    figure, views = plt.subplots(1, 2, figsize=(13, 6.4), constrained_layout=True)
+    figure, views = charts.figure(1, 2, height=6.4, width=13.0)
     for axes, (h, v), title in zip(views, ((0, 1), (0, 2)),
                                    ('from above', 'from the side')):
         for number, segment in enumerate(s for s in segments if s.kind == 'circle'):
@@ -117,4 +113,3 @@ def draw_tracks(path, recording, segments, score):
                         score['position_rms_mm']['absolute'],
                         score['position_rms_mm']['similarity']))
     figure.savefig(path, dpi=110)
-    plt.close(figure)

@@ -23,6 +23,12 @@ struct TwoNearest {
   double mean() const { return std::isinf(second) ? first : 0.5 * (first + second); }
 };
 
+struct Candidate {
+  const std::string* gesture = nullptr;
+  double distance = kInfinity;
+  double limit = 0.0;  // of the distance
+};
+
 }  // namespace
 
 void Recognizer::add(const Example& example) {
@@ -39,7 +45,15 @@ void Recognizer::add(const Example& example) {
       std::find_if(examples_.rbegin(), examples_.rend(),
                    [&](const Example& e) { return e.gesture == example.gesture; });
   const auto place = after_its_kind == examples_.rend() ? examples_.end() : after_its_kind.base();
-  shapes_.insert(shapes_.begin() + (place - examples_.begin()), *shape);
+  Model model{*shape, kInfinity};
+  for (std::size_t i = 0; i < examples_.size(); ++i) {
+    if (examples_[i].gesture != example.gesture || examples_[i].zone != example.zone)
+      continue;
+    const double between = distanceTo(models_[i], model.shape, kInfinity);
+    models_[i].nearest = std::min(models_[i].nearest, between);
+    model.nearest = std::min(model.nearest, between);
+  }
+  models_.insert(models_.begin() + (place - examples_.begin()), model);
   examples_.insert(place, example);
 }
 
@@ -48,51 +62,61 @@ std::size_t Recognizer::remove(const std::string& gesture) {
   for (std::size_t i = examples_.size(); i-- > 0;) {
     if (examples_[i].gesture == gesture) {
       examples_.erase(examples_.begin() + static_cast<std::ptrdiff_t>(i));
-      shapes_.erase(shapes_.begin() + static_cast<std::ptrdiff_t>(i));
+      models_.erase(models_.begin() + static_cast<std::ptrdiff_t>(i));
     }
   }
   return before - examples_.size();
+}
+
+double Recognizer::distanceTo(const Model& model, const Shape& shape, double limit) const {
+  return distance(options_.any_heading ? turnedTowards(shape, model.shape) : shape, model.shape,
+                  limit);
+}
+
+double Recognizer::spreadAt(const Model& model) const {
+  // At most: a mistake among the examples must not make everything fit its gesture.
+  return std::isinf(model.nearest) ? 0.5 * options_.rejection_distance
+                                   : std::min(model.nearest, options_.rejection_distance);
 }
 
 std::optional<Recognition> Recognizer::recognize(const Path& path, const std::string& zone) const {
   const std::optional<Shape> shape = shapeOf(path, options_.shape);
   if (!shape)
     return std::nullopt;
-  const std::string* best = nullptr;
-  const std::string* runner_up = nullptr;
-  double best_distance = kInfinity;
-  double runner_up_distance = kInfinity;
+  Candidate best;
+  Candidate runner_up;
   for (std::size_t i = 0; i < examples_.size();) {
     const std::string& gesture = examples_[i].gesture;
     TwoNearest nearest;
-    bool known_here = false;
+    double spreads = 0.0;
+    int known_here = 0;
     for (; i < examples_.size() && examples_[i].gesture == gesture; ++i) {
       if (!examples_[i].zone.empty() && examples_[i].zone != zone)
         continue;
-      known_here = true;
+      ++known_here;
       // Larger distances do not change the two nearest.
-      nearest.add(distance(options_.any_heading ? turnedTowards(*shape, shapes_[i]) : *shape,
-                           shapes_[i], nearest.second));
+      nearest.add(distanceTo(models_[i], *shape, nearest.second));
+      spreads += spreadAt(models_[i]);
     }
-    if (!known_here)
+    if (known_here == 0)
       continue;
-    if (!best || nearest.mean() < best_distance) {
+    const Candidate candidate{&gesture, nearest.mean(),
+                              0.5 * options_.rejection_distance + spreads / known_here};
+    if (!best.gesture || candidate.distance < best.distance) {
       runner_up = best;
-      runner_up_distance = best_distance;
-      best = &gesture;
-      best_distance = nearest.mean();
-    } else if (!runner_up || nearest.mean() < runner_up_distance) {
-      runner_up = &gesture;
-      runner_up_distance = nearest.mean();
+      best = candidate;
+    } else if (!runner_up.gesture || candidate.distance < runner_up.distance) {
+      runner_up = candidate;
     }
   }
-  if (!best)
+  if (!best.gesture)
     return std::nullopt;
-  const auto score = [&](double d) { return std::exp2(-d / options_.rejection_distance); };
-  Recognition recognition{*best, score(best_distance), "", 0.0};
-  if (runner_up) {
-    recognition.runner_up = *runner_up;
-    recognition.runner_up_score = score(runner_up_distance);
+  // The limit of the nearest gesture is that of both, so that the runner-up scores less.
+  const auto score = [&](double distance) { return std::exp2(-distance / best.limit); };
+  Recognition recognition{*best.gesture, score(best.distance), "", 0.0};
+  if (runner_up.gesture) {
+    recognition.runner_up = *runner_up.gesture;
+    recognition.runner_up_score = score(runner_up.distance);
   }
   return recognition;
 }

@@ -16,7 +16,9 @@ struct RecognizerOptions {
   /// Whether a gesture is recognised in any heading (rotation about the vertical).
   bool any_heading = false;
 
-  /// Paths farther than this from every gesture are rejected [1, > 0]; see distance().
+  /// Paths farther than this from a gesture with one example are rejected [1, > 0]; see distance().
+  /// With several, the limit is half of this plus the mean distance from an example to the nearest
+  /// other one, each at most this.
   double rejection_distance = 0.65;
 };
 
@@ -26,8 +28,8 @@ struct Example {
   Path path;
 };
 
-/// The gesture nearest to a path. Scores [0..1]: 1 for an equal shape, 0.5 at the limit of
-/// rejection.
+/// The gesture nearest to a path. Scores [0..1]: 1 for an equal shape, 0.5 at the limit of the
+/// nearest gesture, beyond which the path is rejected.
 struct Recognition {
   std::string gesture;
   double score;
@@ -38,7 +40,9 @@ struct Recognition {
 };
 
 /// Recognises gestures by one or a few examples of each. The distance of a path to a gesture is the
-/// mean over the two nearest examples, which limits the effect of an odd example.
+/// mean over the two nearest examples, which limits the effect of an odd example. Its limit is
+/// stricter for a gesture that people draw alike, such as a stroke, than for one that each draws in
+/// his own way, such as a spiral.
 class Recognizer {
  public:
   explicit Recognizer(const RecognizerOptions& options) : options_(options) {}
@@ -55,9 +59,19 @@ class Recognizer {
   std::optional<Recognition> recognize(const Path& path, const std::string& zone = "") const;
 
  private:
+  struct Model {
+    Shape shape;
+    double nearest;  // distance to the nearest other example of its gesture and zone, or infinity
+  };
+
+  double distanceTo(const Model& model, const Shape& shape, double limit) const;
+
+  /// Distance to the nearest other example, as it counts for the limit of the gesture.
+  double spreadAt(const Model& model) const;
+
   RecognizerOptions options_;
   std::vector<Example> examples_;  // grouped by gesture
-  std::vector<Shape> shapes_;      // parallel to examples_
+  std::vector<Model> models_;      // parallel to examples_
 };
 
 }  // namespace wiimote_tracker::gesture

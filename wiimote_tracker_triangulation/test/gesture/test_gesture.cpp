@@ -226,6 +226,53 @@ TEST(Recognizer, RejectsOtherMotion) {
   EXPECT_LE(accepted, 10);
 }
 
+TEST(Recognizer, TheLimitGrowsWithTheSpreadOfTheExamples) {
+  // A circle ever more drawn out upwards.
+  const auto oval = [](double stretch) {
+    return draw(
+        [=](double s) {
+          return Eigen::Vector3d(circle(s).cwiseProduct(Eigen::Vector3d(1, 1, stretch)));
+        },
+        {});
+  };
+  const auto between = [](const Path& a, const Path& b) {
+    return distance(shapeOf(a, {}).value(), shapeOf(b, {}).value());
+  };
+  const double whole = RecognizerOptions().rejection_distance;
+  const Path drawn = oval(2.0);
+  const double to_circle = between(drawn, oval(1.0));
+  const double to_oval = between(drawn, oval(1.5));
+  const double spread = between(oval(1.0), oval(1.5));
+  ASSERT_GT(spread, 0.01);
+  ASSERT_LT(spread, 0.9 * whole);
+
+  Recognizer recognizer({});
+  const auto expectLimit = [&](double distance, double limit) {
+    EXPECT_NEAR(recognizer.recognize(drawn)->score, std::exp2(-distance / limit), 1e-9);
+  };
+  recognizer.add({"o", "", oval(1.0)});
+  expectLimit(to_circle, whole);
+  recognizer.add({"o", "", oval(1.5)});
+  expectLimit(0.5 * (to_circle + to_oval), 0.5 * whole + spread);
+  recognizer.add({"o", "", oval(1.5)});
+  expectLimit(to_oval, 0.5 * whole + spread / 3.0);  // each oval is the other's nearest
+  recognizer.add({"o", "studio", oval(1.0)});        // it is known there only
+  expectLimit(to_oval, 0.5 * whole + spread / 3.0);
+}
+
+TEST(Recognizer, AMistakeAmongTheExamplesWidensTheLimitLittle) {
+  Recognizer recognizer({});
+  recognizer.add({"circle", "", draw(circle, {})});
+  recognizer.add({"circle", "", draw(zigzag, {})});
+  const double whole = RecognizerOptions().rejection_distance;
+  const Shape drawn = shapeOfDrawing(hook, {});
+  const double distance_to_both = 0.5 * (distance(drawn, shapeOfDrawing(circle, {})) +
+                                         distance(drawn, shapeOfDrawing(zigzag, {})));
+  const auto recognition = recognizer.recognize(draw(hook, {}));
+  EXPECT_FALSE(recognition->accepted());
+  EXPECT_NEAR(recognition->score, std::exp2(-distance_to_both / (1.5 * whole)), 1e-9);
+}
+
 TEST(Recognizer, RecognisesNothingWithoutExamples) {
   EXPECT_FALSE(Recognizer({}).recognize(draw(circle, {})));
   Recognizer recognizer = threeGestures();

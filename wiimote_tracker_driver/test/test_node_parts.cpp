@@ -205,6 +205,53 @@ TEST(Log, EachNewStreamIsAnnounced) {
   EXPECT_EQ(0, count(text, "put right")) << text;
 }
 
+// A loose battery, all day.
+TEST(Log, ARemoteThatReconnectsAllDayFillsNoDisk) {
+  LinkLog log("wiimote_1", true);
+  wiimote::Link link;
+  link.accelerometer_calibrated = true;
+  const auto lose = [&](double now) {
+    link.state = wiimote::Link::State::kSearching;
+    link.error = "it has gone away";
+    log.report(link, now);
+  };
+  const auto find = [&](double now) {
+    link.state = wiimote::Link::State::kStreaming;
+    link.error.clear();
+    ++link.clock_epoch;
+    log.report(link, now);
+  };
+  constexpr double kDay = 86400.0;  // [s]
+  const std::string text = printed([&] {
+    for (double now = 0.0; now < kDay; now += 2.0) {
+      lose(now);
+      find(now + 1.0);
+    }
+  });
+  EXPECT_LE(100, count(text, "it has gone away")) << text;
+  EXPECT_GE(155, count(text, "it has gone away")) << text;
+  EXPECT_EQ(count(text, "it has gone away"), count(text, "images come from")) << text;
+  const std::string later = printed([&] {
+    lose(kDay + 3600.0);
+    find(kDay + 3601.0);
+  });
+  EXPECT_EQ(1, count(later, "it has gone away (trying again)")) << later;
+  EXPECT_EQ(1, count(later, "images come from")) << later;
+}
+
+TEST(Log, ARemoteThatIsOffAtNightIsNamedNowAndThen) {
+  LinkLog log("wiimote_1", true);
+  wiimote::Link link;
+  link.error = "it is not there";
+  const std::string text = printed([&] {
+    for (double now = 0.0; now < 12.0 * 3600.0; now += 0.5)
+      log.report(link, now);
+  });
+  EXPECT_LE(60, count(text, "it is not there")) << text;
+  EXPECT_GE(82, count(text, "it is not there")) << text;
+  EXPECT_LE(1, count(text, "one message in 10 minutes from now on")) << text;
+}
+
 class DiagnosticsTest : public testing::Test {
  protected:
   DiagnosticsTest() {

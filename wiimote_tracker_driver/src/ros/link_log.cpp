@@ -2,11 +2,15 @@
 
 #include <ros/console.h>
 
+#include <algorithm>
+
 namespace wiimote_tracker::driver {
 namespace {
 
 constexpr double kRepeatErrorAfter = 30.0;         // [s]
 constexpr double kRepeatRestorationAfter = 600.0;  // [s]
+constexpr double kMostAtOnce = 10.0;               // changes; later ones:
+constexpr double kPerChange = 600.0;               // [s]
 
 }  // namespace
 
@@ -20,18 +24,24 @@ const char* accelerometerProblem(const wiimote::Link& link) {
                "expect errors of about 0.5 m/s^2";
 }
 
+LinkLog::LinkLog(const std::string& camera, bool retries)
+    : camera_(camera), retries_(retries), allowance_(kMostAtOnce) {}
+
 void LinkLog::report(const wiimote::Link& link, double now) {
   if (!link.error.empty()) {
     announced_epoch_.reset();
     reportError(link.error, now);
     return;
   }
+  const bool ends_error = !error_.empty();
   error_.clear();
   reportRestoration(link, now);
   // The same stream goes on after something was put right.
   if (link.state == wiimote::Link::State::kStreaming && announced_epoch_ != link.clock_epoch) {
     announced_epoch_ = link.clock_epoch;
-    reportStream(link);
+    // An error that was logged gets its end.
+    if (ends_error || allows(now))
+      reportStream(link);
   }
 }
 
@@ -41,12 +51,25 @@ void LinkLog::notice(const std::string& text) {
   notice_ = text;
 }
 
+bool LinkLog::allows(double now) {
+  allowance_ = std::min(kMostAtOnce, allowance_ + (now - allowance_at_) / kPerChange);
+  allowance_at_ = now;
+  if (allowance_ < 1.0)
+    return false;
+  allowance_ -= 1.0;
+  return true;
+}
+
 void LinkLog::reportError(const std::string& error, double now) {
-  if (error == error_ && now - error_logged_at_ <= kRepeatErrorAfter)
+  if ((error == error_ && now - error_logged_at_ <= kRepeatErrorAfter) || !allows(now))
     return;
   error_ = error;
   error_logged_at_ = now;
-  ROS_WARN("%s: %s%s", camera_.c_str(), error.c_str(), retries_ ? " (trying again)" : "");
+  const char* rest = "";
+  if (retries_)
+    rest = allowance_ < 1.0 ? " (trying again; the log has one message in 10 minutes from now on)"
+                            : " (trying again)";
+  ROS_WARN("%s: %s%s", camera_.c_str(), error.c_str(), rest);
 }
 
 void LinkLog::reportRestoration(const wiimote::Link& link, double now) {

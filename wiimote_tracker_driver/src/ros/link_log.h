@@ -17,12 +17,12 @@ inline constexpr char kKernelDriverShares[] =
 /// What is wrong with the accelerometer's calibration; null when nothing is. Of a streaming remote.
 const char* accelerometerProblem(const wiimote::Link& link);
 
-/// Logs changes of the link once, and repeats errors that last. Of what is put right again and
-/// again, a sentence now and then.
+/// Logs changes of the link once, and repeats errors that last. Of what comes again and again, as
+/// with a remote that is off for a night or reconnects all day, a sentence now and then.
 class LinkLog {
  public:
   /// `retries`: whether a source that has failed is tried again.
-  LinkLog(const std::string& camera, bool retries) : camera_(camera), retries_(retries) {}
+  LinkLog(const std::string& camera, bool retries);
 
   /// The link has changed. `now` [s]: any clock that never goes back.
   void report(const wiimote::Link& link, double now);
@@ -31,6 +31,8 @@ class LinkLog {
   void notice(const std::string& text);
 
  private:
+  /// Whether one more change may be logged.
+  bool allows(double now);
   void reportError(const std::string& error, double now);
   void reportRestoration(const wiimote::Link& link, double now);
   void reportStream(const wiimote::Link& link) const;
@@ -38,7 +40,9 @@ class LinkLog {
   const std::string camera_;
   const bool retries_;
   std::optional<std::uint32_t> announced_epoch_;  ///< Of the stream that was logged; nothing: none.
-  std::string error_;
+  double allowance_;                              ///< Changes that may be logged at once.
+  double allowance_at_ = 0.0;
+  std::string error_;  ///< Logged, and not yet followed by a stream.
   double error_logged_at_ = 0.0;
   std::uint64_t restorations_ = 0;  ///< Logged already.
   double restoration_logged_at_ = 0.0;

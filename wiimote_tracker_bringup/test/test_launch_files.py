@@ -186,6 +186,16 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
     assert not re.fullmatch(arguments[-1], '/markers')
 
 
+@pytest.mark.parametrize('given, split', [
+    ([], ['--duration=10m']), (['split_minutes:=600'], ['--duration=600m']),
+    (['gigabytes:=20'], ['--size=2048', '--max-splits=9']),
+    (['gigabytes:=0.5'], ['--size=51', '--max-splits=9'])])
+def test_a_recording_may_be_of_the_newest_gigabytes(load, given, split):
+    nodes, _ = load('record.launch', *given)
+    assert [word for word in shlex.split(next(iter(nodes.values())).args)
+            if word.startswith(('--duration', '--size', '--max-splits'))] == split
+
+
 @pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch',
                                   'several_machines.launch', 'simulated_rig.launch hand:=true'])
 def test_nodes_that_are_respawned_know_it(load, name):

@@ -1,0 +1,45 @@
+"""The unit of systemd that the Debian package installs."""
+
+import os
+import shlex
+import shutil
+import subprocess
+
+import pytest
+import roslaunch.arg_dump
+
+BRINGUP = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..')
+UNIT = os.path.join(BRINGUP, 'packaging/wiimote-tracker@.service')
+
+
+def values_of(key):
+    with open(UNIT) as file:
+        return [line.split('=', 1)[1].strip() for line in file if line.startswith(key + '=')]
+
+
+@pytest.mark.skipif(not shutil.which('systemd-analyze') or not os.path.exists('/usr/bin/roslaunch'),
+                    reason='this computer has no systemd-analyze, or roslaunch elsewhere')
+def test_systemd_understands_the_unit(tmp_path):
+    instance = tmp_path / 'wiimote-tracker@root.service'
+    shutil.copy(UNIT, instance)
+    done = subprocess.run(['systemd-analyze', 'verify', str(instance)], stdout=subprocess.PIPE,
+                          stderr=subprocess.STDOUT, universal_newlines=True)
+    said = [line for line in done.stdout.splitlines() if 'wiimote-tracker' in line]
+    assert (done.returncode, said) == (0, [])
+
+
+def test_the_launch_file_has_the_arguments_of_the_unit():
+    words = shlex.split(values_of('ExecStart')[0])
+    known = roslaunch.arg_dump.get_args([os.path.join(BRINGUP, 'launch', 'tracker.launch')])
+    given = [word.split(':=')[0] for word in words if ':=' in word]
+    assert 'tracker.launch' in words and given == ['cameras'] and set(given) <= set(known)
+
+
+def test_a_tracker_without_its_master_is_started_again():
+    """roslaunch then ends with status 0, as it does when the node that starts the drivers dies."""
+    assert values_of('Restart') == ['always']
+
+
+def test_the_package_has_the_unit():
+    with open(os.path.join(BRINGUP, 'scripts/package')) as file:
+        assert os.path.basename(UNIT) in file.read()

@@ -14,7 +14,7 @@ from std_msgs.msg import Header
 
 from wiimote_tracker_body_motion import (
     body_to_base, evaluate_trajectory, hand_eye, inertial, mount, poses)
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 import mount_scene
 from mount_scene import ARM, OFFSET, TURN, error_of
@@ -118,20 +118,20 @@ REFUSED = [({'tilt': 0.02}, 'about one axis only'), ({'tilt': 0.02, 'turn': 0.01
 @pytest.mark.parametrize('motion, reason', REFUSED)
 @pytest.mark.parametrize('solve, scene', [(hand_eye.solve, simulate), (inertial.solve, with_imu)])
 def test_refuses_what_does_not_tell(solve, scene, motion, reason):
-    with pytest.raises(ExperimentError, match=reason):
+    with pytest.raises(Refusal, match=reason):
         solve(*scene(np.random.default_rng(7), **motion))
 
 
 def test_refuses_an_imu_that_pauses():
     body, imu = with_imu(np.random.default_rng(7))
     imu = imu.chosen(np.abs(imu.times - imu.times[400]) > 0.2)
-    with pytest.raises(ExperimentError, match=r'the IMU says nothing for 0\.4\d s'):
+    with pytest.raises(Refusal, match=r'the IMU says nothing for 0\.4\d s'):
         inertial.solve(body, imu)
 
 
 def test_refuses_clocks_too_far_apart():
     body, base = simulate(np.random.default_rng(7))
-    with pytest.raises(ExperimentError, match=r'the base at \d+\.\d s\. .*--largest-offset'):
+    with pytest.raises(Refusal, match=r'the base at \d+\.\d s\. .*--largest-offset'):
         hand_eye.solve(body, base.shifted(100.0))
 
 
@@ -141,7 +141,7 @@ def test_refuses_clocks_too_far_apart():
 def test_refuses_an_imu_in_other_units(rate, force, reason):
     body, imu = with_imu(np.random.default_rng(7))
     imu = dataclasses.replace(imu, rates=rate * imu.rates, forces=force * imu.forces)
-    with pytest.raises(ExperimentError, match=reason):
+    with pytest.raises(Refusal, match=reason):
         inertial.solve(body, imu)
 
 
@@ -150,7 +150,7 @@ def test_refuses_stamps_that_are_zero(tmp_path):
     with rosbag.Bag(path, 'w') as bag:
         for second in range(1, 200):
             bag.write('/imu/data', Imu(), rospy.Time(second))
-    with pytest.raises(ExperimentError, match='all stamps of /imu/data in .* are 0'):
+    with pytest.raises(Refusal, match='all stamps of /imu/data in .* are 0'):
         inertial.read(path, '/imu/data')
 
 
@@ -223,5 +223,5 @@ def test_files_and_words(tmp_path):
     assert 'static_transform_publisher' in open(path).read()
     assert 'clock offset      37.30 ms' in '\n'.join(body_to_base.describe(found))
     (tmp_path / 'other.yaml').write_text('a: 1\n')
-    with pytest.raises(ExperimentError, match="no result of body_to_base: 'format' is missing"):
+    with pytest.raises(Refusal, match="no result of body_to_base: 'format' is missing"):
         mount.read(str(tmp_path / 'other.yaml'))

@@ -7,7 +7,7 @@ import subprocess
 import program_module
 import pytest
 from wiimote_tracker_bringup import cameras_file
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 HERE = os.path.dirname(os.path.realpath(__file__))
 drivers = program_module.load('launch/drivers')
@@ -44,7 +44,7 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     assert cameras_file.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
     assert cameras_file.read_parameters(str(path)) == {'a': {'ir_sensitivity': 'max'}, 'b': {}}
     path.write_text('cameras: {a: {identity: "00:1f:32:00:00:01", driver: max}}')
-    with pytest.raises(ExperimentError, match='"driver" of camera a'):
+    with pytest.raises(Refusal, match='"driver" of camera a'):
         cameras_file.read_parameters(str(path))
 
 
@@ -70,7 +70,7 @@ def test_a_camera_may_have_parameters_of_its_own(tmp_path):
     ('cameras: {a: "00:1F:32:00:00:01"}\ndiscover: true', 'above "cameras:"'),
 ])
 def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
-    with pytest.raises(ExperimentError) as error:
+    with pytest.raises(Refusal) as error:
         read(tmp_path, text)
     assert complaint in str(error.value)
     assert str(tmp_path) in str(error.value)
@@ -80,7 +80,7 @@ def test_an_unusable_list_is_refused_with_a_reason(tmp_path, text, complaint):
 def test_parameters_of_a_camera_in_the_wrong_place_are_refused(tmp_path, keys):
     path = tmp_path / 'cameras.yaml'
     path.write_text(f'cameras: {{a: {{identity: "00:1f:32:00:00:01", {keys}}}}}')
-    with pytest.raises(ExperimentError, match='camera a has the unknown key .*"driver:"'):
+    with pytest.raises(Refusal, match='camera a has the unknown key .*"driver:"'):
         cameras_file.read_parameters(str(path))
 
 
@@ -118,14 +118,14 @@ def test_list_wiimotes_has_the_same_rules(tmp_path, text, accepted):
         cameras_file.read_devices(str(path), '')
         cameras_file.read_parameters(str(path))
         ours = True
-    except ExperimentError:
+    except Refusal:
         ours = False
     theirs = listed != '' and json.loads(listed)['camera_problems'] == []
     assert (ours, theirs) == (accepted, accepted)
 
 
 def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(ExperimentError,
+    with pytest.raises(Refusal,
                        match='nothing.yaml cannot be read .*: correct its'):
         cameras_file.read_devices(str(tmp_path / 'nothing.yaml'), '')
 
@@ -153,7 +153,7 @@ def test_discovery_needs_a_file_with_one_line_per_camera(tmp_path):
     drivers.discover(str(path), '')
     assert cameras_file.read_devices(str(path), '')[0] == ('a', '00:1f:32:00:00:01')
     path.write_text('cameras: {a: "00:1f:32:00:00:01"}\n')  # not one line per camera
-    with pytest.raises(ExperimentError, match='remotes cannot be looked for'):
+    with pytest.raises(Refusal, match='remotes cannot be looked for'):
         drivers.discover(str(path), '')
 
 
@@ -166,7 +166,7 @@ def test_a_discovered_virtual_remote_keeps_its_socket(tmp_path):
 def test_discovery_must_be_true_or_false(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: maybe\ncameras: {a: "00:1f:32:00:00:01"}')
-    with pytest.raises(ExperimentError, match='"discover" must be true or false'):
+    with pytest.raises(Refusal, match='"discover" must be true or false'):
         cameras_file.is_discovering(str(path))
     path.write_text('cameras: {a: "00:1f:32:00:00:01"}')
     assert not cameras_file.is_discovering(str(path))
@@ -197,7 +197,7 @@ def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
     ({'file': 'f', 'drivr': {'ir_sensitivity': 'wii_3'}}, 'unknown parameter .*/drivr: correct'),
     ({'driver': 'wii_3'}, "driver is 'wii_3', but must be a map")])
 def test_parameters_without_effect_are_refused(given, complaint):
-    with pytest.raises(ExperimentError, match=complaint):
+    with pytest.raises(Refusal, match=complaint):
         drivers.check_parameters(given)
     drivers.check_parameters({'file': 'f', 'driver': {'ir_sensitivity': 'wii_3'}})
 

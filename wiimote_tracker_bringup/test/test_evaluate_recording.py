@@ -13,7 +13,7 @@ import rosbag
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import programs
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import (
     accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, pipeline, program)
 from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of
@@ -180,7 +180,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
 
     images = tmp_path / 'images.txt'  # of that track, now cut off in its last line
     images.write_text(images.read_text().rsplit(' ', 2)[0])
-    with pytest.raises(ExperimentError, match='has a line that is not camera, time'):
+    with pytest.raises(Refusal, match='has a line that is not camera, time'):
         programs.run('track_labelled_body', pipeline.lenses_of(views, rig, str(tmp_path)), images,
                      tmp_path / 'body.csv')
     lights = images.read_text().splitlines()[0]
@@ -188,7 +188,7 @@ def test_a_body_in_a_hand_is_not_lost_between_images(tmp_path):
                         (lights + ' 1.0\n', 'does not begin with'),
                         (lights + '\n', 'has no image after the lights')]:
         images.write_text(text)
-        with pytest.raises(ExperimentError, match=words):
+        with pytest.raises(Refusal, match=words):
             programs.run('track_labelled_body', pipeline.lenses_of(views, rig, str(tmp_path)),
                          images, tmp_path / 'none.csv')
     assert not (tmp_path / 'none.csv').exists()
@@ -337,18 +337,18 @@ def test_the_rotors_turns_survive_delays_gaps_and_repeated_logs():
 
 
 def test_refusals_say_which_file(tmp_path):
-    with pytest.raises(ExperimentError, match='bearings.csv.gz cannot be read'):
+    with pytest.raises(Refusal, match='bearings.csv.gz cannot be read'):
         lighthouse.read(str(tmp_path))
     save(str(tmp_path / 'bearings.csv.gz'), 'a,b', np.ones((4, 2)))
-    with pytest.raises(ExperimentError, match='has 2 columns, but must have 5'):
+    with pytest.raises(Refusal, match='has 2 columns, but must have 5'):
         lighthouse.read(str(tmp_path))
     whole = gzip.compress(b'a,b\n')
     for damaged in (whole[:-10], whole[:10] + bytes(10 * [255])):  # half a download, a bad disk
         (tmp_path / 'bearings.csv.gz').write_bytes(damaged)
-        with pytest.raises(ExperimentError, match='bearings.csv.gz cannot be read'):
+        with pytest.raises(Refusal, match='bearings.csv.gz cannot be read'):
             lighthouse.read(str(tmp_path))
     save(str(tmp_path / 'bearings.csv.gz'), 'a,b,c,d,e', np.ones((4, 5)))
     save(str(tmp_path / 'mocap.csv.gz'), 'a,b,c,d', np.ones((4, 4)))
     (tmp_path / 'markers_on_off.csv').write_text('time_ms\n1\n2\n3\n')
-    with pytest.raises(ExperimentError, match='markers_on_off.csv two times'):
+    with pytest.raises(Refusal, match='markers_on_off.csv two times'):
         lighthouse.read(str(tmp_path))

@@ -3,7 +3,7 @@ make."""
 
 import pytest
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import program, replay, reprojection
 
 
@@ -24,7 +24,7 @@ def test_a_bag_that_does_not_exist(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize('raised, seen', [
-    (ExperimentError('no points'), SystemExit('evaluate_recording: no points')),
+    (Refusal('no points'), SystemExit('evaluate_recording: no points')),
     (ValueError('no points'), ValueError('no points'))])
 def test_only_refusals_are_told_in_words(raised, seen, monkeypatch):
     """A mistake of the program shows where it was made."""

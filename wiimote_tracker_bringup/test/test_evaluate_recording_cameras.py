@@ -19,7 +19,7 @@ sys.path[:0] = [HERE, *(os.path.join(HERE, '..', folder) for folder in (
     'body_motion', 'evaluation', 'python'))]
 
 import simulated_cameras  # noqa: E402
-from wiimote_tracker_bringup.errors import ExperimentError  # noqa: E402
+from wiimote_tracker_bringup.errors import Refusal  # noqa: E402
 from wiimote_tracker_evaluation.recordings import cameras, flight, pipeline, time_maps  # noqa: E402
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig  # noqa: E402
 
@@ -89,17 +89,17 @@ def test_clocks_and_path_are_found(tmp_path):
 
 
 def test_refusals_say_which_file(tmp_path):
-    with pytest.raises(ExperimentError, match='cameras.yaml cannot be read'):
+    with pytest.raises(Refusal, match='cameras.yaml cannot be read'):
         cameras.read(str(tmp_path))
     simulated_cameras.Cameras(*hand()).write(str(tmp_path), np.random.RandomState(1))
     (tmp_path / 'detections.csv').write_text('camera,frame,u\nc0,1,2\nc0,2,3\n')
-    with pytest.raises(ExperimentError, match='its columns are camera,frame,u,v'):
+    with pytest.raises(Refusal, match='its columns are camera,frame,u,v'):
         cameras.read(str(tmp_path))
     lens = dict.fromkeys(cameras.KEYS, 1.0)
     for distortion in ([0.1, 0.0, 0.0, 0.0], 0.1):
         lens['distortion'] = distortion
         (tmp_path / 'cameras.yaml').write_text(yaml.safe_dump({'c0': lens}))
-        with pytest.raises(ExperimentError, match='cameras.yaml cannot be read.*each camera needs'):
+        with pytest.raises(Refusal, match='cameras.yaml cannot be read.*each camera needs'):
             cameras.read(str(tmp_path))
 
 

@@ -12,7 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_body_motion import comparison, evaluate_trajectory, mount
 from wiimote_tracker_body_motion.poses import Poses
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 RADIUS, SPEED = 2.0, 0.5  # of the circle [m, m/s]
 
@@ -93,7 +93,7 @@ def test_clocks_and_gaps():
     hole = truth.chosen(np.abs(truth.times - 1010.0) > 1.0)
     used = comparison.compare(truth, hole).truth.times
     assert np.abs(used - 1010.0).min() > 1.0 and len(used) >= len(hole.times) - 1
-    with pytest.raises(ExperimentError, match='fewer than three'):
+    with pytest.raises(Refusal, match='fewer than three'):
         comparison.compare(truth.shifted(100.0), truth)
 
 
@@ -118,21 +118,21 @@ def test_a_body_that_rests_does_not_tell_the_alignment():
     estimate = dataclasses.replace(truth, positions=truth.positions
                                    + random.normal(0.0, 1e-3, truth.positions.shape))
     truth.positions[:] += random.normal(0.0, 1e-6, truth.positions.shape)
-    with pytest.raises(ExperimentError, match='too short to align.*--alignment absolute'):
+    with pytest.raises(Refusal, match='too short to align.*--alignment absolute'):
         comparison.compare(estimate, truth)
     truth.positions[:] = estimate.positions[:] = truth.positions[0]
-    with pytest.raises(ExperimentError, match='too short to align'):
+    with pytest.raises(Refusal, match='too short to align'):
         comparison.compare(estimate, truth)
     assert comparison.compare(estimate, truth, 'absolute').errors['ATE [deg]'].max() < 1e-6
     truth.positions[:] += np.linspace(0.0, 1.0, len(truth.times))[:, None]
     for kind in ('rigid', 'similarity'):
-        with pytest.raises(ExperimentError, match='--alignment absolute'):
+        with pytest.raises(Refusal, match='--alignment absolute'):
             comparison.compare(estimate, truth, kind)
 
 
 def test_an_interval_that_no_two_poses_have():
     for interval, word in ((100.0, 'smaller'), (0.001, 'larger')):
-        with pytest.raises(ExperimentError, match=f'use a {word} --interval'):
+        with pytest.raises(Refusal, match=f'use a {word} --interval'):
             comparison.compare(around(), around(), interval=interval)
 
 

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, bound, experiment, scene
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.demo import animation, report, scoring
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -65,7 +65,7 @@ def test_no_small_change_of_the_alignment_fits_better(with_scale):
     (np.eye(3)[:2], 'three points or more'), (np.full((4, 3), np.nan), 'finite points'),
     (np.zeros((3, 2)), 'two N x 3 arrays')])
 def test_alignment_refuses_points_that_do_not_determine_it(points, reason):
-    with pytest.raises(ExperimentError, match=reason):
+    with pytest.raises(Refusal, match=reason):
         alignment.fit(points, points, with_scale=True)
 
 
@@ -300,7 +300,7 @@ def test_score_of_a_recording_with_known_errors(hand_made):
 def test_a_place_without_points_is_named(hand_made):
     segment = hand_made.segments[0]
     late = type(segment)('test', 'P11', segment.target, 1.0, 2.0)
-    with pytest.raises(ExperimentError, match='P11'):
+    with pytest.raises(Refusal, match='P11'):
         scoring.score(hand_made.recording, hand_made.segments + [late])
 
 
@@ -361,13 +361,13 @@ def test_a_process_that_ends_is_noticed_and_named(tmp_path):
     program.write_text('''
 import os, sys
 sys.path.insert(0, %r)
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.processes import Processes
 p = Processes()
 p.start('falsifier', ['false'], os.devnull).wait()
 try:
     p.check()
-except ExperimentError as error:
+except Refusal as error:
     print(error)
 ''' % os.path.join(HERE, '..', 'python'))
     said = subprocess.check_output(['/usr/bin/python3', str(program)], timeout=60).decode()

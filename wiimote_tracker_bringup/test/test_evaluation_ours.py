@@ -12,7 +12,7 @@ import yaml
 
 from section_run import section_run
 from wiimote_tracker_bringup import programs, scene, statistics
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation import evaluation, section
 from wiimote_tracker_evaluation.live import circles, dialogue, distance, latency, running_tracker
 from wiimote_tracker_evaluation.sections.ours import cameras, gestures
@@ -64,7 +64,7 @@ def test_the_shipped_led_has_the_papers_point():
 def test_invalid_leds_are_refused(tmp_path, content, named):
     path = tmp_path / 'led.yaml'
     path.write_text(content)
-    with pytest.raises(ExperimentError) as caught:
+    with pytest.raises(Refusal) as caught:
         light.read_led(str(path))
     assert named in str(caught.value)
 
@@ -263,7 +263,7 @@ def test_a_place_is_one_led_that_lies_still():
     ('http://localhost:1', 'at http://localhost:1: start the tracker first')])
 def test_a_live_measurement_needs_a_master(monkeypatch, address, advice):
     monkeypatch.setenv('ROS_MASTER_URI', address)
-    with pytest.raises(ExperimentError, match=advice):
+    with pytest.raises(Refusal, match=advice):
         running_tracker.RunningTracker()
 
 

@@ -10,7 +10,7 @@ import pytest
 
 from section_run import section_run
 from wiimote_tracker_bringup import statistics
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.sections.positions import claims
 from wiimote_tracker_evaluation.sections.positions.results import (
     CASES, FACING, FOUR, OURS, TWO, Results)
@@ -168,7 +168,7 @@ def test_a_method_that_never_works_is_named(tmp_path):
     results = make_results(tmp_path / 'all', 0.006)
     lost = (results.points['method'] == 'wave') & (results.points['session'] > 0)
     results.points['measured_z'][lost] = np.nan
-    with pytest.raises(ExperimentError, match='9 of 10 sessions with two .* by wave'):
+    with pytest.raises(Refusal, match='9 of 10 sessions with two .* by wave'):
         told(positions, tmp_path, results)
 
 

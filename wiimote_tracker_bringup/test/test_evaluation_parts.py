@@ -11,7 +11,7 @@ import scipy.stats
 
 from section_run import section_run
 from wiimote_tracker_bringup import descriptions, files, programs, scene, statistics
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation import progress, results_table, sessions
 from wiimote_tracker_evaluation.report import words
 from wiimote_tracker_evaluation.sections.cost import load
@@ -128,7 +128,7 @@ def test_table_is_written_between_its_marks():
 
 @pytest.mark.parametrize('text', ['no marks', README + README, README.replace('begin', 'x')])
 def test_table_needs_its_marks(text):
-    with pytest.raises(ExperimentError, match='document'):
+    with pytest.raises(Refusal, match='document'):
         results_table.written(text, content_of(1.0, None))
 
 
@@ -198,7 +198,7 @@ def test_earlier_results_are_removed_but_not_what_they_link_to(tmp_path):
 
 def test_what_no_earlier_run_left_is_kept(tmp_path):
     (tmp_path / 'rig.yaml').touch()
-    with pytest.raises(ExperimentError, match='rig.yaml may be yours, .* no mark of an earlier'):
+    with pytest.raises(Refusal, match='rig.yaml may be yours, .* no mark of an earlier'):
         files.prepare(str(tmp_path), ['absent', 'rig.yaml'], 'mark')
     assert os.listdir(tmp_path) == ['rig.yaml']
     files.prepare(str(tmp_path), ['absent'], 'mark')
@@ -210,7 +210,7 @@ def test_failed_programs_are_reported_with_their_last_line(monkeypatch, tmp_path
     programs.run_programs([['true'], ['true'], ['true']], log, lambda done, of: ended.append(
         (done, of)))
     assert ended[-1] == (3, 3)
-    with pytest.raises(ExperimentError, match='no such luck'):
+    with pytest.raises(Refusal, match='no such luck'):
         programs.run_programs([['sh', '-c', 'echo no such luck; exit 3']], log)
 
 

@@ -10,7 +10,7 @@ from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_body_motion import pivot, probe
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 TIP, PLACE = np.array([0.02, -0.01, -0.3]), np.array([1.0, 0.5, 0.0])  # [m]
 STDDEVS = np.array([0.001, 0.001, 0.002, 0.015, 0.015, 0.01])  # of a pose [m, rad]
@@ -65,13 +65,13 @@ def test_exact_poses():
 
 def test_refusals():
     random = np.random.default_rng(4)
-    with pytest.raises(ExperimentError, match='tilt the probe further'):
+    with pytest.raises(Refusal, match='tilt the probe further'):
         pivot.solve(*noisy(random, tilt=0.005))
-    with pytest.raises(ExperimentError, match='20 poses, 30 are needed'):
+    with pytest.raises(Refusal, match='20 poses, 30 are needed'):
         pivot.solve(*noisy(random, number=20))
     positions, rotations, covariances = noisy(random)
     positions[100:] += [0.04, 0.0, 0.0]
-    with pytest.raises(ExperimentError, match='did not rest'):
+    with pytest.raises(Refusal, match='did not rest'):
         pivot.solve(positions, rotations, covariances)
 
 
@@ -90,7 +90,7 @@ def messages(positions, rotations, covariances, start=1000.0):
 def test_probe_saves_points(tmp_path):
     random, file = np.random.default_rng(5), tmp_path / 'points.csv'
     measuring = probe.Probe([0.0, 0.0, 0.0], 10.0, str(file))
-    with pytest.raises(ExperimentError, match='never seen'):
+    with pytest.raises(Refusal, match='never seen'):
         measuring.pivot()
     for message in messages(*noisy(random)):
         measuring.add(message)
@@ -100,7 +100,7 @@ def test_probe_saves_points(tmp_path):
     for message in messages(moving + np.linspace(0.0, 0.5, 20)[:, None], rotations, covariances,
                             1020.0):
         measuring.add(message)
-    with pytest.raises(ExperimentError, match='hold it still'):
+    with pytest.raises(Refusal, match='hold it still'):
         measuring.save_point()
     for message in messages(*noisy(random, tilt=0.001, number=20), start=1030.0):
         measuring.add(message)
@@ -117,11 +117,11 @@ def test_a_hidden_probe_tells_no_point(tmp_path):
     for message in messages(*noisy(random, tilt=0.001, number=20)):
         measuring.add(message)
     now[0] += 3.0
-    with pytest.raises(ExperimentError, match='last seen 3.0 s ago'):
+    with pytest.raises(Refusal, match='last seen 3.0 s ago'):
         measuring.save_point()
     assert not file.exists()
     now[0] += 10.0
-    with pytest.raises(ExperimentError, match='last seen 13.0 s ago'):
+    with pytest.raises(Refusal, match='last seen 13.0 s ago'):
         measuring.pivot()  # not of what was before
 
 
@@ -134,11 +134,11 @@ def test_a_pivot_begins_with_its_request():
     for message in messages(carried, rotations, covariances, 997.0):
         measuring.add(message)
     since = measuring.last_stamp()
-    with pytest.raises(ExperimentError, match='0 poses, 30 are needed'):
+    with pytest.raises(Refusal, match='0 poses, 30 are needed'):
         measuring.pivot(since)
     for message in messages(*noisy(random, number=160)):  # then hidden for the last 2 s
         measuring.add(message)
-    with pytest.raises(ExperimentError, match='did not rest'):
+    with pytest.raises(Refusal, match='did not rest'):
         measuring.pivot()
     assert 'tip: [' in measuring.pivot(since)
 
@@ -206,7 +206,7 @@ def test_probe_answers_in_words(error):
 def test_probe_refuses_a_tip(tip, monkeypatch):
     monkeypatch.setattr(rospy, 'get_param', lambda name, default: tip)
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/tip')
-    with pytest.raises(ExperimentError, match='/probe/tip'):
+    with pytest.raises(Refusal, match='/probe/tip'):
         probe.read_tip()
 
 
@@ -214,7 +214,7 @@ def test_probe_refuses_a_misspelt_parameter(monkeypatch):
     monkeypatch.setattr(rospy, 'get_name', lambda: '/probe')
     monkeypatch.setattr(rospy, 'get_param', lambda name, default: {'body': 'a', 'tipp': [1, 2, 3]})
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/' + name[1:])
-    with pytest.raises(ExperimentError, match='unknown parameter /probe/tipp: .*rosparam delete'):
+    with pytest.raises(Refusal, match='unknown parameter /probe/tipp: .*rosparam delete'):
         probe.Node()
 
 
@@ -222,5 +222,5 @@ def test_probe_refuses_a_misspelt_parameter(monkeypatch):
 def test_probe_refuses_a_body(given, monkeypatch):
     monkeypatch.setattr(rospy, 'get_param', lambda name, *default: given.get(name, *default))
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: '/probe/body')
-    with pytest.raises(ExperimentError, match='/probe/body.*_body:=wand'):
+    with pytest.raises(Refusal, match='/probe/body.*_body:=wand'):
         probe.Node()

@@ -9,7 +9,7 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import bound, descriptions, scene
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_bringup.files import read_yaml, write_yaml
 from wiimote_tracker_rig_planning import body, plan, plan_rig, prediction, search
@@ -264,6 +264,6 @@ def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
 def test_a_bad_plan_is_refused_in_words(tmp_path, text, words):
     path = tmp_path / 'plan.yaml'
     path.write_text(text)
-    with pytest.raises(ExperimentError) as raised:
+    with pytest.raises(Refusal) as raised:
         plan.read(str(path))
     assert words in str(raised.value)

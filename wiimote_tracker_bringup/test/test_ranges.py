@@ -6,7 +6,7 @@ import rospy
 import program_module
 from wiimote_tracker_body_motion import body_to_base, evaluate_trajectory, probe
 from wiimote_tracker_bringup import ranges
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation import evaluation
 from wiimote_tracker_rig_planning import plan_rig
 
@@ -43,8 +43,8 @@ def test_parameters(value, monkeypatch):
                         if name in ('~duration', '~side') else default)
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: name)
     monkeypatch.setattr(probe, 'read_body', lambda: 'wand')
-    with pytest.raises(ExperimentError, match='duration is .*, but must be within 0.1 and 3600'):
+    with pytest.raises(Refusal, match='duration is .*, but must be within 0.1 and 3600'):
         probe.Node()
     hand = program_module.load('simulation/simulated_hand')
-    with pytest.raises(ExperimentError, match='side is .*, but must be within 0.1 and 20'):
+    with pytest.raises(Refusal, match='side is .*, but must be within 0.1 and 20'):
         hand.Hand()

@@ -7,7 +7,7 @@ import numpy as np
 
 from wiimote_tracker_body_motion import hand_eye, inertial, mount, poses
 from wiimote_tracker_bringup import files, interruption, ranges
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 
 def describe(found):
@@ -52,7 +52,7 @@ def main(argv=None):
         try:
             found = solver.solve(body, base, arguments.largest_offset, report)
         except (ValueError, RuntimeError, np.linalg.LinAlgError) as error:
-            raise ExperimentError(f'no solution was found ({error}); record a minute with turns '
-                                  'about two axes') from error
+            raise Refusal(f'no solution was found ({error}); record a minute with turns '
+                          'about two axes') from error
         print('\n'.join(describe(found)))
         mount.write(found, arguments.output)

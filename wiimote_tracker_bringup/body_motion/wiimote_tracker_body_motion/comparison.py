@@ -11,7 +11,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, statistics
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 STATISTICS = (('rmse', statistics.rms), ('mean', np.mean), ('median', np.median),
               ('p95', statistics.quantile(0.95)), ('max', np.max))
@@ -41,13 +41,13 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
     true poses to interpolate between [s]."""
     estimate = estimate.chosen(truth.covers(estimate.times, longest_gap))
     if len(estimate.times) < 3:
-        raise ExperimentError('fewer than three estimated poses lie between true poses; check the '
-                              'clocks, --offset and --gap')
+        raise Refusal('fewer than three estimated poses lie between true poses; check the '
+                      'clocks, --offset and --gap')
     truth = truth.at(estimate.times)
     try:
         fitted = alignment.fit_kind(kind, estimate.positions, truth.positions, line=True)
-    except ExperimentError as error:
-        raise ExperimentError(f'{error}; use --alignment absolute') from error
+    except Refusal as error:
+        raise Refusal(f'{error}; use --alignment absolute') from error
     aligned = dataclasses.replace(estimate, positions=fitted.apply(estimate.positions),
                                   rotations=Rotation.from_matrix(fitted.rotation)
                                   * estimate.rotations)
@@ -64,11 +64,11 @@ def compare(estimate, truth, kind='rigid', interval=1.0, longest_gap=0.05):
 
 def missing_angle(aligned, truth):
     """Why the alignment does not tell the turn about the path, in words, or empty: its width is
-    less than the errors. n x 3 [m]. Throws ExperimentError where its length is, too."""
+    less than the errors. n x 3 [m]. Throws Refusal where its length is, too."""
     extents = np.linalg.svd(truth - truth.mean(axis=0), compute_uv=False) / np.sqrt(len(truth))
     error = alignment.rms(aligned - truth)
     if extents[0] < max(error, 1e-6):
-        raise ExperimentError(
+        raise Refusal(
             f'the true path is too short to align: its length is {1e3 * extents[0]:.1f} mm, errors '
             f'are {1e3 * error:.1f} mm (RMS); move about, or use --alignment absolute')
     if extents[1] > max(error, 1e-9 * extents[0]):
@@ -87,7 +87,7 @@ def intervals(times, interval, tolerance):
                            & (ends <= times[-1] + 1e-6))
     if not len(first):
         other = 'smaller' if times[0] + interval > times[-1] else 'larger'
-        raise ExperimentError(f'no two poses are {interval:g} s apart; use a {other} --interval')
+        raise Refusal(f'no two poses are {interval:g} s apart; use a {other} --interval')
     return first, last[first]
 
 

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_body_motion import mount_solver, mount_start
 from wiimote_tracker_body_motion.poses import Poses, read_rows
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 GRAVITY = np.array([0.0, 0.0, -9.80665])  # [m/s^2]
 SHORTEST_STEP = 0.008  # faster samples are averaged [s]
@@ -54,14 +54,14 @@ def solve(body, imu, largest_offset=2.0, report=lambda sentence: None):
     """body: Poses. imu: Samples. report: see mount_solver. @returns Mount of the IMU"""
     gap = np.diff(imu.times).max()
     if gap > mount_start.LONGEST_GAP:
-        raise ExperimentError(f'the IMU says nothing for {gap:.2f} s; record again, or cut the bag '
-                              'there')
+        raise Refusal(f'the IMU says nothing for {gap:.2f} s; record again, or cut the bag '
+                      'there')
     force = np.median(np.linalg.norm(imu.forces, axis=1))
     least, most = (factor * np.linalg.norm(GRAVITY) for factor in FORCES)
     if not least < force < most:
-        raise ExperimentError(f'the accelerometer measures {force:.3g} m/s^2 (median), but about '
-                              '9.8 are expected: sensor_msgs/Imu is in m/s^2, not in g, and '
-                              'gravity is not subtracted')
+        raise Refusal(f'the accelerometer measures {force:.3g} m/s^2 (median), but about '
+                      '9.8 are expected: sensor_msgs/Imu is in m/s^2, not in g, and '
+                      'gravity is not subtracted')
     imu = imu.averaged()
     body, rotation, offset = mount_start.start(body, imu.rotations(), largest_offset)
     problem = Problem(body, imu, offset)
@@ -135,8 +135,8 @@ def numbers(message):
 
 
 def read(path, topic):
-    """The samples of a topic of a bag. Throws ExperimentError."""
+    """The samples of a topic of a bag. Throws Refusal."""
     rows, message = read_rows(path, topic, {'sensor_msgs/Imu': numbers}, 'IMU samples')
     if len(rows) < 100:
-        raise ExperimentError(f'{topic} in {path} has {len(rows)} samples; 100 are needed')
+        raise Refusal(f'{topic} in {path} has {len(rows)} samples; 100 are needed')
     return Samples(rows[:, 0], rows[:, 1:4], rows[:, 4:], message.header.frame_id or 'imu')

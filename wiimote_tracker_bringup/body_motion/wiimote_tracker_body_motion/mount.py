@@ -6,7 +6,7 @@ import numpy as np
 import yaml
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 
 FORMAT = 'wiimote_tracker_mount'
@@ -54,7 +54,7 @@ def write(mount, path):
 
 
 def read(path):
-    """Throws ExperimentError if it is no such file."""
+    """Throws Refusal if it is no such file."""
     content = read_yaml(path)
     try:
         if content['format'] != FORMAT or content['version'] != 1:
@@ -64,6 +64,6 @@ def read(path):
                      np.array(content['covariance'], dtype=float).reshape(7, 7),
                      content['body'], content['base'])
     except KeyError as error:
-        raise ExperimentError(f'{path} is no result of body_to_base: {error} is missing') from error
+        raise Refusal(f'{path} is no result of body_to_base: {error} is missing') from error
     except (TypeError, ValueError) as error:
-        raise ExperimentError(f'{path} is no result of body_to_base: {error}') from error
+        raise Refusal(f'{path} is no result of body_to_base: {error}') from error

@@ -16,7 +16,7 @@ from scipy.sparse.linalg import splu
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_body_motion.mount import Mount
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 STEP = 1e-4  # of the derivatives
 LEAST_ITERATIONS, MOST_ITERATIONS = 6, 30  # the first ones find the noise
@@ -90,13 +90,13 @@ def solve(problem, state, names, report):
             break
         noise = np.maximum(noise * equations.noise_factors(), LEAST_NOISE)
     else:
-        raise ExperimentError('no solution was found: do both topics belong to one robot, are the '
-                              'axes of both right-handed, and do the clocks differ by less than '
-                              '--largest-offset?')
+        raise Refusal('no solution was found: do both topics belong to one robot, are the '
+                      'axes of both right-handed, and do the clocks differ by less than '
+                      '--largest-offset?')
     stddev = np.sqrt(np.linalg.eigvalsh(covariance[3:6, 3:6])[-1])
     if not stddev < LARGEST_STDDEV:
-        raise ExperimentError(f'the translation is told to {1e3 * stddev:.0f} mm only: turn the '
-                              'base faster, about two axes')
+        raise Refusal(f'the translation is told to {1e3 * stddev:.0f} mm only: turn the '
+                      'base faster, about two axes')
     return Mount(state.rotation, state.vector[:3], state.vector[3], covariance, *names)
 
 

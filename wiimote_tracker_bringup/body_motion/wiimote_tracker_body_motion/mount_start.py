@@ -6,7 +6,7 @@ Rotation by R. Y. Tsai and R. K. Lenz (IEEE Trans. Robotics and Automation 5(3),
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 LAG = 0.5  # of rotations that tell the axes [s]
 LEAST_TURN = np.radians(3.0)  # RMS about the second axis in LAG, to tell the transform
@@ -36,7 +36,7 @@ def start_of_offset(body, base, largest):
     [s]."""
     lag = 10 * GRID
     if min(poses.times[-1] - poses.times[0] for poses in (body, base)) < 10.0:
-        raise ExperimentError('the bag has less than 10 s of motion; record a minute')
+        raise Refusal('the bag has less than 10 s of motion; record a minute')
     speeds, turned = [], []
     for poses in (body, base):
         times = np.arange(poses.times[0], poses.times[-1] - lag, GRID)
@@ -44,13 +44,13 @@ def start_of_offset(body, base, largest):
         turned.append(speed.mean())
         speeds.append(speed - speed.mean())
     if turned[1] > FASTEST * turned[0]:
-        raise ExperimentError(f'the base turns {turned[1] / turned[0]:.0f} times as fast as the '
-                              'body: do both topics belong to one robot, and are rates in rad/s?')
+        raise Refusal(f'the base turns {turned[1] / turned[0]:.0f} times as fast as the '
+                      'body: do both topics belong to one robot, and are rates in rad/s?')
     product = np.correlate(*speeds, mode='full')  # at 0: the last of base with the first of body
     shifts = body.times[0] - base.times[0] + GRID * (np.arange(len(product)) - len(speeds[1]) + 1)
     product[np.abs(shifts) > largest] = -np.inf
     if not np.isfinite(product).any():
-        raise ExperimentError(
+        raise Refusal(
             f'the two topics share no time within {largest:g} s: the body begins at '
             f'{body.times[0]:.1f} s, the base at {base.times[0]:.1f} s. If their clocks differ so '
             'much, use --largest-offset')
@@ -65,25 +65,25 @@ def common_part(body, base):
     which = np.flatnonzero(inside & base.covers(body.times, LONGEST_GAP))
     which = which[np.unique(body.times[which] // INDEPENDENT, return_index=True)[1]]
     if len(which) < 100:
-        raise ExperimentError('fewer than 100 poses of the body lie between poses of the base')
+        raise Refusal('fewer than 100 poses of the body lie between poses of the base')
     return body.chosen(which)
 
 
 def start_of_rotation(body, base):
-    """Throws ExperimentError if the rotations do not tell the transform."""
+    """Throws Refusal if the rotations do not tell the transform."""
     end = min(body.times[-1], base.times[-1]) - LAG
     times = body.times[body.times < end]
     times = times[body.covers(times + LAG, LONGEST_GAP)]
     if not len(times):
-        raise ExperimentError(f'no two poses are {LAG:g} s apart')
+        raise Refusal(f'no two poses are {LAG:g} s apart')
     of_body, of_base = turns(body, times, LAG), turns(base, times, LAG)
     spread = np.sqrt(np.linalg.eigvalsh(of_base.T @ of_base / len(times)))[::-1]
     if spread[0] < LEAST_TURN:
-        raise ExperimentError(
+        raise Refusal(
             f'the base turns by {np.degrees(spread[0]):.1f} degrees in {LAG:g} s (RMS); '
             f'{np.degrees(LEAST_TURN):.0f} are needed: turn it more, about two axes')
     if spread[1] < LEAST_TURN:
-        raise ExperimentError(
+        raise Refusal(
             'the base turns about one axis only, so the transform along it cannot be told: '
             f'about a second axis by {np.degrees(spread[1]):.1f} degrees in {LAG:g} s (RMS); '
             f'{np.degrees(LEAST_TURN):.0f} are needed. Tilt it by hand')

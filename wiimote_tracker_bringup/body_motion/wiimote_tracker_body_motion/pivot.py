@@ -6,7 +6,7 @@ import numpy as np
 from scipy.optimize import least_squares
 
 from wiimote_tracker_bringup import alignment, rigid_motion
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 LEAST_POSES = 30
 LARGEST_STDDEV = 0.005  # of a tip that is told [m]
@@ -33,8 +33,8 @@ def solve(positions, rotations, covariances):
     """
     number = len(positions)
     if number < LEAST_POSES:
-        raise ExperimentError(f'{number} poses, {LEAST_POSES} are needed: the cameras must see the '
-                              'probe')
+        raise Refusal(f'{number} poses, {LEAST_POSES} are needed: the cameras must see the '
+                      'probe')
     system = np.hstack([rotations.as_matrix().reshape(-1, 3), np.tile(-np.eye(3), (number, 1))])
     start = np.linalg.lstsq(system, -positions.reshape(-1), rcond=None)[0]
 
@@ -49,11 +49,11 @@ def solve(positions, rotations, covariances):
     normalised = np.sqrt((found.fun ** 2).sum() / (3.0 * number - 6.0))
     stddev = np.sqrt(np.linalg.eigvalsh(covariance)[-1])
     if normalised > LARGEST_RESIDUAL:
-        raise ExperimentError('the tip did not rest: the poses depart from a pivot by '
-                              f'{normalised:.1f} of their standard deviations (RMS)')
+        raise Refusal('the tip did not rest: the poses depart from a pivot by '
+                      f'{normalised:.1f} of their standard deviations (RMS)')
     if not stddev < LARGEST_STDDEV:
-        raise ExperimentError(f'the tip is told to {1e3 * stddev:.0f} mm only: tilt the probe '
-                              'further, in all directions')
+        raise Refusal(f'the tip is told to {1e3 * stddev:.0f} mm only: tilt the probe '
+                      'further, in all directions')
     place = found.x[3:]
     return Tip(found.x[:3], covariance * max(normalised, 1.0) ** 2, place,
                alignment.rms(rotations.apply(found.x[:3]) + positions - place))

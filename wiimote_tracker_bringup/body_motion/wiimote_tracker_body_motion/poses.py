@@ -8,7 +8,7 @@ import rosbag
 from scipy.spatial.transform import Rotation, Slerp
 
 from wiimote_tracker_bringup import timeseries
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 BACK = 1.0  # by which stamps go back only where a clock was set, or a replay began again [s]
 
@@ -91,12 +91,12 @@ def smoothed(poses, neighbours=9):
 
 
 def read(path, topic):
-    """The poses of a topic. Throws ExperimentError if it has none, or if the bag cannot be read."""
+    """The poses of a topic. Throws Refusal if it has none, or if the bag cannot be read."""
     rows, message = read_rows(path, topic, POSE_OF, 'poses')
     rows = rows[np.linalg.norm(rows[:, 4:], axis=1) > 0.5]
     if len(rows) < 2:
-        raise ExperimentError(f'{topic} in {path} has fewer than two poses at different times; '
-                              'record it while the body is tracked')
+        raise Refusal(f'{topic} in {path} has fewer than two poses at different times; '
+                      'record it while the body is tracked')
     return Poses(rows[:, 0], rows[:, 1:4], Rotation.from_quat(rows[:, 4:]),
                  message.header.frame_id,
                  getattr(message, 'child_frame_id', '') or topic.strip('/'))
@@ -114,25 +114,25 @@ def read_rows(path, topic, numbers_of, what):
             usable = {name: info.msg_type for name, info in topics.items()
                       if info.msg_type in numbers_of}
             if topic not in usable:
-                raise ExperimentError(f'{path} has no {what} on {topic}. Topics with {what}: '
-                                      + (', '.join(sorted(usable)) or 'none'))
+                raise Refusal(f'{path} has no {what} on {topic}. Topics with {what}: '
+                              + (', '.join(sorted(usable)) or 'none'))
             for _, message, _ in bag.read_messages(topics=[topic]):
                 rows.append((message.header.stamp.to_sec(), *numbers_of[usable[topic]](message)))
     except rosbag.ROSBagException as error:
-        raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair it '
-                              'with rosbag reindex') from error
+        raise Refusal(f'{path} cannot be read ({error}); if it was not closed, repair it '
+                      'with rosbag reindex') from error
     except OSError as error:
-        raise ExperimentError(f'{path} cannot be read ({error.strerror}); name a bag') from error
+        raise Refusal(f'{path} cannot be read ({error.strerror}); name a bag') from error
     if not rows:
-        raise ExperimentError(f'{topic} in {path} has fewer than two {what}; record it again')
+        raise Refusal(f'{topic} in {path} has fewer than two {what}; record it again')
     rows = np.array(rows)
     if not rows[:, 0].any():
-        raise ExperimentError(f'all stamps of {topic} in {path} are 0: its driver must say when it '
-                              'measured')
+        raise Refusal(f'all stamps of {topic} in {path} are 0: its driver must say when it '
+                      'measured')
     back = np.maximum.accumulate(rows[:, 0]) - rows[:, 0]
     if back.max() > BACK:
-        raise ExperimentError(f'stamps of {topic} in {path} go back by {back.max():.1f} s, so that '
-                              'two times would be mixed: record again without setting the clock, '
-                              'or keep one part with rosbag filter')
+        raise Refusal(f'stamps of {topic} in {path} go back by {back.max():.1f} s, so that '
+                      'two times would be mixed: record again without setting the clock, '
+                      'or keep one part with rosbag filter')
     rows = rows[np.isfinite(rows).all(axis=1)]
     return rows[np.unique(rows[:, 0], return_index=True)[1]], message

@@ -33,7 +33,7 @@ from std_srvs.srv import Trigger, TriggerResponse
 
 from wiimote_tracker_body_motion import pivot
 from wiimote_tracker_bringup import nodes, rigid_motion
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup.errors import Refusal, sentence_of
 
 INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
 REST = 0.5  # of which a saved point is the mean [s]
@@ -75,15 +75,15 @@ class Probe:
             self.messages.popleft()
 
     def newest(self, duration, hidden=HIDDEN):
-        """The messages of the last duration [s]. Throws ExperimentError if the newest is older than
+        """The messages of the last duration [s]. Throws Refusal if the newest is older than
         hidden [s]."""
         messages = list(self.messages)
         if not messages:
-            raise ExperimentError('the probe was never seen: check that the tracker runs and knows '
-                                  'the body, and turn it towards the cameras')
+            raise Refusal('the probe was never seen: check that the tracker runs and knows '
+                          'the body, and turn it towards the cameras')
         if self.now() - self.seen > hidden:
-            raise ExperimentError(f'the probe was last seen {self.now() - self.seen:.1f} s ago: '
-                                  'turn it towards the cameras')
+            raise Refusal(f'the probe was last seen {self.now() - self.seen:.1f} s ago: '
+                          'turn it towards the cameras')
         start = messages[-1].header.stamp - rospy.Duration(duration)
         return [message for message in messages if message.header.stamp >= start]
 
@@ -130,8 +130,8 @@ class Probe:
         spread = np.sqrt(points.var(axis=0).sum())
         stddevs = np.sqrt(np.diagonal(covariances.mean(axis=0)))
         if spread > 3.0 * np.linalg.norm(stddevs):
-            raise ExperimentError(f'the tip moved by {1e3 * spread:.0f} mm (RMS) in the last '
-                                  f'{REST:g} s; hold it still')
+            raise Refusal(f'the tip moved by {1e3 * spread:.0f} mm (RMS) in the last '
+                          f'{REST:g} s; hold it still')
         point = points.mean(axis=0)
         row = [messages[-1].header.stamp.to_sec(), *point, *stddevs]
         with self.saving:
@@ -155,24 +155,24 @@ class Probe:
 
 
 def read_body():
-    """The parameter ~body. Throws ExperimentError if it is no name."""
+    """The parameter ~body. Throws Refusal if it is no name."""
     body = rospy.get_param('~body', '')
     if not body or not isinstance(body, str) or not rosgraph.names.is_legal_name(body):
-        raise ExperimentError(f'{rospy.resolve_name("~body")} is {body!r}: give the name of the '
-                              'tracked body, such as _body:=wand')
+        raise Refusal(f'{rospy.resolve_name("~body")} is {body!r}: give the name of the '
+                      'tracked body, such as _body:=wand')
     return body
 
 
 def read_tip():
-    """The parameter ~tip, 3 [m]. Throws ExperimentError if it is none."""
+    """The parameter ~tip, 3 [m]. Throws Refusal if it is none."""
     value = rospy.get_param('~tip', [0.0, 0.0, 0.0])
     try:
         tip = np.array(value, dtype=float)
     except (TypeError, ValueError):
         tip = np.empty(0)
     if tip.shape != (3,) or not np.isfinite(tip).all():
-        raise ExperimentError(f'{rospy.resolve_name("~tip")} is {value}: give three finite numbers '
-                              '[m]')
+        raise Refusal(f'{rospy.resolve_name("~tip")} is {value}: give three finite numbers '
+                      '[m]')
     return tip
 
 
@@ -219,7 +219,7 @@ class Node:
     def on_timer(self, _):
         try:
             rests = bool(self.probe.messages) and self.probe.rests_elsewhere()
-        except (ExperimentError, ValueError):
+        except (Refusal, ValueError):
             return  # time jumped back, or a pose is invalid
         if rests:
             self.log(self.answer(self.probe.save_point))
@@ -235,7 +235,7 @@ class Node:
         except (ValueError, np.linalg.LinAlgError) as error:
             return TriggerResponse(success=False, message='the poses of the probe cannot be used '
                                    f'({error}); turn it to other sides and try again')
-        except (ExperimentError, OSError) as error:
+        except (Refusal, OSError) as error:
             return TriggerResponse(success=False, message=sentence_of(error))
 
 
@@ -243,6 +243,6 @@ def main():
     nodes.start('probe', __doc__)
     try:
         Node()
-    except ExperimentError as error:
+    except Refusal as error:
         sys.exit(f'probe: {error}')
     rospy.spin()

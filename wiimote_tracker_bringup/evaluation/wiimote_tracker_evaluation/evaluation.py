@@ -7,7 +7,7 @@ import traceback
 from typing import List, Optional
 
 from wiimote_tracker_bringup import descriptions, ranges, stack
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import prepare
 from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.programs import package_file
@@ -103,7 +103,7 @@ def carry_out(module, run, live):
         (module.live if live else module.run)(run)
         run.failure = ''
     except Exception as error:  # other sections continue
-        kind = '' if isinstance(error, ExperimentError) else f'{type(error).__name__}: '
+        kind = '' if isinstance(error, Refusal) else f'{type(error).__name__}: '
         run.failure = f'{kind}{error}{stack.complaint(run.folder)}'
         with open(run.file('failure.txt'), 'w') as file:
             traceback.print_exc(file=file)

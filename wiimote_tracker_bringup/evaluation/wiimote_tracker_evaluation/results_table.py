@@ -5,7 +5,7 @@ import json
 import types
 from typing import Dict, List, Optional, Tuple
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.interruption import answered
 from wiimote_tracker_evaluation.report import words
 
@@ -20,7 +20,7 @@ def cells(entry: Dict) -> List[str]:
 def headlines(content: Dict) -> List[Dict]:
     entries = [entry for entry in content['figures'] if entry['headline']]
     if not entries:
-        raise ExperimentError('figures.json has no headline; run evaluate with all sections')
+        raise Refusal('figures.json has no headline; run evaluate with all sections')
     return entries
 
 
@@ -43,7 +43,7 @@ def lines(content: Dict) -> List[str]:
 def split(text: str) -> Tuple[str, str, str]:
     """Text before, between and after the marks."""
     if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise ExperimentError(f'the document needs the lines "{BEGIN}" and "{END}", once each')
+        raise Refusal(f'the document needs the lines "{BEGIN}" and "{END}", once each')
     before, rest = text.split(BEGIN)
     between, after = rest.split(END)
     return before, between, after
@@ -63,7 +63,7 @@ def read(path: str) -> Dict:
         except ValueError:
             content = None
     if not isinstance(content, dict) or 'figures' not in content:
-        raise ExperimentError(f'{path} is no figures.json: name one that evaluate wrote')
+        raise Refusal(f'{path} is no figures.json: name one that evaluate wrote')
     return content
 
 

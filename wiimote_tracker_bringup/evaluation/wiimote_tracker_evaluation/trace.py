@@ -9,7 +9,7 @@ import xmlrpc.client
 import numpy as np
 
 from wiimote_tracker_bringup import stack
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.waiting import wait_until
 
 EXPOSURES = '/simulation/exposures'
@@ -133,7 +133,7 @@ def read_trace(path, cameras):
         rows.append((exposure, handed, arrived, published, arrivals[image][2], hop,
                      message.header.stamp.to_sec()) + position)
     if not rows:
-        raise ExperimentError('no point was published while the LED was measured; see nodes.log')
+        raise Refusal('no point was published while the LED was measured; see nodes.log')
     return Trace(rows, images, triggered)
 
 

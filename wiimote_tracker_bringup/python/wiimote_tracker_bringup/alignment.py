@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 
 class Alignment:
@@ -20,23 +20,23 @@ class Alignment:
 def fit(source: np.ndarray, target: np.ndarray, with_scale: bool, line: bool = False) -> Alignment:
     """Least-squares alignment: minimises the sum of |aligned source - target|^2.
 
-    source, target: N x 3, three or more points not on one line, else ExperimentError.
+    source, target: N x 3, three or more points not on one line, else Refusal.
     with_scale: similarity; otherwise rigid (scale 1). Never a reflection.
     line: also of points on one line, where any of the rotations about it is found.
     """
     source = np.asarray(source, dtype=float)
     target = np.asarray(target, dtype=float)
     if source.shape != target.shape or source.ndim != 2 or source.shape[1] != 3:
-        raise ExperimentError('an alignment needs two N x 3 arrays of one size')
+        raise Refusal('an alignment needs two N x 3 arrays of one size')
     if not (np.isfinite(source).all() and np.isfinite(target).all()):
-        raise ExperimentError('an alignment needs finite points')
+        raise Refusal('an alignment needs finite points')
     source_mean, target_mean = source.mean(axis=0), target.mean(axis=0)
     a, b = source - source_mean, target - target_mean
     if with_scale and not (a ** 2).sum() > 0.0:
-        raise ExperimentError('all points to align are at one place')
+        raise Refusal('all points to align are at one place')
     u, singular, vt = np.linalg.svd(b.T @ a)
     if len(source) < 3 or not line and singular[1] <= 1e-12 * max(singular[0], 1e-300):
-        raise ExperimentError('an alignment needs three points or more that are not on one line')
+        raise Refusal('an alignment needs three points or more that are not on one line')
     signs = np.array([1.0, 1.0, np.sign(np.linalg.det(u) * np.linalg.det(vt))])
     rotation = u @ np.diag(signs) @ vt
     scale = (singular * signs).sum() / (a ** 2).sum() if with_scale else 1.0

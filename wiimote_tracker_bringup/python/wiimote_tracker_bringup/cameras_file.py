@@ -4,7 +4,7 @@ import re
 
 import yaml
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 
 # The rules for a cameras.yaml are those of list_wiimotes; test_drivers.py compares them.
@@ -45,17 +45,17 @@ def read_list(path):
     """The mapping in a cameras.yaml or a rig description, with no key in a wrong place."""
     content = read_file(path)
     if not isinstance(content.get('discover', False), bool):
-        raise ExperimentError(f'{path}: "discover" must be true or false')
+        raise Refusal(f'{path}: "discover" must be true or false')
     cameras = content.get('cameras')
     if 'cameras' not in content or isinstance(cameras, dict) and any(
             map(is_of_rig, cameras.values())):
         return content
     for key in content:
         if key not in FILE_KEYS:
-            raise ExperimentError(f'{path} has the unknown key {key}: it may have "discover:" and '
-                                  '"cameras:", and the cameras below the latter')
+            raise Refusal(f'{path} has the unknown key {key}: it may have "discover:" and '
+                          '"cameras:", and the cameras below the latter')
     if list(content)[-1] == 'discover':
-        raise ExperimentError(f'{path}: write "discover:" above "cameras:"')
+        raise Refusal(f'{path}: write "discover:" above "cameras:"')
     return content
 
 
@@ -71,12 +71,12 @@ def read_cameras(path):
     if cameras is None and 'cameras' in content and content.get('discover'):
         return {}
     if not isinstance(cameras, dict) or not cameras:
-        raise ExperimentError(f'{path} must have "cameras:" with one line "name: address" for '
-                              'each camera')
+        raise Refusal(f'{path} must have "cameras:" with one line "name: address" for '
+                      'each camera')
     for name in cameras:
         if not isinstance(name, str) or not re.fullmatch(r'[A-Za-z]\w*', name, re.ASCII):
-            raise ExperimentError(f'{path}: camera name {name!r} must be letters (a to z), digits '
-                                  'and _, a letter first')
+            raise Refusal(f'{path}: camera name {name!r} must be letters (a to z), digits '
+                          'and _, a letter first')
     return cameras
 
 
@@ -89,18 +89,18 @@ def read_devices(path, socket_directory):
             device = f'virtual:{socket_directory}/{name}.sock'
         if not isinstance(device, str) or not device:
             # YAML reads some addresses without quotes as numbers to the base of 60.
-            raise ExperimentError(f'{path}: give the address of camera {name} as a text in quotes'
-                                  + (', after "identity:"' if isinstance(entry, dict) else ''))
+            raise Refusal(f'{path}: give the address of camera {name} as a text in quotes'
+                          + (', after "identity:"' if isinstance(entry, dict) else ''))
         if not re.fullmatch(DEVICE, device, re.DOTALL):
-            raise ExperimentError(f'{path}: camera {name} has the device {device}: give a '
-                                  'Bluetooth address such as "00:1f:32:12:34:56", or a path such '
-                                  'as /dev/hidraw0')
+            raise Refusal(f'{path}: camera {name} has the device {device}: give a '
+                          'Bluetooth address such as "00:1f:32:12:34:56", or a path such '
+                          'as /dev/hidraw0')
         devices.append((name, device))
     taken = [device.lower() for _, device in devices]
     for name, device in devices:
         if taken.count(device.lower()) > 1:
-            raise ExperimentError(f'{path}: camera {name} has the device {device}, and so has '
-                                  'another one: remove one of them')
+            raise Refusal(f'{path}: camera {name} has the device {device}, and so has '
+                          'another one: remove one of them')
     return devices
 
 
@@ -111,13 +111,13 @@ def read_parameters(path):
         entry = entry if isinstance(entry, dict) else {}
         unknown = sorted(set(map(str, entry)) - CAMERA_KEYS)
         if unknown and not is_of_rig(entry):
-            raise ExperimentError(f'{path}: camera {name} has the unknown key {unknown[0]}: it '
-                                  'may have "identity:" and "driver:", and the parameters below '
-                                  'the latter')
+            raise Refusal(f'{path}: camera {name} has the unknown key {unknown[0]}: it '
+                          'may have "identity:" and "driver:", and the parameters below '
+                          'the latter')
         own = entry.get('driver')
         if not isinstance(own, (dict, type(None))):
-            raise ExperimentError(f'{path}: "driver" of camera {name} must have lines "parameter: '
-                                  'value"')
+            raise Refusal(f'{path}: "driver" of camera {name} must have lines "parameter: '
+                          'value"')
         parameters[name] = own or {}
     return parameters
 

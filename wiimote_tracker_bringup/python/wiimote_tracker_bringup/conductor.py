@@ -11,7 +11,7 @@ from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, Ca
 from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRequest,
                                       SolveCalibration, StartCalibration)
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.waiting import wait_until
 
 SETTLE = 0.1  # between arrival of an LED and measurement [s]
@@ -54,11 +54,11 @@ class Conductor:
 
     def wait(self, condition, timeout, what):
         """Waits until the condition holds. what: for what, or a function that tells it.
-        @raise ExperimentError: not within timeout [s]."""
+        @raise Refusal: not within timeout [s]."""
         def check():
             self._check()
             if rospy.is_shutdown():
-                raise ExperimentError('interrupted')
+                raise Refusal('interrupted')
         wait_until(condition, timeout, lambda: f'waited {timeout:.0f} s in vain for '
                    f'{what() if callable(what) else what}', check, period=0.01)
 
@@ -74,11 +74,11 @@ class Conductor:
         try:
             return rospy.ServiceProxy(service, type_)(*arguments, **named)
         except rospy.ServiceException as error:
-            raise ExperimentError(f'the service {service} failed: {error}')
+            raise Refusal(f'the service {service} failed: {error}')
 
     def _succeed(self, what, response):
         if not response.success:
-            raise ExperimentError(f'{what} was refused: {response.message}')
+            raise Refusal(f'{what} was refused: {response.message}')
         return response
 
     # --- The LED

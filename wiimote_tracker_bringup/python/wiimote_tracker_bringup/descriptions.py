@@ -8,7 +8,7 @@ from typing import Dict
 import numpy as np
 
 from wiimote_tracker_bringup import experiment
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 
 MIDDLE = np.array([experiment.SIDE / 2.0, experiment.SIDE / 2.0, 0.0])  # of the rig's floor [m]
@@ -17,7 +17,7 @@ MIDDLE = np.array([experiment.SIDE / 2.0, experiment.SIDE / 2.0, 0.0])  # of the
 def is_description(path: str) -> bool:
     try:
         content = read_yaml(path)
-    except ExperimentError:
+    except Refusal:
         return False
     return isinstance(content, dict) and 'seed' in content
 

@@ -1,7 +1,7 @@
-"""Refusals."""
+"""What programs refuse, and how they say it."""
 
 
-class ExperimentError(Exception):
+class Refusal(Exception):
     """What was wanted is not possible; the text says why and what to do."""
 
 

@@ -7,21 +7,21 @@ from typing import Any, Iterable, Optional
 
 import yaml
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 
 def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:
-    """Its content. Throws ExperimentError if it cannot be read, or is no YAML."""
+    """Its content. Throws Refusal if it cannot be read, or is no YAML."""
     try:
         with open(path) as file:
             return loader(file).get_single_data()
     except OSError as error:
-        raise ExperimentError(f'{path} cannot be read ({error.strerror}): correct its path or its '
-                              'permissions') from error
+        raise Refusal(f'{path} cannot be read ({error.strerror}): correct its path or its '
+                      'permissions') from error
     except UnicodeDecodeError as error:
-        raise ExperimentError(f'{path} is no text ({error}): correct its path') from error
+        raise Refusal(f'{path} is no text ({error}): correct its path') from error
     except yaml.YAMLError as error:
-        raise ExperimentError('%s is not valid YAML (%s): correct it' % (
+        raise Refusal('%s is not valid YAML (%s): correct it' % (
             path, str(error).replace('\n', ' '))) from error
 
 
@@ -31,12 +31,12 @@ def write_yaml(path: str, content: Any) -> None:
 
 
 def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional[str]]) -> None:
-    """Empty names are no files. Throws ExperimentError if a file to write is also to be read, or to
+    """Empty names are no files. Throws Refusal if a file to write is also to be read, or to
     be written as something else."""
     taken = {os.path.realpath(path) for path in to_read if path}
     for path in filter(None, to_write):
         if os.path.realpath(path) in taken:
-            raise ExperimentError(f'two arguments are {path}: write to another file')
+            raise Refusal(f'two arguments are {path}: write to another file')
         taken.add(os.path.realpath(path))
 
 
@@ -49,13 +49,13 @@ def keep_copy(path: str) -> None:
 def prepare(folder: str, names: Iterable[str], mark: str) -> None:
     """Makes a folder for results; removes files and folders of an earlier run with these names.
 
-    mark: a file that every run leaves, empty at first. Throws ExperimentError if it is missing
+    mark: a file that every run leaves, empty at first. Throws Refusal if it is missing
     beside others: a person may have put them there.
     """
     names = [name for name in (*names, mark) if os.path.lexists(os.path.join(folder, name))]
     if names and names[-1] != mark:
-        raise ExperimentError(f'{os.path.join(folder, names[0])} may be yours, since there is no '
-                              f'{mark} of an earlier run: choose another folder with --output')
+        raise Refusal(f'{os.path.join(folder, names[0])} may be yours, since there is no '
+                      f'{mark} of an earlier run: choose another folder with --output')
     try:
         os.makedirs(folder, exist_ok=True)
         tempfile.TemporaryFile(dir=folder).close()
@@ -66,5 +66,5 @@ def prepare(folder: str, names: Iterable[str], mark: str) -> None:
                 os.remove(path)
         open(os.path.join(folder, mark), 'w').close()
     except OSError as error:
-        raise ExperimentError(f'cannot write to {folder}: {error.strerror}; choose another folder '
-                              'with --output')
+        raise Refusal(f'cannot write to {folder}: {error.strerror}; choose another folder '
+                      'with --output')

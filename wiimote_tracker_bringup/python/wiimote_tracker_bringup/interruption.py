@@ -4,7 +4,7 @@ import contextlib
 import signal
 import sys
 
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup.errors import Refusal, sentence_of
 
 EXIT_STATUS = 130  # as a shell gives it for a program that SIGINT ended
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
@@ -32,5 +32,5 @@ def answered(program: str):
     except KeyboardInterrupt:
         print(f'{program}: interrupted', file=sys.stderr)
         sys.exit(EXIT_STATUS)
-    except (ExperimentError, OSError) as error:
+    except (Refusal, OSError) as error:
         sys.exit(f'{program}: {sentence_of(error)}')

@@ -4,7 +4,7 @@ import argparse
 import sys
 from typing import Dict, Set
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 
 def master_problem(advice: str) -> str:
@@ -33,20 +33,20 @@ def start(name: str, documentation: str) -> None:
 
 
 def refuse_unknown(given: Dict, known: Set[str]) -> None:
-    """Throws ExperimentError if one of these private parameters is misspelt; the master keeps
+    """Throws Refusal if one of these private parameters is misspelt; the master keeps
     it."""
     import rospy
     for name in sorted(set(given) - known):
         parameter = rospy.resolve_name('~' + name)
-        raise ExperimentError(f'unknown parameter {parameter}: correct its spelling, and remove it '
-                              f'from the master by: rosparam delete {parameter}')
+        raise Refusal(f'unknown parameter {parameter}: correct its spelling, and remove it '
+                      f'from the master by: rosparam delete {parameter}')
 
 
 def number(parameter: str, default: float, least: float, most: float) -> float:
-    """The value of a parameter. Throws ExperimentError if it is no number within the range."""
+    """The value of a parameter. Throws Refusal if it is no number within the range."""
     import rospy
     value = rospy.get_param(parameter, default)
     if isinstance(value, (int, float)) and not isinstance(value, bool) and least <= value <= most:
         return value
-    raise ExperimentError(f'{rospy.resolve_name(parameter)} is {value!r}, but must be within '
-                          f'{least} and {most}: correct it')
+    raise Refusal(f'{rospy.resolve_name(parameter)} is {value!r}, but must be within '
+                  f'{least} and {most}: correct it')

@@ -11,7 +11,7 @@ from typing import List, Sequence
 
 import psutil
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.waiting import wait_until
 
 PR_SET_PDEATHSIG = 1
@@ -64,7 +64,7 @@ class Processes:
 
     def start_master(self, port: int, output: str, patience: float = 30.0) -> subprocess.Popen:
         """Starts a ROS master, that of ROS_MASTER_URI, and waits until it answers.
-        @raise ExperimentError: it does not within patience [s]."""
+        @raise Refusal: it does not within patience [s]."""
         import rosgraph
         master = self.start('rosmaster', ['rosmaster', '--core', '-p', str(port)], output)
         wait_until(rosgraph.is_master_online, patience,
@@ -72,11 +72,11 @@ class Processes:
         return master
 
     def check(self) -> None:
-        """@raise ExperimentError: a started process has ended."""
+        """@raise Refusal: a started process has ended."""
         for name, process, output in self._started:
             if process.poll() is not None:
-                raise ExperimentError(f'{name} ended unexpectedly (status {process.returncode}); '
-                                      f'see {output}')
+                raise Refusal(f'{name} ended unexpectedly (status {process.returncode}); '
+                              f'see {output}')
 
     def stop(self, process: subprocess.Popen, patience: float = 15.0) -> None:
         """Asks a process to end and waits for it."""

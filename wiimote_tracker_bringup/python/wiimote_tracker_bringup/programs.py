@@ -9,7 +9,7 @@ from typing import Dict
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.processes import spawn
 
 AT_ONCE = 2
@@ -33,24 +33,24 @@ def find_program(name: str) -> str:
     package = package or 'wiimote_tracker_bringup'
     found = roslib.packages.find_node(package, program)
     if not found:
-        raise ExperimentError(f'the program {program} of {package} is not there; build and source '
-                              'the workspace')
+        raise Refusal(f'the program {program} of {package} is not there; build and source '
+                      'the workspace')
     return found[0]
 
 
 def run(program, *arguments):
-    """Runs a program, named as for find_program. @raise ExperimentError with its own words."""
+    """Runs a program, named as for find_program. @raise Refusal with its own words."""
     done = subprocess.run([find_program(program)] + [str(word) for word in arguments],
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
     if done.returncode != 0:
-        raise ExperimentError(done.stderr.strip() or f'{program} failed')
+        raise Refusal(done.stderr.strip() or f'{program} failed')
 
 
 def run_programs(commands, log, progress=lambda done, of: None):
     """Runs all commands (lists of words, the first as for find_program) and waits for them.
 
     log: file for their output. progress: called with the number of finished ones.
-    @raise ExperimentError: one has failed; the others are ended.
+    @raise Refusal: one has failed; the others are ended.
     """
     waiting = collections.deque([find_program(command[0])] + [str(word) for word in command[1:]]
                                 for command in commands)
@@ -63,8 +63,8 @@ def run_programs(commands, log, progress=lambda done, of: None):
             for process in [each for each in running if each.poll() is not None]:
                 running.remove(process)
                 if process.returncode != 0:
-                    raise ExperimentError(f'{os.path.basename(process.args[0])} failed (status '
-                                          f'{process.returncode}): {last_line(log)}')
+                    raise Refusal(f'{os.path.basename(process.args[0])} failed (status '
+                                  f'{process.returncode}): {last_line(log)}')
                 progress(of - len(waiting) - len(running), of)
     finally:
         for process in running:
@@ -84,7 +84,7 @@ def read_csv(path: str) -> Dict[str, np.ndarray]:
     with open(path, newline='') as file:
         rows = list(csv.reader(file))
     if not rows:
-        raise ExperimentError(f'{path} is empty')
+        raise Refusal(f'{path} is empty')
     columns = {}
     for name, texts in zip(rows[0], zip(*rows[1:]) if len(rows) > 1 else [()] * len(rows[0])):
         try:

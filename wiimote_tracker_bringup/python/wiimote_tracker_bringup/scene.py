@@ -8,7 +8,7 @@ from typing import List
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 
 
@@ -80,14 +80,14 @@ class Scene:
 
 
 def read_scene(path: str) -> Scene:
-    """Scene of a rig description. ExperimentError if a lens has distortion other than k1."""
+    """Scene of a rig description. Refusal if a lens has distortion other than k1."""
     description = read_yaml(path)
     cameras = []
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']
         if any(lens['distortion'][1:]):
-            raise ExperimentError(f'{path}: {name} has distortion other than k1, which scoring '
-                                  'does not know')
+            raise Refusal(f'{path}: {name} has distortion other than k1, which scoring '
+                          'does not know')
         position = np.asarray(entry['position'], dtype=float)
         cameras.append(Camera(
             name, [lens['fx'], lens['fy'], lens['cx'], lens['cy'], lens['distortion'][0]],

@@ -99,7 +99,7 @@ def cores():
 
 
 def check():
-    """@raise ExperimentError: a required process has ended."""
+    """@raise Refusal: a required process has ended."""
     _processes.check()
 
 

@@ -3,7 +3,7 @@
 import time
 from typing import Callable, Union
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 
 def wait_until(condition: Callable[[], object], timeout: float,
@@ -11,10 +11,10 @@ def wait_until(condition: Callable[[], object], timeout: float,
                period: float = 0.02) -> None:
     """Waits until the condition holds. problem: a sentence, or a function that tells it. check:
     called meanwhile, raises if waiting is useless. timeout, period: [s].
-    @raise ExperimentError: not within timeout."""
+    @raise Refusal: not within timeout."""
     deadline = time.monotonic() + timeout
     while not condition():
         check()
         if time.monotonic() > deadline:
-            raise ExperimentError(problem() if callable(problem) else problem)
+            raise Refusal(problem() if callable(problem) else problem)
         time.sleep(period)

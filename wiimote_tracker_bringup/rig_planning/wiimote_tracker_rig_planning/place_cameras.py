@@ -20,7 +20,7 @@ from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Trigger, TriggerResponse
 from visualization_msgs.msg import InteractiveMarkerFeedback, MarkerArray
 from wiimote_tracker_bringup import descriptions, files, nodes
-from wiimote_tracker_bringup.errors import ExperimentError, sentence_of
+from wiimote_tracker_bringup.errors import Refusal, sentence_of
 from wiimote_tracker_rig_planning import cells, handles, plan, plan_rig, prediction, search
 
 CORNERS = ('lower corner', 'upper corner')  # of the volume
@@ -137,7 +137,7 @@ def main():
     except KeyError as error:
         rospy.logfatal('the parameter %s is missing: use plan.launch', error)
         return 1
-    except (ExperimentError, OSError) as error:
+    except (Refusal, OSError) as error:
         rospy.logfatal('%s', sentence_of(error))
         return 1
     rospy.spin()

@@ -5,7 +5,7 @@ from typing import Tuple
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 
 Box = Tuple[float, float, float, float, float, float]  # two opposite corners, the lesser first [m]
@@ -52,22 +52,22 @@ class Plan:
 
 
 def read(path: str) -> Plan:
-    """Throws ExperimentError if a key is unknown, missing or out of range."""
+    """Throws Refusal if a key is unknown, missing or out of range."""
     content = read_yaml(path)
     fields = {field.name: field for field in dataclasses.fields(Plan)}
     if not isinstance(content, dict):
-        raise ExperimentError(f'{path} must have the keys {", ".join(fields)}')
+        raise Refusal(f'{path} must have the keys {", ".join(fields)}')
     unknown = sorted(set(map(str, content)) - set(fields))
     if unknown:
-        raise ExperimentError(f'{path}: {unknown[0]} is unknown; the keys are {", ".join(fields)}')
+        raise Refusal(f'{path}: {unknown[0]} is unknown; the keys are {", ".join(fields)}')
     missing = [name for name, field in fields.items()
                if field.default is dataclasses.MISSING and name not in content]
     if missing:
-        raise ExperimentError(f'{path}: {missing[0]} is missing')
+        raise Refusal(f'{path}: {missing[0]} is missing')
     plan = Plan(**{name: _value(path, name, value) for name, value in content.items()})
     if plan.body and plan.beam == 360.0:
-        raise ExperimentError(f'{path}: with a body give beam, since cameras behind the body do '
-                              'not see its LEDs')
+        raise Refusal(f'{path}: with a body give beam, since cameras behind the body do '
+                      'not see its LEDs')
     return plan
 
 
@@ -79,30 +79,30 @@ RANGES = {'cameras': (2, 64), 'beam': (1.0, 360.0), 'farthest': (0.1, 100.0),
 def _value(path, name, value):
     if name == 'body':
         if not isinstance(value, list) or 0 < len(value) < 3:
-            raise ExperimentError(f'{path}: body must be a list of 3 LEDs or more [x, y, z, '
-                                  'direction x, y, z]')
+            raise Refusal(f'{path}: body must be a list of 3 LEDs or more [x, y, z, '
+                          'direction x, y, z]')
         return tuple(_light(path, f'{name}[{index}]', led) for index, led in enumerate(value))
     if name in ('stands', 'obstacles'):
         if not isinstance(value, list) or (name == 'stands' and not value):
-            raise ExperimentError(f'{path}: {name} must be a list of boxes [x, y, z, x, y, z]')
+            raise Refusal(f'{path}: {name} must be a list of boxes [x, y, z, x, y, z]')
         return tuple(_box(path, f'{name}[{index}]', box) for index, box in enumerate(value))
     if name == 'volume':
         box = _box(path, name, value)
         if not np.prod(np.subtract(box[3:], box[:3])) > 0.0:
-            raise ExperimentError(f'{path}: {name} must have a length, width and height above 0')
+            raise Refusal(f'{path}: {name} must have a length, width and height above 0')
         return box
     if name == 'led_axis':
         return _direction(path, name, _numbers(path, name, value, 3))
     low, high = RANGES[name]
     if (isinstance(value, bool) or not isinstance(value, int if name == 'cameras' else (int, float))
             or not low <= value <= high):
-        raise ExperimentError(f'{path}: {name} is {value}, but must be from {low:g} to {high:g}')
+        raise Refusal(f'{path}: {name} is {value}, but must be from {low:g} to {high:g}')
     return value
 
 
 def _direction(path, name, value):
     if not np.linalg.norm(value) > 0.0:
-        raise ExperimentError(f'{path}: {name} must have a direction that is not 0')
+        raise Refusal(f'{path}: {name} must have a direction that is not 0')
     return tuple(value / np.linalg.norm(value))
 
 
@@ -121,5 +121,5 @@ def _numbers(path, name, value, count):
         isinstance(each, (int, float)) and not isinstance(each, bool) and abs(each) <= 1000.0
         for each in value)
     if not good:
-        raise ExperimentError(f'{path}: {name} must be {count} numbers from -1000 to 1000 [m]')
+        raise Refusal(f'{path}: {name} must be {count} numbers from -1000 to 1000 [m]')
     return np.array(value, dtype=float)

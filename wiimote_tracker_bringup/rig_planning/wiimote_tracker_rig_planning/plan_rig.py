@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 from wiimote_tracker_bringup import bound, descriptions, files, interruption, ranges, scene
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.experiment import NOMINAL_LENS
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_rig_planning import picture, plan, prediction, search
@@ -110,8 +110,8 @@ def read_rig(path):
         places_of(rig)
         return rig
     except (AttributeError, KeyError, TypeError, ValueError) as error:
-        raise ExperimentError(f'{path} is no rig description with position and look_at of each '
-                              'camera, such as simulation/paper_rig.yaml') from error
+        raise Refusal(f'{path} is no rig description with position and look_at of each '
+                      'camera, such as simulation/paper_rig.yaml') from error
 
 
 def places_of(rig):
@@ -131,8 +131,8 @@ def check_folder(path):
     such as /dev/stdout, need not be writable."""
     folder = os.path.dirname(path) or '.'
     if not (os.path.exists(path) or os.path.isdir(folder) and os.access(folder, os.W_OK)):
-        raise ExperimentError(f'{path} cannot be written: {folder} is no folder, or not writable; '
-                              'create it, or choose another one')
+        raise Refusal(f'{path} cannot be written: {folder} is no folder, or not writable; '
+                      'create it, or choose another one')
 
 
 def run(arguments):

@@ -6,7 +6,7 @@ import os
 import time
 
 from wiimote_tracker_bringup import bound, experiment, scene as scene_module, stack
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import prepare
 from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.programs import package_file
@@ -95,7 +95,7 @@ class Demo:
                 f'sees the LED at ({camera.x:.0f}, {camera.y:.0f})' if camera.sees_led
                 else 'does not see the LED', camera.problem))
         if not checked.success:
-            raise ExperimentError('the connection check failed: ' + checked.message)
+            raise Refusal('the connection check failed: ' + checked.message)
         self._report_view()
 
         progress.step('Calibration: the LED is put on the four corners, %.0f mm off'
@@ -151,7 +151,7 @@ class Demo:
         self._progress.step('Closing the bag, computing the results')
         stack.end(self._recorder)
         if not os.path.exists(self.file('demo.bag')):
-            raise ExperimentError('rosbag left no demo.bag; see ' + self.file('nodes.log'))
+            raise Refusal('rosbag left no demo.bag; see ' + self.file('nodes.log'))
         recorded = published.read_bag(self.file('demo.bag'), LED)
         score = scoring.score(recorded, segments)
         bounds = bound.position_bounds(

@@ -5,7 +5,7 @@ from typing import Dict, Tuple
 import numpy as np
 
 from wiimote_tracker_bringup import alignment, experiment, statistics
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 
 def milli(value: float) -> float:
@@ -19,8 +19,8 @@ def measured_place(recording, segment) -> Tuple[np.ndarray, np.ndarray, float, i
     inside = recording.between(segment.start, segment.end)
     frames = int(inside.sum())
     if frames < 2:
-        raise ExperimentError(f'only {frames} points were published while the LED was at '
-                              f'{segment.name}; see nodes.log')
+        raise Refusal(f'only {frames} points were published while the LED was at '
+                      f'{segment.name}; see nodes.log')
     positions = recording.position[inside]
     measured = positions.mean(axis=0)
     true = recording.truth_at(recording.stamp[inside]).mean(axis=0)
@@ -32,7 +32,7 @@ def measured_circle(recording, segment) -> Dict:
     """RMS of single points: distance from the axis minus the radius, and height."""
     inside = recording.between(segment.start, segment.end)
     if not inside.any():
-        raise ExperimentError(f'no point was published during the {segment.name}; see nodes.log')
+        raise Refusal(f'no point was published during the {segment.name}; see nodes.log')
     offset = recording.position[inside] - np.asarray(segment.target)
     radial = np.hypot(offset[:, 0], offset[:, 1]) - experiment.CIRCLE_RADIUS
     return {'name': segment.name, 'radial_rms_mm': milli(statistics.rms(radial)),
@@ -43,7 +43,7 @@ def score(recording, segments) -> Dict:
     """Score of a recording. position_rms_mm: of the test points, by kind of alignment. rate_hz: of
     points while measuring. latency_ms: from a report's arrival to its point. point_age_ms: from the
     instant of a point to its arrival at the recorder. point_scatter_mm: of single points, RMS over
-    the places. @raise ExperimentError: something was not measured."""
+    the places. @raise Refusal: something was not measured."""
     names = [segment.name for segment in segments if segment.kind == 'test']
     (true, measured, scatter, frames), (aligning_true, aligning, _, _) = (
         [np.array(values) for values in zip(*(measured_place(recording, segment)
@@ -54,7 +54,7 @@ def score(recording, segments) -> Dict:
     duration = sum(segment.end - segment.start for segment in segments)
     published = sum(int(recording.between(s.start, s.end).sum()) for s in segments)
     if not len(recording.latency):
-        raise ExperimentError('no message on the topic points was recorded; see nodes.log')
+        raise Refusal('no message on the topic points was recorded; see nodes.log')
     p50, p99 = np.percentile(recording.latency, [50, 99])
     return {
         'position_rms_mm': {kind: milli(alignment.rms(

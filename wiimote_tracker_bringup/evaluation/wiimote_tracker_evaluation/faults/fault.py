@@ -4,7 +4,7 @@ import dataclasses
 import time
 from typing import Callable, Dict, List, Optional
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.faults.figures import PIECE, Figures, is_normal, normal_since
 
 BEFORE = 2.0     # measured before the fault [s]
@@ -73,7 +73,7 @@ def carry_out(chosen: Fault, room) -> Result:
     time.sleep(next(course))
     try:
         next(course)
-        raise ExperimentError(f'{chosen.name} yields more than once')
+        raise Refusal(f'{chosen.name} yields more than once')
     except StopIteration as ended:
         result.problems += ended.value or []
     gone = time.time()

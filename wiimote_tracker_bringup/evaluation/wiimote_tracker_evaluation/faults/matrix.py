@@ -6,7 +6,7 @@ import json
 import subprocess
 from typing import List, Optional
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.processes import Processes
 from wiimote_tracker_evaluation.faults import (
@@ -66,7 +66,7 @@ class Matrix:
                 self._kind, self._room = fault.room, Room(self._processes, **fault.room)
             self._room.wait_until_tracked()
             result = carry_out(fault, self._room)
-        except (ExperimentError, OSError, subprocess.SubprocessError, EOFError) as error:
+        except (Refusal, OSError, subprocess.SubprocessError, EOFError) as error:
             result = Result(fault.name, fault.what, problems=[str(error) or type(error).__name__])
         if result.problems or fault.spends_room:
             self._close()

@@ -10,7 +10,7 @@ import time
 import psutil
 
 from wiimote_tracker_bringup import descriptions
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml, write_yaml
 from wiimote_tracker_bringup.processes import descendants, free_port
 from wiimote_tracker_bringup.programs import find_program, package_file
@@ -138,13 +138,13 @@ class Room:
         return found
 
     def pid(self, node):
-        """node: its name, or roscore, or roslaunch. @raise ExperimentError: it does not run."""
+        """node: its name, or roscore, or roslaunch. @raise Refusal: it does not run."""
         if node in ('roscore', 'roslaunch'):
             return (self.master if node == 'roscore' else self.launch).pid
         try:
             return self.nodes()[node]
         except KeyError:
-            raise ExperimentError(f'the node {node} does not run; see {self.log}')
+            raise Refusal(f'the node {node} does not run; see {self.log}')
 
     def kill(self, node):
         """node: as of pid()."""

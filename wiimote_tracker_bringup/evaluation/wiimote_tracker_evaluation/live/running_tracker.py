@@ -6,7 +6,7 @@ import time
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.nodes import master_problem
 from wiimote_tracker_bringup.waiting import wait_until
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
@@ -24,14 +24,14 @@ Place = collections.namedtuple('Place', 'position scatter points')  # mean, stan
 
 
 class RunningTracker:
-    """Points and rig of a running tracker. @raise ExperimentError: there is no ROS master."""
+    """Points and rig of a running tracker. @raise Refusal: there is no ROS master."""
 
     def __init__(self):
         import rospy
         problem = master_problem('start the tracker first: roslaunch wiimote_tracker_bringup '
                                  'tracker.launch cameras:=FILE')
         if problem:
-            raise ExperimentError(problem)
+            raise Refusal(problem)
         if not rospy.core.is_initialized():
             rospy.init_node('evaluation', anonymous=True, disable_signals=True)
         from wiimote_tracker_msgs.msg import RigCalibration, TrackedPointArray
@@ -79,8 +79,8 @@ class RunningTracker:
         """Side of the square used to calibrate the rig [m]."""
         sides = self.rig().square_sides
         if not sides or len(set(sides)) > 1:
-            raise ExperimentError('the ten points need a rig calibrated with a square; its '
-                                  f"sides are {list(sides) or 'unknown'}")
+            raise Refusal('the ten points need a rig calibrated with a square; its '
+                          f"sides are {list(sides) or 'unknown'}")
         return sides[0]
 
     def up(self):

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, bound, rigid_motion, timeseries
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 # Longest time between two samples of the truth to interpolate between [s].
 LONGEST_GAP = 0.02
@@ -43,7 +43,7 @@ def fit_space(points, true, kind):
     used = np.isfinite(true).all(axis=1)
     for _ in range(ROUNDS):
         if used.sum() < LEAST_POINTS:
-            raise ExperimentError('the truth and the tracked path have too few common times')
+            raise Refusal('the truth and the tracked path have too few common times')
         fitted = alignment.fit_kind(kind, points[used], true[used])
         errors = np.linalg.norm(fitted.apply(points) - true, axis=1)
         used = errors < OUTLIER * np.median(errors[used])

@@ -10,7 +10,7 @@ import os
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_evaluation.recordings.lighthouse import read_table
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
@@ -22,7 +22,7 @@ ROUNDS = 20  # of the inversion of a lens
 
 
 def read(folder: str) -> Views:
-    """@raise ExperimentError: a file is missing or has another format."""
+    """@raise Refusal: a file is missing or has another format."""
     path = os.path.join(folder, 'cameras.yaml')
     lenses = read_yaml(path)
     try:
@@ -31,18 +31,18 @@ def read(folder: str) -> Views:
             if len(distortion) != 5:
                 raise ValueError(f'distortion is {distortion}, but must have 5 numbers')
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise ExperimentError(f'{path} cannot be read: {error}; each camera needs '
-                              + ', '.join(KEYS))
+        raise Refusal(f'{path} cannot be read: {error}; each camera needs '
+                      + ', '.join(KEYS))
     path = os.path.join(folder, 'detections.csv')
     try:
         table = np.genfromtxt(path, dtype=None, delimiter=',', names=True, encoding='utf-8')
         seen = {name: np.stack([table[column][table['camera'] == name].astype(float)
                                 for column in ('frame', 'u', 'v')], axis=1) for name in lenses}
     except (OSError, ValueError, IndexError) as error:
-        raise ExperimentError(f'{path} cannot be read: {error}; its columns are camera,frame,u,v')
+        raise Refusal(f'{path} cannot be read: {error}; its columns are camera,frame,u,v')
     for name, rows in seen.items():
         if len(rows) < 3:
-            raise ExperimentError(f'{path} has hardly any detection of {name}')
+            raise Refusal(f'{path} has hardly any detection of {name}')
     truth = read_table(os.path.join(folder, 'truth.csv'), 4)
     return Views([camera_of(name, lenses[name], seen[name]) for name in lenses], np.zeros((1, 3)),
                  0.0, Truth(truth[:, 0], truth[:, 1:], 1.0, -BEGIN, START))

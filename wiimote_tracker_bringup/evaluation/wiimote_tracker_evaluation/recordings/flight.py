@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.timeseries import to_nearest
 from wiimote_tracker_evaluation.recordings import accuracy, body, pipeline
 
@@ -74,8 +74,8 @@ def score(views, rig, table):
     """Figures of what was tracked; times and errors of the scored points [s, m]."""
     path = path_of(views, rig, table)
     if len(path.times) < 2:
-        raise ExperimentError('the body was never tracked: two cameras must see it together for '
-                              'longer')
+        raise Refusal('the body was never tracked: two cameras must see it together for '
+                      'longer')
     images, tracked = sight_of(views, rig, path.times)
     gaps = gaps_of(images, tracked)
     result, times, errors = accuracy.score(path, views.truth, 'similarity')

@@ -7,7 +7,7 @@ from typing import Callable, Dict, List, Tuple
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import (
     cameras, disturbed, flight, lighthouse, multicamselfcal, reprojection, time_maps)
 
@@ -80,7 +80,7 @@ FORMATS = {
 
 
 def measure(name: str, source: str) -> Outcome:
-    """@raise ExperimentError: the recording is damaged, or does not suffice."""
+    """@raise Refusal: the recording is damaged, or does not suffice."""
     with tempfile.TemporaryDirectory() as folder:
         outcome = FORMATS[name].measure(source, folder)
     outcome.result['method'] = outcome.method
@@ -89,7 +89,7 @@ def measure(name: str, source: str) -> Outcome:
 
 def found_in(folder: str) -> Dict[str, str]:
     """Formats of the recordings in a folder and below it, by their paths in order.
-    @raise ExperimentError: there is none."""
+    @raise Refusal: there is none."""
     found = {}
     for path, _, files in os.walk(folder):
         for name, each in FORMATS.items():
@@ -97,5 +97,5 @@ def found_in(folder: str) -> Dict[str, str]:
                 found[path] = name
     if not found:
         signs = ' or '.join(sorted(each.sign for each in FORMATS.values()))
-        raise ExperimentError(f'{folder} has no recording: a folder with {signs} is one')
+        raise Refusal(f'{folder} has no recording: a folder with {signs} is one')
     return dict(sorted(found.items()))

@@ -15,7 +15,7 @@ import zlib
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.timeseries import to_nearest
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP, Camera, Truth, Views
 
@@ -39,18 +39,18 @@ CLOCK_TOLERANCE = 0.1
 
 
 def read(folder: str) -> Views:
-    """@raise ExperimentError: a file is missing or has another format."""
+    """@raise Refusal: a file is missing or has another format."""
     bearings = read_table(os.path.join(folder, 'bearings.csv.gz'), 5)
     mocap = read_table(os.path.join(folder, 'mocap.csv.gz'), 4)
     switched = read_table(os.path.join(folder, 'markers_on_off.csv'), 1)[:, 0] * 1e-3
     mocap = mocap[np.isfinite(mocap).all(axis=1)]
     if len(mocap) < 2 or len(switched) != 2:
-        raise ExperimentError(f'{folder} has no truth: mocap.csv.gz needs two positions or more, '
-                              'markers_on_off.csv two times')
+        raise Refusal(f'{folder} has no truth: mocap.csv.gz needs two positions or more, '
+                      'markers_on_off.csv two times')
     stations = [sweeps_of(bearings[bearings[:, 1] == station]) for station in (0, 1)]
     if any(len(times) < 3 for times, _ in stations):
-        raise ExperimentError(f'{folder} has hardly any angles of one of the stations 0 and 1: at '
-                              'least three pairs of sweeps must show all sensors')
+        raise Refusal(f'{folder} has hardly any angles of one of the stations 0 and 1: at '
+                      'least three pairs of sweeps must show all sensors')
     cameras = [Camera(f'station_{number}', SIZE, FOCAL, *images_of(*stations[number], sweep))
                for number, sweep in enumerate(nearest_sweeps(stations))]
     rate = (mocap[-1, 0] - mocap[0, 0]) / (switched[1] - switched[0])
@@ -64,10 +64,10 @@ def read_table(path, columns):
         with (gzip.open if path.endswith('.gz') else open)(path, 'rt') as file:
             table = np.atleast_2d(np.genfromtxt(file, delimiter=',', skip_header=1))
     except (OSError, EOFError, zlib.error, ValueError) as error:
-        raise ExperimentError(f'{path} cannot be read: {error}')
+        raise Refusal(f'{path} cannot be read: {error}')
     table = table.reshape(-1, columns) if columns == 1 or not table.size else table
     if table.shape[1] != columns:
-        raise ExperimentError(f'{path} has {table.shape[1]} columns, but must have {columns}')
+        raise Refusal(f'{path} has {table.shape[1]} columns, but must have {columns}')
     return table
 
 

@@ -12,7 +12,7 @@ import rosbag
 from scipy.optimize import least_squares
 
 from wiimote_tracker_bringup import programs
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import reprojection
 from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of, nearest_points
 
@@ -42,8 +42,8 @@ def evaluate(source, folder):
                 if error is not None:
                     errors.setdefault(name, {})[frame] = error
     if not errors:
-        raise ExperimentError(f'no frame of {source} was seen by three cameras: a prediction needs '
-                              'two others')
+        raise Refusal(f'no frame of {source} was seen by three cameras: a prediction needs '
+                      'two others')
     return reprojection.per_camera(dict(sorted(errors.items()))), {
         (frame, name): error for name, own in errors.items() for frame, error in own.items()}
 

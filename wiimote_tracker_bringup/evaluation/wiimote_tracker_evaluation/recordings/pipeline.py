@@ -16,7 +16,7 @@ import yaml
 from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
 from wiimote_tracker_bringup import multicamselfcal, programs
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml, write_yaml
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
@@ -58,7 +58,7 @@ def first_poses(views, folder):
     common = [camera.pixels_at(times).mean(axis=1) for camera in views.cameras]
     both = np.flatnonzero(np.isfinite(common).all(axis=(0, 2)))
     if len(both) < 2:
-        raise ExperimentError('the cameras never saw the lights at the same time')
+        raise Refusal('the cameras never saw the lights at the same time')
     chosen = both[::max(1, len(both) // INSTANTS)]
     source, path = os.path.join(folder, 'instants'), os.path.join(folder, 'first.yaml')
     os.makedirs(source, exist_ok=True)

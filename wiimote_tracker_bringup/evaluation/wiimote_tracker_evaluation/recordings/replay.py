@@ -11,7 +11,7 @@ import numpy as np
 import rosbag
 from wiimote_tracker_msgs.msg import TrackedPoint
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import pipeline, reprojection
 from wiimote_tracker_evaluation.recordings.solved_rig import camera_of
 
@@ -43,11 +43,11 @@ class Bag:
                     elif topic.endswith('/ir_blobs'):
                         blobs.append(message)
         except rosbag.ROSBagException as error:
-            raise ExperimentError(f'{path} cannot be read ({error}); if it was not closed, repair '
-                                  'it with rosbag reindex') from error
+            raise Refusal(f'{path} cannot be read ({error}); if it was not closed, repair '
+                          'it with rosbag reindex') from error
         if self.rig is None or not blobs:
-            raise ExperimentError(f'{path} holds no /calibration/rig or no ir_blobs: make it with '
-                                  'import_multicamselfcal')
+            raise Refusal(f'{path} holds no /calibration/rig or no ir_blobs: make it with '
+                          'import_multicamselfcal')
         blobs.sort(key=lambda b: (b.header.stamp, b.camera))
         self.start = blobs[0].header.stamp - genpy.Duration(0, 100000000)
         self.instants = [list(group)

@@ -3,7 +3,7 @@
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 from wiimote_tracker_bringup.scene import Camera
 
@@ -11,10 +11,10 @@ DISTANCE = 3.0  # of a light from cameras in a room [m]
 
 
 def camera_of(message):
-    """A CameraCalibration as a camera. @raise ExperimentError: it has another distortion model."""
+    """A CameraCalibration as a camera. @raise Refusal: it has another distortion model."""
     if message.distortion_model != 'plumb_bob':
-        raise ExperimentError(f'{message.name}: the distortion model {message.distortion_model} is '
-                              'not supported')
+        raise Refusal(f'{message.name}: the distortion model {message.distortion_model} is '
+                      'not supported')
     place, turn = message.world_from_camera.position, message.world_from_camera.orientation
     distortion = (list(message.distortion) + 5 * [0.0])[:5]
     return Camera(message.name, [message.fx, message.fy, message.cx, message.cy, *distortion],

@@ -3,7 +3,7 @@
 import json
 import os
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 
 TITLE = 'Faults'
 SECONDS = 1, 1
@@ -34,7 +34,7 @@ def run(run):
             results = json.load(file)
         rows = [row(result) for result in results]
     except (OSError, ValueError, KeyError, TypeError):
-        raise ExperimentError(f'{run.options.faults} is not what fault_matrix --json writes')
+        raise Refusal(f'{run.options.faults} is not what fault_matrix --json writes')
     survived = sum(not result['problems'] for result in results)
     run.table('faults', [('fault', '')] + [
         (f'{name}_{time}', unit) for time in TIMES

@@ -6,7 +6,7 @@ virtual Wii Remote, whose sensor decides what is seen.
 
 import numpy as np
 
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_yaml
 
 SENSITIVITIES = ('wii_1', 'wii_2', 'wii_3', 'wii_4', 'wii_5', 'max')
@@ -41,7 +41,7 @@ def detection_distance(brightness: float, threshold: float) -> float:
 
 
 def read_led(path: str) -> Led:
-    """Reads an LED from a file such as led.yaml. @raise ExperimentError: says what is wrong."""
+    """Reads an LED from a file such as led.yaml. @raise Refusal: says what is wrong."""
     content = read_yaml(path)
     try:
         angle = float(content['half_power_angle'])
@@ -49,16 +49,16 @@ def read_led(path: str) -> Led:
         measured = [(float(current), float(distance))
                     for current, distance in content['distances'].items()]
     except (KeyError, TypeError, ValueError, AttributeError) as error:
-        raise ExperimentError(f'{path} is not a description of an LED ({type(error).__name__}: '
-                              f'{error}); see led.yaml of this package')
+        raise Refusal(f'{path} is not a description of an LED ({type(error).__name__}: '
+                      f'{error}); see led.yaml of this package')
     if not 1.0 <= angle <= 179.0:
-        raise ExperimentError(f'{path}: half_power_angle is {angle:g}, but must be within 1 and '
-                              '179 degrees')
+        raise Refusal(f'{path}: half_power_angle is {angle:g}, but must be within 1 and '
+                      '179 degrees')
     if sensitivity not in SENSITIVITIES:
-        raise ExperimentError(f"{path}: sensitivity is {sensitivity!r}, but must be one of "
-                              f"{', '.join(SENSITIVITIES)}")
+        raise Refusal(f"{path}: sensitivity is {sensitivity!r}, but must be one of "
+                      f"{', '.join(SENSITIVITIES)}")
     if not measured or any(not (current > 0.0 and distance > 0.0)
                            for current, distance in measured):
-        raise ExperimentError(f'{path}: distances needs a pair at least, currents and distances '
-                              'above 0')
+        raise Refusal(f'{path}: distances needs a pair at least, currents and distances '
+                      'above 0')
     return Led(angle, sensitivity, measured)

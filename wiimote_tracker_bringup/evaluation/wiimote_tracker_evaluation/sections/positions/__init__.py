@@ -6,7 +6,7 @@ import shutil
 import numpy as np
 
 from wiimote_tracker_bringup import programs, statistics
-from wiimote_tracker_bringup.errors import ExperimentError
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.live import positions as with_a_person
 from wiimote_tracker_evaluation.sections.positions import claims, plots
 from wiimote_tracker_evaluation.sections.positions.results import (
@@ -61,15 +61,15 @@ def tell(run, results):
 
 
 def check(results):
-    """@raise ExperimentError: there are no results."""
+    """@raise Refusal: there are no results."""
     if not results.has(FOUR):
-        raise ExperimentError('this section needs a rig of four cameras or more; see --rig')
+        raise Refusal('this section needs a rig of four cameras or more; see --rig')
     for cameras, words in SETS:
         for method, model in [(case, model) for case in CASES for model, _ in MODELS] + [
                 (method, 'calibrated') for method in OURS]:
             group = results.group(cameras, method, model)
             if len(group.from_nominal()) < 2:
-                raise ExperimentError(
+                raise Refusal(
                     '%d of %d sessions with %s Wiimotes could not be solved by %s (%s); place the '
                     'rig\'s cameras as in the paper, so that all four see the whole cube' % (
                         group.unsolved(), results.sessions, words, method, model))

@@ -64,7 +64,7 @@ class SuspectWatch {
   SuspectOptions options_;
   health::DriftWatch watch_;
   std::vector<health::Alarm> alarms_;  // Per camera of the rig.
-  std::vector<bool> new_clocks_;       // Per camera of the rig: the offset is for another epoch.
+  std::vector<bool> new_clocks_;       // Per camera of the rig: it reconnected.
   std::vector<std::size_t> suspects_;
   // Since there are suspects:
   MotionWindow motion_;

@@ -216,15 +216,16 @@ void checkCertainty(const Fit& fit,
                     const Recalibration& result,
                     const Options& options) {
   const std::string& name = fit.camera.name;
+  const std::vector<geometry::RigCamera>& cameras = result.rig.cameras;
   std::vector<std::string> unclocked;  // a longer wave does not help against their offsets
-  bool were_known = true;
   for (const std::size_t i : path.cameras()) {
-    const geometry::RigCamera& other = result.rig.cameras[i];
-    if (path.clockKnown(i))
-      continue;
-    unclocked.push_back(other.camera.name);
-    were_known = were_known && other.time_offset_rule != geometry::TimeOffsetRule::kNone;
+    if (!path.clockKnown(i))
+      unclocked.push_back(cameras[i].camera.name);
   }
+  // Else continuous calibration finds no clocks.
+  const bool were_known = std::all_of(cameras.begin(), cameras.end(), [](const auto& camera) {
+    return camera.time_offset_rule != geometry::TimeOffsetRule::kNone;
+  });
   if (result.offset_stddev > options.maximum_offset_stddev)
     throw Error(
         "the time offset of " + name +

@@ -26,7 +26,7 @@ struct Frame {
 /// All that one camera saw: the square (some corners, all of them or none), then the wave.
 struct CameraRecording {
   square::CameraSightings sightings;
-  std::uint32_t clock_epoch = 0;  ///< Of the stamps; the time offset holds for this epoch only.
+  std::uint32_t clock_epoch = 0;  ///< Of the stamps; a later one has another time offset.
   std::vector<Frame> frames;      ///< In the order of their stamps.
   /// Regions of the images whose light was left out. The solvers do without them; a rig has them.
   std::vector<geometry::ImageMask> masks;

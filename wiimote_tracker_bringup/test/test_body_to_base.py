@@ -15,6 +15,7 @@ from std_msgs.msg import Header
 from wiimote_tracker_body_motion import (
     body_to_base, evaluate_trajectory, hand_eye, inertial, mount, poses)
 from wiimote_tracker_bringup.errors import Refusal
+from wiimote_tracker_bringup.files import read_yaml, write_yaml
 
 import mount_scene
 from mount_scene import ARM, OFFSET, TURN, error_of
@@ -222,6 +223,10 @@ def test_files_and_words(tmp_path):
     assert np.allclose(read.covariance, found.covariance)
     assert 'static_transform_publisher' in open(path).read()
     assert 'clock offset      37.30 ms' in '\n'.join(body_to_base.describe(found))
+    content = read_yaml(path)
+    write_yaml(path, dict(content, translation=content['translation'][:2]))
+    with pytest.raises(Refusal, match='no result of body_to_base: cannot reshape'):
+        mount.read(path)
     (tmp_path / 'other.yaml').write_text('a: 1\n')
     with pytest.raises(Refusal, match="no result of body_to_base: 'format' is missing"):
         mount.read(str(tmp_path / 'other.yaml'))

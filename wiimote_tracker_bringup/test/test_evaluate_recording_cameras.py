@@ -96,9 +96,9 @@ def test_refusals_say_which_file(tmp_path):
     with pytest.raises(Refusal, match='its columns are camera,frame,u,v'):
         cameras.read(str(tmp_path))
     lens = dict.fromkeys(cameras.KEYS, 1.0)
-    for distortion in ([0.1, 0.0, 0.0, 0.0], 0.1):
-        lens['distortion'] = distortion
-        (tmp_path / 'cameras.yaml').write_text(yaml.safe_dump({'c0': lens}))
+    for wrong in ({'distortion': [0.1, 0.0, 0.0, 0.0]}, {'distortion': 0.1},
+                  {'distortion': [0.0] * 5, 'fx': 0.0}):
+        (tmp_path / 'cameras.yaml').write_text(yaml.safe_dump({'c0': dict(lens, **wrong)}))
         with pytest.raises(Refusal, match='cameras.yaml cannot be read.*each camera needs'):
             cameras.read(str(tmp_path))
 

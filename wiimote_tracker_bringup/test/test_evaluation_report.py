@@ -50,7 +50,7 @@ def a_good_run(run):
 
 def a_failing_run(run):
     run.say('Before the fall.')
-    raise RuntimeError('the lamp <broke>; use another one')
+    raise RuntimeError('the lamp <broke>; use __another__ *one*')
 
 
 def an_interrupted_run(run):
@@ -167,7 +167,7 @@ def test_a_failed_section_is_reported_and_the_others_run(evaluate, tmp_path, cap
     assert figures(tmp_path)['failed'] == ['bad']
     assert [each['section'] for each in figures(tmp_path)['figures']] == ['good', 'good']
     page = (tmp_path / 'out/report.html').read_text(encoding='utf-8')
-    assert 'the lamp &lt;broke&gt;; use another one' in page and 'Before the fall.' in page
+    assert 'the lamp &lt;broke&gt;; use __another__ *one*' in page and 'Before the fall.' in page
     assert 'the lamp <broke>' in (tmp_path / 'out/bad/failure.txt').read_text()
     assert 'Failed: bad' in capsys.readouterr().out
 

@@ -185,12 +185,19 @@ def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
 
 @pytest.mark.parametrize('text, words', [
     ('cameras: [', 'valid YAML'), ('cameras: {a: {}}', 'rig description'),
-    ('cameras: {a: {position: x, look_at: y}}', 'rig description'), ('[]', 'rig description')])
+    ('cameras: {a: {position: x, look_at: y}}', 'rig description'), ('[]', 'rig description'),
+    ('cameras: {a: {position: [0, 0], look_at: [1, 1]}}', 'rig description'),
+    ('cameras: {}', 'rig description'), ('cameras: 2024-13-45', 'valid YAML')])
 def test_what_is_no_rig_description_is_refused(text, words, tmp_path):
     path = tmp_path / 'rig.yaml'
     path.write_text(text)
     with pytest.raises(SystemExit, match=f'rig.yaml is (no|not) {words}'):
         plan_rig.main([EXAMPLE, '--score', str(path)])
+
+
+def test_a_map_of_an_unknown_kind_is_refused(tmp_path):
+    with pytest.raises(SystemExit, match="plan_rig: .*map.xyz: Format 'xyz' is not supported"):
+        plan_rig.main([EXAMPLE, '--score', PAPER_RIG, '--plot', str(tmp_path / 'map.xyz')])
 
 
 def test_the_papers_rig_sees_the_whole_cube(capsys):

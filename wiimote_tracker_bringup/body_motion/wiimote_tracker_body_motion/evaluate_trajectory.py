@@ -34,7 +34,7 @@ def draw(compared, file):
         errors.plot(times - start, compared.errors[name], color=color, label=name)
     errors.set(xlabel='time [s]', ylabel='error [m]')
     charts.key(errors)
-    figure.savefig(file)
+    charts.save(figure, file)
 
 
 def run(arguments):

@@ -60,7 +60,8 @@ def read(path):
         if content['format'] != FORMAT or content['version'] != 1:
             raise ValueError(f'its format is not {FORMAT} 1')
         return Mount(Rotation.from_quat(content['quaternion_xyzw']),
-                     np.array(content['translation'], dtype=float), float(content['clock_offset']),
+                     np.array(content['translation'], dtype=float).reshape(3),
+                     float(content['clock_offset']),
                      np.array(content['covariance'], dtype=float).reshape(7, 7),
                      content['body'], content['base'])
     except KeyError as error:

@@ -74,8 +74,11 @@ def main(arguments: Optional[List[str]] = None) -> None:
     options = parser.parse_args(arguments)
     with answered('results_table'):
         content = read(options.figures)
-        with open(options.document, encoding='utf-8') as file:
-            text = file.read()
+        try:
+            with open(options.document, encoding='utf-8') as file:
+                text = file.read()
+        except UnicodeDecodeError as error:
+            raise Refusal(f'{options.document} is no text ({error}): correct its path') from error
         text = written(text, content)  # before the document is emptied: it may refuse
         with open(options.document, 'w', encoding='utf-8') as file:
             file.write(text)

@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.needs import require
 
 require('matplotlib')
@@ -26,6 +27,14 @@ def figure(rows=1, columns=1, height=3.4, width=WIDTH, **more):
     """A matplotlib figure and its axes, as from plt.subplots."""
     with matplotlib.rc_context(STYLE):
         return plt.subplots(rows, columns, figsize=(width, height), constrained_layout=True, **more)
+
+
+def save(figure, path):
+    """Throws Refusal if matplotlib does not know the ending."""
+    try:
+        figure.savefig(path)
+    except ValueError as error:
+        raise Refusal(f'{path}: {error}') from error
 
 
 def cumulative(axes, values, color, label=None, **style):

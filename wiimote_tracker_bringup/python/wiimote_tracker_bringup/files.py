@@ -20,7 +20,7 @@ def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:
                       'permissions') from error
     except UnicodeDecodeError as error:
         raise Refusal(f'{path} is no text ({error}): correct its path') from error
-    except yaml.YAMLError as error:
+    except (yaml.YAMLError, ValueError) as error:  # ValueError: a date that is none
         raise Refusal('%s is not valid YAML (%s): correct it' % (
             path, str(error).replace('\n', ' '))) from error
 

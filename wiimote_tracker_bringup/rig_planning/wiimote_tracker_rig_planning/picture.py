@@ -2,7 +2,6 @@
 
 import numpy as np
 
-from wiimote_tracker_bringup.needs import require
 from wiimote_tracker_rig_planning import prediction
 
 ACROSS = 40  # points along an edge
@@ -11,17 +10,15 @@ ACROSS = 40  # points along an edge
 def draw(chosen, positions, targets, path):
     """Writes it. Grey: seen by fewer than two cameras, or a body that is not located in some
     heading."""
-    require('matplotlib')
-    import matplotlib
-    matplotlib.use('Agg')
-    from matplotlib import pyplot
+    from wiimote_tracker_bringup import charts  # matplotlib may be absent
+    from matplotlib.patches import Rectangle
     low, high = np.array(chosen.volume).reshape(2, 3)
     x, y = (np.linspace(low[axis], high[axis], ACROSS) for axis in (0, 1))
     heights = np.linspace(low[2], high[2], 3)
     errors = [errors_at(chosen, positions, targets, x, y, height) for height in heights]
-    figure, maps = pyplot.subplots(1, 3, figsize=(13, 4.5), sharey=True, constrained_layout=True)
+    figure, maps = charts.figure(1, 3, height=4.5, width=13.0, sharey=True)
     for axes, height, values in zip(maps, heights, errors):
-        axes.add_patch(pyplot.Rectangle(low[:2], *(high - low)[:2], color='0.7'))
+        axes.add_patch(Rectangle(low[:2], *(high - low)[:2], color='0.7'))
         shown = axes.pcolormesh(x, y, values.T, shading='nearest', cmap='viridis_r',
                                 vmin=0.0, vmax=np.nanmax([1.0] + [np.nanmax(each) for each in errors
                                                                   if np.isfinite(each).any()]))
@@ -32,7 +29,7 @@ def draw(chosen, positions, targets, path):
         axes.set(aspect='equal', title=f'z = {height:.2f} m', xlabel='x [m]')
     maps[0].set_ylabel('y [m]')
     figure.colorbar(shown, ax=maps, label='standard deviation [mm]')
-    figure.savefig(path)
+    charts.save(figure, path)
 
 
 def errors_at(chosen, positions, targets, x, y, height):

@@ -115,9 +115,11 @@ def read_rig(path):
 
 
 def places_of(rig):
-    """Names, positions and targets of the cameras of a rig description."""
-    return (list(rig['cameras']),) + tuple(
-        np.array([camera[key] for camera in rig['cameras'].values()], dtype=float)
+    """Names, positions and targets of the cameras of a rig description, one or more. Throws
+    ValueError if a place has not three numbers."""
+    cameras = rig['cameras']
+    return (list(cameras),) + tuple(
+        np.stack([np.array(camera[key], dtype=float).reshape(3) for camera in cameras.values()])
         for key in ('position', 'look_at'))
 
 

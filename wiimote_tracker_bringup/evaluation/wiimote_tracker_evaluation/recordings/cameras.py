@@ -30,6 +30,9 @@ def read(folder: str) -> Views:
             *_, distortion, _ = [lens[key] for key in KEYS]
             if len(distortion) != 5:
                 raise ValueError(f'distortion is {distortion}, but must have 5 numbers')
+            for key in ('rate', 'height', 'fx', 'fy'):
+                if not lens[key] > 0.0:
+                    raise ValueError(f'{key} is {lens[key]}, but must be above 0')
     except (KeyError, TypeError, ValueError, AttributeError) as error:
         raise Refusal(f'{path} cannot be read: {error}; each camera needs '
                       + ', '.join(KEYS))

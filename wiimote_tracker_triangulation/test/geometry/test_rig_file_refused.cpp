@@ -5,7 +5,6 @@
 
 #include <sys/stat.h>
 
-
 namespace wiimote_tracker::geometry::test {
 namespace {
 

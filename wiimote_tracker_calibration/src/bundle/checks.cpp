@@ -24,9 +24,16 @@ void checkObservations(const Reconstruction& reconstruction) {
     }
   }
   for (std::size_t i = 0; i < reconstruction.observations.size(); ++i) {
-    if (!reconstruction.observations[i].pixel.allFinite())
-      throw BundleError("observation " + std::to_string(i) +
-                        " is not finite: leave out what a camera did not see");
+    const Observation& observation = reconstruction.observations[i];
+    const std::string which = "observation " + std::to_string(i);
+    if (observation.camera >= reconstruction.cameras.size())
+      throw BundleError(which + " names camera " + std::to_string(observation.camera) +
+                        ", which does not exist");
+    if (observation.point >= reconstruction.points.size())
+      throw BundleError(which + " names point " + std::to_string(observation.point) +
+                        ", which does not exist");
+    if (!observation.pixel.allFinite())
+      throw BundleError(which + " is not finite: leave out what a camera did not see");
   }
 }
 

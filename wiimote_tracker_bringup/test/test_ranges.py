@@ -48,3 +48,13 @@ def test_parameters(value, monkeypatch):
     hand = program_module.load('simulation/simulated_hand')
     with pytest.raises(Refusal, match='side is .*, but must be within 0.1 and 20'):
         hand.Hand()
+
+
+def test_the_simulated_hand_needs_its_led(monkeypatch, tmp_path):
+    path = tmp_path / 'rig.yaml'
+    path.write_text('leds: {left: {}}')
+    monkeypatch.setattr(rospy, 'get_param', lambda name, default=None: {
+        '~description': str(path)}.get(name, default))
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: name)
+    with pytest.raises(Refusal, match='rig.yaml has no LED led, .*: correct ~led'):
+        program_module.load('simulation/simulated_hand').Hand()

@@ -29,6 +29,7 @@ inline Eigen::Isometry3d poseFromCv(const cv::Mat& rotation_vector, const cv::Ma
 /// they spread along it.
 inline bool fillAnArea(const std::vector<cv::Point2d>& points) {
   std::vector<Eigen::Vector3d> in_plane;
+  in_plane.reserve(points.size());
   for (const cv::Point2d& point : points)
     in_plane.emplace_back(point.x, point.y, 0.0);
   const Eigen::Vector3d spread = geometry::spreadOf(in_plane);

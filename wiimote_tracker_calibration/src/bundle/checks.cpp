@@ -63,6 +63,7 @@ bool isOnALine(const Reconstruction& reconstruction) {
   const NormalizedViews views = normalize(reconstruction);
   return std::none_of(views.begin(), views.end(), [](const auto& view) {
     std::vector<cv::Point2d> places;
+    places.reserve(view.size());
     for (const auto& [point, place] : view)
       places.emplace_back(place.x(), place.y());
     return adjust::fillAnArea(places);

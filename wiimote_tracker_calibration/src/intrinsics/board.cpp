@@ -5,7 +5,8 @@
 namespace wiimote_tracker::intrinsics {
 
 Eigen::Vector3d Board::position(int led) const {
-  return {led % kBoardColumns * column_spacing, led / kBoardColumns * row_spacing, 0.0};
+  const int row = led / kBoardColumns;
+  return {led % kBoardColumns * column_spacing, row * row_spacing, 0.0};
 }
 
 std::size_t BoardView::count() const {

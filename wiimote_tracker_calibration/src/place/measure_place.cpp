@@ -36,6 +36,7 @@ std::optional<Measurement> measure(const geometry::Rig& rig,
                                    const std::vector<View>& views,
                                    double pixel_stddev) {
   std::vector<geometry::Camera> cameras;
+  cameras.reserve(views.size());
   for (const View& view : views)
     cameras.push_back(rig.rayCamera(rig.cameras[view.camera]));
   std::vector<geometry::Observation> observations;

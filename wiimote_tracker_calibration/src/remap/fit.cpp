@@ -36,6 +36,7 @@ double rms(const std::vector<double>& errors) {
 
 std::vector<double> uncorrectedErrors(const std::vector<KnownPoint>& points) {
   std::vector<double> errors;
+  errors.reserve(points.size());
   for (const KnownPoint& point : points)
     errors.push_back((point.measured - point.known).norm());
   return errors;
@@ -102,6 +103,7 @@ double nestedError(const std::vector<KnownPoint>& points, const std::vector<Mode
     for (std::size_t i = 0; i < points.size(); ++i)
       (i % folds == fold ? held_out : inside).push_back(points[i]);
     std::vector<std::optional<FittedModel>> candidates;
+    candidates.reserve(models.size());
     std::string reason;
     for (const Model model : models)
       candidates.push_back(tryModel(model, inside, &reason));
@@ -157,6 +159,7 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
     } else if (const auto candidate = tryModel(model, points, &report.reason)) {
       report.usable = true;
       std::vector<double> errors;
+      errors.reserve(points.size());
       for (const KnownPoint& point : points)
         errors.push_back(errorOf(candidate->remap, point));
       report.fit_error = rms(errors);

@@ -67,6 +67,7 @@ void checkPlaces(const std::vector<remap::KnownPoint>& places) {
                 " common places do not determine the pose between the rigs: measure three or "
                 "more, not on one line");
   std::vector<Eigen::Vector3d> points;
+  points.reserve(places.size());
   for (const remap::KnownPoint& place : places)
     points.push_back(place.measured);
   const Eigen::Vector3d extent = geometry::spreadOf(points);

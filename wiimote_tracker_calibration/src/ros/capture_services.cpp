@@ -91,7 +91,7 @@ class CaptureServices {
     for (const auto& [name, input] : context_.inputs().cameras()) {
       const std::string problem = input.monitor.summary(NodeContext::now(), duration).problem;
       if (!problem.empty())
-        problems.push_back(name + " " + problem);
+        problems.emplace_back(name).append(" ").append(problem);
     }
     if (!problems.empty())
       throw Refusal(joined(problems, "; "));
@@ -209,7 +209,7 @@ class CaptureServices {
 
   /// The cameras to calibrate; all when none is named.
   /// @throws Refusal: one of them is not there, or is the hand-held remote.
-  std::vector<std::string> chooseCameras(std::vector<std::string> names, const Lock& lock) {
+  std::vector<std::string> chooseCameras(const std::vector<std::string>& names, const Lock& lock) {
     const std::vector<std::string> known = context_.inputs().names();
     for (const std::string& name : names) {
       if (!name.empty() && name == context_.parameters(lock).button_remote)

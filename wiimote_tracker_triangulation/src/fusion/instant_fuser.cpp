@@ -35,7 +35,7 @@ struct InstantFuser::Parts {
 
 InstantFuser::InstantFuser(const geometry::Rig& rig, const InstantFuserOptions& options)
     : parts_(std::make_unique<Parts>(options)) {
-  setRig(rig);
+  InstantFuser::setRig(rig);
 }
 
 InstantFuser::~InstantFuser() = default;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kRepeatErrorAfter = 30.0;         // [s]
 constexpr double kRepeatRestorationAfter = 600.0;  // [s]
-constexpr double kMostAtOnce = 10.0;               // changes; later ones:
-constexpr double kPerChange = 600.0;               // [s]
+constexpr double kMostAtOnce = 10.0;               // changes that are logged without a pause
+constexpr double kPerChange = 600.0;               // until one more change may be logged [s]
 
 }  // namespace
 

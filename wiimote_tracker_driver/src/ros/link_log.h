@@ -17,8 +17,8 @@ inline constexpr char kKernelDriverShares[] =
 /// What is wrong with the accelerometer's calibration; null when nothing is. Of a streaming remote.
 const char* accelerometerProblem(const wiimote::Link& link);
 
-/// Logs changes of the link once, and repeats errors that last. Of what comes again and again, as
-/// with a remote that is off for a night or reconnects all day, a sentence now and then.
+/// Logs changes of the link once, and repeats errors that last. A remote that is off for a night,
+/// or reconnects all day, gets ten messages, then one in ten minutes.
 class LinkLog {
  public:
   /// `retries`: whether a source that has failed is tried again.

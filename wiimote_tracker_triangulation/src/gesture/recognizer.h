@@ -41,8 +41,8 @@ struct Recognition {
 
 /// Recognises gestures by one or a few examples of each. The distance of a path to a gesture is the
 /// mean over the two nearest examples, which limits the effect of an odd example. Its limit is
-/// stricter for a gesture that people draw alike, such as a stroke, than for one that each draws in
-/// his own way, such as a spiral.
+/// stricter for a gesture that people draw alike, such as a stroke, than for one that everybody
+/// draws in another way, such as a spiral.
 class Recognizer {
  public:
   explicit Recognizer(const RecognizerOptions& options) : options_(options) {}

@@ -35,7 +35,7 @@
 
 namespace wiimote_tracker {
 
-/// Receives the results of MessageTracker, as far as it overrides the functions.
+/// Receives the results of MessageTracker; those whose function it does not override are ignored.
 class MessageSink {
  public:
   virtual ~MessageSink() = default;

@@ -1,5 +1,6 @@
 #include "transport/users.h"
 
+#include "system_files.h"
 #include "transport/transport.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -9,6 +10,7 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -63,25 +65,11 @@ std::string programName(pid_t process, const std::vector<std::string>& arguments
   return name;
 }
 
-/// The numbers among the names in a directory: processes of /proc, descriptors of /proc/PID/fd.
-std::vector<int> numbersIn(const std::string& path) {
-  std::vector<int> numbers;
-  std::error_code error;
-  for (std::filesystem::directory_iterator i(path, error), end; !error && i != end;
-       i.increment(error)) {
-    const std::string name = i->path().filename().string();
-    if (name.find_first_not_of("0123456789") == std::string::npos)
-      numbers.push_back(std::stoi(name));
-  }
-  return numbers;
-}
-
 bool hasOpen(pid_t process, const struct stat& node) {
-  const std::string directory = procPath(process, "fd");
-  for (const int fd : numbersIn(directory)) {
+  for (const std::filesystem::path& fd : entriesOf(procPath(process, "fd"))) {
     struct stat open_file {};
-    if (::stat((directory + "/" + std::to_string(fd)).c_str(), &open_file) == 0 &&
-        open_file.st_dev == node.st_dev && open_file.st_ino == node.st_ino)
+    if (::stat(fd.c_str(), &open_file) == 0 && open_file.st_dev == node.st_dev &&
+        open_file.st_ino == node.st_ino)
       return true;
   }
   return false;
@@ -138,8 +126,9 @@ std::string sharedWith(const std::string& path) {
   if (::stat(path.c_str(), &node) != 0)
     return "";
   std::string others;
-  for (const pid_t process : numbersIn("/proc")) {
-    if (process != ::getpid() && hasOpen(process, node))
+  for (const std::filesystem::path& entry : entriesOf("/proc")) {
+    const auto process = static_cast<pid_t>(std::atoi(entry.filename().c_str()));
+    if (process > 0 && process != ::getpid() && hasOpen(process, node))
       others += (others.empty() ? "" : " and ") + describeProcess(process);
   }
   if (others.empty())

@@ -1,7 +1,5 @@
 #include "recording/format.h"
 
-#include "little_endian.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -10,6 +8,12 @@ namespace {
 
 std::uint64_t nanoseconds(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds * 1e9));
+}
+
+/// The lowest `size` bytes of `value`, lowest first.
+void appendLittleEndian(std::uint64_t value, std::size_t size, std::vector<std::uint8_t>& bytes) {
+  for (std::size_t i = 0; i < size; ++i)
+    bytes.push_back(static_cast<std::uint8_t>(value >> (8 * i)));
 }
 
 /// Identity, kernel driver and description, one per line.

@@ -1,8 +1,7 @@
 #include "recording/reader.h"
 
-#include "little_endian.h"
-
 #include <wiimote_tracker_msgs/text.h>
+#include <boost/endian/conversion.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,6 +12,8 @@
 
 namespace wiimote_tracker::recording {
 namespace {
+
+namespace endian = boost::endian;
 
 // Greatest plausible times [s]; ROS time ends in 2106.
 constexpr double kLatestWallTime = 3e9;
@@ -68,12 +69,12 @@ Reader::Reader(std::istream& in) : in_(in) {
     throw BadRecording("this is not a recording of a Wii Remote: choose another file");
   if (size < fixed.size())
     throw BadRecording("the recording is cut off in its header: choose another file");
-  const std::uint64_t version = littleEndian(&fixed[kMagicSize], 4);
+  const std::uint32_t version = endian::load_little_u32(&fixed[kMagicSize]);
   if (version != kVersion)
     throw BadRecording("the recording is of version " + std::to_string(version) +
                        " and this driver knows version " + std::to_string(kVersion) +
                        ": use the driver that made it");
-  header_.wall_time = 1e-9 * static_cast<double>(littleEndian(&fixed[kMagicSize + 4], 8));
+  header_.wall_time = 1e-9 * static_cast<double>(endian::load_little_u64(&fixed[kMagicSize + 4]));
   if (header_.wall_time > kLatestWallTime)
     throw BadRecording("the recording is damaged in its header: choose another file");
   header_.software.resize(fixed.back());
@@ -102,7 +103,7 @@ bool Reader::next(Record& record) {
   if (head_size < head.size())
     return end("is cut off");
   const std::size_t size = head[1];
-  const auto time = static_cast<std::int64_t>(littleEndian(&head[2], 8));
+  const std::int64_t time = endian::load_little_s64(&head[2]);
   if (!isKind(head[0]) || time < time_ || 1e-9 * static_cast<double>(time) > kLongest)
     return end("is damaged");
   record.kind = static_cast<Record::Kind>(head[0]);

@@ -1,9 +1,9 @@
 #include "wiimote_tracker_driver/virtual_wiimote/faults.h"
 
+#include <wiimote_tracker_msgs/text.h>
+#include <boost/lexical_cast/try_lexical_convert.hpp>
+
 #include <cmath>
-#include <limits>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 namespace wiimote_tracker::virtual_wiimote {
@@ -39,16 +39,6 @@ const Fault kFaults[] = {
      [](Faults& f, double v) { f.seed = static_cast<std::uint32_t>(v); }},
 };
 
-/// The number in `text`; NaN if the whole text is not one.
-double number(const std::string& text) {
-  std::istringstream stream(text);
-  stream.imbue(std::locale::classic());
-  double value = 0.0;
-  if (!(stream >> value) || stream.peek() != std::istringstream::traits_type::eof())
-    return std::numeric_limits<double>::quiet_NaN();
-  return value;
-}
-
 }  // namespace
 
 void setFault(Faults& faults, const std::string& text) {
@@ -56,20 +46,19 @@ void setFault(Faults& faults, const std::string& text) {
   if (equals == std::string::npos)
     throw std::invalid_argument("write a fault as NAME=VALUE, not as '" + text + "'");
   const std::string name = text.substr(0, equals);
-  const double value = number(text.substr(equals + 1));
+  const std::string given = text.substr(equals + 1);
+  double value = 0.0;
+  const bool is_number = boost::conversion::try_lexical_convert(given, value);
   std::string names;
   for (const Fault& fault : kFaults) {
     names += (names.empty() ? "" : ", ") + std::string(fault.name);
     if (name != fault.name)
       continue;
-    if (!(value >= fault.minimum && value <= fault.maximum) ||
-        (fault.whole && value != std::floor(value))) {
-      std::ostringstream message;
-      message << "the fault " << name << " must be a " << (fault.whole ? "whole " : "")
-              << "number from " << fault.minimum << " to " << fault.maximum << ", not '"
-              << text.substr(equals + 1) << "'";
-      throw std::invalid_argument(message.str());
-    }
+    if (!is_number || !(value >= fault.minimum && value <= fault.maximum) ||
+        (fault.whole && value != std::floor(value)))
+      throw std::invalid_argument(format("the fault %s must be a %snumber from %g to %g, not '%s'",
+                                         fault.name, fault.whole ? "whole " : "", fault.minimum,
+                                         fault.maximum, given.c_str()));
     fault.set(faults, value);
     return;
   }

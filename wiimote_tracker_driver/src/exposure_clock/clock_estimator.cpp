@@ -121,10 +121,6 @@ ClockEstimator::ClockEstimator(double period)
                  [](const ModelPrior& candidate) { return candidate.prior; });
 }
 
-void ClockEstimator::reset() {
-  *this = ClockEstimator(period_);
-}
-
 void ClockEstimator::copyLinkFrom(const ClockEstimator& other) {
   stall_probability_ = other.stall_probability_;
   sample_count_ = other.sample_count_;

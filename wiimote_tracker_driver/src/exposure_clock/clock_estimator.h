@@ -33,8 +33,6 @@ class ClockEstimator {
   /// finite.
   Estimate update(double arrival);
 
-  /// Forgets everything: a new epoch.
-  void reset();
   /// Copies what is known about stalls and losses of the link.
   void copyLinkFrom(const ClockEstimator& other);
 

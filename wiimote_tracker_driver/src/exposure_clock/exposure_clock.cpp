@@ -100,7 +100,7 @@ void ExposureClock::endTrial() {
 
 Estimate ExposureClock::challenge(double arrival) {
   if (arrival < last_arrival_ || arrival > progressed_at_ + kTrial) {
-    challenger_->reset();
+    *challenger_ = ClockEstimator(challenger_->nominalPeriod());
     challenger_->copyLinkFrom(*leader_);
     trial_begin_ = progressed_at_ = arrival;
     advantage_ = best_advantage_ = 0.0;

@@ -104,8 +104,7 @@ Results evaluate(const VirtualRemotes& remotes,
   }
   if (latencies.empty())
     throw std::runtime_error(
-        "no image came while it was measured: stop what keeps this computer "
-        "busy");
+        "no image came while it was measured: stop what keeps this computer busy");
   std::sort(latencies.begin(), latencies.end());
   const double count = remotes.count();
   const double duration = to - from;

@@ -117,8 +117,7 @@ int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
       "Errors of single points in the cube, by two methods, and of a tracked LED, with two to "
-      "eight "
-      "exactly known cameras on a ring, and the errors predicted by the covariance.",
+      "eight exactly known cameras on a ring, and the errors predicted by the covariance.",
       {"session", "cameras", "method", "x_m", "y_m", "z_m", "rays", "error_mm", "predicted_mm"},
       wiimote_tracker::monte_carlo::measure);
 }

@@ -230,7 +230,6 @@ int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
       "Twelve gestures, each drawn once by every simulated person (--sessions of them) and "
-      "tracked; "
-      "--output is a folder for gesture_tool.",
+      "tracked; --output is a folder for gesture_tool.",
       wiimote_tracker::monte_carlo::measure);
 }

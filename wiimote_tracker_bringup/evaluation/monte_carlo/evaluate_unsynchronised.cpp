@@ -120,8 +120,7 @@ int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
       "RMS error of a moving LED with synchronised and "
-      "unsynchronised cameras, and with stamps that "
-      "are exact, estimated, or the arrivals.",
+      "unsynchronised cameras, and with stamps that are exact, estimated, or the arrivals.",
       {"session", "speed_m_per_s", "clocks", "stamps", "method", "rms_mm", "seen_share",
        "lateness_ms", "instants"},
       wiimote_tracker::monte_carlo::measure);

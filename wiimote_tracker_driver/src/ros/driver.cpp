@@ -60,8 +60,7 @@ std::string takeRealtimePriority(int priority) {
   const std::string wanted = std::to_string(priority);
   if (error == EPERM)
     return "no permission for real-time priority " + wanted +
-           ", so reports are read late when the computer is busy: put the line \"@input - "
-           "rtprio " +
+           ", so reports are read late when the computer is busy: put the line \"@input - rtprio " +
            wanted +
            "\" into /etc/security/limits.conf and log in again as a member of the group input, or "
            "set ~realtime_priority to 0";

@@ -68,8 +68,7 @@ int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
       "Errors at 27 positions in the whole cube after "
-      "a calibration by the square, and by square and "
-      "waved LED, and the predicted errors.",
+      "a calibration by the square, and by square and waved LED, and the predicted errors.",
       {"session", "method", "x_m", "y_m", "z_m", "error_mm", "predicted_mm",
        "normalised_squared_error"},
       wiimote_tracker::monte_carlo::measureMap);

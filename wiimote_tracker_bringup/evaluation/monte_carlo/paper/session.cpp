@@ -123,8 +123,7 @@ PaperSession drawPaperSession(const simulation::Description& description,
   if (!aimed)
     throw std::runtime_error(
         "the cameras of the rig's description cannot see all of the paper's points; aim them at "
-        "the cube "
-        "of 2.5 m");
+        "the cube of 2.5 m");
   for (std::size_t i = 0; i < aimed->cameras.size(); ++i) {
     square::CameraSightings& sightings = aimed->recording.cameras[i].sightings;
     sightings.gravity = kGravity * (aimed->cameras[i].world_from_camera.linear().transpose() *

@@ -28,18 +28,6 @@ struct Method {
   estimators::EstimatorOptions options;
 };
 
-simulation::Description describe(const simulation::Description& description,
-                                 const std::vector<std::size_t>& cameras,
-                                 const PaperSession& session) {
-  simulation::Description result = description;
-  result.cameras.clear();
-  for (std::size_t i = 0; i < cameras.size(); ++i) {
-    result.cameras.push_back(description.cameras[cameras[i]]);
-    result.cameras.back().camera = session.wave.cameras[i];
-  }
-  return result;
-}
-
 /// Nothing if a camera of the session could not be solved.
 template <typename Solver>
 std::optional<geometry::Rig> solve(const PaperSession& session, const Solver& solver) {
@@ -133,7 +121,9 @@ void measureAll(const simulation::Description& description, const Session& sessi
     std::vector<std::size_t> cameras(count);
     std::iota(cameras.begin(), cameras.end(), std::size_t(0));
     const PaperSession drawn = drawPaperSession(description, cameras, session.seed);
-    const simulation::Description described = describe(description, cameras, drawn);
+    simulation::Description described = withCameras(description, count);
+    for (std::size_t i = 0; i < count; ++i)
+      described.cameras[i].camera = drawn.wave.cameras[i];
     const std::vector<Method> methods = methodsOf(described, drawn);
     for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
       for (const double speed : {0.5, 1.0, 2.0}) {

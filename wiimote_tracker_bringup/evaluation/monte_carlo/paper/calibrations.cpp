@@ -3,6 +3,8 @@
 #include "wiimote_tracker_calibration/square/solve_square.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
+#include <deque>
+
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
@@ -49,19 +51,13 @@ std::optional<geometry::TriangulatedPoint> measure(const PaperSession& session,
                                                    const geometry::Rig& rig,
                                                    const StillLed& led,
                                                    const geometry::TriangulationOptions& options) {
-  // The rig may lack cameras that could not be solved.
-  std::vector<geometry::Camera> cameras;
-  std::vector<Eigen::Vector2d> pixels;
+  std::deque<geometry::Camera> cameras;  // the rig may lack some that could not be solved
+  std::vector<geometry::Observation> observations;
   for (std::size_t i = 0; i < led.pixels.size(); ++i) {
     const geometry::RigCamera* camera = rig.find(session.wave.cameras[i].name);
-    if (camera && led.pixels[i]) {
-      cameras.push_back(rig.rayCamera(*camera));
-      pixels.push_back(*led.pixels[i]);
-    }
+    if (camera && led.pixels[i])
+      observations.push_back({&cameras.emplace_back(rig.rayCamera(*camera)), *led.pixels[i]});
   }
-  std::vector<geometry::Observation> observations;
-  for (std::size_t i = 0; i < cameras.size(); ++i)
-    observations.push_back({&cameras[i], pixels[i]});
   return geometry::triangulate(observations, options);
 }
 

@@ -8,7 +8,7 @@ from typing import List, Optional
 
 from wiimote_tracker_bringup import descriptions, ranges, stack
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.files import prepare
+from wiimote_tracker_bringup.files import existing_file, prepare
 from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_evaluation import sections
@@ -32,7 +32,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
         prog='evaluate', parents=list(own.values()),
         description="The paper's evaluation, on the simulated rig or, with --live, on a real one; "
         'writes report.html, report.md, figures.json, tables and plots.')
-    parser.add_argument('--rig', metavar='FILE',
+    parser.add_argument('--rig', metavar='FILE', type=existing_file,
                         help="description of the rig (default: that of the paper's Fig. 1)")
     parser.add_argument('--sections', metavar='A,B',
                         help=f"only these of: {', '.join(modules)}")
@@ -49,21 +49,23 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     used_by = {option: name for name, its in own.items() for option in vars(its.parse_args([]))}
     choose_sections(parser, options, modules, used_by)
     check_files(parser, options, [options.rig] + [getattr(options, option) for option in used_by])
-    for refusal in (module.refusal(options) for module in modules.values()
-                    if hasattr(module, 'refusal')):
-        if refusal:
-            parser.error(refusal)
     return options
+
+
+def lacks(module, options) -> bool:
+    """Whether the option that the section needs is left out."""
+    return hasattr(module, 'NEEDS') and not getattr(options, module.NEEDS)
 
 
 def choose_sections(parser, options, modules, used_by) -> None:
     """Replaces options.sections by a list. modules: by section; used_by: sections by option."""
     chosen = options.sections.split(',') if options.sections is not None else [
-        name for name, module in modules.items()
-        if not hasattr(module, 'is_wanted') or module.is_wanted(options)]
+        name for name, module in modules.items() if not lacks(module, options)]
     for name in chosen:
         if name not in modules:
             parser.error(f"there is no section {name!r}; choose from {', '.join(modules)}")
+        if lacks(modules[name], options):
+            parser.error(f'the section {name} needs --{modules[name].NEEDS}')
     for option, section in used_by.items():
         if options.sections is not None and getattr(options, option) and section not in chosen:
             parser.error(f'--{option} is for the section {section}, which is not chosen: leave it '
@@ -79,8 +81,6 @@ def choose_sections(parser, options, modules, used_by) -> None:
 
 def check_files(parser: argparse.ArgumentParser, options: argparse.Namespace, to_read) -> None:
     """Refuses what cannot be used; makes the paths of rig and output absolute."""
-    if not os.path.isfile(options.rig):
-        parser.error(f'there is no rig description {options.rig}')
     if not options.live and not descriptions.is_description(options.rig):
         parser.error(f'{options.rig} describes no simulated rig, as simulation/paper_rig.yaml '
                      'does: a calibrated rig.yaml cannot be simulated')

@@ -2,8 +2,8 @@
 
 A section is a module or folder in sections/ with TITLE, SECONDS (which it takes about on two cores:
 quick, full), and run(run), which adds its results to a Run. A section for a person on a real rig
-also has live(run). One with options has add_arguments(parser), each a path of the user's, and
-refusal(options): why they cannot be used, else empty; if it needs them, also is_wanted(options).
+also has live(run). One with options has add_arguments(parser), each a path of the user's; NEEDS is
+the option without which it does not run.
 """
 
 import dataclasses

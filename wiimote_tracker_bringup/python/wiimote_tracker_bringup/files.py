@@ -1,5 +1,6 @@
 """Files and folders that people name."""
 
+import argparse
 import os
 import shutil
 import tempfile
@@ -8,6 +9,20 @@ from typing import Any, Iterable, Optional
 import yaml
 
 from wiimote_tracker_bringup.errors import Refusal
+
+
+def existing_file(path: str) -> str:
+    """A type for argparse."""
+    if not os.path.isfile(path):
+        raise argparse.ArgumentTypeError(f'there is no file {path}')
+    return path
+
+
+def existing_folder(path: str) -> str:
+    """A type for argparse."""
+    if not os.path.isdir(path):
+        raise argparse.ArgumentTypeError(f'there is no folder {path}')
+    return path
 
 
 def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:

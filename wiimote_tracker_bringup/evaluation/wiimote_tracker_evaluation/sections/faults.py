@@ -1,31 +1,20 @@
 """Faults that fault_matrix caused: what was published before, during and after each."""
 
 import json
-import os
 
 from wiimote_tracker_bringup.errors import Refusal
+from wiimote_tracker_bringup.files import existing_file
 
 TITLE = 'Faults'
 SECONDS = 1, 1
+NEEDS = 'faults'
 
 TIMES = ('before', 'during', 'after')
 
 
 def add_arguments(parser):
-    parser.add_argument('--faults', metavar='FILE',
+    parser.add_argument('--faults', metavar='FILE', type=existing_file,
                         help='what fault_matrix --json wrote, for the section faults')
-
-
-def is_wanted(options):
-    return bool(options.faults)
-
-
-def refusal(options):
-    if 'faults' in options.sections and not options.faults:
-        return 'the section faults needs --faults FILE'
-    if options.faults and not os.path.isfile(options.faults):
-        return f'there is no file {options.faults}'
-    return ''
 
 
 def run(run):

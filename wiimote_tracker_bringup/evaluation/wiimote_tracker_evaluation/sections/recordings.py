@@ -6,9 +6,11 @@ import re
 import numpy as np
 
 from wiimote_tracker_bringup import charts, statistics
+from wiimote_tracker_bringup.files import existing_folder
 
 TITLE = 'Recordings by others'
 SECONDS = 60, 60
+NEEDS = 'recordings'
 
 PARTS = 10  # of a recording, taken as independent
 # Columns of the figures of a path, and of predicted pixels: name, unit, key, factor.
@@ -21,21 +23,9 @@ PIXELS = (('median', 'px', 'median', 1.0), ('mean', 'px', 'mean', 1.0), ('rms', 
 
 
 def add_arguments(parser):
-    parser.add_argument('--recordings', metavar='DIR',
+    parser.add_argument('--recordings', metavar='DIR', type=existing_folder,
                         help='recordings that others made, a folder each, for the section '
                              'recordings')
-
-
-def is_wanted(options):
-    return bool(options.recordings)
-
-
-def refusal(options):
-    if 'recordings' in options.sections and not options.recordings:
-        return 'the section recordings needs --recordings DIR'
-    if options.recordings and not os.path.isdir(options.recordings):
-        return f'there is no folder {options.recordings}'
-    return ''
 
 
 def run(run):

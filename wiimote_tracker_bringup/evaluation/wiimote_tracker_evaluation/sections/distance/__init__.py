@@ -1,10 +1,9 @@
 """Detection distance against the LED's current (Fig. 5)."""
 
-import os
-
 import numpy as np
 
 from wiimote_tracker_bringup import charts, experiment, programs
+from wiimote_tracker_bringup.files import existing_file
 from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_bringup.scene import read_scene
 from wiimote_tracker_evaluation.sections.distance.light import (
@@ -22,14 +21,8 @@ SPEED, TIME_LIMIT = 0.25, 0.5               # of the program evaluate_distance [
 
 
 def add_arguments(parser):
-    parser.add_argument('--led', metavar='FILE',
+    parser.add_argument('--led', metavar='FILE', type=existing_file,
                         help='description of your own LED, for the section distance')
-
-
-def refusal(options):
-    if options.led and not os.path.isfile(options.led):
-        return f'there is no description of an LED {options.led}'
-    return ''
 
 
 def run(run):

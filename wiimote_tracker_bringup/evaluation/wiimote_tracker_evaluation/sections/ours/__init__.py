@@ -11,7 +11,7 @@ from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 TITLE = 'Beyond the paper'
 SECONDS = 20, 190
 
-add_arguments, refusal = gestures.add_arguments, gestures.refusal
+add_arguments = gestures.add_arguments
 
 PARTS = (unsynchronised, occlusion, cameras, volume, bodies)
 

@@ -1,5 +1,6 @@
 """Confusion of gestures, of simulated people or of the user's recordings."""
 
+import argparse
 import json
 import os
 
@@ -11,18 +12,16 @@ PROGRAM, EXAMPLES = 'evaluate_gestures', 2
 
 
 def add_arguments(parser):
-    parser.add_argument('--gestures', metavar='DIR',
+    parser.add_argument('--gestures', metavar='DIR', type=folder_of_people,
                         help='recordings of your own gestures, for the section ours: a folder per '
                              'person with a CSV per gesture')
 
 
-def refusal(options):
-    folder = options.gestures
-    if folder and (not os.path.isdir(folder)
-                   or sum(entry.is_dir() for entry in os.scandir(folder)) < 2):
-        return (f'{folder} needs folders of at least two people: each person is recognised by the '
-                "others' drawings")
-    return ''
+def folder_of_people(path):
+    if not os.path.isdir(path) or sum(entry.is_dir() for entry in os.scandir(path)) < 2:
+        raise argparse.ArgumentTypeError(f'{path} needs folders of at least two people: each '
+                                         "person is recognised by the others' drawings")
+    return path
 
 
 def commands(run):

@@ -107,6 +107,18 @@ void Checks::recoversFrom(const std::string& name, const RunningDriver& driver, 
   check(name, recovery.time <= kLongestRecovery, describe(recovery, driver));
 }
 
+void Checks::streams(const std::string& kind, const RunningDriver& driver, double duration) {
+  const double begin = now();
+  sleepFor(duration);
+  const double end = now();
+  const std::vector<double> images = driver.images();
+  const std::size_t in_time = imagesBetween(images, begin, end);
+  check(format("%s%g s at %g Hz or more", kind.c_str(), duration, driver.recoveryRate()),
+        static_cast<double>(in_time) >= driver.recoveryRate() * duration, count(in_time, "images"));
+  const double pause = longestPause(images, begin, end);
+  check(kind + "no pause of 0.1 s or more", pause < 0.1, "longest " + seconds(pause));
+}
+
 void Checks::streamForLong(const std::deque<RunningDriver>& drivers) {
   const double begin = now();
   sleepFor(5.0);

@@ -36,6 +36,10 @@ class Checks {
   /// Checks that images are back within 1 s of a disturbance that began at `since` [s].
   void recoversFrom(const std::string& name, const RunningDriver& driver, double since);
 
+  /// Checks that the driver gets images for this time [s], at its recoveryRate() or more and
+  /// without a pause of 0.1 s. `kind` begins the checks' names.
+  void streams(const std::string& kind, const RunningDriver& driver, double duration);
+
   /// Checks that the drivers of remotes 1, 2, ... get images for 5 s at 90 Hz or more.
   void streamForLong(const std::deque<RunningDriver>& drivers);
 

@@ -3,7 +3,6 @@
 #include "clock.h"
 #include "file_descriptor.h"
 #include "kernel.h"
-#include "recovery.h"
 #include "streaming.h"
 
 #include <fcntl.h>
@@ -101,18 +100,7 @@ void otherFormats(Checks& checks) {
     options.ir_format = format;
     Streaming streaming(checks, options);
     const std::string name = format == protocol::IrFormat::kBasic ? "basic" : "full";
-    constexpr double kDuration = 10.0;
-    const double begin = now();
-    sleepFor(kDuration);
-    const double end = now();
-    const std::vector<double> images = streaming.driver.images();
-    const std::size_t in_time = imagesBetween(images, begin, end);
-    const double wanted = kDuration * streaming.driver.recoveryRate();
-    checks.check(name + " format: 10 s at nine tenths of its rate or more",
-                 static_cast<double>(in_time) >= wanted, count(in_time, "images"));
-    checks.check(name + " format: no pause of 0.1 s or more",
-                 longestPause(images, begin, end) < 0.1,
-                 "longest " + seconds(longestPause(images, begin, end)));
+    checks.streams(name + " format: ", streaming.driver, 10.0);
     const std::string file = batteryFileOf(kAddress);
     checks.recovers(
         name + " format: battery read", streaming.driver, [&] { readLine(file); }, 10);

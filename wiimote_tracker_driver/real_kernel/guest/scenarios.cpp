@@ -109,15 +109,7 @@ void plug(Checks& checks) {
 void stream(Checks& checks) {
   const Streaming streaming(checks);
   const double begin = now();
-  constexpr double kDuration = 20.0;
-  sleepFor(kDuration);
-  const double end = now();
-  const std::vector<double> images = streaming.driver.images();
-  const std::size_t in_time = imagesBetween(images, begin, end);
-  checks.check("20 s at 90 Hz or more", static_cast<double>(in_time) >= 90.0 * kDuration,
-               count(in_time, "images"));
-  checks.check("no pause of 0.1 s or more", longestPause(images, begin, end) < 0.1,
-               "longest " + seconds(longestPause(images, begin, end)));
+  checks.streams("", streaming.driver, 20.0);
   checks.check("the kernel was at work meanwhile",
                streaming.remote.got({0x16, 0x04, 0xa6, 0x00, 0xf0}, begin));
 }

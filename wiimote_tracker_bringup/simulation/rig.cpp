@@ -9,11 +9,7 @@ Rig::Rig(const Description& description, Deliver deliver, Truth truth, BodyTruth
     : deliver_(std::move(deliver)),
       truth_(std::move(truth)),
       body_truth_(std::move(body_truth)),
-      truth_period_(1.0 / description.truth_rate),
-      leds_(description.leds),
-      people_(description.people),
-      rigid_bodies_(description.bodies),
-      reflections_(description.reflections) {
+      description_(description) {
   for (const CameraDescription& camera : description.cameras) {
     // Separate seeds for each camera's pixels and link.
     const auto number = static_cast<std::uint32_t>(cameras_.size());
@@ -52,21 +48,21 @@ void Rig::runUntil(double time) {
 
 bool Rig::isInRoom(const LedDescription& led) const {
   if (led.turns)
-    return isInRoom(*findNamed(leds_, led.turns->around));
-  const PersonDescription* person = findNamed(people_, led.carried_by);
-  const RigidBodyDescription* body = findNamed(rigid_bodies_, led.carried_by);
+    return isInRoom(*findNamed(description_.leds, led.turns->around));
+  const PersonDescription* person = findNamed(description_.people, led.carried_by);
+  const RigidBodyDescription* body = findNamed(description_.bodies, led.carried_by);
   return (!person || person->present) && (!body || body->present);
 }
 
 Eigen::Vector3d Rig::positionOf(const LedDescription& led, double time) const {
-  if (const PersonDescription* person = findNamed(people_, led.carried_by))
+  if (const PersonDescription* person = findNamed(description_.people, led.carried_by))
     return worldFrom(*person, time) * led.motion.position(time);
-  if (const RigidBodyDescription* body = findNamed(rigid_bodies_, led.carried_by))
+  if (const RigidBodyDescription* body = findNamed(description_.bodies, led.carried_by))
     return worldFrom(*body, time) * led.motion.position(time);
   if (!led.turns)
     return led.motion.position(time);
   const TurnDescription& turns = *led.turns;
-  const Eigen::Vector3d center = positionOf(*findNamed(leds_, turns.around), time);
+  const Eigen::Vector3d center = positionOf(*findNamed(description_.leds, turns.around), time);
   if (center.z() <= 0.0)
     return center + turns.distance * Eigen::Vector3d::UnitX();
   constexpr double kNod = 0.618;     // irrational, so that turns do not repeat
@@ -86,7 +82,7 @@ void Rig::expose(std::size_t number) {
   Camera& camera = cameras_[number];
   const double time = camera.next.exposure;
   lamps_.clear();
-  for (const LedDescription& led : leds_) {
+  for (const LedDescription& led : description_.leds) {
     const double light = led.blink ? led.blink->light(time) : 1.0;
     if ((led.lit || led.motion.isDrawing(time)) && isInRoom(led) && light > 0.0)
       lamps_.push_back({positionOf(led, time), led.size, light * led.brightness});
@@ -94,11 +90,11 @@ void Rig::expose(std::size_t number) {
   if (board_)
     board_->addLamps(time, &lamps_);
   bodies_.clear();
-  for (const PersonDescription& person : people_) {
+  for (const PersonDescription& person : description_.people) {
     if (person.present)
       bodies_.push_back(cylinderOf(person, time));
   }
-  const Image image{camera.optics.sense(lamps_, bodies_, reflections_), time};
+  const Image image{camera.optics.sense(lamps_, bodies_, description_.reflections), time};
   if (!camera.next.lost) {
     camera.travelling.push(image);
     push(camera.next.arrival, Event::kDelivery, number);
@@ -108,11 +104,11 @@ void Rig::expose(std::size_t number) {
 }
 
 void Rig::tellTruth(double time) {
-  for (std::size_t i = 0; i < leds_.size(); ++i)
-    truth_(i, time, positionOf(leds_[i], time));
-  for (std::size_t i = 0; body_truth_ && i < rigid_bodies_.size(); ++i)
-    body_truth_(i, time, worldFrom(rigid_bodies_[i], time));
-  push(static_cast<double>(++truths_) * truth_period_, Event::kTruth, 0);
+  for (std::size_t i = 0; i < description_.leds.size(); ++i)
+    truth_(i, time, positionOf(description_.leds[i], time));
+  for (std::size_t i = 0; body_truth_ && i < description_.bodies.size(); ++i)
+    body_truth_(i, time, worldFrom(description_.bodies[i], time));
+  push(static_cast<double>(++truths_) / description_.truth_rate, Event::kTruth, 0);
 }
 
 }  // namespace wiimote_tracker::simulation

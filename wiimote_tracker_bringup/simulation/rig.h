@@ -45,11 +45,15 @@ class Rig {
 
   /// These may be changed in how they move, and whether they are lit or present; null: there is no
   /// such thing. Call runUntil() with the time of a change first.
-  LedDescription* findLed(const std::string& name) { return findNamed(leds_, name); }
-  PersonDescription* findPerson(const std::string& name) { return findNamed(people_, name); }
-  RigidBodyDescription* findBody(const std::string& name) { return findNamed(rigid_bodies_, name); }
+  LedDescription* findLed(const std::string& name) { return findNamed(description_.leds, name); }
+  PersonDescription* findPerson(const std::string& name) {
+    return findNamed(description_.people, name);
+  }
+  RigidBodyDescription* findBody(const std::string& name) {
+    return findNamed(description_.bodies, name);
+  }
   ReflectionDescription* findReflection(const std::string& name) {
-    return findNamed(reflections_, name);
+    return findNamed(description_.reflections, name);
   }
   LedBoard* board() { return board_ ? &*board_ : nullptr; }
 
@@ -82,13 +86,9 @@ class Rig {
   Deliver deliver_;
   Truth truth_;
   BodyTruth body_truth_;  ///< May be empty.
-  double truth_period_;
+  Description description_;
   std::uint64_t truths_ = 0;
   std::vector<Camera> cameras_;
-  std::vector<LedDescription> leds_;
-  std::vector<PersonDescription> people_;
-  std::vector<RigidBodyDescription> rigid_bodies_;
-  std::vector<ReflectionDescription> reflections_;
   std::optional<LedBoard> board_;
   std::vector<Lamp> lamps_;  // reused, as is bodies_
   std::vector<Cylinder> bodies_;

@@ -87,12 +87,7 @@ struct Server::State {
   std::atomic<bool> stop{false};
   std::thread thread;
 
-  void wakeUp() const {
-    const std::uint64_t one = 1;
-    if (::write(wake.get(), &one, sizeof(one)) < 0) {
-      // The counter is full: the thread is already being woken.
-    }
-  }
+  void wakeUp() const { ::eventfd_write(wake.get(), 1); }
 
   // As with a real remote, a host that does not read loses reports.
   void send(const Bytes& report) const {
@@ -152,10 +147,8 @@ struct Server::State {
       if (::poll(fds.data(), fds.size(), -1) < 0)
         continue;
       if (fds[0].revents != 0) {
-        std::uint64_t count = 0;
-        if (::read(wake.get(), &count, sizeof(count)) < 0) {
-          // Another wake-up was consumed with this one.
-        }
+        eventfd_t count = 0;
+        ::eventfd_read(wake.get(), &count);
       }
       // The state may have changed during poll(), but these calls never block.
       const std::lock_guard<std::mutex> lock(server.mutex_);

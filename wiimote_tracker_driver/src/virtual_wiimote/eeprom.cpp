@@ -1,5 +1,7 @@
 #include "eeprom.h"
 
+#include "ir_camera.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -25,22 +27,6 @@ void store(std::vector<std::uint8_t>& memory,
   memory[address] = checksum;
 }
 
-/// Two points in five bytes, as in the basic infrared format.
-std::array<std::uint8_t, 10> infraredBlock(const FactoryPoints& points) {
-  std::array<std::uint8_t, 10> block{};
-  for (std::size_t pair = 0; pair < 2; ++pair) {
-    const std::array<int, 2>& a = points[2 * pair];
-    const std::array<int, 2>& b = points[2 * pair + 1];
-    const std::array<int, 5> values{
-        a[0] & 0xff, a[1] & 0xff,
-        (a[1] >> 8 & 3) << 6 | (a[0] >> 8 & 3) << 4 | (b[1] >> 8 & 3) << 2 | (b[0] >> 8 & 3),
-        b[0] & 0xff, b[1] & 0xff};
-    for (std::size_t i = 0; i < values.size(); ++i)
-      block[5 * pair + i] = static_cast<std::uint8_t>(values[i]);
-  }
-  return block;
-}
-
 }  // namespace
 
 FactoryPoints factoryPoints(double centre_x, double centre_y, std::uint32_t seed) {
@@ -63,8 +49,8 @@ FactoryPoints factoryPoints(double centre_x, double centre_y, std::uint32_t seed
 }
 
 Eeprom::Eeprom(const FactoryPoints& points) : bytes_(kSize, 0) {
-  store(bytes_, 0x00, infraredBlock(points));
-  store(bytes_, 0x0b, infraredBlock(points));
+  store(bytes_, 0x00, basicFormat(points));
+  store(bytes_, 0x0b, basicFormat(points));
   store(bytes_, 0x16, kAccelerationBlock);
   store(bytes_, 0x20, kAccelerationBlock);
 }

@@ -25,6 +25,21 @@ constexpr int kMaximumStep = 100;
 
 }  // namespace
 
+std::array<std::uint8_t, 10> basicFormat(const FactoryPoints& points) {
+  std::array<std::uint8_t, 10> bytes{};
+  for (std::size_t pair = 0; pair < 2; ++pair) {
+    const auto& [x0, y0] = points[2 * pair];
+    const auto& [x1, y1] = points[2 * pair + 1];
+    std::uint8_t* out = &bytes[5 * pair];
+    out[0] = byte(x0 % 256);
+    out[1] = byte(y0 % 256);
+    out[2] = byte(y0 / 256 * 64 + x0 / 256 * 16 + y1 / 256 * 4 + x1 / 256);
+    out[3] = byte(x1 % 256);
+    out[4] = byte(y1 % 256);
+  }
+  return bytes;
+}
+
 IrCamera::IrCamera(const std::optional<std::uint32_t>& slot_seed)
     : draws_slots_(slot_seed.has_value()), random_(slot_seed.value_or(0)) {}
 
@@ -107,21 +122,15 @@ std::size_t IrCamera::chooseFree(const std::array<bool, 4>& taken) {
 // never had one.
 
 void IrCamera::fillBasic() {
-  for (std::size_t pair = 0; pair < 2; ++pair) {
-    int x[2];
-    int y[2];
-    for (std::size_t i = 0; i < 2; ++i) {
-      const Slot& slot = slots_[2 * pair + i];
-      x[i] = slot.lit ? slot.blob.x : slot.ever_lit ? 0x3ff : 0;
-      y[i] = slot.lit ? slot.blob.y : slot.ever_lit ? 0x3ff : 0;
-    }
-    std::uint8_t* out = &registers_[kData + 5 * pair];
-    out[0] = byte(x[0] % 256);
-    out[1] = byte(y[0] % 256);
-    out[2] = byte(y[0] / 256 * 64 + x[0] / 256 * 16 + y[1] / 256 * 4 + x[1] / 256);
-    out[3] = byte(x[1] % 256);
-    out[4] = byte(y[1] % 256);
+  FactoryPoints points{};
+  for (std::size_t i = 0; i < slots_.size(); ++i) {
+    if (slots_[i].lit)
+      points[i] = {slots_[i].blob.x, slots_[i].blob.y};
+    else if (slots_[i].ever_lit)
+      points[i] = {0x3ff, 0x3ff};
   }
+  const std::array<std::uint8_t, 10> bytes = basicFormat(points);
+  std::copy(bytes.begin(), bytes.end(), registers_.begin() + kData);
 }
 
 void IrCamera::fillExtended() {

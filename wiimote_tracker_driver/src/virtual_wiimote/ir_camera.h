@@ -13,6 +13,9 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
+/// Two points in five bytes, as in the basic format and in the factory's blocks.
+std::array<std::uint8_t, 10> basicFormat(const FactoryPoints& points);
+
 /// The infrared camera on the remote's internal bus: its registers, the conditions under which it
 /// works, and its detection of lights.
 class IrCamera {

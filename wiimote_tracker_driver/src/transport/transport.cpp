@@ -7,8 +7,7 @@
 
 #include <sys/un.h>
 
-#include <algorithm>
-#include <cctype>
+#include <regex>
 #include <utility>
 
 namespace wiimote_tracker::transport {
@@ -19,23 +18,11 @@ std::string after(const std::string& prefix, const std::string& text) {
   return text.compare(0, prefix.size(), prefix) == 0 ? text.substr(prefix.size()) : "";
 }
 
-bool isHidrawPath(const std::string& text) {
-  const std::string number = after("/dev/hidraw", text);
-  return !number.empty() && std::all_of(number.begin(), number.end(),
-                                        [](unsigned char c) { return std::isdigit(c) != 0; });
-}
-
 }  // namespace
 
 std::optional<std::string> bluetoothAddress(const std::string& text) {
-  if (text.size() != 17)
-    return std::nullopt;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (i % 3 == 2 ? c != ':' : std::isxdigit(c) == 0)
-      return std::nullopt;
-  }
-  return lowerCase(text);
+  static const std::regex pattern("([0-9A-Fa-f]{2}:){5}[0-9A-Fa-f]{2}");
+  return std::regex_match(text, pattern) ? std::make_optional(lowerCase(text)) : std::nullopt;
 }
 
 DeviceName parseDeviceName(const std::string& text) {
@@ -43,7 +30,7 @@ DeviceName parseDeviceName(const std::string& text) {
     return {DeviceName::Kind::kAny, ""};
   if (const auto address = bluetoothAddress(text))
     return {DeviceName::Kind::kAddress, *address};
-  if (isHidrawPath(text))
+  if (std::regex_match(text, std::regex("/dev/hidraw[0-9]+")))
     return {DeviceName::Kind::kPath, text};
   if (const std::string path = after("virtual:", text); !path.empty()) {
     const std::size_t longest = sizeof(sockaddr_un::sun_path) - 1;

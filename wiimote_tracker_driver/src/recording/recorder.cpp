@@ -20,13 +20,9 @@ constexpr std::size_t kCapacity = 1 << 20;
 constexpr int kMaxNames = 10000;
 
 /// The n-th name for a recording: "a/b.wiirec", "a/b_2.wiirec", ...
-std::string numbered(const std::string& path, int n) {
-  if (n == 1)
-    return path;
-  const std::size_t name = path.rfind('/') + 1;  // 0 without a slash
-  const std::size_t dot = path.rfind('.');
-  const std::size_t end = dot == std::string::npos || dot <= name ? path.size() : dot;
-  return path.substr(0, end) + "_" + std::to_string(n) + path.substr(end);
+std::string numbered(const std::filesystem::path& path, int n) {
+  const std::string suffix = n == 1 ? "" : "_" + std::to_string(n);
+  return path.parent_path() / (path.stem().string() + suffix + path.extension().string());
 }
 
 /// Creates a file with the first free name. @returns its descriptor; sets `path` to its name.

@@ -59,10 +59,9 @@ std::string rosNodeName(pid_t process, const std::vector<std::string>& arguments
 std::string programName(pid_t process, const std::vector<std::string>& arguments) {
   if (!arguments.empty() && !arguments[0].empty())
     return arguments[0].substr(arguments[0].rfind('/') + 1);
-  std::string name;  // a process may hide its arguments
-  std::ifstream file(procPath(process, "comm"));
-  std::getline(file, name);
-  return name;
+  // A process may hide its arguments.
+  const std::vector<std::string> name = linesOfFile(procPath(process, "comm"));
+  return name.empty() ? "" : name.front();
 }
 
 bool hasOpen(pid_t process, const struct stat& node) {
@@ -99,8 +98,7 @@ std::optional<pid_t> lockHolder(int fd) {
   const std::string wanted = format("%02x:%02x:%llu", major(file.st_dev), minor(file.st_dev),
                                     static_cast<unsigned long long>(file.st_ino));
   // 1: FLOCK  ADVISORY  WRITE 1234 00:05:678 0 EOF
-  std::ifstream locks("/proc/locks");
-  for (std::string line; std::getline(locks, line);) {
+  for (const std::string& line : linesOfFile("/proc/locks")) {
     std::istringstream words(line);
     std::string number, type, mode, access, place;
     pid_t process = 0;

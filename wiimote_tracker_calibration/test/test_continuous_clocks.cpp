@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <Eigen/Geometry>
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
@@ -74,6 +75,33 @@ TEST(Continuous, BesideOneNewClockAnotherKnockedCameraIsSolved) {
   EXPECT_EQ(found[0], "camera_1");
   EXPECT_EQ(found[1], "camera_2");
   EXPECT_LT(turnBetween(rig.cameras[1], led.truth[1]), 0.001);
+}
+
+/// A driver that was started again counts from 0, below the rig's epoch.
+TEST(Continuous, AfterARestartOfTheDriversAReconnectIsNoticed) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(rig.cameras, 802);
+  led.epoch = 0;
+  ContinuousCalibration watch(rig, {});
+  std::optional<Proposal> proposal;
+  const auto waveUntil = [&](double time, std::uint32_t epoch_of_second) {
+    led.runUntil(time, [&](capture::Image image) {
+      if (image.camera == "camera_2")
+        image.clock_epoch = epoch_of_second;
+      if (!proposal)
+        proposal = watch.add(image);
+    });
+  };
+  waveUntil(20.0, 0);
+  EXPECT_FALSE(proposal);
+  EXPECT_TRUE(watch.newClocks().empty());
+  led.truth[1].time_offset = -0.015;
+  waveUntil(60.0, 1);
+  EXPECT_EQ(joined(watch.newClocks()), "camera_2");
+  ASSERT_TRUE(proposal);
+  EXPECT_EQ(proposal->message.find("camera_2 has a new clock, -1"), 0U) << proposal->message;
+  EXPECT_EQ(proposal->rig.cameras[0].time_offset_epoch, 0U);
+  EXPECT_EQ(proposal->rig.cameras[1].time_offset_epoch, 1U);
 }
 
 }  // namespace

@@ -116,6 +116,15 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
   const geometry::RigCamera* camera = rig_.find(image.camera);
   if (camera == nullptr || camera->camera.isOtherDevice(image.identity))
     return std::nullopt;
+  // Its driver was started again, over the same link, and counts from 0: what it counts from here
+  // on are reconnections.
+  if (camera->time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
+      image.clock_epoch < camera->time_offset_epoch) {
+    geometry::Rig rig = rig_;
+    rig.cameras[static_cast<std::size_t>(camera - rig_.cameras.data())].time_offset_epoch =
+        image.clock_epoch;
+    *this = ContinuousCalibration(rig, options_);
+  }
   const auto suspect = knock_.add(image);
   if (!knock_.severalAreSuspect())
     contradiction_.clear();

@@ -53,7 +53,8 @@ class ContinuousCalibration {
   ContinuousCalibration(const geometry::Rig& rig, const Options& options);
 
   /// One image of any camera; of one camera in the order of their stamps. Images of another device
-  /// than was calibrated take no part. It may take some seconds when there is enough motion.
+  /// than was calibrated take no part. It may take some seconds when there is enough motion. After
+  /// a lower clock epoch than the rig's it starts anew, with that epoch in its rig.
   std::optional<Proposal> add(const capture::Image& image);
 
   /// Whether the latest images still speak for a proposal.

@@ -3,7 +3,6 @@
 #include "expect_says.h"
 #include "waved_led.h"
 
-#include "health/alarm.h"
 #include "health/drift_watch.h"
 #include "health/health_watch.h"
 #include "health/tilt_watch.h"
@@ -40,32 +39,6 @@ std::set<std::string> drifted(const geometry::Rig& rig, const DriftWatch& watch)
 geometry::RigCamera turned(geometry::RigCamera camera, const Eigen::Vector3d& rotation) {
   camera.camera.world_from_camera.rotate(geometry::so3::exp(rotation));
   return camera;
-}
-
-TEST(Alarm, DoesNotFlap) {
-  Alarm alarm;
-  int changes = 0;
-  bool on = false;
-  const auto judge = [&](double ratio) {
-    alarm.judge(ratio);
-    changes += alarm.on() != on;
-    on = alarm.on();
-  };
-  // What wavers about the limit begins once.
-  for (int i = 0; i < 50; ++i)
-    judge(i % 3 == 0 ? 0.9 : 1.1);
-  EXPECT_TRUE(on);
-  EXPECT_EQ(changes, 1);
-  // Single judgements that all is well are not believed, two are.
-  judge(0.1);
-  EXPECT_TRUE(on);
-  judge(0.9);
-  judge(0.1);
-  EXPECT_TRUE(on);
-  judge(0.1);
-  EXPECT_FALSE(on);
-  judge(1.5);
-  EXPECT_FALSE(on);
 }
 
 /// What an accelerometer reads that counts in steps.
@@ -368,34 +341,36 @@ TEST(HealthWatch, FindingsStayWhenTheRigIsAdjustedAndEndWhenItIsSolvedAnew) {
   EXPECT_TRUE(watch.takeNews().empty());
   EXPECT_SAYS(watch.healths().at("camera_3").text, "tilted by");
 
+  // Another camera was solved.
   rig.solved_at += 100.0;
-  EXPECT_FALSE(watch.follow(rig));
+  rig.cameras[1] = turned(rig.cameras[1], Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
+  EXPECT_TRUE(watch.follow(rig));
+  EXPECT_SAYS(watch.healths().at("camera_3").text, "tilted by");
+  track(&scene, 120.0, 123.0, &watch, &random);
+  EXPECT_TRUE(watch.takeNews().empty());
+
+  geometry::Rig anew = rig;
+  anew.cameras[2].gravity->x() += 0.1;
+  EXPECT_TRUE(watch.follow(anew));
+  EXPECT_EQ(watch.healths().at("camera_3").text, "");
+  anew.cameras[2].camera.name = "another";
+  EXPECT_FALSE(watch.follow(anew));
 }
 
-TEST(HealthWatch, NoticesAnotherDevice) {
-  Random random(32);
-  const geometry::Rig rig = paperRigWith(calibratedByWave());
+TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
+  Random random(34);
+  geometry::Rig rig = paperRigWith(calibratedByWave());
+  for (geometry::RigCamera& camera : rig.cameras)
+    camera.gravity.reset();
   HealthWatch watch(rig, {});
-  capture::Image image;
-  image.camera = "camera_2";
-  const auto addFrom = [&](const char* device) {
-    image.identity = device;
-    watch.addImage(image);
-  };
-  addFrom("");
-  EXPECT_TRUE(watch.takeNews().empty());
-  addFrom("00:1e:35:ff:ff:ff");
-  addFrom("00:1e:35:ff:ff:ff");
-  const auto news = watch.takeNews();
-  ASSERT_EQ(news.size(), 1u);
-  EXPECT_SAYS(news.front(), "camera_2 is another device (00:1e:35:ff:ff:ff)");
-  addFrom("00:1e:35:00:00:02");
-  EXPECT_EQ(watch.healths().at("camera_2").text, "");
-  // Cameras that are not in the rig are nobody's concern.
-  image.camera = "elsewhere";
-  addFrom("x");
-  watch.addAcceleration("elsewhere", 0.0, {0.0, 0.0, 9.81});
-  EXPECT_EQ(watch.healths().size(), 4u);
+  WavedLed scene(drawTruth(rig, random), 702);
+  const Eigen::Vector3d turn(0.05 * kDegree, 0.0, 0.0);
+  scene.truth[2] = turned(scene.truth[2], turn);
+  track(&scene, 0.0, 90.0, &watch, &random);
+  EXPECT_SAYS(watch.healths().at("camera_3").text, "drifted");
+  rig.cameras[2] = turned(rig.cameras[2], turn);
+  EXPECT_TRUE(watch.follow(rig));
+  EXPECT_EQ(watch.healths().at("camera_3").text, "");
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 
 #include <wiimote_tracker_msgs/text.h>
 
+#include <Eigen/Geometry>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -32,27 +34,43 @@ std::string driftText(const Drift& drift, bool advise) {
          (advise ? kAdvice : "");
 }
 
+/// Whether what was found of a camera holds with another calibration of it, too.
+bool isStillCalibratedAs(const geometry::RigCamera& before, const geometry::RigCamera& now) {
+  // Half of what is found as drift, 3 m away.
+  constexpr double kTurn = 0.00025;  // [rad]
+  constexpr double kMove = 0.001;    // [m]
+  const Eigen::AngleAxisd turn(before.camera.world_from_camera.linear().transpose() *
+                               now.camera.world_from_camera.linear());
+  return before.camera.identity == now.camera.identity && before.gravity == now.gravity &&
+         turn.angle() < kTurn && (now.camera.center() - before.camera.center()).norm() < kMove;
+}
+
 }  // namespace
 
+HealthWatch::Watched::Watched(const geometry::RigCamera& rig_camera, const TiltOptions& options)
+    : calibrated(rig_camera) {
+  if (calibrated.gravity && calibrated.gravity->norm() > 0.0)
+    tilt.emplace(*calibrated.gravity, options);
+}
+
 HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
-    : options_(options), solved_at_(rig.solved_at), drift_(rig, options.drift) {
-  for (const geometry::RigCamera& rig_camera : rig.cameras) {
-    Watched& camera = cameras_.emplace_back();
-    camera.calibrated = rig_camera.camera;
-    if (rig_camera.gravity && rig_camera.gravity->norm() > 0.0)
-      camera.tilt.emplace(*rig_camera.gravity, options.tilt);
-  }
+    : options_(options), drift_(rig, options.drift) {
+  for (const geometry::RigCamera& camera : rig.cameras)
+    cameras_.emplace_back(camera, options.tilt);
 }
 
 bool HealthWatch::follow(const geometry::Rig& rig) {
   const bool is_same =
       std::equal(cameras_.begin(), cameras_.end(), rig.cameras.begin(), rig.cameras.end(),
                  [](const Watched& watched, const geometry::RigCamera& now) {
-                   return watched.calibrated.name == now.camera.name &&
-                          watched.calibrated.identity == now.camera.identity;
+                   return watched.calibrated.camera.name == now.camera.name;
                  });
-  if (!is_same || rig.solved_at != solved_at_)
+  if (!is_same)
     return false;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (!isStillCalibratedAs(cameras_[i].calibrated, rig.cameras[i]))
+      cameras_[i] = Watched(rig.cameras[i], options_.tilt);
+  }
   drift_ = DriftWatch(rig, options_.drift);
   return true;
 }
@@ -60,13 +78,13 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
 std::map<std::string, CameraHealth> HealthWatch::healths() const {
   std::map<std::string, CameraHealth> healths;
   for (const Watched& camera : cameras_)
-    healths[camera.calibrated.name] = camera.health;
+    healths[camera.calibrated.camera.name] = camera.health;
   return healths;
 }
 
 HealthWatch::Watched* HealthWatch::find(const std::string& name) {
   const auto found = std::find_if(cameras_.begin(), cameras_.end(), [&](const Watched& camera) {
-    return camera.calibrated.name == name;
+    return camera.calibrated.camera.name == name;
   });
   return found == cameras_.end() ? nullptr : &*found;
 }
@@ -76,7 +94,7 @@ void HealthWatch::addImage(const capture::Image& image) {
   if (!seen_by)
     return;
   const std::string other_device =
-      seen_by->calibrated.isOtherDevice(image.identity) ? image.identity : "";
+      seen_by->calibrated.camera.isOtherDevice(image.identity) ? image.identity : "";
   if (other_device != seen_by->other_device) {
     seen_by->other_device = other_device;
     describe(seen_by);
@@ -123,14 +141,14 @@ void HealthWatch::describe(Watched* camera) {
   std::vector<std::string> findings;
   if (!camera->other_device.empty())
     findings.push_back("is another device (" + camera->other_device + ") than was calibrated (" +
-                       camera->calibrated.identity + "): recalibrate this camera");
+                       camera->calibrated.camera.identity + "): recalibrate this camera");
   if (camera->tilt_alarm.on())
     findings.push_back(tiltText(*health.tilt) + (findings.empty() ? kAdvice : ""));
   if (camera->drift_alarm.on())  // of several findings the first one says what to do
     findings.push_back(driftText(camera->drift_finding, findings.empty()));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
-    news_.push_back(camera->calibrated.name + " " + health.text);
+    news_.push_back(camera->calibrated.camera.name + " " + health.text);
 }
 
 }  // namespace wiimote_tracker::health

@@ -34,8 +34,9 @@ class HealthWatch {
  public:
   HealthWatch(const geometry::Rig& rig, const HealthOptions& options);
 
-  /// Goes on with a rig that was changed since it was solved, as by continuous calibration: what
-  /// was found of its cameras stays. @returns false if it was solved anew: nothing has changed.
+  /// Goes on with another rig of the same cameras. What was found of a camera stays where that was
+  /// not calibrated anew, as while continuous calibration adjusts the rig or solves another camera.
+  /// @returns false if it has other cameras: nothing has changed.
   bool follow(const geometry::Rig& rig);
 
   /// One image of any camera.
@@ -54,7 +55,9 @@ class HealthWatch {
 
  private:
   struct Watched {
-    geometry::Camera calibrated;
+    Watched(const geometry::RigCamera& rig_camera, const TiltOptions& options);
+
+    geometry::RigCamera calibrated;
     std::string other_device;  // Empty: the one that was calibrated.
     std::optional<TiltWatch> tilt;
     Alarm tilt_alarm;
@@ -68,7 +71,6 @@ class HealthWatch {
   void describe(Watched* camera);
 
   HealthOptions options_;
-  double solved_at_;              // [s]
   std::vector<Watched> cameras_;  // In the rig's order.
   DriftWatch drift_;
   std::vector<std::string> news_;

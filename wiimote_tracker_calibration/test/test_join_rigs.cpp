@@ -254,6 +254,14 @@ TEST_F(JoinRigs, ClocksAreJoinedWhereASharedOneRanOn) {
   EXPECT_TRUE(std::isnan(rig.cameras[4].time_offset));
   EXPECT_EQ(rig.cameras[4].time_offset_rule, geometry::TimeOffsetRule::kNone);
   EXPECT_EQ(rig.cameras[3].time_offset, 0.004);
+
+  // Between the calibrations the driver was started again; then: it reconnected.
+  first_.solved_at = 1000.0;
+  second_.solved_at = 2000.0;
+  second_.cameras[1].time_offset_epoch = 0;
+  EXPECT_DOUBLE_EQ(joinRigs(first_, second_).rig.cameras[4].time_offset, 0.005);
+  second_.solved_at = 500.0;
+  EXPECT_TRUE(std::isnan(joinRigs(first_, second_).rig.cameras[4].time_offset));
 }
 
 /// Places in both rooms, measured with the second rig by perfect pixels.

@@ -54,6 +54,17 @@ void checkRigs(const geometry::Rig& first, const geometry::Rig& second) {
   }
 }
 
+namespace {
+
+/// Whether a shared camera's clock ran on from one calibration to the other. Its driver counts
+/// epochs from 0 at each start, over the same link with the same offset.
+bool hasRunOn(const geometry::RigCamera& earlier, const geometry::RigCamera& later) {
+  return earlier.time_offset_rule != geometry::TimeOffsetRule::kOneEpoch ||
+         later.time_offset_epoch == earlier.time_offset_epoch || later.time_offset_epoch == 0;
+}
+
+}  // namespace
+
 ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second) {
   const Eigen::Index known = first.covariance.cols();
   ClockShift sum{0.0, Eigen::RowVectorXd::Zero(known + second.covariance.cols())};
@@ -66,8 +77,7 @@ ClockShift clockShift(const geometry::Rig& first, const geometry::Rig& second) {
       if (a.camera.name != b.camera.name || !std::isfinite(shift) ||
           a.time_offset_rule != b.time_offset_rule ||
           a.time_offset_rule == geometry::TimeOffsetRule::kNone ||
-          (a.time_offset_rule == geometry::TimeOffsetRule::kOneEpoch &&
-           a.time_offset_epoch != b.time_offset_epoch))
+          !(first.solved_at <= second.solved_at ? hasRunOn(a, b) : hasRunOn(b, a)))
         continue;
       ++count;
       sum.shift += shift;

@@ -80,5 +80,21 @@ TEST_F(RigStorage, ARigOfOtherCamerasIsNotReplacedWithoutAWord) {
                                path + ".bak until the next save");
 }
 
+TEST_F(RigStorage, TheNewestVersionsAreKept) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "camera_1";
+  std::vector<std::string> paths;
+  for (int i = 0; i < 5; ++i)
+    paths.push_back(keepVersion(rig, 1.7e9 + i, folder_ + "/kept/rig.yaml", 3));
+  EXPECT_SAYS(paths[0], folder_ + "/kept/versions/20231114_221320_" + rig.id() + ".yaml");
+  const std::string own = folder_ + "/kept/versions/0_before_the_show.yaml";
+  geometry::writeRigFile(rig, own);
+  paths.push_back(keepVersion(rig, 1.7e9 + 5, folder_ + "/kept/rig.yaml", 3));
+  for (std::size_t i = 0; i < paths.size(); ++i)
+    EXPECT_EQ(std::filesystem::exists(paths[i]), i >= 3) << paths[i];
+  EXPECT_TRUE(std::filesystem::exists(own));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

@@ -1,14 +1,13 @@
 #include "input_queue.h"
+#include "rig_storage.h"
 #include "units.h"
 
 #include "continuous/approach.h"
 #include "continuous/continuous_calibration.h"
 
 #include <wiimote_tracker_msgs/text.h>
-#include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
@@ -231,17 +230,14 @@ class ContinuousServices {
 
   /// Writes a rig beside the rig file. @returns where, or why not.
   std::string keepVersion(const geometry::Rig& rig, Lock* lock) {
-    const std::string path =
-        std::filesystem::path(context_.parameters(*lock).rig_file)
-            .replace_filename("versions/" + utcDate(NodeContext::now(), "%Y%m%d_%H%M%S") + "_" +
-                              rig.id() + ".yaml")
-            .string();
+    const std::string rig_file = context_.parameters(*lock).rig_file;
     try {
-      context_.compute(lock, [&] { geometry::writeRigFile(rig, path); });
+      return "kept in " + context_.compute(lock, [&] {
+        return wiimote_tracker::keepVersion(rig, NodeContext::now(), rig_file);
+      });
     } catch (const Error& error) {
       return std::string("there is no file of it: ") + error.what();
     }
-    return "kept in " + path;
   }
 
   Reply revert(Lock& lock) {

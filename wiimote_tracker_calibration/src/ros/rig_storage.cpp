@@ -16,6 +16,8 @@
 #include <exception>
 #include <filesystem>
 #include <future>
+#include <regex>
+#include <system_error>
 #include <thread>
 #include <utility>
 
@@ -107,6 +109,28 @@ std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& pa
     }
   }
   return warnings;
+}
+
+std::string keepVersion(const geometry::Rig& rig,
+                        double time,
+                        const std::string& rig_file,
+                        std::size_t most) {
+  namespace fs = std::filesystem;
+  const std::string path =
+      beside(rig_file, "versions/" + utcDate(time, "%Y%m%d_%H%M%S") + "_" + rig.id() + ".yaml");
+  geometry::writeRigFile(rig, path);
+  const std::regex name("[0-9]{8}_[0-9]{6}_[0-9a-f]+\\.yaml");
+  std::vector<fs::path> versions;
+  std::error_code error;  // Then the next time is soon enough.
+  for (fs::directory_iterator entry(fs::path(path).parent_path(), error), end;
+       !error && entry != end; entry.increment(error)) {
+    if (std::regex_match(entry->path().filename().string(), name))
+      versions.push_back(entry->path());
+  }
+  std::sort(versions.begin(), versions.end());
+  for (std::size_t i = 0; i + most < versions.size(); ++i)
+    fs::remove(versions[i], error);
+  return path;
 }
 
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,

@@ -5,6 +5,7 @@
 
 #include <ros/node_handle.h>
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,14 @@ namespace wiimote_tracker {
 /// file that could not be written, or that would replace a rig or samples.
 /// @throws Error: rig.yaml could not be written; nothing has changed then.
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
+
+/// Writes a rig into the folder `versions` beside the rig file, named by a time [s] and its id. Of
+/// more than `most` such files the oldest are removed.
+/// @returns its path. @throws Error: it could not be written.
+std::string keepVersion(const geometry::Rig& rig,
+                        double time,
+                        const std::string& rig_file,
+                        std::size_t most = 1000);
 
 /// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
 /// `timeout` [s], even if a driver never answers. Hold no mutex.

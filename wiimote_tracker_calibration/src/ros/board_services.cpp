@@ -57,14 +57,11 @@ geometry::Camera cameraOf(const std::string& name, const geometry::Intrinsics& l
 class BoardServices {
  public:
   explicit BoardServices(NodeContext* context) : context_(*context) {
-    using Self = BoardServices;
-    ros::NodeHandle& nh = context_.nh();
-    publisher_ = nh.advertise<wiimote_tracker_msgs::BoardStatus>("calibration/board", 1, true);
-    services_ = {advertise(nh, "calibration/board/start", &Self::start, this),
-                 advertise(nh, "calibration/board/undo", &Self::undo, this),
-                 advertise(nh, "calibration/board/cancel", &Self::cancel, this),
-                 advertise(nh, "calibration/board/solve", &Self::solve, this),
-                 advertise(nh, "calibration/board/commit", &Self::commit, this)};
+    publisher_ =
+        context_.nh().advertise<wiimote_tracker_msgs::BoardStatus>("calibration/board", 1, true);
+    services_ = {offer("start", &BoardServices::start), offer("undo", &BoardServices::undo),
+                 offer("cancel", &BoardServices::cancel), offer("solve", &BoardServices::solve),
+                 offer("commit", &BoardServices::commit)};
     context_.inputs().subscribeImages(
         [this](const capture::Image& image, const Lock& lock) { onImage(image, lock); });
     const Lock lock(context_.mutex());
@@ -72,10 +69,16 @@ class BoardServices {
   }
 
  private:
+  /// The calibration's status does not show replies: a lens is none of its steps.
+  template <typename Handler>
+  ros::ServiceServer offer(const std::string& name, Handler handler) {
+    return advertise(&context_, "calibration/board/" + name, handler, this, false);
+  }
+
   Reply start(const wiimote_tracker_msgs::StartBoard::Request& request,
-              wiimote_tracker_msgs::StartBoard::Response*) {
-    context_.inputs().discover();
-    const Lock lock(context_.mutex());
+              wiimote_tracker_msgs::StartBoard::Response*,
+              Lock& lock) {
+    context_.discover(&lock);
     const auto input = context_.inputs().cameras().find(request.camera);
     if (input == context_.inputs().cameras().end() || input->second.width == 0)
       throw Refusal("no image of a camera '" + request.camera +
@@ -97,8 +100,7 @@ class BoardServices {
     return {true, message};
   }
 
-  Reply undo() {
-    const Lock lock(context_.mutex());
+  Reply undo(Lock& lock) {
     if (run().samples().views.empty())
       throw Refusal("there is no view to undo");
     run_->undo();
@@ -107,8 +109,7 @@ class BoardServices {
     return {true, run_->message()};
   }
 
-  Reply cancel() {
-    const Lock lock(context_.mutex());
+  Reply cancel(Lock& lock) {
     run();
     run_.reset();
     dropLens();
@@ -117,8 +118,7 @@ class BoardServices {
     return {true, "the views of the board are dropped"};
   }
 
-  Reply solve(const SolveBoard::Request& request, SolveBoard::Response* response) {
-    Lock lock(context_.mutex());
+  Reply solve(const SolveBoard::Request& request, SolveBoard::Response* response, Lock& lock) {
     const std::string camera = camera_;
     const unsigned lens_number = lens_number_;
     const intrinsics::Samples samples = run().samples();
@@ -140,8 +140,7 @@ class BoardServices {
     return {true, solution.summary};
   }
 
-  Reply commit() {
-    Lock lock(context_.mutex());
+  Reply commit(Lock& lock) {
     run();
     if (!lens_)
       throw Refusal("the lens is not solved: solve it first");

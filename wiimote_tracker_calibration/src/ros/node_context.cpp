@@ -48,9 +48,11 @@ double NodeContext::now() {
   return ros::Time::now().toSec();
 }
 
-workflow::Reply NodeContext::handle(const std::function<workflow::Reply(Lock&)>& handler) {
+workflow::Reply NodeContext::handle(const std::function<workflow::Reply(Lock&)>& handler,
+                                    bool shows_reply) {
   Lock lock(mutex_);
-  return show(replyOf([&] { return handler(lock); }), lock);
+  const workflow::Reply reply = replyOf([&] { return handler(lock); });
+  return shows_reply ? show(reply, lock) : reply;
 }
 
 workflow::Reply NodeContext::run(const Job& job,

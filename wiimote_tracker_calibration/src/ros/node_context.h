@@ -11,6 +11,7 @@
 #include "status_publisher.h"
 
 #include <ros/node_handle.h>
+#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <condition_variable>
@@ -55,9 +56,10 @@ class NodeContext {
 
   CameraInputs& inputs() { return inputs_; }
 
-  /// Handles a request with the mutex locked, and shows the reply in the status. What the handler
-  /// throws becomes a refusal.
-  workflow::Reply handle(const std::function<workflow::Reply(Lock&)>& handler);
+  /// Handles a request with the mutex locked, and shows the reply in the status if it is to. What
+  /// the handler throws becomes a refusal.
+  workflow::Reply handle(const std::function<workflow::Reply(Lock&)>& handler,
+                         bool shows_reply = true);
 
   // --- All of the following with the mutex locked.
 
@@ -165,17 +167,36 @@ class NodeContext {
   StatusPublisher status_;
 };
 
-/// Offers a service whose handler has the mutex locked, and whose reply is shown in the status.
+/// Offers a service. Its handler has the mutex locked, returns the reply, and fills the other
+/// fields of the response. @param shows_reply whether the status shows the reply.
+template <typename Request, typename Response, typename Handler>
+ros::ServiceServer offer(NodeContext* context,
+                         const std::string& name,
+                         bool shows_reply,
+                         const Handler& handler) {
+  return context->nh().advertiseService<Request, Response>(
+      name, [=](Request& request, Response& response) {
+        const workflow::Reply reply = replyOf([&] {
+          return context->handle([&](Lock& lock) { return handler(request, &response, lock); },
+                                 shows_reply);
+        });
+        response.success = reply.success;
+        response.message = reply.message;
+        return true;
+      });
+}
+
+/// Same for a function of a unit.
 template <typename Unit, typename Request, typename Response>
 ros::ServiceServer advertise(NodeContext* context,
                              const std::string& name,
                              workflow::Reply (Unit::*handler)(const Request&, Response*, Lock&),
-                             Unit* unit) {
-  return offer<Request, Response>(
-      context->nh(), name, [=](const Request& request, Response* response) {
-        return context->handle(
-            [&](Lock& lock) { return (unit->*handler)(request, response, lock); });
-      });
+                             Unit* unit,
+                             bool shows_reply = true) {
+  return offer<Request, Response>(context, name, shows_reply,
+                                  [=](const Request& request, Response* response, Lock& lock) {
+                                    return (unit->*handler)(request, response, lock);
+                                  });
 }
 
 /// Same without fields in the request.
@@ -183,11 +204,12 @@ template <typename Unit>
 ros::ServiceServer advertise(NodeContext* context,
                              const std::string& name,
                              workflow::Reply (Unit::*handler)(Lock&),
-                             Unit* unit) {
+                             Unit* unit,
+                             bool shows_reply = true) {
   using std_srvs::Trigger;
   return offer<Trigger::Request, Trigger::Response>(
-      context->nh(), name, [=](const Trigger::Request&, Trigger::Response*) {
-        return context->handle([&](Lock& lock) { return (unit->*handler)(lock); });
+      context, name, shows_reply, [=](const Trigger::Request&, Trigger::Response*, Lock& lock) {
+        return (unit->*handler)(lock);
       });
 }
 

@@ -3,8 +3,6 @@
 
 #include "adjust/pixel.h"
 
-#include <ceres/autodiff_cost_function.h>
-
 #include <Eigen/Core>
 
 #include <cmath>
@@ -17,11 +15,7 @@ struct CornerPixelError {
   PixelError pixel;
   Eigen::Vector3d nominal;  ///< The corner's place in the layout [m].
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<CornerPixelError, 2, kRotationSize, kPositionSize,
-                                           kLensSize, kHigherDistortionSize, 2>(
-        new CornerPixelError(*this));
-  }
+  ceres::CostFunction* cost() const { return pixelCostOf<2>(*this); }
 
   template <typename T>
   bool operator()(const T* rotation,
@@ -42,9 +36,7 @@ struct TapedLengthError {
   double length;            ///< [m]
   double stddev;            ///< [m]
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<TapedLengthError, 1, 2, 2>(new TapedLengthError(*this));
-  }
+  ceres::CostFunction* cost() const { return costOf<1, 2, 2>(*this); }
 
   /// False where both are at one place.
   template <typename T>

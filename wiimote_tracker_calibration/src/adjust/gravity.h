@@ -13,9 +13,7 @@ struct GravityError {
   Eigen::Matrix3d world_from_start;
   double stddev;  ///< [rad]
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<GravityError, 3, kRotationSize>(new GravityError(*this));
-  }
+  ceres::CostFunction* cost() const { return costOf<3, kRotationSize>(*this); }
 
   template <typename T>
   bool operator()(const T* rotation, T* residual) const {

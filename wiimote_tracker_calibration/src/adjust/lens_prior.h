@@ -1,11 +1,9 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H
 
-#include "adjust/camera_blocks.h"
+#include "adjust/pixel.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
-
-#include <ceres/autodiff_cost_function.h>
 
 #include <Eigen/Core>
 
@@ -22,9 +20,7 @@ struct LensPrior {
   double principal_point;  ///< Per axis [px].
   double k1;               ///< [1]
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<LensPrior, kLensSize, kLensSize>(new LensPrior(*this));
-  }
+  ceres::CostFunction* cost() const { return costOf<kLensSize, kLensSize>(*this); }
 
   /// Distance of a lens from the mean [standard deviations]; infinite without positive focal
   /// length.
@@ -57,10 +53,7 @@ struct LensPrior {
 struct SharedLensPrior {
   LensPrior own;  ///< Around the shifted mean.
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<SharedLensPrior, kLensSize, kLensSize, 2>(
-        new SharedLensPrior(*this));
-  }
+  ceres::CostFunction* cost() const { return costOf<kLensSize, kLensSize, 2>(*this); }
 
   template <typename T>
   bool operator()(const T* lens, const T* shared, T* residual) const {

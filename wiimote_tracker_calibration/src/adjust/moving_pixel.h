@@ -13,11 +13,7 @@ struct MovingPixelError {
   Eigen::Vector3d velocity;  ///< In the world [m/s].
   double time_offset;        ///< Of the camera [s].
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<MovingPixelError, 2, kRotationSize, kPositionSize,
-                                           kLensSize, kHigherDistortionSize, 1>(
-        new MovingPixelError(*this));
-  }
+  ceres::CostFunction* cost() const { return pixelCostOf<1>(*this); }
 
   template <typename T>
   bool operator()(const T* rotation,
@@ -42,11 +38,7 @@ struct InterpolatedPixelError {
   Eigen::Vector2d velocity;  ///< Of the observed pixel [px/s].
   double time_offset;        ///< [s]
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<InterpolatedPixelError, 2, kRotationSize, kPositionSize,
-                                           kLensSize, kHigherDistortionSize, 1, 3>(
-        new InterpolatedPixelError(*this));
-  }
+  ceres::CostFunction* cost() const { return pixelCostOf<1, 3>(*this); }
 
   template <typename T>
   bool operator()(const T* rotation,

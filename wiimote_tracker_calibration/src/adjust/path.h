@@ -4,7 +4,6 @@
 #include "adjust/cubic_spline.h"
 #include "adjust/pixel.h"
 
-#include <ceres/autodiff_cost_function.h>
 #include <ceres/sized_cost_function.h>
 
 #include <Eigen/Core>
@@ -74,10 +73,7 @@ struct PathAccelerationError {
   double spacing;  ///< Of the knots [s].
   double stddev;   ///< Of the acceleration, per axis [m/s^2].
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<PathAccelerationError, 3, 3, 3, 3>(
-        new PathAccelerationError(*this));
-  }
+  ceres::CostFunction* cost() const { return costOf<3, 3, 3, 3>(*this); }
 
   template <typename T>
   bool operator()(const T* before, const T* at, const T* after, T* residual) const {
@@ -93,10 +89,7 @@ struct PathAccelerationError {
 struct WandLengthError {
   double stddev;  ///< Of the splines' distance from the length [m].
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<WandLengthError, 1, 3, 3, 3, 3, 3, 3, 1>(
-        new WandLengthError(*this));
-  }
+  ceres::CostFunction* cost() const { return costOf<1, 3, 3, 3, 3, 3, 3, 1>(*this); }
 
   /// False where both LEDs are at one place.
   template <typename T>

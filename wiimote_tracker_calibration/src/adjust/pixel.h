@@ -28,6 +28,20 @@ void cameraFromWorld(const T* rotation,
                    turned[2] * world_from_start(2, i);
 }
 
+/// Cost function of a residual whose derivatives Ceres finds. @tparam kSizes of the residual and of
+/// its blocks.
+template <int... kSizes, typename Residual>
+ceres::CostFunction* costOf(const Residual& residual) {
+  return new ceres::AutoDiffCostFunction<Residual, kSizes...>(new Residual(residual));
+}
+
+/// Same of the error of a pixel. @tparam kOthers sizes of the blocks after those of CameraBlocks.
+template <int... kOthers, typename Residual>
+ceres::CostFunction* pixelCostOf(const Residual& residual) {
+  return costOf<2, kRotationSize, kPositionSize, kLensSize, kHigherDistortionSize, kOthers...>(
+      residual);
+}
+
 /// Projected minus observed pixel of a point, whitened.
 /// Blocks: rotation, position, lens, distortion (CameraBlocks), point in the world (3) [m].
 struct PixelError {
@@ -44,10 +58,7 @@ struct PixelError {
             camera.intrinsics.distortion_model};
   }
 
-  ceres::CostFunction* cost() const {
-    return new ceres::AutoDiffCostFunction<PixelError, 2, kRotationSize, kPositionSize, kLensSize,
-                                           kHigherDistortionSize, 3>(new PixelError(*this));
-  }
+  ceres::CostFunction* cost() const { return pixelCostOf<3>(*this); }
 
   /// False when the point is not in front of the camera: the solver then tries a smaller step.
   template <typename T>

@@ -68,6 +68,9 @@ class Coverage {
   /// located by what each camera saw last.
   void add(std::size_t camera, const Frame& frame);
 
+  /// Forgets all frames.
+  void restart() { *this = Coverage(cameras_, posed_, leds_, options_); }
+
   CoverageReport report() const;
 
  private:

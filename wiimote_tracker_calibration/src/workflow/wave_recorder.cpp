@@ -11,9 +11,7 @@ WaveRecorder::WaveRecorder(const std::vector<geometry::Camera>& cameras,
                            const std::optional<wave::Wand>& wand,
                            const wave::CoverageOptions& options,
                            double start)
-    : cameras_(cameras),
-      posed_(posed),
-      wand_(wand),
+    : wand_(wand),
       options_(options),
       start_(start),
       tracks_(cameras.size()),
@@ -32,7 +30,7 @@ bool WaveRecorder::add(const capture::Image& image) {
     track.clock_epoch = image.clock_epoch;
   } else if (image.clock_epoch != track.clock_epoch) {
     track = Track{image.clock_epoch, {}, {}, true};
-    coverage_ = wave::Coverage(cameras_, posed_, wand_ ? 2 : 1, options_);
+    coverage_.restart();
     std::vector<std::pair<std::size_t, const wave::Frame*>> frames;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
       for (const wave::Frame& frame : tracks_[i].frames)
@@ -74,7 +72,7 @@ wave::CoverageReport WaveRecorder::report() const {
     return report;
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
     if (tracks_[i].reconnected)
-      report.missing.push_back(cameras_[i].name +
+      report.missing.push_back(report.cameras[i].name +
                                " reconnected during the wave, so its earlier images do not "
                                "count: continue waving where it looks");
   }

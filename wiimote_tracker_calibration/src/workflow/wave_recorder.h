@@ -54,8 +54,6 @@ class WaveRecorder {
   double secondsNeeded() const { return options_.seconds; }
 
  private:
-  std::vector<geometry::Camera> cameras_;
-  bool posed_;
   std::optional<wave::Wand> wand_;
   wave::CoverageOptions options_;
   double start_;

@@ -77,7 +77,7 @@ class Bench {
       wiimote_tracker_msgs::IrBlob blob;
       blob.x = std::round(pixel.x() + 0.3 * normal(random_));
       blob.y = std::round(pixel.y() + 0.3 * normal(random_));
-      if (intrinsics::isInImage(truth, pixel) && image.blobs.size() < 4)
+      if (truth.isInImage(pixel) && image.blobs.size() < 4)
         image.blobs.push_back(blob);
     }
     stamp_ += kPeriod;

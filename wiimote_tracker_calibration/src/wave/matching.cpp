@@ -42,10 +42,6 @@ std::optional<Prediction> predict(const State& state,
   return prediction;
 }
 
-bool inImage(const geometry::Intrinsics& lens, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= 0.0 && pixel.y() >= 0.0 && pixel.x() < lens.width && pixel.y() < lens.height;
-}
-
 double errorOf(const Prediction& prediction, const Eigen::Vector2d& spot) {
   return (prediction.whitening * (prediction.pixel - spot)).norm();
 }
@@ -109,7 +105,7 @@ void addSightings(const CameraRecording& recording,
       const bool is_seen = spot >= 0;
       const Eigen::Vector2d& pixel =
           is_seen ? frame.spots[static_cast<std::size_t>(spot)] : prediction->pixel;
-      if (is_seen || inImage(state.cameras[camera].intrinsics, pixel))
+      if (is_seen || state.cameras[camera].intrinsics.isInImage(pixel))
         sightings->push_back(
             {{camera, led, place->first, frame.stamp, pixel, prediction->whitening}, is_seen});
     }

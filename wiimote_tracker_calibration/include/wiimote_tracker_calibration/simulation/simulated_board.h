@@ -18,11 +18,6 @@ inline Eigen::Vector2d projected(const geometry::Intrinsics& camera,
   return camera.pixelFromNormalized(p.hnormalized());
 }
 
-inline bool isInImage(const geometry::Intrinsics& camera, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= 0.0 && pixel.x() <= camera.width - 1.0 && pixel.y() >= 0.0 &&
-         pixel.y() <= camera.height - 1.0;
-}
-
 /// The middle of a board of 0.3 m somewhere in the image, 0.55 to 1 m away, tilted by up to 45
 /// degrees to any side and turned by up to 30 degrees.
 inline Eigen::Isometry3d randomPose(std::mt19937& random) {
@@ -56,7 +51,7 @@ inline BoardView simulatedView(const geometry::Intrinsics& camera,
       seen.x() = std::round(exact.x() + noise * normal(random));
       seen.y() = std::round(exact.y() + noise * normal(random));
     }
-    if (isInImage(camera, exact))
+    if (camera.isInImage(exact))
       view.pixels[static_cast<std::size_t>(led)] = seen;
   }
   return view;

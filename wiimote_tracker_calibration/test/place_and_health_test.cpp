@@ -313,6 +313,25 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   }));
 }
 
+TEST_F(CalibratedNode, DoesNotApplyWhatPairsOfCamerasContradict) {
+  geometry::Rig rig = trueRig();
+  // About the vertical: the accelerometer does not tell which pair was moved.
+  const Eigen::Vector3d center = rig.cameras[0].camera.center();
+  const Eigen::Isometry3d turn = Eigen::Translation3d(center) *
+                                 Eigen::AngleAxisd(0.035, Eigen::Vector3d::UnitZ()) *
+                                 Eigen::Translation3d(-center);
+  for (const std::size_t i : {0, 1}) {
+    Eigen::Isometry3d& pose = rig.cameras[i].camera.world_from_camera;
+    pose = turn * pose;
+  }
+  load(rig);
+  cameras_->waveLed(true);
+  EXPECT_TRUE(waitUntil([] {
+    const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
+    return !reply.success && reply.message.find("contradict the others") != std::string::npos;
+  }));
+}
+
 TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   geometry::Rig rig = trueRig();
   Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;

@@ -312,5 +312,22 @@ TEST_F(ThrownErrors, EndNoThreadThatImagesComeFrom) {
   EXPECT_TRUE(reply.success) << reply.message;
 }
 
+// The last test: the node keeps the camera.
+TEST_F(ThrownErrors, ImagesWithoutSizeFitNoLens) {
+  ros::NodeHandle nh;
+  ros::Publisher images = nh.advertise<IrBlobArray>("camera_5/ir_blobs", 1, true);
+  images.publish(IrBlobArray());
+  NodeContext& context = node->context();
+  EXPECT_TRUE(waitUntil([&] {
+    const Lock lock(context.mutex());
+    try {
+      context.facts({"camera_5"}, lock);
+    } catch (const Refusal& refusal) {
+      return std::string(refusal.what()).find("camera_5 have no size") != std::string::npos;
+    }
+    return false;
+  }));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

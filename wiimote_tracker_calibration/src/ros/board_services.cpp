@@ -80,7 +80,7 @@ class BoardServices {
               Lock& lock) {
     context_.discover(&lock);
     const auto input = context_.inputs().cameras().find(request.camera);
-    if (input == context_.inputs().cameras().end() || input->second.width == 0)
+    if (input == context_.inputs().cameras().end() || input->second.width < 0)
       throw Refusal("no image of a camera '" + request.camera +
                     "' has come: check its name, or start its driver");
     const Parameters& parameters = context_.parameters(lock);

@@ -43,8 +43,8 @@ std::optional<Eigen::Vector3d> specificForceOf(const sensor_msgs::Imu& message,
 /// The last known properties of one camera, and its latest images.
 struct CameraInput {
   std::string identity;
-  int width = 0;      ///< Image size [px]; 0 until an image came.
-  int height = 0;     ///< [px]
+  int width = -1;     ///< Image size [px]; -1 until an image came.
+  int height = -1;    ///< [px]
   int max_blobs = 0;  ///< Most spots in one image; 0: not known.
   std::string optical_frame;
   capture::CameraMonitor monitor;  ///< Its times are stamps.

@@ -82,7 +82,7 @@ class HealthMonitor {
 
   void warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
     for (const auto& camera : context_.inputs().cameras()) {
-      const bool sends_images = camera.second.width > 0;
+      const bool sends_images = camera.second.width >= 0;
       if (sends_images && rig.find(camera.first) == nullptr &&
           unknown_cameras_.insert(camera.first).second)
         ROS_WARN("%s %s.", camera.first.c_str(), kUnknownCamera);

@@ -18,11 +18,13 @@ constexpr std::chrono::milliseconds kLongestNap(100);
 constexpr std::chrono::seconds kPatience(10);
 
 /// The camera's identity, starting intrinsics and gravity.
-/// @throws Refusal: the intrinsics are for another size of image.
+/// @throws Refusal: the intrinsics are for another size of image, or the images have none.
 square::CameraSightings factsOf(const std::string& name,
                                 const CameraInput& input,
                                 const Parameters& parameters) {
   const geometry::Intrinsics& lens = parameters.intrinsicsOf(name);
+  if (input.width == 0 || input.height == 0)
+    throw Refusal("the images of " + name + " have no size: repair its driver");
   if (input.width > 0 && (input.width != lens.width || input.height != lens.height))
     throw Refusal("the images of " + name + " are " + std::to_string(input.width) + " x " +
                   std::to_string(input.height) + ", but its starting intrinsics are for " +

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -21,7 +22,9 @@ struct Board {
   double row_spacing = 0.1;     ///< From one row to the next, along y [m, > 0].
 
   /// Place of an LED in the board frame [m].
-  Eigen::Vector3d position(int led) const;
+  Eigen::Vector3d position(int led) const {
+    return {led % kBoardColumns * column_spacing, led / kBoardColumns * row_spacing, 0.0};
+  }
 };
 
 /// One view of the board, held still.
@@ -29,7 +32,10 @@ struct BoardView {
   /// By the number of the LED: distorted pixel [px], or nothing: not seen.
   std::array<std::optional<Eigen::Vector2d>, kBoardLeds> pixels;
 
-  std::size_t count() const;
+  std::size_t count() const {
+    return static_cast<std::size_t>(
+        std::count_if(pixels.begin(), pixels.end(), [](const auto& p) { return p.has_value(); }));
+  }
 };
 
 /// Input of solveIntrinsics().

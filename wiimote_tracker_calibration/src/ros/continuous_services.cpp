@@ -88,7 +88,7 @@ class ContinuousServices {
     proposal_ = proposal;
     context_.status(lock).setProposal(proposal->cameras, proposal->message + kApply);
     if (applies) {
-      const Reply applied = applyProposal(&lock);
+      const Reply applied = apply(lock);
       ROS_WARN_STREAM(applied.message);
     } else if (is_news) {
       ROS_WARN_STREAM(proposal->message + kApply);
@@ -172,8 +172,6 @@ class ContinuousServices {
     return newest;
   }
 
-  Reply apply(Lock& lock) { return applyProposal(&lock); }
-
   std::string whatIsNeeded() const {
     if (!contradiction_.empty())
       return contradiction_;
@@ -186,31 +184,31 @@ class ContinuousServices {
   }
 
   /// The rig before is kept for revert(), the new one in a file beside the rig file.
-  Reply applyProposal(Lock* lock) {
+  Reply apply(Lock& lock) {
     if (policy_ == ContinuousPolicy::kOff)
       throw Refusal(
           ros::this_node::getName() +
           "/continuous_policy is off, so nothing is proposed: set it to propose, and start "
           "the node again");
-    requireCalibrated(*lock);
+    requireCalibrated(lock);
     if (!proposal_)
       throw Refusal("nothing is proposed: " + whatIsNeeded());
-    const geometry::Rig before = context_.existingRig("to change", *lock);
+    const geometry::Rig before = context_.existingRig("to change", lock);
     if (idWithoutMasks(before) != in_use_)
       throw Refusal(NodeContext::kReplaced);
     const continuous::Proposal proposal = *proposal_;
     const geometry::Rig rig = continuous::appliedRig(proposal.rig, before);
-    forgetProposal(*lock);
+    forgetProposal(lock);
     const bool at_once = proposal.places.empty();
     changes_.push_back({in_use_, before});
     if (changes_.size() > kMostChanges)
       changes_.erase(changes_.begin());
     if (at_once)
-      useAtOnce(rig, before, proposal, *lock);
+      useAtOnce(rig, before, proposal, lock);
     else
       approach_.emplace(rig, proposal.places);
     return {true, (at_once ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
-                      keepVersion(rig, lock) +
+                      keepVersion(rig, &lock) +
                       "; calibration/continuous/revert goes back, and save keeps it" +
                       (at_once ? "" : " once it is reached")};
   }

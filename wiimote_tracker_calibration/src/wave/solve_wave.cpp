@@ -56,22 +56,6 @@ constexpr int kAttempts = 5;
 constexpr double kStartDone = 0.2;
 constexpr double kPathDone = 0.35;
 
-/// Passes progress on, which only grows.
-class Reporter {
- public:
-  explicit Reporter(const ProgressCallback& callback) : callback_(callback) {}
-
-  void report(const char* step, double fraction) {
-    fraction_ = std::max(fraction_, fraction);
-    if (callback_)
-      callback_(step, fraction_);
-  }
-
- private:
-  const ProgressCallback& callback_;
-  double fraction_ = 0.0;
-};
-
 /// The recording without lamps, and with stamps from its first image on: a time since 1970 has no
 /// digits left for the microseconds that an adjustment moves a clock by.
 Recording prepared(Recording recording) {
@@ -187,14 +171,14 @@ WaveSolution summarise(const Task& task,
 }
 
 /// Alternates matching and adjusting until neither changes.
-WaveSolution fit(const Task& task, State state, Reporter* reporter) {
+WaveSolution fit(const Task& task, State state, const ProgressCallback& progress) {
   const WaveOptions& options = task.options;
   const char* const kStep = "adjusting cameras, clocks and path";
-  reporter->report(kStep, kPathDone);
+  progress(kStep, kPathDone);
   double fraction = kPathDone;
   const auto report = [&] {
     fraction += 0.05 * (1.0 - fraction);
-    reporter->report(kStep, fraction);
+    progress(kStep, fraction);
   };
   Matching matching;
   Refinement refinement{};
@@ -229,9 +213,9 @@ WaveSolution fit(const Task& task, State state, Reporter* reporter) {
 }
 
 /// From a start to a solution that passed all checks.
-WaveSolution solveFrom(StartPoses poses, const Task& task, Reporter* reporter) {
+WaveSolution solveFrom(StartPoses poses, const Task& task, const ProgressCallback& progress) {
   const Recording& recording = task.recording;
-  reporter->report("following the LED", kStartDone);
+  progress("following the LED", kStartDone);
   if (!recording.square)
     useFirstCameraAsWorld(recording, &poses.cameras);
   State state;
@@ -244,7 +228,7 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, Reporter* reporter) {
     state.wand_length = recording.wand->length;
   if (!task.floor.empty())
     checkStart(task, state);
-  WaveSolution solution = fit(task, std::move(state), reporter);
+  WaveSolution solution = fit(task, std::move(state), progress);
   checkSolution(task, &solution);
   solution.rig.verdict = verdictOf(recording, solution);
   return solution;
@@ -255,20 +239,26 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, Reporter* reporter) {
 WaveSolution solveWave(const Recording& input,
                        const WaveOptions& options,
                        const ProgressCallback& progress) {
+  // Another start begins again, but what is reported only grows.
+  const ProgressCallback report = [&, most = 0.0](const std::string& step,
+                                                  double fraction) mutable {
+    most = std::max(most, fraction);
+    if (progress)
+      progress(step, most);
+  };
   Recording waved = input;
   FloorSpots floor = takeFloor(&waved);
   checkInput(waved);
-  Reporter reporter(progress);
   const Task task = {prepared(std::move(waved)), options, std::move(floor)};
   std::exception_ptr refusal;
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
-    reporter.report("finding where the cameras stand", 0.0);
+    report("finding where the cameras stand", 0.0);
     bool is_only_start = false;
     try {
       StartPoses poses = startPoses(task.recording, options, attempt);
       is_only_start = poses.from_square;
-      WaveSolution solution = solveFrom(std::move(poses), task, &reporter);
-      reporter.report("done", 1.0);
+      WaveSolution solution = solveFrom(std::move(poses), task, report);
+      report("done", 1.0);
       return solution;
     } catch (const WandMislaid&) {
       throw;

@@ -61,88 +61,41 @@ std::optional<Remap> fitPolynomial(Model model, const std::vector<KnownPoint>& p
   return remap;
 }
 
-/// P (1, q)' / (1 + c q) = y, in normalised coordinates. Parameters: P row by row, c.
-class ProjectiveProblem {
- public:
-  ProjectiveProblem(const std::vector<KnownPoint>& points, const Frame& frame) {
-    for (const KnownPoint& point : points) {
-      from_.push_back(frame.normalized(point.measured));
-      to_.push_back(frame.normalized(point.known));
-    }
-  }
-
-  /// Linear least squares of the equations multiplied by the denominator.
-  std::optional<Eigen::VectorXd> solveLinear() const {
-    Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(rows(), 15);
-    Eigen::VectorXd right(rows());
-    for (std::size_t i = 0; i < from_.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(3 * i);
-      fillNumerator(row, from_[i], 1.0, &matrix);
-      matrix.block<3, 3>(row, 12) = -to_[i] * from_[i].transpose();
-      right.segment<3>(row) = to_[i];
-    }
-    const auto solution = solve(matrix, right);
-    if (!solution)
-      return std::nullopt;
-    return Eigen::VectorXd(solution->col(0));
-  }
-
-  /// Gauss-Newton on the distances. It converges fast, because a rig's deformation is small.
-  std::optional<Eigen::VectorXd> refine(Eigen::VectorXd parameters) const {
-    Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows(), 15);
-    Eigen::VectorXd residuals(rows());
-    for (int iteration = 0; iteration < 20; ++iteration) {
-      for (std::size_t i = 0; i < from_.size(); ++i) {
-        const auto row = static_cast<Eigen::Index>(3 * i);
-        const double denominator = 1.0 + parameters.tail<3>().dot(from_[i]);
-        if (denominator < 0.05)
-          return std::nullopt;
-        const Eigen::Map<const Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> numerator(
-            parameters.data());
-        const Eigen::Vector3d mapped =
-            (numerator.col(0) + numerator.rightCols<3>() * from_[i]) / denominator;
-        residuals.segment<3>(row) = to_[i] - mapped;
-        fillNumerator(row, from_[i], 1.0 / denominator, &jacobian);
-        jacobian.block<3, 3>(row, 12) = -mapped * from_[i].transpose() / denominator;
-      }
-      const auto step = solve(jacobian, residuals);
-      if (!step)
-        return std::nullopt;
-      parameters += step->col(0);
-      if (step->norm() < 1e-12)
-        break;
-    }
-    return parameters;
-  }
-
- private:
-  Eigen::Index rows() const { return static_cast<Eigen::Index>(3 * from_.size()); }
-
-  static void fillNumerator(Eigen::Index row,
-                            const Eigen::Vector3d& q,
-                            double factor,
-                            Eigen::MatrixXd* matrix) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      (*matrix)(row + axis, 4 * axis) = factor;
-      matrix->block<1, 3>(row + axis, 4 * axis + 1) = factor * q.transpose();
-    }
-  }
-
-  std::vector<Eigen::Vector3d> from_;
-  std::vector<Eigen::Vector3d> to_;
-};
-
+/// P (1, q)' / (1 + c q), in normalised coordinates; parameters: P row by row, c. Gauss-Newton on
+/// the distances, from no correction at all: it converges fast, because a rig's deformation is
+/// small.
 std::optional<Remap> fitProjective(const std::vector<KnownPoint>& points) {
   Remap remap = emptyRemap(Model::kProjective, points);
   const Frame frame = frameOf(remap.support);
-  const ProjectiveProblem problem(points, frame);
-  std::optional<Eigen::VectorXd> parameters = problem.solveLinear();
-  if (parameters)
-    parameters = problem.refine(*parameters);
-  if (!parameters)
-    return std::nullopt;
-  for (Eigen::Index i = 0; i < parameters->size(); ++i)
-    remap.parameters.push_back(frame.scale * (*parameters)[i]);
+  Eigen::VectorXd parameters = Eigen::VectorXd::Zero(15);
+  Eigen::Map<Eigen::Matrix<double, 3, 4, Eigen::RowMajor>> numerator(parameters.data());
+  numerator.rightCols<3>().setIdentity();
+  const auto rows = static_cast<Eigen::Index>(3 * points.size());
+  Eigen::MatrixXd jacobian = Eigen::MatrixXd::Zero(rows, parameters.size());
+  Eigen::VectorXd residuals(rows);
+  for (int iteration = 0; iteration < 20; ++iteration) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(3 * i);
+      const Eigen::Vector3d q = frame.normalized(points[i].measured);
+      const double denominator = 1.0 + parameters.tail<3>().dot(q);
+      if (denominator < 0.05)
+        return std::nullopt;
+      const Eigen::Vector4d terms(1.0, q.x(), q.y(), q.z());
+      const Eigen::Vector3d mapped = numerator * terms / denominator;
+      residuals.segment<3>(row) = frame.normalized(points[i].known) - mapped;
+      for (Eigen::Index axis = 0; axis < 3; ++axis)
+        jacobian.block<1, 4>(row + axis, 4 * axis) = terms.transpose() / denominator;
+      jacobian.block<3, 3>(row, 12) = -mapped * q.transpose() / denominator;
+    }
+    const auto step = solve(jacobian, residuals);
+    if (!step)
+      return std::nullopt;
+    parameters += step->col(0);
+    if (step->norm() < 1e-12)
+      break;
+  }
+  for (Eigen::Index i = 0; i < parameters.size(); ++i)
+    remap.parameters.push_back(frame.scale * parameters[i]);
   return remap;
 }
 

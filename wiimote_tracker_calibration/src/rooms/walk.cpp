@@ -45,15 +45,8 @@ Eigen::MatrixX2d lineDesign(const Path& path, double time) {
   return design;
 }
 
-}  // namespace
-
-Eigen::MatrixX3d positionsOf(const Path& path) {
-  Eigen::MatrixX3d positions(path.size(), 3);
-  for (std::size_t i = 0; i < path.size(); ++i)
-    positions.row(static_cast<Eigen::Index>(i)) = path[i].position.transpose();
-  return positions;
-}
-
+/// Straight line at constant velocity through a path, by generalised least squares:
+/// (position at `time`, velocity) = weights * positions, in each axis.
 Eigen::Matrix<double, 2, Eigen::Dynamic> lineWeights(const Path& path,
                                                      double time,
                                                      const WalkModel& model) {
@@ -61,6 +54,15 @@ Eigen::Matrix<double, 2, Eigen::Dynamic> lineWeights(const Path& path,
   const Eigen::MatrixX2d weighed = covarianceOf(path, time, model).ldlt().solve(design);
   const Eigen::Matrix2d information = design.transpose() * weighed;
   return information.inverse() * weighed.transpose();
+}
+
+}  // namespace
+
+Eigen::MatrixX3d positionsOf(const Path& path) {
+  Eigen::MatrixX3d positions(path.size(), 3);
+  for (std::size_t i = 0; i < path.size(); ++i)
+    positions.row(static_cast<Eigen::Index>(i)) = path[i].position.transpose();
+  return positions;
 }
 
 Eigen::Vector3d velocityOf(const Path& path, const WalkModel& model) {

@@ -32,17 +32,11 @@ struct PathPoint {
 
 using Path = std::vector<PathPoint>;
 
-/// Straight line at constant velocity through a path, by generalised least squares:
-/// (position at `time`, velocity) = weights * positions, in each axis.
-/// @param path at least two points at different times
-Eigen::Matrix<double, 2, Eigen::Dynamic> lineWeights(const Path& path,
-                                                     double time,
-                                                     const WalkModel& model);
-
 /// Positions of a path's points, one in each row [m].
 Eigen::MatrixX3d positionsOf(const Path& path);
 
-/// Velocity of the line [m/s].
+/// Velocity of the straight line through a path, by generalised least squares [m/s].
+/// @param path at least two points at different times
 Eigen::Vector3d velocityOf(const Path& path, const WalkModel& model);
 
 /// RMS distance of a path from its line over that of the model [1].

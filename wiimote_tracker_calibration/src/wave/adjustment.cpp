@@ -1,6 +1,7 @@
 #include "adjustment.h"
 
 #include "adjust/camera_blocks.h"
+#include "adjust/chi_squared.h"
 #include "adjust/covariance.h"
 #include "adjust/gravity.h"
 #include "adjust/path.h"
@@ -278,6 +279,11 @@ class WaveProblem {
 };
 
 }  // namespace
+
+bool Agreement::isContradiction() const {
+  return chi_squared >
+         adjust::chiSquaredQuantile(std::max(1.0, degrees_of_freedom), adjust::kThreeNines);
+}
 
 Refinement refine(const Task& task,
                   const std::vector<Match>& matches,

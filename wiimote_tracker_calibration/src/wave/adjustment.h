@@ -26,6 +26,9 @@ struct Refinement {
 struct Agreement {
   double chi_squared;
   double degrees_of_freedom;  ///< Expectation of chi_squared.
+
+  /// Whether the disagreement is significant (99.9 %).
+  bool isContradiction() const;
 };
 
 /// Least squares over the matches, the corners, the wand, the floor and the priors

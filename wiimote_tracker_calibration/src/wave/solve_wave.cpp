@@ -2,7 +2,7 @@
 
 #include "adjustment.h"
 #include "checks.h"
-#include "clock_step.h"
+#include "clock_jump.h"
 #include "matching.h"
 #include "solution.h"
 #include "start_path.h"
@@ -10,11 +10,8 @@
 #include "state.h"
 #include "wand_on_floor.h"
 
-#include "adjust/chi_squared.h"
 #include "capture/moving_spots.h"
 #include "wave/error.h"
-
-#include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
 
@@ -22,7 +19,6 @@
 #include <cmath>
 #include <exception>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace wiimote_tracker::wave {
@@ -39,17 +35,6 @@ constexpr double kGate = 5.0;
 constexpr int kFinalRounds = 8;
 // The estimated noise has converged when a round changes it by less.
 constexpr double kNoiseSettled = 0.01;
-// Least jump of a clock [s]: more than clocks wander during a wave.
-constexpr double kLeastJump = 0.004;
-// Least share of the squared residuals that a jump explains, and the largest that is left without
-// it.
-constexpr double kLeastExplained = 0.1;
-constexpr double kMostLeft = 0.9;
-// Rounds in which the size of a jump is found.
-constexpr int kJumpRounds = 4;
-// Least factor by which a true jump grows in these rounds: by 2 where two cameras share the path,
-// by 1.02 where 64 do.
-constexpr double kLeastGrowth = 1.01;
 // Starts that are tried where no square gives one.
 constexpr int kAttempts = 5;
 // Shares of the work.
@@ -86,72 +71,6 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
                     });
 }
 
-bool contradicts(const Agreement& agreement) {
-  return agreement.chi_squared >
-         adjust::chiSquaredQuantile(std::max(1.0, agreement.degrees_of_freedom),
-                                    adjust::kThreeNines);
-}
-
-struct ClockJump {
-  std::size_t camera;  // Index in the recording.
-  double size;         // [s]
-};
-
-/// The jump of a clock without which everything fits better. The path follows a clock that jumps
-/// and hides a part of the jump. So the largest step is removed, the path is fitted again, and the
-/// step is measured again: a true one grows.
-std::optional<ClockJump> findJump(const Task& task,
-                                  const Gate& gate,
-                                  const std::function<void()>& report,
-                                  State state) {
-  // Images before or after a jump may be far off.
-  Gate wide = gate;
-  wide.limit = kWideGates[0] / gate.pixel_stddev;
-  const auto stepsOf = [&](const Recording& waved) {
-    return clockSteps(state, matchSpots(waved, state, wide).matches);
-  };
-  const auto squared = [](const std::vector<ClockStep>& steps) {
-    return std::accumulate(steps.begin(), steps.end(), 0.0,
-                           [](double sum, const ClockStep& step) { return sum + step.squared; });
-  };
-  std::vector<ClockStep> steps = stepsOf(task.recording);
-  const double before = squared(steps);
-  const auto worst = std::max_element(
-      steps.begin(), steps.end(),
-      [](const ClockStep& a, const ClockStep& b) { return a.explained < b.explained; });
-  const auto camera = static_cast<std::size_t>(worst - steps.begin());
-  const double apparent = std::abs(worst->size);
-  if (worst->explained < kLeastExplained * before || apparent < kLeastJump)
-    return std::nullopt;
-  Task corrected = task;
-  Matching matching;
-  for (int round = 0; round < kJumpRounds; ++round) {
-    corrected.recording = task.recording;
-    for (Frame& frame : corrected.recording.cameras[camera].frames)
-      frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
-    matching = matchSpots(corrected.recording, state, gate);
-    if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
-      return std::nullopt;  // not a step: the camera would fit nowhere
-    refine(corrected, matching.matches, kInfinity, report, &state);
-    steps = stepsOf(task.recording);
-  }
-  if (std::abs(steps[camera].size) < kLeastGrowth * apparent ||
-      squared(stepsOf(corrected.recording)) > kMostLeft * before ||
-      contradicts(agreementOf(corrected, matching.matches, state)))
-    return std::nullopt;
-  return ClockJump{camera, steps[camera].size};
-}
-
-[[noreturn]] void refuse(const ClockJump& jump, const Recording& recording) {
-  // Of two cameras either clock may have jumped.
-  const bool two = recording.cameras.size() == 2;
-  const auto name = [&](std::size_t camera) { return recording.cameras[camera].sightings.name; };
-  throw WaveError("the clock of " + (two ? name(0) + " or " + name(1) : name(jump.camera)) +
-                  format(" jumped by about %.0f ms during the wave: check the time of its computer "
-                         "and its driver, and wave again",
-                         1e3 * std::abs(jump.size)));
-}
-
 WaveSolution summarise(const Task& task,
                        const State& state,
                        const Matching& matching,
@@ -166,7 +85,7 @@ WaveSolution summarise(const Task& task,
   }
   const Agreement agreement = agreementOf(task, matching.matches, state);
   solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
-  solution.contradicts = contradicts(agreement);
+  solution.contradicts = agreement.isContradiction();
   return solution;
 }
 
@@ -202,8 +121,7 @@ WaveSolution fit(const Task& task, State state, const ProgressCallback& progress
       break;
     pixel_stddev *= ratio;
   }
-  if (const auto jump = findJump(task, {pixel_stddev, stamp, kGate}, report, state))
-    refuse(*jump, task.recording);
+  checkClocks(task, {pixel_stddev, stamp, kGate}, report, state);
   checkNoise(options, pixel_stddev);
   if (!task.floor.empty()) {
     useFloorAsWorld(task, &state);

@@ -37,7 +37,7 @@ JoinOptions withSlope(double slope) {
 
 JoinOptions ofSteadyWalkers() {
   JoinOptions options;
-  options.walk.slowing = 0.0;
+  options.slowing = 0.0;
   return options;
 }
 

@@ -124,14 +124,14 @@ JoinedRooms joinRooms(const geometry::Rig& first,
                       const JoinOptions& options) {
   checkRigs(first, second);
   checkNoSharedCamera(first, second);
-  const Passages found = findPassages(first_tracks, second_tracks, options.walk);
+  const Passages found = findPassages(first_tracks, second_tracks);
   std::string left_out =
       leftOut(found.crowded, "several LEDs at the same time") +
       leftOut(found.crooked, "not straight") +
       leftOut(found.unhidden, "both rooms saw an LED at that time (the same one?)");
   std::vector<SharedPlaces> places;
   for (const Passage& passage : found.passages) {
-    if (const auto shared = sharedPlaces(first, second, passage, options.walk))
+    if (const auto shared = sharedPlaces(first, second, passage, options.slowing))
       places.push_back(*shared);
   }
   left_out += leftOut(found.passages.size() - places.size(), "not in view of two cameras");

@@ -15,7 +15,11 @@
 namespace wiimote_tracker::rooms {
 
 struct JoinOptions {
-  WalkModel walk;
+  /// Standard deviation of the share by which a walker is slower, or faster, while the LED is
+  /// hidden, in all passages alike [1, >= 0]. Assumed: people slow down the more, the narrower the
+  /// opening (K. Wilmut and A. L. Barnett, "Locomotor adjustments when navigating through
+  /// apertures", Hum. Mov. Sci. 29(2), 2010).
+  double slowing = 0.03;
   /// Standard deviation of the angle between the verticals (z axes) of both worlds, about each
   /// horizontal axis [rad, > 0]. The default: a flat floor may differ by 10 mm over 4 m (DIN
   /// 18202), which is 0.14 degrees, in both rooms. Infinite: a world may have any slope; then only
@@ -35,7 +39,7 @@ struct JoinedRooms {
 
 /// Joins two rigs that share no view by an LED that was carried through the door between them. Both
 /// rigs' tracks have the same clock. On either side of the door the LED's path is a straight line
-/// at constant velocity, with deviations (WalkModel); both lines must agree. The scatter of the
+/// at constant velocity, with deviations (walk.h); both lines must agree. The scatter of the
 /// passages corrects the size of these deviations ahead, to the left and up, for the weights and
 /// for the covariance, which includes those of both rigs and the slope, to first order. A passage
 /// that contradicts the others (99.9 %) is left out, at most a third of them.

@@ -67,10 +67,10 @@ std::vector<End> endsOf(const std::vector<Path>& first, const std::vector<Path>&
 }
 
 /// The longest part that is straight; empty: none.
-Path straightPart(const Path& track, bool end, const WalkModel& model) {
+Path straightPart(const Path& track, bool end) {
   for (double duration = kLongestPart; duration >= kShortestPart; duration -= 0.25) {
     Path part = partOf(track, end, duration);
-    if (durationOf(part) >= kShortestPart - kSpacing && crookednessOf(part, model) <= kMostCrooked)
+    if (durationOf(part) >= kShortestPart - kSpacing && crookednessOf(part) <= kMostCrooked)
       return part;
   }
   return {};
@@ -79,8 +79,7 @@ Path straightPart(const Path& track, bool end, const WalkModel& model) {
 }  // namespace
 
 Passages findPassages(const std::vector<Path>& first_tracks,
-                      const std::vector<Path>& second_tracks,
-                      const WalkModel& model) {
+                      const std::vector<Path>& second_tracks) {
   const std::vector<Path> first = joinTracks(first_tracks);
   const std::vector<Path> second = joinTracks(second_tracks);
   const std::vector<End> exits = endsOf(first, second, true);
@@ -112,8 +111,8 @@ Passages findPassages(const std::vector<Path>& first_tracks,
       ++result.crowded;
       continue;
     }
-    const Passage passage{exit.in_first, straightPart(*exit.track, true, model),
-                          straightPart(*entry->track, false, model)};
+    const Passage passage{exit.in_first, straightPart(*exit.track, true),
+                          straightPart(*entry->track, false)};
     if (passage.before.empty() || passage.after.empty())
       ++result.crooked;
     else

@@ -33,8 +33,7 @@ struct Passages {
 /// @param first_tracks, second_tracks in each room, points in the order of time; an LED may have
 /// several, also at the same time.
 Passages findPassages(const std::vector<Path>& first_tracks,
-                      const std::vector<Path>& second_tracks,
-                      const WalkModel& model);
+                      const std::vector<Path>& second_tracks);
 
 }  // namespace wiimote_tracker::rooms
 

@@ -18,8 +18,8 @@ struct SensitivePath {
   std::vector<Eigen::MatrixXd> by_parameters;
 };
 
-SensitivePath sensitivePath(const geometry::Rig& rig, const Path& path, const WalkModel& model) {
-  const Eigen::Vector3d velocity = velocityOf(path, model);
+SensitivePath sensitivePath(const geometry::Rig& rig, const Path& path) {
+  const Eigen::Vector3d velocity = velocityOf(path);
   SensitivePath result;
   for (const PathPoint& point : path) {
     if (const auto derivative = geometry::pointByParameters(
@@ -59,19 +59,19 @@ Eigen::Matrix3d walkersAxes(const Eigen::Vector3d& velocity) {
 std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
                                          const geometry::Rig& second,
                                          const Passage& passage,
-                                         const WalkModel& model) {
+                                         double slowing) {
   const geometry::Rig& from = passage.from_first ? first : second;
   const geometry::Rig& to = passage.from_first ? second : first;
-  const SensitivePath before = sensitivePath(from, passage.before, model);
-  const SensitivePath after = sensitivePath(to, passage.after, model);
+  const SensitivePath before = sensitivePath(from, passage.before);
+  const SensitivePath after = sensitivePath(to, passage.after);
   if (before.path.size() < kFewestPoints || after.path.size() < kFewestPoints)
     return std::nullopt;
-  const auto places = hiddenPlaces(before.path, after.path, model);
-  const Eigen::Vector3d velocity = velocityOf(passage.from_first ? before.path : after.path, model);
+  const auto places = hiddenPlaces(before.path, after.path);
+  const Eigen::Vector3d velocity = velocityOf(passage.from_first ? before.path : after.path);
   const Eigen::Matrix3d axes = walkersAxes(velocity);
   // Whoever slows down is farther back after the door: in_second against in_first, or the reverse.
   const double hidden = after.path.front().time - before.path.back().time;
-  const Eigen::Vector3d back = (passage.from_first ? -hidden : hidden) * model.slowing * velocity;
+  const Eigen::Vector3d back = (passage.from_first ? -hidden : hidden) * slowing * velocity;
   SharedPlaces result;
   for (std::size_t i = 0; i < places.size(); ++i) {
     Place in_first = placeOf(before, places[i].before_weights);

@@ -16,11 +16,12 @@ namespace wiimote_tracker::rooms {
 using SharedPlaces = std::array<Shared, 2>;
 constexpr int kConditions = 6;  ///< Of a passage: the coordinates of both places.
 
+/// @param slowing as of JoinOptions.
 /// Nothing where hardly any point of a path is in view of two cameras of its rig.
 std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
                                          const geometry::Rig& second,
                                          const Passage& passage,
-                                         const WalkModel& model);
+                                         double slowing);
 
 }  // namespace wiimote_tracker::rooms
 

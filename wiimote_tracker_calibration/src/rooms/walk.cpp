@@ -10,6 +10,13 @@ namespace wiimote_tracker::rooms {
 
 namespace {
 
+// Deviations of a walker's velocity and position, per axis: standard deviations [m/s, m] and
+// autocorrelation times [s].
+constexpr double kWander = 0.04;
+constexpr double kWanderTime = 1.0;
+constexpr double kSway = 0.02;
+constexpr double kSwayTime = 0.5;
+
 /// Correlation exp(-|s - t| / decay) integrated over s from 0 to a and t from 0 to b [s^2].
 double integratedTwice(double a, double b, double decay) {
   const auto left = [decay](double time) { return std::exp(-std::abs(time) / decay); };
@@ -20,7 +27,7 @@ double integratedTwice(double a, double b, double decay) {
 }
 
 /// Covariance of the positions of one axis about the line that they had at `time`.
-Eigen::MatrixXd covarianceOf(const Path& path, double time, const WalkModel& model) {
+Eigen::MatrixXd covarianceOf(const Path& path, double time) {
   const auto size = static_cast<Eigen::Index>(path.size());
   Eigen::MatrixXd covariance(size, size);
   for (Eigen::Index i = 0; i < size; ++i) {
@@ -28,9 +35,8 @@ Eigen::MatrixXd covarianceOf(const Path& path, double time, const WalkModel& mod
     for (Eigen::Index j = 0; j < size; ++j) {
       const PathPoint& b = path[static_cast<std::size_t>(j)];
       covariance(i, j) =
-          model.wander * model.wander *
-              integratedTwice(a.time - time, b.time - time, model.wander_time) +
-          model.sway * model.sway * std::exp(-std::abs(a.time - b.time) / model.sway_time);
+          kWander * kWander * integratedTwice(a.time - time, b.time - time, kWanderTime) +
+          kSway * kSway * std::exp(-std::abs(a.time - b.time) / kSwayTime);
     }
     covariance(i, i) += a.variance;
   }
@@ -47,11 +53,9 @@ Eigen::MatrixX2d lineDesign(const Path& path, double time) {
 
 /// Straight line at constant velocity through a path, by generalised least squares:
 /// (position at `time`, velocity) = weights * positions, in each axis.
-Eigen::Matrix<double, 2, Eigen::Dynamic> lineWeights(const Path& path,
-                                                     double time,
-                                                     const WalkModel& model) {
+Eigen::Matrix<double, 2, Eigen::Dynamic> lineWeights(const Path& path, double time) {
   const Eigen::MatrixX2d design = lineDesign(path, time);
-  const Eigen::MatrixX2d weighed = covarianceOf(path, time, model).ldlt().solve(design);
+  const Eigen::MatrixX2d weighed = covarianceOf(path, time).ldlt().solve(design);
   const Eigen::Matrix2d information = design.transpose() * weighed;
   return information.inverse() * weighed.transpose();
 }
@@ -65,22 +69,19 @@ Eigen::MatrixX3d positionsOf(const Path& path) {
   return positions;
 }
 
-Eigen::Vector3d velocityOf(const Path& path, const WalkModel& model) {
-  return (lineWeights(path, path.front().time, model) * positionsOf(path)).row(1).transpose();
+Eigen::Vector3d velocityOf(const Path& path) {
+  return (lineWeights(path, path.front().time) * positionsOf(path)).row(1).transpose();
 }
 
-double crookednessOf(const Path& path, const WalkModel& model) {
+double crookednessOf(const Path& path) {
   const double time = path.front().time;
-  const Eigen::MatrixXd line = lineDesign(path, time) * lineWeights(path, time, model);
+  const Eigen::MatrixXd line = lineDesign(path, time) * lineWeights(path, time);
   const Eigen::MatrixXd residual = Eigen::MatrixXd::Identity(line.rows(), line.cols()) - line;
-  const double expected =
-      (residual * covarianceOf(path, time, model) * residual.transpose()).trace();
+  const double expected = (residual * covarianceOf(path, time) * residual.transpose()).trace();
   return std::sqrt((residual * positionsOf(path)).squaredNorm() / (3.0 * expected));
 }
 
-std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
-                                        const Path& after,
-                                        const WalkModel& model) {
+std::array<HiddenPlace, 2> hiddenPlaces(const Path& before, const Path& after) {
   const double middle = 0.5 * (before.back().time + after.front().time);
   Path all = before;
   all.insert(all.end(), after.begin(), after.end());
@@ -90,7 +91,7 @@ std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
   Eigen::MatrixX4d design = Eigen::MatrixX4d::Zero(all.size(), 4);
   design.topLeftCorner(first, 2) = lineDesign(before, middle);
   design.bottomRightCorner(second, 2) = lineDesign(after, middle);
-  const Eigen::MatrixX4d weighed = covarianceOf(all, middle, model).ldlt().solve(design);
+  const Eigen::MatrixX4d weighed = covarianceOf(all, middle).ldlt().solve(design);
   const Eigen::Matrix4d lines = (design.transpose() * weighed).inverse();
   Eigen::Matrix<double, 2, 4> later_less_earlier;
   later_less_earlier << -Eigen::Matrix2d::Identity(), Eigen::Matrix2d::Identity();

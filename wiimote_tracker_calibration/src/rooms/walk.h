@@ -6,22 +6,10 @@
 #include <array>
 #include <vector>
 
-namespace wiimote_tracker::rooms {
-
 /// How somebody walks who carries an LED straight through a door: at constant velocity, with
 /// deviations in each axis that are the sum of two first-order Gauss-Markov processes: in the
 /// velocity (heading, speed) and in the position (steps, sway of the hand).
-struct WalkModel {
-  double wander = 0.04;      ///< Standard deviation of the velocity, per axis [m/s, > 0].
-  double wander_time = 1.0;  ///< Autocorrelation time of the velocity [s, > 0].
-  double sway = 0.02;        ///< Standard deviation of the position, per axis [m, > 0].
-  double sway_time = 0.5;    ///< Autocorrelation time of the position [s, > 0].
-  /// Standard deviation of the share by which a walker is slower, or faster, while the LED is
-  /// hidden, in all passages alike [1, >= 0]. Assumed: people slow down the more, the narrower the
-  /// opening (K. Wilmut and A. L. Barnett, "Locomotor adjustments when navigating through
-  /// apertures", Hum. Mov. Sci. 29(2), 2010).
-  double slowing = 0.03;
-};
+namespace wiimote_tracker::rooms {
 
 /// A point of an LED's track, in the world of its rig.
 struct PathPoint {
@@ -37,10 +25,10 @@ Eigen::MatrixX3d positionsOf(const Path& path);
 
 /// Velocity of the straight line through a path, by generalised least squares [m/s].
 /// @param path at least two points at different times
-Eigen::Vector3d velocityOf(const Path& path, const WalkModel& model);
+Eigen::Vector3d velocityOf(const Path& path);
 
-/// RMS distance of a path from its line over that of the model [1].
-double crookednessOf(const Path& path, const WalkModel& model);
+/// RMS distance of a path from its line over what the deviations explain [1].
+double crookednessOf(const Path& path);
 
 /// A place where the LED was while it was hidden, or nearly so, as the line on either side of the
 /// door has it. Both lines are estimated together, since deviations last longer than the door
@@ -53,9 +41,7 @@ struct HiddenPlace {
 
 /// Two places whose errors are independent. They say as much as the two lines' positions and
 /// velocities.
-std::array<HiddenPlace, 2> hiddenPlaces(const Path& before,
-                                        const Path& after,
-                                        const WalkModel& model);
+std::array<HiddenPlace, 2> hiddenPlaces(const Path& before, const Path& after);
 
 }  // namespace wiimote_tracker::rooms
 

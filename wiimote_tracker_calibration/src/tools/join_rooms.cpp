@@ -119,7 +119,7 @@ int main(int argc, char** argv) {
   parser.option("--slope DEGREES", &slope, 0.01, 180.0,
                 "standard deviation of the angle between both worlds' z axes, about each "
                 "horizontal axis; 180: not level");
-  parser.option("--slowing SHARE", &options.walk.slowing, 0.0, 0.5,
+  parser.option("--slowing SHARE", &options.slowing, 0.0, 0.5,
                 "standard deviation of the share by which a walker is slower while the LED is "
                 "hidden, in all passages alike; 0: nobody slows down at the door");
   return parser.run(argc, argv, [&] {

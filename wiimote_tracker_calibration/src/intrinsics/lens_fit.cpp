@@ -83,21 +83,6 @@ double reprojectionError(const Fit& fit, const Points& points) {
   return std::sqrt(sum / static_cast<double>(points.count));
 }
 
-Fit fitFrom(const Fit& start, LensModel model, const Points& points, const cv::TermCriteria& end) {
-  Fit fit;
-  fit.model = model;
-  fit.camera_matrix = start.camera_matrix.clone();
-  fit.distortion = start.distortion.clone();
-  try {
-    calibrate(points, end, &fit);
-    if (cv::checkRange(fit.camera_matrix) && cv::checkRange(fit.distortion))
-      fit.error = reprojectionError(fit, points);
-  } catch (const cv::Exception&) {
-    // No solution from this start; the caller tries others.
-  }
-  return fit;
-}
-
 }  // namespace
 
 Points::Points(const Samples& samples) : image_size(samples.width, samples.height) {
@@ -125,12 +110,12 @@ Fit firstFit(const Points& points, bool equidistant, double focal_length) {
          0.0, factor * focal_length, (points.image_size.height - 1) / 2.0, 0.0, 0.0, 1.0);
     // A column: with a row OpenCV before 4.6 refuses to fit an equidistant lens.
     start.distortion = cv::Mat::zeros(equidistant ? 4 : 5, 1, CV_64F);
-    const Fit fit = fitFrom(start, LensModel::kNoDistortion, points, kRough);
+    const Fit fit = refined(start, LensModel::kNoDistortion, points, true);
     if (fit.error < best.error)
       best = fit;
   }
   if (best.ok())
-    best = fitFrom(best, LensModel::kNoDistortion, points, kPrecise);
+    best = refined(best, LensModel::kNoDistortion, points);
   if (!best.ok())
     throw Error(
         "the views fit no camera: check the board's spacings, and show it again "
@@ -138,8 +123,19 @@ Fit firstFit(const Points& points, bool equidistant, double focal_length) {
   return best;
 }
 
-Fit refined(const Fit& start, LensModel model, const Points& points) {
-  return fitFrom(start, model, points, kPrecise);
+Fit refined(const Fit& start, LensModel model, const Points& points, bool roughly) {
+  Fit fit;
+  fit.model = model;
+  fit.camera_matrix = start.camera_matrix.clone();
+  fit.distortion = start.distortion.clone();
+  try {
+    calibrate(points, roughly ? kRough : kPrecise, &fit);
+    if (cv::checkRange(fit.camera_matrix) && cv::checkRange(fit.distortion))
+      fit.error = reprojectionError(fit, points);
+  } catch (const cv::Exception&) {
+    // No solution from this start; the caller tries others.
+  }
+  return fit;
 }
 
 geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points) {

@@ -40,8 +40,9 @@ struct Fit {
 /// length and a much shorter one. @throws Error: nothing fits.
 Fit firstFit(const Points& points, bool equidistant, double focal_length);
 
-/// The model with the least reprojection error, from a fit of the same kind.
-Fit refined(const Fit& start, LensModel model, const Points& points);
+/// The model with the least reprojection error, from a fit of the same kind. @param roughly whether
+/// the result only starts another fit.
+Fit refined(const Fit& start, LensModel model, const Points& points, bool roughly = false);
 
 geometry::Intrinsics intrinsicsOf(const Fit& fit, const Points& points);
 

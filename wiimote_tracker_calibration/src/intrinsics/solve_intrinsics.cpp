@@ -59,12 +59,6 @@ std::optional<Eigen::MatrixXd> unitCovariance(const Fit& fit, const Points& poin
   return geometry::inverseOfInformation(information);
 }
 
-void checkInput(const Samples& samples, const SolverOptions& options) {
-  if (samples.views.size() < static_cast<std::size_t>(options.minimum_views))
-    throw Error(format("%zu views of the board, at least %d are needed: show it from more sides",
-                       samples.views.size(), options.minimum_views));
-}
-
 /// Checks that the board was shown at different places of the image.
 void checkTravel(const Samples& samples) {
   Eigen::Vector2d low = Eigen::Vector2d::Constant(HUGE_VAL);
@@ -176,7 +170,9 @@ std::string nameOf(LensModel model) {
 }
 
 IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
-  checkInput(samples, options);
+  if (samples.views.size() < static_cast<std::size_t>(options.minimum_views))
+    throw Error(format("%zu views of the board, at least %d are needed: show it from more sides",
+                       samples.views.size(), options.minimum_views));
   checkTravel(samples);
   const Points points(samples);
   IntrinsicsSolution solution;

@@ -27,14 +27,12 @@ struct Arguments {
 };
 
 samples::SolveOptions optionsOf(const Arguments& arguments) {
-  samples::SolveOptions options =
-      readParameters(ParameterReader(readParameterTree(arguments.params))).solve;
+  ParameterTree tree = readParameterTree(arguments.params);
   if (!arguments.method.empty())
-    options.square.method =
-        arguments.method == "joint" ? square::Method::kJoint : square::Method::kPerCamera;
+    tree.set("method", arguments.method);
   if (!arguments.ray_model.empty())
-    options.ray_model = arguments.ray_model == "calibrated" ? geometry::RayModel::kCalibrated
-                                                            : geometry::RayModel::kImageCenter;
+    tree.set("ray_model", arguments.ray_model);
+  samples::SolveOptions options = readParameters(ParameterReader(tree)).solve;
   options.use_gravity = options.use_gravity && !arguments.without_gravity;
   options.correct_principal_points =
       options.correct_principal_points || arguments.correct_principal_points;

@@ -24,9 +24,9 @@ struct TwoNearest {
 };
 
 struct Candidate {
-  const std::string* gesture = nullptr;
-  double distance = kInfinity;
-  double limit = 0.0;  // of the distance
+  const std::string* gesture;
+  double distance;
+  double limit;  // of the distance
 };
 
 }  // namespace
@@ -41,82 +41,79 @@ void Recognizer::add(const Example& example) {
     throw Error("the example of '" + example.gesture + "' with " +
                 std::to_string(example.path.size()) +
                 " points is too short to be a gesture; draw it again, larger");
-  const auto after_its_kind =
-      std::find_if(examples_.rbegin(), examples_.rend(),
-                   [&](const Example& e) { return e.gesture == example.gesture; });
-  const auto place = after_its_kind == examples_.rend() ? examples_.end() : after_its_kind.base();
-  Model model{*shape, kInfinity};
-  for (std::size_t i = 0; i < examples_.size(); ++i) {
-    if (examples_[i].gesture != example.gesture || examples_[i].zone != example.zone)
+  std::vector<Known>& others = gestures_[example.gesture];
+  Known known{example, *shape, kInfinity};
+  for (Known& other : others) {
+    if (other.example.zone != example.zone)
       continue;
-    const double between = distanceTo(models_[i], model.shape, kInfinity);
-    models_[i].nearest = std::min(models_[i].nearest, between);
-    model.nearest = std::min(model.nearest, between);
+    const double between = distanceTo(other, known.shape, kInfinity);
+    other.nearest = std::min(other.nearest, between);
+    known.nearest = std::min(known.nearest, between);
   }
-  models_.insert(models_.begin() + (place - examples_.begin()), model);
-  examples_.insert(place, example);
+  others.push_back(known);
 }
 
 std::size_t Recognizer::remove(const std::string& gesture) {
-  const std::size_t before = examples_.size();
-  for (std::size_t i = examples_.size(); i-- > 0;) {
-    if (examples_[i].gesture == gesture) {
-      examples_.erase(examples_.begin() + static_cast<std::ptrdiff_t>(i));
-      models_.erase(models_.begin() + static_cast<std::ptrdiff_t>(i));
-    }
-  }
-  return before - examples_.size();
+  const auto found = gestures_.find(gesture);
+  if (found == gestures_.end())
+    return 0;
+  const std::size_t removed = found->second.size();
+  gestures_.erase(found);
+  return removed;
 }
 
-double Recognizer::distanceTo(const Model& model, const Shape& shape, double limit) const {
-  return distance(options_.any_heading ? turnedTowards(shape, model.shape) : shape, model.shape,
+std::vector<Example> Recognizer::examples() const {
+  std::vector<Example> examples;
+  for (const auto& [gesture, known] : gestures_) {
+    for (const Known& each : known)
+      examples.push_back(each.example);
+  }
+  return examples;
+}
+
+double Recognizer::distanceTo(const Known& known, const Shape& shape, double limit) const {
+  return distance(options_.any_heading ? turnedTowards(shape, known.shape) : shape, known.shape,
                   limit);
 }
 
-double Recognizer::spreadAt(const Model& model) const {
+double Recognizer::spreadAt(const Known& known) const {
   // At most: a mistake among the examples must not make everything fit its gesture.
-  return std::isinf(model.nearest) ? 0.5 * options_.rejection_distance
-                                   : std::min(model.nearest, options_.rejection_distance);
+  return std::isinf(known.nearest) ? 0.5 * options_.rejection_distance
+                                   : std::min(known.nearest, options_.rejection_distance);
 }
 
 std::optional<Recognition> Recognizer::recognize(const Path& path, const std::string& zone) const {
   const std::optional<Shape> shape = shapeOf(path, options_.shape);
   if (!shape)
     return std::nullopt;
-  Candidate best;
-  Candidate runner_up;
-  for (std::size_t i = 0; i < examples_.size();) {
-    const std::string& gesture = examples_[i].gesture;
+  std::vector<Candidate> candidates;
+  for (const auto& [gesture, examples] : gestures_) {
     TwoNearest nearest;
     double spreads = 0.0;
     int known_here = 0;
-    for (; i < examples_.size() && examples_[i].gesture == gesture; ++i) {
-      if (!examples_[i].zone.empty() && examples_[i].zone != zone)
+    for (const Known& known : examples) {
+      if (!known.example.zone.empty() && known.example.zone != zone)
         continue;
       ++known_here;
       // Larger distances do not change the two nearest.
-      nearest.add(distanceTo(models_[i], *shape, nearest.second));
-      spreads += spreadAt(models_[i]);
+      nearest.add(distanceTo(known, *shape, nearest.second));
+      spreads += spreadAt(known);
     }
-    if (known_here == 0)
-      continue;
-    const Candidate candidate{&gesture, nearest.mean(),
-                              0.5 * options_.rejection_distance + spreads / known_here};
-    if (!best.gesture || candidate.distance < best.distance) {
-      runner_up = best;
-      best = candidate;
-    } else if (!runner_up.gesture || candidate.distance < runner_up.distance) {
-      runner_up = candidate;
-    }
+    if (known_here > 0)
+      candidates.push_back(
+          {&gesture, nearest.mean(), 0.5 * options_.rejection_distance + spreads / known_here});
   }
-  if (!best.gesture)
+  if (candidates.empty())
     return std::nullopt;
+  std::sort(candidates.begin(), candidates.end(),
+            [](const Candidate& a, const Candidate& b) { return a.distance < b.distance; });
   // The limit of the nearest gesture is that of both, so that the runner-up scores less.
+  const Candidate& best = candidates.front();
   const auto score = [&](double distance) { return std::exp2(-distance / best.limit); };
   Recognition recognition{*best.gesture, score(best.distance), "", 0.0};
-  if (runner_up.gesture) {
-    recognition.runner_up = *runner_up.gesture;
-    recognition.runner_up_score = score(runner_up.distance);
+  if (candidates.size() > 1) {
+    recognition.runner_up = *candidates[1].gesture;
+    recognition.runner_up_score = score(candidates[1].distance);
   }
   return recognition;
 }

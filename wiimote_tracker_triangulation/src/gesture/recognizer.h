@@ -4,6 +4,7 @@
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
 #include <cstddef>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,25 +54,26 @@ class Recognizer {
   /// Removes all examples of a gesture. @returns their number.
   std::size_t remove(const std::string& gesture);
 
-  const std::vector<Example>& examples() const { return examples_; }
+  /// In the order of their gestures' names.
+  std::vector<Example> examples() const;
 
   /// Nothing when the path has no shape, or the zone has no gesture.
   std::optional<Recognition> recognize(const Path& path, const std::string& zone = "") const;
 
  private:
-  struct Model {
+  struct Known {
+    Example example;
     Shape shape;
     double nearest;  // distance to the nearest other example of its gesture and zone, or infinity
   };
 
-  double distanceTo(const Model& model, const Shape& shape, double limit) const;
+  double distanceTo(const Known& known, const Shape& shape, double limit) const;
 
   /// Distance to the nearest other example, as it counts for the limit of the gesture.
-  double spreadAt(const Model& model) const;
+  double spreadAt(const Known& known) const;
 
   RecognizerOptions options_;
-  std::vector<Example> examples_;  // grouped by gesture
-  std::vector<Model> models_;      // parallel to examples_
+  std::map<std::string, std::vector<Known>> gestures_;  // by name
 };
 
 }  // namespace wiimote_tracker::gesture

@@ -63,9 +63,7 @@ void writeJson(const std::string& file,
   out.SetSeqFormat(YAML::Flow);
   out.SetStringFormat(YAML::DoubleQuoted);
   out.SetDoublePrecision(17);
-  const auto add = [&](const char* name, const auto& value) {
-    out << YAML::Key << name << YAML::Value << value;
-  };
+  const auto add = [&](const char* name, const auto& value) { out << name << value; };
   std::map<std::string, double> others;
   for (const MethodResult& other : e.others)
     others[other.name] = share(other.right, e.tested);

@@ -40,18 +40,18 @@ ImuMount readImu(geometry::YamlMap map) {
 
 void writeImu(const ImuMount& imu, YAML::Emitter* out) {
   const auto list = [out](const char* key, const auto& values) {
-    *out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
+    *out << key << YAML::Flow << YAML::BeginSeq;
     for (const double value : values)
       *out << exactNumber(value);
     *out << YAML::EndSeq;
   };
   const Eigen::Vector3d& t = imu.body_from_imu.translation();
   const Eigen::Quaterniond q(imu.body_from_imu.linear());
-  *out << YAML::Key << "imu" << YAML::Value << YAML::BeginMap;
-  *out << YAML::Key << "topic" << YAML::Value << YAML::DoubleQuoted << imu.topic;
+  *out << "imu" << YAML::BeginMap;
+  *out << "topic" << YAML::DoubleQuoted << imu.topic;
   list("translation", std::array<double, 3>{t.x(), t.y(), t.z()});
   list("quaternion_xyzw", std::array<double, 4>{q.x(), q.y(), q.z(), q.w()});
-  *out << YAML::Key << "clock_offset" << YAML::Value << exactNumber(imu.clock_offset);
+  *out << "clock_offset" << exactNumber(imu.clock_offset);
   *out << YAML::EndMap;
 }
 
@@ -104,19 +104,19 @@ std::vector<Constellation> readBodies(const std::string& file) {
 void writeBodies(const std::string& file, const std::vector<Constellation>& bodies) {
   YAML::Emitter out;
   out << YAML::BeginMap;
-  out << YAML::Key << "format" << YAML::Value << kFormat;
-  out << YAML::Key << "version" << YAML::Value << kFormatVersion;
-  out << YAML::Key << "bodies" << YAML::Value << YAML::BeginSeq;
+  out << "format" << kFormat;
+  out << "version" << kFormatVersion;
+  out << "bodies" << YAML::BeginSeq;
   for (const Constellation& body : bodies) {
     out << YAML::BeginMap;
-    out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << body.name;
-    out << YAML::Key << "leds" << YAML::Comment("x, y, z [m]") << YAML::Value << YAML::BeginSeq;
+    out << "name" << YAML::DoubleQuoted << body.name;
+    out << "leds" << YAML::Comment("x, y, z [m]") << YAML::BeginSeq;
     for (const Eigen::Vector3d& led : body.leds)
       out << YAML::Flow << YAML::BeginSeq << exactNumber(led.x()) << exactNumber(led.y())
           << exactNumber(led.z()) << YAML::EndSeq;
     out << YAML::EndSeq;
     if (!body.labels.empty()) {
-      out << YAML::Key << "labels" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+      out << "labels" << YAML::Flow << YAML::BeginSeq;
       for (const std::string& label : body.labels)
         out << YAML::DoubleQuoted << label;
       out << YAML::EndSeq;

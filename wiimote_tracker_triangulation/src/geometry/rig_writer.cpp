@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -28,38 +29,26 @@ std::string yamlNumber(double value) {
   return number;
 }
 
+/// @param values a std::vector or Eigen's
 template <typename Values>
-void emitNumbers(const std::string& key, const Values& values, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << YAML::Flow << YAML::BeginSeq;
-  for (const double value : values)
-    out << yamlNumber(value);
-  out << YAML::EndSeq;
-}
-
-void emitVector(const std::string& key, const Eigen::Vector3d& v, YAML::Emitter& out) {
-  emitNumbers(key, std::array<double, 3>{v.x(), v.y(), v.z()}, out);
-}
-
-void emitNumber(const std::string& key, double value, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << yamlNumber(value);
-}
-
-void emitText(const std::string& key, const std::string& text, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << YAML::DoubleQuoted << text;
+std::vector<std::string> yamlNumbers(const Values& values) {
+  std::vector<std::string> numbers;
+  std::transform(values.data(), values.data() + values.size(), std::back_inserter(numbers),
+                 yamlNumber);
+  return numbers;
 }
 
 /// {rows, cols, data} of a matrix, row-major.
-template <typename Matrix>
-void emitMatrix(const std::string& key, const Matrix& matrix, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "rows" << YAML::Value << matrix.rows();
-  out << YAML::Key << "cols" << YAML::Value << matrix.cols();
-  out << YAML::Key << "data" << YAML::Value << YAML::Flow << YAML::BeginSeq;
-  for (Eigen::Index r = 0; r < matrix.rows(); ++r) {
-    for (Eigen::Index c = 0; c < matrix.cols(); ++c)
-      out << yamlNumber(matrix(r, c));
-  }
-  out << YAML::EndSeq << YAML::EndMap;
+void emitMatrix(const std::string& key, const Eigen::MatrixXd& matrix, YAML::Emitter& out) {
+  out << key << YAML::BeginMap << "rows" << matrix.rows() << "cols" << matrix.cols();
+  const Eigen::MatrixXd by_rows = matrix.transpose();
+  out << "data" << YAML::Flow << yamlNumbers(by_rows) << YAML::EndMap;
+}
+
+Eigen::Matrix3d matrixOf(const Intrinsics& lens) {
+  Eigen::Matrix3d K;
+  K << lens.fx, 0.0, lens.cx, 0.0, lens.fy, lens.cy, 0.0, 0.0, 1.0;
+  return K;
 }
 
 /// Into an open map, in the keys of camera_calibration_parsers: image_width ..
@@ -67,19 +56,14 @@ void emitMatrix(const std::string& key, const Matrix& matrix, YAML::Emitter& out
 void emitIntrinsics(const std::string& camera_name,
                     const Intrinsics& intrinsics,
                     YAML::Emitter& out) {
-  Eigen::Matrix3d K = Eigen::Matrix3d::Identity();
-  K(0, 0) = intrinsics.fx;
-  K(1, 1) = intrinsics.fy;
-  K(0, 2) = intrinsics.cx;
-  K(1, 2) = intrinsics.cy;
   const Eigen::Map<const Eigen::RowVectorXd> D(
       intrinsics.distortion.data(),
       static_cast<Eigen::Index>(coefficientCount(intrinsics.distortion_model)));
-  out << YAML::Key << "image_width" << YAML::Value << intrinsics.width;
-  out << YAML::Key << "image_height" << YAML::Value << intrinsics.height;
-  out << YAML::Key << "camera_name" << YAML::Value << camera_name;
-  emitMatrix("camera_matrix", K, out);
-  out << YAML::Key << "distortion_model" << YAML::Value << nameOf(intrinsics.distortion_model);
+  out << "image_width" << intrinsics.width;
+  out << "image_height" << intrinsics.height;
+  out << "camera_name" << camera_name;
+  emitMatrix("camera_matrix", matrixOf(intrinsics), out);
+  out << "distortion_model" << nameOf(intrinsics.distortion_model);
   emitMatrix("distortion_coefficients", D, out);
 }
 
@@ -87,67 +71,55 @@ void emitIntrinsics(const std::string& camera_name,
 void emitExtrinsics(const Camera& camera, const std::string& world_frame, YAML::Emitter& out) {
   const Eigen::Vector3d t = camera.center();
   const Eigen::Quaterniond q = canonicalQuaternion(camera.world_from_camera.linear());
-  out << YAML::Key << "extrinsics" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "header" << YAML::Value << YAML::BeginMap;
-  emitText("frame_id", world_frame, out);
+  out << "extrinsics" << YAML::BeginMap << "header" << YAML::BeginMap;
+  out << "frame_id" << YAML::DoubleQuoted << world_frame;
   out << YAML::EndMap;
-  emitText("child_frame_id", opticalFrame(camera.name), out);
-  out << YAML::Key << "transform" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "translation" << YAML::Value << YAML::BeginMap;
-  emitNumber("x", t.x(), out);
-  emitNumber("y", t.y(), out);
-  emitNumber("z", t.z(), out);
-  out << YAML::EndMap;
-  out << YAML::Key << "rotation" << YAML::Value << YAML::BeginMap;
-  emitNumber("x", q.x(), out);
-  emitNumber("y", q.y(), out);
-  emitNumber("z", q.z(), out);
-  emitNumber("w", q.w(), out);
+  out << "child_frame_id" << YAML::DoubleQuoted << opticalFrame(camera.name);
+  out << "transform" << YAML::BeginMap << "translation" << YAML::BeginMap;
+  out << "x" << yamlNumber(t.x()) << "y" << yamlNumber(t.y()) << "z" << yamlNumber(t.z());
+  out << YAML::EndMap << "rotation" << YAML::BeginMap;
+  out << "x" << yamlNumber(q.x()) << "y" << yamlNumber(q.y()) << "z" << yamlNumber(q.z());
+  out << "w" << yamlNumber(q.w());
   out << YAML::EndMap << YAML::EndMap << YAML::EndMap;
 }
 
 void emitMasks(const std::vector<ImageMask>& masks, YAML::Emitter& out) {
-  out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
+  out << "masks" << YAML::BeginSeq;
   for (const ImageMask& mask : masks) {
     out << YAML::Flow << YAML::BeginMap;
-    emitNumber("x", mask.center.x(), out);
-    emitNumber("y", mask.center.y(), out);
-    emitNumber("radius", mask.radius, out);
-    out << YAML::EndMap;
+    out << "x" << yamlNumber(mask.center.x()) << "y" << yamlNumber(mask.center.y());
+    out << "radius" << yamlNumber(mask.radius) << YAML::EndMap;
   }
   out << YAML::EndSeq;
 }
 
 void emitCamera(const RigCamera& camera, const std::string& world_frame, YAML::Emitter& out) {
   out << YAML::BeginMap;
-  emitText("identity", camera.camera.identity, out);
+  out << "identity" << YAML::DoubleQuoted << camera.camera.identity;
   emitIntrinsics(camera.camera.name, camera.camera.intrinsics, out);
   emitExtrinsics(camera.camera, world_frame, out);
-  emitNumber("time_offset", camera.time_offset, out);
-  out << YAML::Key << "time_offset_rule" << YAML::Value
+  out << "time_offset" << yamlNumber(camera.time_offset);
+  out << "time_offset_rule"
       << kTimeOffsetRuleWords[static_cast<std::size_t>(camera.time_offset_rule)];
-  out << YAML::Key << "time_offset_epoch" << YAML::Value << camera.time_offset_epoch;
-  if (camera.gravity)
-    emitVector("gravity", *camera.gravity, out);
-  else
-    emitNumbers("gravity", std::array<double, 0>{}, out);
+  out << "time_offset_epoch" << camera.time_offset_epoch;
+  out << "gravity" << YAML::Flow;
+  out << (camera.gravity ? yamlNumbers(*camera.gravity) : std::vector<std::string>());
   emitMasks(camera.masks, out);
-  emitNumber("residual_px", camera.residual_px, out);
-  emitNumber("residual_m", camera.residual_m, out);
-  out << YAML::Key << "observations" << YAML::Value << camera.observations;
-  out << YAML::Key << "inliers" << YAML::Value << camera.inliers;
+  out << "residual_px" << yamlNumber(camera.residual_px);
+  out << "residual_m" << yamlNumber(camera.residual_m);
+  out << "observations" << camera.observations;
+  out << "inliers" << camera.inliers;
   out << YAML::EndMap;
 }
 
 void emitRemap(const remap::Remap& remap, YAML::Emitter& out) {
-  out << YAML::Key << "remap" << YAML::Value << YAML::BeginMap;
-  emitText("rig_id", remap.rig_id, out);
-  out << YAML::Key << "model" << YAML::Value << nameOf(remap.model);
-  emitNumbers("parameters", remap.parameters, out);
-  out << YAML::Key << "support" << YAML::Value << YAML::BeginSeq;
+  out << "remap" << YAML::BeginMap;
+  out << "rig_id" << YAML::DoubleQuoted << remap.rig_id;
+  out << "model" << nameOf(remap.model);
+  out << "parameters" << YAML::Flow << yamlNumbers(remap.parameters);
+  out << "support" << YAML::BeginSeq;
   for (const Eigen::Vector3d& point : remap.support)
-    out << YAML::Flow << YAML::BeginSeq << yamlNumber(point.x()) << yamlNumber(point.y())
-        << yamlNumber(point.z()) << YAML::EndSeq;
+    out << YAML::Flow << yamlNumbers(point);
   out << YAML::EndSeq << YAML::EndMap;
 }
 
@@ -170,45 +142,40 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   rig.check();
   YAML::Emitter out;
   out << YAML::BeginMap;
-  out << YAML::Key << "format" << YAML::Value << kRigFormat;
-  out << YAML::Key << "version" << YAML::Value << kRigFormatVersion;
-  emitText("world_frame", rig.world_frame, out);
-  emitNumber("solved_at", rig.solved_at, out);
+  out << "format" << kRigFormat;
+  out << "version" << kRigFormatVersion;
+  out << "world_frame" << YAML::DoubleQuoted << rig.world_frame;
+  out << "solved_at" << yamlNumber(rig.solved_at);
   out << YAML::Comment(utcDate(rig.solved_at));
-  emitText("method", rig.method, out);
-  emitText("verdict", rig.verdict, out);
-  out << YAML::Key << "ray_model" << YAML::Value
-      << kRayModelWords[static_cast<std::size_t>(rig.ray_model)];
-  emitNumber("virtual_hfov", rig.virtual_hfov, out);
-  emitNumbers("square_sides", rig.square_sides, out);
+  out << "method" << YAML::DoubleQuoted << rig.method;
+  out << "verdict" << YAML::DoubleQuoted << rig.verdict;
+  out << "ray_model" << kRayModelWords[static_cast<std::size_t>(rig.ray_model)];
+  out << "virtual_hfov" << yamlNumber(rig.virtual_hfov);
+  out << "square_sides" << YAML::Flow << yamlNumbers(rig.square_sides);
   if (rig.square_pose) {
-    const Eigen::Vector2d& origin = rig.square_pose->origin;
-    emitNumbers("square_origin", std::array<double, 2>{origin.x(), origin.y()}, out);
-    emitNumber("square_yaw", rig.square_pose->yaw, out);
+    out << "square_origin" << YAML::Flow << yamlNumbers(rig.square_pose->origin);
+    out << "square_yaw" << yamlNumber(rig.square_pose->yaw);
   }
-  emitNumber("led_height", rig.led_height, out);
+  out << "led_height" << yamlNumber(rig.led_height);
 
-  out << YAML::Key << "camera_order" << YAML::Value << YAML::Flow << YAML::BeginSeq;
+  out << "camera_order" << YAML::Flow << YAML::BeginSeq;
   for (const RigCamera& camera : rig.cameras)
     out << camera.camera.name;
   out << YAML::EndSeq;
-  out << YAML::Key << "cameras" << YAML::Value << YAML::BeginMap;
+  out << "cameras" << YAML::BeginMap;
   for (const RigCamera& camera : rig.cameras) {
-    out << YAML::Key << camera.camera.name << YAML::Value;
+    out << camera.camera.name;
     emitCamera(camera, rig.world_frame, out);
   }
   out << YAML::EndMap;
 
   // Without zones, the file shows how one is written.
-  out << YAML::Key << "zones" << YAML::Value;
-  if (rig.zones.empty())
-    out << YAML::Flow;
-  out << YAML::BeginSeq;
+  out << "zones" << (rig.zones.empty() ? YAML::Flow : YAML::Block) << YAML::BeginSeq;
   for (const Zone& zone : rig.zones) {
     out << YAML::BeginMap;
-    emitText("name", zone.name, out);
-    emitVector("minimum", zone.minimum, out);
-    emitVector("maximum", zone.maximum, out);
+    out << "name" << YAML::DoubleQuoted << zone.name;
+    out << "minimum" << YAML::Flow << yamlNumbers(zone.minimum);
+    out << "maximum" << YAML::Flow << yamlNumbers(zone.maximum);
     out << YAML::EndMap;
   }
   out << YAML::EndSeq;
@@ -218,7 +185,7 @@ void writeRigFile(const Rig& rig, const std::string& path) {
   if (rig.remap)
     emitRemap(*rig.remap, out);
   // The last key: without it, the file was cut off.
-  out << YAML::Key << "complete" << YAML::Value << true;
+  out << "complete" << true;
   out << YAML::EndMap;
   const std::string text = std::string(out.c_str()) + "\n";
   checkReadable(text, rig, path);
@@ -226,18 +193,12 @@ void writeRigFile(const Rig& rig, const std::string& path) {
 }
 
 void writeCameraInfoFile(const Camera& camera, const std::string& path) {
-  const Intrinsics& intrinsics = camera.intrinsics;
-  Eigen::Matrix<double, 3, 4> P = Eigen::Matrix<double, 3, 4>::Zero();
-  P(0, 0) = intrinsics.fx;
-  P(1, 1) = intrinsics.fy;
-  P(0, 2) = intrinsics.cx;
-  P(1, 2) = intrinsics.cy;
-  P(2, 2) = 1.0;
-
+  Eigen::Matrix<double, 3, 4> P;
+  P << matrixOf(camera.intrinsics), Eigen::Vector3d::Zero();
   YAML::Emitter out;
   out << YAML::BeginMap;
   // camera_calibration_parsers allows letters, digits and underscores.
-  emitIntrinsics(withoutSlashes(camera.name), intrinsics, out);
+  emitIntrinsics(withoutSlashes(camera.name), camera.intrinsics, out);
   emitMatrix("rectification_matrix", Eigen::Matrix3d::Identity(), out);
   emitMatrix("projection_matrix", P, out);
   out << YAML::EndMap;

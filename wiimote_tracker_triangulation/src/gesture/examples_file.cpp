@@ -39,15 +39,14 @@ std::vector<Example> readExamples(const std::string& file) {
 void writeExamples(const std::string& file, const std::vector<Example>& examples) {
   YAML::Emitter out;
   out << YAML::BeginMap;
-  out << YAML::Key << "format" << YAML::Value << kFormat;
-  out << YAML::Key << "version" << YAML::Value << kFormatVersion;
-  out << YAML::Key << "examples" << YAML::Value << YAML::BeginSeq;
+  out << "format" << kFormat;
+  out << "version" << kFormatVersion;
+  out << "examples" << YAML::BeginSeq;
   for (const Example& example : examples) {
     out << YAML::BeginMap;
-    out << YAML::Key << "gesture" << YAML::Value << YAML::DoubleQuoted << example.gesture;
-    out << YAML::Key << "zone" << YAML::Value << YAML::DoubleQuoted << example.zone;
-    out << YAML::Key << "path" << YAML::Comment("t [s], x, y, z [m]") << YAML::Value
-        << YAML::BeginSeq;
+    out << "gesture" << YAML::DoubleQuoted << example.gesture;
+    out << "zone" << YAML::DoubleQuoted << example.zone;
+    out << "path" << YAML::Comment("t [s], x, y, z [m]") << YAML::BeginSeq;
     for (const PathPoint& point : example.path) {
       out << YAML::Flow << YAML::BeginSeq << exactNumber(point.time)
           << exactNumber(point.position.x()) << exactNumber(point.position.y())

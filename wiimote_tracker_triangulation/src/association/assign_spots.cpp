@@ -91,7 +91,7 @@ class Assignment {
       }
       reached[nearest] = true;
       last = nearest;
-      owner = static_cast<std::size_t>(spot_of_track_[nearest]);
+      owner = spot_of_track_[nearest];
     }
     // Along the path, each track is reassigned to the owner of the track before it.
     for (int track = end, before = end_previous;; track = before, before = previous[before]) {
@@ -99,7 +99,7 @@ class Assignment {
         give(spot, track);
         return;
       }
-      give(static_cast<std::size_t>(spot_of_track_[before]), track);
+      give(spot_of_track_[before], track);
     }
   }
 

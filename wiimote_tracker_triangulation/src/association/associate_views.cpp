@@ -42,7 +42,7 @@ double meanImageArea(const geometry::Rig& rig) {
   double sum = 0.0;
   for (const geometry::RigCamera& camera : rig.cameras)
     sum += static_cast<double>(camera.camera.intrinsics.width) * camera.camera.intrinsics.height;
-  return sum / static_cast<double>(rig.cameras.size());
+  return sum / rig.cameras.size();
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ void PointSearch::begin(const Component& component, const std::vector<View>& vie
     reserve(component.spots.size());
   draft_count_ = 0;
   best_count_ = 0;
-  best_cost_ = options_.ghost * static_cast<double>(component.spots.size());
+  best_cost_ = options_.ghost * component.spots.size();
   has_association_ = false;
 }
 
@@ -110,7 +110,7 @@ void PointSearch::prepare() {
       }
       rays += has_partner;
     }
-    least_costs_[spot] = std::min(options_.ghost, options_.point / static_cast<double>(rays));
+    least_costs_[spot] = std::min(options_.ghost, options_.point / rays);
   }
 }
 
@@ -177,7 +177,7 @@ void PointSearch::tryBeginning(std::size_t spot, std::size_t ghosts) {
 
 /// Whether the lower bound of the present branch is below the best cost.
 bool PointSearch::isWorthwhile(std::size_t next_spot, std::size_t ghosts) const {
-  double cost = options_.ghost * static_cast<double>(ghosts);
+  double cost = options_.ghost * ghosts;
   for (std::size_t i = 0; i < draft_count_; ++i)
     cost += options_.point + drafts_[i].fit.chi_squared;
   return cost < best_cost_ && cost + leastCostOfSurplus(next_spot) < best_cost_ &&
@@ -196,8 +196,7 @@ double PointSearch::leastCostOfSurplus(std::size_t next_spot) const {
       if (left > draft_count_ + begun)
         ghosts += left - draft_count_ - begun;
     }
-    least = std::min(least, options_.point * static_cast<double>(begun) +
-                                options_.ghost * static_cast<double>(ghosts));
+    least = std::min(least, options_.point * begun + options_.ghost * ghosts);
     if (ghosts == 0)
       return least;
   }
@@ -221,13 +220,13 @@ double PointSearch::leastCostOfUnjoinable(std::size_t next_spot) const {
 /// points count as ghosts.
 void PointSearch::finish(std::size_t ghosts) {
   has_association_ = true;
-  double cost = options_.ghost * static_cast<double>(ghosts);
+  double cost = options_.ghost * ghosts;
   costs_.clear();
   for (std::size_t i = 0; i < draft_count_; ++i) {
     Draft& draft = drafts_[i];
     if (!draft.fit.is_known)
       findFit(&draft);
-    const double as_ghosts = options_.ghost * static_cast<double>(draft.spots.size());
+    const double as_ghosts = options_.ghost * draft.spots.size();
     const double as_point =
         isPoint(draft) ? options_.point + draft.fit.chi_squared + missesOf(draft) : kInfinity;
     costs_.push_back(as_point);
@@ -239,7 +238,7 @@ void PointSearch::finish(std::size_t ghosts) {
   best_count_ = 0;
   for (std::size_t i = 0; i < draft_count_; ++i) {
     const Draft& draft = drafts_[i];
-    if (costs_[i] > options_.ghost * static_cast<double>(draft.spots.size()))
+    if (costs_[i] > options_.ghost * draft.spots.size())
       continue;
     Point& point = best_[best_count_++];
     point.spots = draft.spots;
@@ -256,7 +255,7 @@ double PointSearch::meanPairCost(const Draft& draft, std::size_t spot) const {
   double sum = 0.0;
   for (const std::size_t other : draft.spots)
     sum += component_->pair(other, spot);
-  return sum / static_cast<double>(draft.spots.size());
+  return sum / draft.spots.size();
 }
 
 void PointSearch::findFit(Draft* draft) {
@@ -269,8 +268,7 @@ void PointSearch::findFit(Draft* draft) {
   if (!point)
     return;
   draft->fit.location = *point;
-  draft->fit.chi_squared = point->reprojection_error * point->reprojection_error *
-                           static_cast<double>(sights_.size()) /
+  draft->fit.chi_squared = point->reprojection_error * point->reprojection_error * sights_.size() /
                            (options_.pixel_stddev * options_.pixel_stddev);
 }
 

@@ -59,7 +59,7 @@ BodySnapshot BodyFollower::setBodies(const std::vector<Constellation>& constella
     std::optional<BodyEstimate>& body = lost.bodies[b];
     const auto same = std::find(constellations.begin(), constellations.end(), constellations_[b]);
     if (same != constellations.end())
-      last[static_cast<std::size_t>(same - constellations.begin())] = std::exchange(body, {});
+      last[same - constellations.begin()] = std::exchange(body, {});
     else if (body && body->lost)
       body.reset();
     else if (body)

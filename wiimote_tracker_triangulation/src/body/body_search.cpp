@@ -14,9 +14,8 @@ constexpr double kWindowNoise = 4.0;
 }  // namespace
 
 std::size_t BodyTracker::LastImage::countSpots(std::size_t body) const {
-  return static_cast<std::size_t>(std::count_if(taken.begin(), taken.end(), [&](const auto& spot) {
-    return spot.body == body && !spot.is_further;
-  }));
+  return std::count_if(taken.begin(), taken.end(),
+                       [&](const auto& spot) { return spot.body == body && !spot.is_further; });
 }
 
 association::AssociationOptions BodyTracker::searchOptions() const {
@@ -85,7 +84,7 @@ void BodyTracker::find(const Image& image) {
         continue;
       for (const int p : match->point_of_led) {
         if (p != kUnseen)
-          points_[static_cast<std::size_t>(p)].taken = true;
+          points_[p].taken = true;
       }
     }
   }
@@ -132,8 +131,7 @@ void BodyTracker::listMatchedSpots(std::size_t body,
   for (std::size_t led = 0; led < constellations_[body].leds.size(); ++led) {
     if (match.point_of_led[led] == kUnseen)
       continue;
-    const association::AssociatedPoint& point =
-        found.points[static_cast<std::size_t>(match.point_of_led[led])];
+    const association::AssociatedPoint& point = found.points[match.point_of_led[led]];
     for (std::size_t i = 0; i < point.spot_count; ++i) {
       const association::SpotReference& spot = found.spots[point.first_spot + i];
       matched_spots_.push_back({led, spot.view, candidates_[spot.view][spot.spot]});
@@ -145,7 +143,7 @@ void BodyTracker::listMatchedSpots(std::size_t body,
 /// take because the prediction is too uncertain to tell its LEDs apart. @returns whether it is seen
 bool BodyTracker::updateByMatch(std::size_t body, const Image& image) {
   LastImage& last = state_.images[image.camera];
-  const SpotNoise noise = noiseOf(image, static_cast<double>(last.free.size()));
+  const SpotNoise noise = noiseOf(image, last.free.size());
   for (const MatchedSpot& spot : matched_spots_) {
     const auto free = std::find(last.free.begin(), last.free.end(), spot.pixel);
     if (spot.camera != image.camera || free == last.free.end())
@@ -158,9 +156,8 @@ bool BodyTracker::updateByMatch(std::size_t body, const Image& image) {
     if (!(led.misfit(spot.pixel) < options_.gate))
       continue;
     last.free.erase(free);
-    spots_taken_[static_cast<std::size_t>(
-        std::find(image.pixels.begin(), image.pixels.end(), spot.pixel) - image.pixels.begin())] =
-        true;
+    spots_taken_[std::find(image.pixels.begin(), image.pixels.end(), spot.pixel) -
+                 image.pixels.begin()] = true;
     update(body, led, spot.pixel, cameras_[image.camera], &last);
   }
   const bool is_seen = isSeen(body, last);

@@ -55,7 +55,7 @@ void BodyTracker::setRig(const geometry::Rig& rig) {
     });
     if (same == rig.cameras.end())
       continue;
-    image.camera = static_cast<std::size_t>(same - rig.cameras.begin());
+    image.camera = same - rig.cameras.begin();
     history_.insert(history_.images().end(), image);
     step(history_.images().end() - 1);
   }
@@ -75,7 +75,7 @@ void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
   has_clear_shape_.clear();
   for (const Constellation& constellation : constellations_) {
     const auto same = std::find(before.begin(), before.end(), constellation);
-    former.push_back(static_cast<std::size_t>(same - before.begin()));
+    former.push_back(same - before.begin());
     has_clear_shape_.push_back(nearestSymmetry(constellation).residual >= kSymmetric);
     const ImuMount imu = constellation.imu.value_or(ImuMount());
     inertial_.push_back(same != before.end() ? inertial_before[former.back()]
@@ -214,7 +214,7 @@ void BodyTracker::assign(const Image& image) {
   led_of_spot_.assign(pixels.size(), std::nullopt);
   for (std::size_t s = 0; s < spots; ++s) {
     if (track_of_spot[s] != association::kFalseDetection)
-      led_of_spot_[s] = columns[static_cast<std::size_t>(track_of_spot[s])];
+      led_of_spot_[s] = columns[track_of_spot[s]];
   }
 }
 

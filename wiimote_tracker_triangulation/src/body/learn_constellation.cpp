@@ -62,10 +62,10 @@ class Learning {
     std::map<std::size_t, std::size_t> instants_of_count;
     for (const LedsInstant& instant : instants_)
       ++instants_of_count[instant.leds.size()];
-    const double enough = kShareOfInstants * static_cast<double>(instants_.size());
+    const double enough = kShareOfInstants * instants_.size();
     std::size_t leds = 0;
     for (const auto& [count, instants] : instants_of_count)
-      leds = static_cast<double>(instants) >= enough ? count : leds;
+      leds = instants >= enough ? count : leds;
     if (leds < 3 || leds > kMaximumLeds)
       throw Error(std::to_string(leds) +
                   " LEDs were seen at once, those of known bodies left out, but a body has 3 "
@@ -185,7 +185,7 @@ class Learning {
       });
     std::vector<double> result;
     // The alignment removes six degrees of freedom.
-    const auto coordinates = static_cast<double>(3 * body_.leds.size());
+    const double coordinates = 3 * body_.leds.size();
     for (std::size_t led = 0; led < body_.leds.size(); ++led) {
       const double scatter = std::sqrt(squares[led] / counts[led]);
       if (scatter > kNotRigid)

@@ -43,8 +43,7 @@ double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
   const double squared = misfit(pixel);
   if (!(squared < gate))
     return std::numeric_limits<double>::infinity();
-  return squared + std::log(prediction.covariance.determinant()) +
-         kFurtherLed * static_cast<double>(leds.size() - 1);
+  return squared + std::log(prediction.covariance.determinant()) + kFurtherLed * (leds.size() - 1);
 }
 
 LedGroups::LedGroups(const PoseState& state,

@@ -44,7 +44,7 @@ class MatchSearch {
       return;
     }
     const std::size_t left = leds_.size() - led;
-    const double unseen = static_cast<double>(led - seen) * options_.unseen_cost;
+    const double unseen = (led - seen) * options_.unseen_cost;
     // Costlier branches than the runner-up change nothing.
     if (seen + left < options_.minimum_seen || unseen > runner_up_cost_)
       return;
@@ -62,7 +62,7 @@ class MatchSearch {
     for (std::size_t other = 0; other < led; ++other) {
       if (chosen_[other] == kUnseen)
         continue;
-      const auto q = static_cast<std::size_t>(chosen_[other]);
+      const std::size_t q = chosen_[other];
       if (q == p)
         return false;
       const double difference =
@@ -79,15 +79,14 @@ class MatchSearch {
     for (std::size_t led = 0; led < leds_.size(); ++led) {
       if (chosen_[led] == kUnseen)
         continue;
-      const MeasuredPoint& point = points_[static_cast<std::size_t>(chosen_[led])];
+      const MeasuredPoint& point = points_[chosen_[led]];
       pairs[count++] = {leds_[led], point.position, 1.0 / (point.stddev * point.stddev)};
     }
     const Alignment alignment = align(pairs.data(), count);
     // Distances that agree by chance, as of a mirrored body.
-    if (alignment.cost > static_cast<double>(count) * options_.gate * options_.gate)
+    if (alignment.cost > count * options_.gate * options_.gate)
       return;
-    const double cost =
-        alignment.cost + static_cast<double>(leds_.size() - seen) * options_.unseen_cost;
+    const double cost = alignment.cost + (leds_.size() - seen) * options_.unseen_cost;
     if (cost < best_cost_) {
       // A match of the same pose with one LED more or less is not a rival.
       if (found_ && !isSamePose(leds_, best_.world_from_body, alignment.world_from_body))

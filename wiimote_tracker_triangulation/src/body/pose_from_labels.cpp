@@ -37,7 +37,7 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
   if (count < 3)
     return std::nullopt;
   const Alignment alignment = align(pairs.data(), count);
-  if (alignment.cost > kWorst * static_cast<double>(3 * count))
+  if (alignment.cost > kWorst * 3 * count)
     return std::nullopt;
 
   PoseCovariance normal = PoseCovariance::Zero();

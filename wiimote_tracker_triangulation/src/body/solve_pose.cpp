@@ -91,7 +91,7 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
   SolvedPose solved;
   solved.world_from_body = pose;
   solved.covariance = pixel_stddev * pixel_stddev * factor.solve(PoseCovariance::Identity());
-  solved.reprojection_error = std::sqrt(normal->cost / static_cast<double>(count));
+  solved.reprojection_error = std::sqrt(normal->cost / count);
   return solved;
 }
 

@@ -26,8 +26,8 @@ void LedMemory::match(double time, const std::vector<Locator::Point>& points) {
     update(time, pair.point, points[pair.point], &led);
   }
   endAbsent(time);
-  auto count = static_cast<std::size_t>(std::count_if(
-      leds_.begin(), leds_.end(), [](const Led& led) { return led.state != TrackState::kLost; }));
+  std::size_t count = std::count_if(leds_.begin(), leds_.end(),
+                                    [](const Led& led) { return led.state != TrackState::kLost; });
   for (std::size_t i = 0; i < points.size() && count < options_.maximum_leds; ++i) {
     if (taken_[i])
       continue;

@@ -103,7 +103,7 @@ std::optional<geometry::TriangulatedPoint> Locator::triangulateWithoutWorst() {
     }
   }
   if (best)
-    rays_.erase(rays_.begin() + static_cast<std::ptrdiff_t>(worst));
+    rays_.erase(rays_.begin() + worst);
   return best;
 }
 

@@ -44,7 +44,7 @@ void followSpots(const Frame& before, double maximum_speed, Frame* frame) {
     if (i >= costs.spots || track_of_spot[i] == association::kFalseDetection)
       continue;
     spot.before = track_of_spot[i];
-    const FrameSpot& old = before.spots[static_cast<std::size_t>(spot.before)];
+    const FrameSpot& old = before.spots[spot.before];
     spot.velocity = (spot.pixel - old.pixel) / elapsed;
   }
 }
@@ -175,7 +175,7 @@ void Synchronizer::interpolate(const CameraState& camera, InstantView* view) {
       if (&before != &after) {
         if (spot.before == kNoSpot)
           continue;
-        const Eigen::Vector2d& start = before.spots[static_cast<std::size_t>(spot.before)].pixel;
+        const Eigen::Vector2d& start = before.spots[spot.before].pixel;
         pixel = start + share * (spot.pixel - start);
       }
       view->spots.push_back({pixel, tracking::SpotUse::kUnassigned, 0});

@@ -116,10 +116,10 @@ std::string readFile(const std::string& path, std::size_t largest) {
                     "; name a file");
   const auto size = static_cast<std::size_t>(status.st_size);
   if (size > largest)
-    throw FileError(format(
-        "cannot read %s, its %.0f MB are more than the %.0f MB of the largest "
-        "file of this kind; name another file",
-        path.c_str(), 1e-6 * static_cast<double>(size), 1e-6 * static_cast<double>(largest)));
+    throw FileError(
+        format("cannot read %s, its %.0f MB are more than the %.0f MB of the largest "
+               "file of this kind; name another file",
+               path.c_str(), 1e-6 * size, 1e-6 * largest));
   std::string content(size, '\0');
   content.resize(std::fread(content.data(), 1, size, file.get()));  // it may be shorter now
   if (std::ferror(file.get()) != 0)

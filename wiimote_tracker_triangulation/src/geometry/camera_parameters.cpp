@@ -26,8 +26,7 @@ LensJacobian lensJacobian(const Intrinsics& lens, const Eigen::Vector2d& normali
   for (std::size_t k = 0; k < coefficientCount(lens.distortion_model); ++k) {
     std::array<double, 5> one{};
     one[k] = 1.0;
-    jacobian.col(kDistortion - kIntrinsics + static_cast<Eigen::Index>(k)) =
-        focal.cwiseProduct(distorted(one) - undistorted);
+    jacobian.col(kDistortion - kIntrinsics + k) = focal.cwiseProduct(distorted(one) - undistorted);
   }
   return jacobian;
 }

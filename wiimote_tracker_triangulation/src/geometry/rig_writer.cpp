@@ -129,8 +129,7 @@ void checkReadable(const std::string& text, const Rig& rig, const std::string& p
     throw FileError(format(
         "cannot write %s: a rig of %zu cameras that takes %.0f MB could not be read, as no file "
         "above %.0f MB; calibrate fewer cameras together",
-        path.c_str(), rig.cameras.size(), 1e-6 * static_cast<double>(text.size()),
-        1e-6 * static_cast<double>(kLargestReadable)));
+        path.c_str(), rig.cameras.size(), 1e-6 * text.size(), 1e-6 * kLargestReadable));
   if (text.find(kUnreadableText) != std::string::npos)
     throw FileError("cannot write " + path + ": a name in it has '" + kUnreadableText +
                     "' and could not be read; rename that zone, frame or camera");

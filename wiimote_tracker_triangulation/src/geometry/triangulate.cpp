@@ -166,7 +166,7 @@ bool maximumLikelihood(const Sights& sights, TriangulatedPoint* point) {
     // Estimate of what the next step gains as a share of what this one gains, which is the square
     // of the ratio of their lengths: the derivatives change along the step, and their curvature
     // (one over the depth) counts with the residuals, most where the point is badly determined.
-    const double n = static_cast<double>(sights.count);
+    const double n = sights.count;
     const double badly_determined = point->covariance.trace() * normal.trace() / (n * n);
     const double next_share =
         (step.squaredNorm() + cost * point->covariance.trace() * badly_determined) /
@@ -183,7 +183,7 @@ double reprojectionError(const Sights& sights, const Vector3& position) {
   double squared_residuals = 0.0;
   for (const Sight& s : sights)
     squared_residuals += s.residual(position).squaredNorm();
-  return std::sqrt(squared_residuals / static_cast<double>(sights.count));
+  return std::sqrt(squared_residuals / sights.count);
 }
 
 bool isInFront(const Sights& sights, const Vector3& position) {
@@ -243,8 +243,7 @@ std::optional<TriangulatedPoint> triangulate(const std::vector<Observation>& obs
       return std::nullopt;
     squared_residuals += (*pixel - o.pixel).squaredNorm();
   }
-  point->reprojection_error =
-      std::sqrt(squared_residuals / static_cast<double>(observations.size()));
+  point->reprojection_error = std::sqrt(squared_residuals / observations.size());
   return point;
 }
 

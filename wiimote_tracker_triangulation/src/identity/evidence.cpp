@@ -6,8 +6,7 @@
 namespace wiimote_tracker::identity {
 
 Evidence::Evidence(const Hypotheses& hypotheses)
-    : hypotheses_(&hypotheses),
-      sum_{Eigen::ArrayXf::Zero(static_cast<Eigen::Index>(hypotheses.cells()))} {}
+    : hypotheses_(&hypotheses), sum_{Eigen::ArrayXf::Zero(hypotheses.cells())} {}
 
 void Evidence::reset(double origin) {
   origin_ = origin;
@@ -40,7 +39,7 @@ double Evidence::weightAt(double time) {
 }
 
 void Evidence::accumulate(const Sighting& sighting, double weight, LogLikelihoods* sum) const {
-  const auto phases = static_cast<Eigen::Index>(hypotheses_->phases());
+  const Eigen::Index phases = hypotheses_->phases();
   const auto factor = static_cast<float>(weight);
   const double time = sighting.time - origin_;
   float* cell = sum->cells.data();

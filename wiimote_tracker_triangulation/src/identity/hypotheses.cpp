@@ -47,7 +47,7 @@ Hypotheses::Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, doubl
       memory_(std::max(memory, 3.0 * codes.longest_period)),
       phases_(phasesFor(codes)),
       frequencies_(frequenciesOf(codes, memory_)) {
-  phase_blur_ = 1.0 / static_cast<double>(phases_);
+  phase_blur_ = 1.0 / phases_;
   if (frequencies_.size() > 1)
     phase_blur_ += 0.5 * kPhasePerFrequency;
   log_likelihoods_.resize(kBlurs * 2 * kStepsPerPhase * labels() * 2 * phases_);
@@ -67,12 +67,11 @@ std::size_t Hypotheses::rowStart(std::size_t blur, bool seen, std::size_t step) 
 
 void Hypotheses::fillRow(std::size_t blur, bool seen, std::size_t step, std::size_t label) {
   constexpr int kSamples = 16;  // over the blur of the phase
-  const double phases = static_cast<double>(phases_);
-  const double exposure = kBlurStep * static_cast<double>(blur);
+  const double phases = phases_;
+  const double exposure = kBlurStep * blur;
   float* const row = &log_likelihoods_[rowStart(blur, seen, step) + label * 2 * phases_];
   for (std::size_t i = 0; i < 2 * phases_; ++i) {
-    const double middle = (static_cast<double>(step) + 0.5) / (kStepsPerPhase * phases) -
-                          static_cast<double>(i) / phases;
+    const double middle = (step + 0.5) / (kStepsPerPhase * phases) - i / phases;
     double light = 0.0;
     for (int k = 0; k < kSamples; ++k) {
       const double phase = middle + phase_blur_ * ((k + 0.5) / kSamples - 0.5);
@@ -91,9 +90,8 @@ const float* Hypotheses::rowsOf(const Sighting& sighting, double frequency, doub
   const double blurs = sighting.exposure * frequency / kBlurStep + 0.5;
   const auto blur = static_cast<std::size_t>(std::min(blurs, kBlurs - 1.0));
   const double phase = periods - std::floor(periods);
-  const auto fine =
-      std::min(static_cast<std::size_t>(phase * static_cast<double>(kStepsPerPhase * phases_)),
-               kStepsPerPhase * phases_ - 1);
+  const auto fine = std::min(static_cast<std::size_t>(phase * (kStepsPerPhase * phases_)),
+                             kStepsPerPhase * phases_ - 1);
   const std::size_t step = fine % kStepsPerPhase;
   // A row holds two periods, so that a whole period is contiguous from any phase.
   const std::size_t first = phases_ - fine / kStepsPerPhase;

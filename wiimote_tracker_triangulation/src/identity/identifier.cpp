@@ -29,7 +29,7 @@ Identifier::Led* Identifier::place(std::uint32_t id) {
   free->id = id;
   free->used = true;
   free->identity = {};
-  free->probabilities.setZero(static_cast<Eigen::Index>(hypotheses_.labels() + 1));
+  free->probabilities.setZero(hypotheses_.labels() + 1);
   free->evidence.reset(*origin_);
   return free;
 }
@@ -86,7 +86,7 @@ void Identifier::judge(Led* led, double time) {
   Eigen::Index best = 0;
   if (!(led->probabilities.maxCoeff(&best) >= options_.decide_at))
     return;
-  const auto label = static_cast<std::size_t>(best);
+  const std::size_t label = best;
   if (label == hypotheses_.labels()) {
     if (!led->identity.steady)
       led->identity = {std::nullopt, true, 0.0, time};

@@ -18,14 +18,12 @@ LabelPosterior::LabelPosterior(const Hypotheses& hypotheses, double steady)
     : hypotheses_(hypotheses), steady_prior_(steady) {}
 
 double LabelPosterior::logWeightOfSteady(std::size_t led) const {
-  return leds_[led].steady + std::log(steady_prior_ / (1.0 - steady_prior_) *
-                                      static_cast<double>(hypotheses_.labels()));
+  return leds_[led].steady + std::log(steady_prior_ / (1.0 - steady_prior_) * hypotheses_.labels());
 }
 
 const Eigen::MatrixXd& LabelPosterior::compute(const std::vector<const Evidence*>& leds) {
   leds_.resize(std::max(leds_.size(), leds.size()));
-  posterior_.setZero(static_cast<Eigen::Index>(hypotheses_.labels() + 1),
-                     static_cast<Eigen::Index>(leds.size()));
+  posterior_.setZero(hypotheses_.labels() + 1, leds.size());
   for (std::size_t led = 0; led < leds.size(); ++led)
     leds[led]->read(&leds_[led]);
   if (hypotheses_.codes().synchronous && leds.size() > 1) {
@@ -38,28 +36,27 @@ const Eigen::MatrixXd& LabelPosterior::compute(const std::vector<const Evidence*
 }
 
 void LabelPosterior::computeAlone(std::size_t led) {
-  const auto phases = static_cast<Eigen::Index>(hypotheses_.phases());
+  const Eigen::Index phases = hypotheses_.phases();
   const std::size_t labels = hypotheses_.labels();
   const std::size_t frequencies = hypotheses_.frequencies().size();
   const double steady = logWeightOfSteady(led);
   const double reference = std::max(steady, static_cast<double>(leds_[led].cells.maxCoeff()));
-  auto column = posterior_.col(static_cast<Eigen::Index>(led));
+  auto column = posterior_.col(led);
   for (std::size_t i = 0; i < frequencies * labels; ++i) {
-    const auto cells = leds_[led].cells.segment(static_cast<Eigen::Index>(i) * phases, phases);
+    const auto cells = leds_[led].cells.segment(i * phases, phases);
     if (cells.maxCoeff() < reference - kNegligible)
       continue;
-    column(static_cast<Eigen::Index>(i % labels)) +=
-        static_cast<double>((cells - static_cast<float>(reference)).exp().sum());
+    column(i % labels) += static_cast<double>((cells - static_cast<float>(reference)).exp().sum());
   }
-  column /= static_cast<double>(frequencies * hypotheses_.phases());
-  column(static_cast<Eigen::Index>(labels)) = std::exp(steady - reference);
+  column /= frequencies * hypotheses_.phases();
+  column(labels) = std::exp(steady - reference);
   column /= column.sum();
 }
 
 void LabelPosterior::computeTogether(std::size_t leds) {
-  const auto phases = static_cast<Eigen::Index>(hypotheses_.phases());
-  const auto labels = static_cast<Eigen::Index>(hypotheses_.labels());
-  const auto frequencies = static_cast<Eigen::Index>(hypotheses_.frequencies().size());
+  const Eigen::Index phases = hypotheses_.phases();
+  const Eigen::Index labels = hypotheses_.labels();
+  const Eigen::Index frequencies = hypotheses_.frequencies().size();
   // Upper bound of an assignment: every LED takes its best label.
   bound_.setZero(frequencies * phases);
   for (std::size_t led = 0; led < leds; ++led) {
@@ -89,8 +86,7 @@ void LabelPosterior::computeTogether(std::size_t leds) {
   }
   for (Eigen::Index cell = 0; cell < bound_.size(); ++cell) {
     if (bound_(cell) > best - kNegligible)
-      addCell(static_cast<std::size_t>(cell / phases), static_cast<std::size_t>(cell % phases),
-              leds);
+      addCell(cell / phases, cell % phases, leds);
   }
   // Each column has the same sum, that of all assignments, which underflows if none is possible.
   if (!(posterior_.colwise().sum().minCoeff() > 0.0)) {
@@ -102,8 +98,8 @@ void LabelPosterior::computeTogether(std::size_t leds) {
 }
 
 void LabelPosterior::setPrior() {
-  const auto labels = static_cast<Eigen::Index>(hypotheses_.labels());
-  posterior_.setConstant((1.0 - steady_prior_) / static_cast<double>(labels));
+  const Eigen::Index labels = hypotheses_.labels();
+  posterior_.setConstant((1.0 - steady_prior_) / labels);
   posterior_.row(labels).setConstant(steady_prior_);
 }
 
@@ -118,13 +114,12 @@ void LabelPosterior::addCell(std::size_t frequency, std::size_t phase, std::size
   for (std::size_t led = 0; led < leds; ++led) {
     for (std::size_t label = 0; label < labels; ++label)
       weights_[led * (labels + 1) + label] =
-          std::exp(leds_[led].cells(static_cast<Eigen::Index>(
-                       (frequency * labels + label) * hypotheses_.phases() + phase)) -
+          std::exp(leds_[led].cells((frequency * labels + label) * hypotheses_.phases() + phase) -
                    reference_[led]);
     weights_[led * (labels + 1) + labels] = std::exp(logWeightOfSteady(led) - reference_[led]);
   }
   forward_[0] = 1.0;
-  std::fill(backward_.end() - static_cast<std::ptrdiff_t>(sets), backward_.end(), 1.0);
+  std::fill(backward_.end() - sets, backward_.end(), 1.0);
   for (std::size_t led = 0; led < leds; ++led) {
     const double* weight = &weights_[led * (labels + 1)];
     const double* from = &forward_[led * sets];
@@ -144,14 +139,13 @@ void LabelPosterior::addCell(std::size_t frequency, std::size_t phase, std::size
     const double* before = &forward_[led * sets];
     for (std::size_t taken = 0; taken < sets; ++taken) {
       to[taken] = from[taken] * weight[labels];
-      const auto column = static_cast<Eigen::Index>(led);
-      posterior_(static_cast<Eigen::Index>(labels), column) += before[taken] * to[taken];
+      posterior_(labels, led) += before[taken] * to[taken];
       for (std::size_t label = 0; label < labels; ++label) {
         if (taken >> label & 1)
           continue;
         const double rest = weight[label] * from[taken | std::size_t{1} << label];
         to[taken] += rest;
-        posterior_(static_cast<Eigen::Index>(label), column) += before[taken] * rest;
+        posterior_(label, led) += before[taken] * rest;
       }
     }
   }

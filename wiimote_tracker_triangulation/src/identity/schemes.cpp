@@ -13,17 +13,17 @@ constexpr std::size_t kLongestWord = 20;
 
 Waveform waveformOf(const CyclicLed& led) {
   Waveform waveform;
-  const double length = static_cast<double>(led.word.size());
+  const double length = led.word.size();
   for (std::size_t i = 0; i < led.word.size(); ++i) {
     if (led.word[i] != '0' && led.word[i] != '1')
       throw Error("the word of " + led.label + " is '" + led.word + "'; write it with 0 and 1");
     if (led.word[i] == '0')
       continue;
-    const double to = static_cast<double>(i + 1) / length;
+    const double to = (i + 1) / length;
     if (i > 0 && led.word[i - 1] == '1')
       waveform.back().to = to;
     else
-      waveform.push_back({static_cast<double>(i) / length, to});
+      waveform.push_back({i / length, to});
   }
   return waveform;
 }
@@ -125,7 +125,7 @@ BlinkCodes cyclicCodes(const std::vector<CyclicLed>& leds, double chip, double t
                   "use words of equal length");
     codes.codes.push_back({led.label, waveformOf(led)});
   }
-  const double period = leds.empty() ? chip : chip * static_cast<double>(leds[0].word.size());
+  const double period = leds.empty() ? chip : chip * leds[0].word.size();
   codes.shortest_period = period * (1.0 - tolerance);
   codes.longest_period = period * (1.0 + tolerance);
   codes.check();

@@ -42,7 +42,7 @@ class HostClockCheck {
     }
     // The lower of two middle values: a delay can be too long because of the network, not too
     // short.
-    const auto middle = delays.begin() + static_cast<std::ptrdiff_t>((delays.size() - 1) / 2);
+    const auto middle = delays.begin() + (delays.size() - 1) / 2;
     std::nth_element(delays.begin(), middle, delays.end());
     const double offset = *middle - delay;
     if (std::abs(offset) <= tolerance_)

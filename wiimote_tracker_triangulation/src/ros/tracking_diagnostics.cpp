@@ -67,7 +67,7 @@ void TrackingDiagnostics::addArrival(const std::string& camera,
   const auto place = std::find(cameras_.begin(), cameras_.end(), camera);
   if (place == cameras_.end())
     return;
-  const auto index = static_cast<std::size_t>(place - cameras_.begin());
+  const std::size_t index = place - cameras_.begin();
   nodes_[index] = node;
   clocks_.add(index, ros::Time::now().toSec() - arrival.toSec());
 }
@@ -103,7 +103,7 @@ void TrackingDiagnostics::report(Status& status) {
   status.add("LEDs predicted", reported_.leds(TrackState::kPredicted));
   status.add("LEDs tentative", reported_.leds(TrackState::kTentative));
   status.add("LEDs with doubtful labels", doubtfulLabels(tracker_->labels()));
-  status.addf("rate [Hz]", "%.1f", static_cast<double>(reported_.snapshots()) / period_);
+  status.addf("rate [Hz]", "%.1f", reported_.snapshots() / period_);
   status.addf("latency p50 [ms]", "%.3f", 1e3 * reported_.latency(0.50));
   status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));
   const tracking::Counters& counters = tracker_->counters();
@@ -136,7 +136,7 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
     if (!problem.empty())
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }
-  status.addf("images [Hz]", "%.1f", static_cast<double>(statistics.images) / period_);
+  status.addf("images [Hz]", "%.1f", statistics.images / period_);
   status.add("images lost", statistics.lost);
   status.addf("delay from exposure to arrival [ms]", "%.3f", 1e3 * statistics.meanDelay());
   status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.inlierRatio());

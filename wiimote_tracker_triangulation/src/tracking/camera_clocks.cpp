@@ -121,7 +121,7 @@ double CameraClocks::medianOf(const ValueOf& value_of) {
   }
   if (count == 0)
     return 0.0;
-  std::sort(sorted_.begin(), sorted_.begin() + static_cast<std::ptrdiff_t>(count));
+  std::sort(sorted_.begin(), sorted_.begin() + count);
   return 0.5 * (sorted_[(count - 1) / 2] + sorted_[count / 2]);
 }
 

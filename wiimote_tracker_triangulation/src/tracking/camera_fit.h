@@ -28,18 +28,18 @@ class CameraFit {
     constexpr double kMemoryOfUsual = 150.0;  // images
     constexpr double kRatio = 1.5;            // misfits per fit of a camera that does not fit
     unassigned_ = unassigned;
-    const double surplus = static_cast<double>(unassigned) - usual_;
+    const double surplus = unassigned - usual_;
     if (shown > 0 && missing == 0) {
       complete_images_ = std::min(complete_images_ + 1.0, kMemoryOfUsual);
       usual_ += surplus / complete_images_;
     }
     // Forgets exponentially. An LED that is hidden makes no other spot: only as many are misfits as
     // there are more unassigned spots than usual.
-    const double kept = std::max(0.0, 1.0 - static_cast<double>(shown + missing) / limits_.memory);
-    fits_ = kept * fits_ + static_cast<double>(shown);
-    missing_ = kept * missing_ + static_cast<double>(missing);
-    explained_ = kept * explained_ + static_cast<double>(explained);
-    misfits_ = std::max(0.0, kept * misfits_ + std::min(static_cast<double>(missing), surplus));
+    const double kept = std::max(0.0, 1.0 - (shown + missing) / limits_.memory);
+    fits_ = kept * fits_ + shown;
+    missing_ = kept * missing_ + missing;
+    explained_ = kept * explained_ + explained;
+    misfits_ = std::max(0.0, kept * misfits_ + std::min<double>(missing, surplus));
     misfit_ = misfit_ ? misfits_ > limits_.tolerated * fits_
                       : misfits_ >= limits_.least * limits_.memory && misfits_ > kRatio * fits_;
   }

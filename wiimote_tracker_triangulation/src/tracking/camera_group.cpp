@@ -36,7 +36,7 @@ std::vector<std::vector<std::size_t>> partnersOf(
   for (std::size_t i = 0; i < members.size(); ++i) {
     for (const std::size_t partner : partners[members[i]]) {
       const auto place = std::lower_bound(members.begin(), members.end(), partner);
-      result[i].push_back(static_cast<std::size_t>(place - members.begin()));
+      result[i].push_back(place - members.begin());
     }
   }
   return result;
@@ -253,7 +253,7 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
       seen.use = SpotUse::kMasked;
     } else if (update_->trackOfSpot()[spot] != association::kFalseDetection) {
       seen.use = SpotUse::kAssigned;
-      seen.led = state_.tracks[static_cast<std::size_t>(update_->trackOfSpot()[spot])].id;
+      seen.led = state_.tracks[update_->trackOfSpot()[spot]].id;
     }
   }
 }

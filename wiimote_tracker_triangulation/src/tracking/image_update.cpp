@@ -100,9 +100,8 @@ void ImageUpdate::measureFit(std::vector<CameraFit>* fits) const {
   const bool is_pair = fits->size() == 2;
   CameraFit& fit = (*fits)[image_->camera];
   const bool is_tested = is_pair && fit.isMisfit();
-  const auto end = track_of_spot_.begin() + static_cast<std::ptrdiff_t>(image_->spot_count);
-  auto unassigned = static_cast<std::size_t>(
-      std::count(track_of_spot_.begin(), end, association::kFalseDetection));
+  const auto end = track_of_spot_.begin() + image_->spot_count;
+  std::size_t unassigned = std::count(track_of_spot_.begin(), end, association::kFalseDetection);
   std::size_t shown = 0;
   std::size_t missing =
       is_tested ? std::min(unassigned, (*fits)[1 - image_->camera].unassigned()) : 0;
@@ -205,7 +204,7 @@ void ImageUpdate::assign() {
   for (std::size_t spot = 0; spot < image_->spot_count; ++spot) {
     if (candidate_of_spot[spot] == association::kFalseDetection)
       continue;
-    assignSpot(spot, &candidates_[static_cast<std::size_t>(candidate_of_spot[spot])]);
+    assignSpot(spot, &candidates_[candidate_of_spot[spot]]);
   }
 }
 

@@ -149,12 +149,10 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
   }
   const std::size_t supporting = supportingCameras(time, options);
   const std::size_t in_view = camerasInView(time, options);
-  const bool is_supported =
-      supporting >= 2 &&
-      static_cast<double>(supporting) >= options.minimum_support * static_cast<double>(possible);
+  const bool is_supported = supporting >= 2 && supporting >= options.minimum_support * possible;
   const double limit = options.birth_pixel_stddev;
   may_continue_ = initial_spots_ + hits_ >= kReacquisitionSpots &&
-                  squares <= static_cast<double>(seen_by) * limit * limit &&
+                  squares <= seen_by * limit * limit &&
                   (seen_by >= 3 || (is_supported && agreement_.areNowOne()));
   confirmed_ =
       is_supported && hits_ >= options.confirmation_hits && !isDoubtful(supporting, in_view);
@@ -172,10 +170,9 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
 
 /// Cameras that should show it, and those that show as many others as they can.
 std::size_t Track::camerasInView(double time, const TrackerOptions& options) const {
-  return static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-        return std::max(record.last_expected, record.last_saturated) >= time - options.tracked_time;
-      }));
+  return std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
+    return std::max(record.last_expected, record.last_saturated) >= time - options.tracked_time;
+  });
 }
 
 /// Whether only two cameras see it of more that have it in view, and these two may see different
@@ -204,11 +201,10 @@ void Track::weighRays(double time, const TrackerOptions& options) {
 
 /// Cameras that detected it in two of their last four images.
 std::size_t Track::supportingCameras(double time, const TrackerOptions& options) const {
-  return static_cast<std::size_t>(
-      std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-        return record.last_expected >= time - options.tracked_time &&
-               std::bitset<4>(record.recent).count() >= 2;
-      }));
+  return std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
+    return record.last_expected >= time - options.tracked_time &&
+           std::bitset<4>(record.recent).count() >= 2;
+  });
 }
 
 Eigen::Vector3d Track::approximatePosition(double time) const {
@@ -243,9 +239,9 @@ CameraList Track::othersSeeing(std::size_t camera, double since) const {
 }
 
 std::size_t Track::camerasShowing(double since) const {
-  return static_cast<std::size_t>(std::count_if(
-      records_.begin(), records_.end(),
-      [&](const CameraRecord& record) { return record.last_detected_alone >= since; }));
+  return std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
+    return record.last_detected_alone >= since;
+  });
 }
 
 void Track::report(double time,
@@ -275,7 +271,7 @@ void Track::report(double time,
     squares += record.squared_residual;
   }
   std::sort(led->cameras.begin(), led->cameras.end());
-  led->residual = std::sqrt(squares / static_cast<double>(led->cameras.size()));  // NaN: none
+  led->residual = std::sqrt(squares / led->cameras.size());  // NaN: none
   // Predicted: one camera alone does not measure the distance; the two cameras that see it may see
   // different lights; or no spot is near its prediction, as of a track that follows another light.
   const bool is_located = led->cameras.size() >= 2 &&

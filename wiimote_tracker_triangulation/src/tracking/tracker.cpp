@@ -241,7 +241,7 @@ void Tracker::report(double time, Snapshot* snapshot) const {
 /// Adds those whose tracks have ended since the last snapshot.
 void Tracker::addLost() {
   std::vector<TrackedLed>& leds = snapshot_.leds;
-  const auto count = static_cast<std::ptrdiff_t>(leds.size());
+  const auto count = leds.size();
   for (const TrackedLed& led : before_) {
     if (std::binary_search(leds.begin(), leds.begin() + count, led, hasSmallerId))
       continue;

@@ -21,8 +21,7 @@ void BodyDiagnostics::Rms::add(double value) {
 }
 
 double BodyDiagnostics::Rms::value() const {
-  return count > 0 ? std::sqrt(squares / static_cast<double>(count))
-                   : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? std::sqrt(squares / count) : std::numeric_limits<double>::quiet_NaN();
 }
 
 BodyDiagnostics::BodyDiagnostics(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
@@ -79,7 +78,7 @@ void BodyDiagnostics::report(const body::Constellation& body,
   if (!warning.empty())
     status.mergeSummary(DiagnosticStatus::WARN, warning);
   status.addf("share of images in which it is tracked [%]", "%.1f",
-              100.0 * static_cast<double>(seen.tracked) / static_cast<double>(seen.images));
+              100.0 * seen.tracked / seen.images);
   status.add("times lost", seen.lost);
   status.addf("residual [px]", "%.3f", seen.residual.value());
   for (std::size_t i = 0; i < seen.leds.size(); ++i)

@@ -113,7 +113,7 @@ sensor_msgs::PointCloud2 coverageCloud(const std::string& world_frame,
     const auto color = colorOf(cell);
     for (int i = 0; i < 3; ++i) {
       x[i] = static_cast<float>(cell.center[i]);
-      blue[2 - i] = color[static_cast<std::size_t>(i)];
+      blue[2 - i] = color[i];
     }
     cameras[0] = static_cast<float>(cell.cameras);
     cameras[1] = static_cast<float>(cell.stddev);

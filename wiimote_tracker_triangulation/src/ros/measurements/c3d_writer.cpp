@@ -117,9 +117,9 @@ std::string parametersOf(const Samples& samples, std::size_t data_block) {
   parameters.texts("Y_SCREEN", {"+Z"});
   for (std::size_t first = 0; first < samples.labels.size() || first == 0;
        first += kLabelsInParameter) {
-    const auto begin = samples.labels.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto begin = samples.labels.begin() + first;
     const auto count = std::min(kLabelsInParameter, samples.labels.size() - first);
-    const std::vector<std::string> labels(begin, begin + static_cast<std::ptrdiff_t>(count));
+    const std::vector<std::string> labels(begin, begin + count);
     const std::string number = first == 0 ? "" : std::to_string(first / kLabelsInParameter + 1);
     parameters.texts("LABELS" + number, labels);
     parameters.texts("DESCRIPTIONS" + number, std::vector<std::string>(count));

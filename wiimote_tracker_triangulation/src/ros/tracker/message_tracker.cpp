@@ -362,7 +362,7 @@ void MessageTracker::publishTicksUntil(double now) {
   while (*newest_tick_ < last) {
     ++*newest_tick_;
     if (parameters_.output.predict_to_now)
-      publishAt(static_cast<double>(*newest_tick_) / rate);
+      publishAt(*newest_tick_ / rate);
     else
       publish(newest_);
   }

@@ -13,13 +13,13 @@ namespace {
 constexpr double kSameTime = 1e-6;  // [s]
 
 double quotient(double sum, std::size_t count) {
-  return count > 0 ? sum / static_cast<double>(count) : std::numeric_limits<double>::quiet_NaN();
+  return count > 0 ? sum / count : std::numeric_limits<double>::quiet_NaN();
 }
 
 }  // namespace
 
 double CameraStatistics::inlierRatio() const {
-  return quotient(static_cast<double>(assigned), spots);
+  return quotient(assigned, spots);
 }
 
 double CameraStatistics::meanDelay() const {
@@ -32,8 +32,7 @@ double CameraStatistics::residual() const {
 
 std::string describeLights(const CameraStatistics& statistics, const std::string& camera) {
   constexpr double kMost = 3.0;  // per image; a Wii Remote reports at most four spots
-  const double others =
-      quotient(static_cast<double>(statistics.spots - statistics.assigned), statistics.views);
+  const double others = quotient(statistics.spots - statistics.assigned, statistics.views);
   if (!(others > kMost && statistics.inlierRatio() < 0.5))
     return "";
   return format(

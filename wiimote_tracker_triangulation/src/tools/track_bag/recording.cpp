@@ -2,8 +2,6 @@
 
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
-#include <wiimote_tracker_msgs/TrackedBodyArray.h>
-#include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <boost/algorithm/string/predicate.hpp>
 
@@ -17,7 +15,6 @@ namespace {
 
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::RigCalibration;
-using wiimote_tracker_msgs::TrackedPointArray;
 
 /// A driver needs longer to start again and count its images from 0 [ns].
 constexpr std::uint64_t kShortestRestart = 100'000'000;
@@ -110,32 +107,6 @@ Topics Recording::topics() const {
                    "): say whose with --namespace");
   const std::string& topic = *rig_topics_.begin();
   return Topics(topic.substr(0, topic.size() - std::string("calibration/rig").size()));
-}
-
-std::set<std::string> Recording::labels(const std::string& points_topic) const {
-  std::set<std::string> labels;
-  for (const rosbag::MessageInstance& message : messages_) {
-    if (message.getTopic() != points_topic)
-      continue;
-    if (const auto points = read<TrackedPointArray>(message)) {
-      for (const wiimote_tracker_msgs::TrackedPoint& point : points->points)
-        labels.insert(point.label);
-    }
-  }
-  return labels;
-}
-
-std::set<std::string> Recording::bodies(const std::string& bodies_topic) const {
-  std::set<std::string> names;
-  for (const rosbag::MessageInstance& message : messages_) {
-    if (message.getTopic() != bodies_topic)
-      continue;
-    if (const auto bodies = read<wiimote_tracker_msgs::TrackedBodyArray>(message)) {
-      for (const wiimote_tracker_msgs::TrackedBody& body : bodies->bodies)
-        names.insert(body.name);
-    }
-  }
-  return names;
 }
 
 }  // namespace wiimote_tracker

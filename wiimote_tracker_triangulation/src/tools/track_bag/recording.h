@@ -79,11 +79,15 @@ class Recording {
   /// @throws BagError: rigs of several trackers.
   Topics topics() const;
 
-  /// Labels of the LEDs in recorded points.
-  std::set<std::string> labels(const std::string& points_topic) const;
-
-  /// Names of the bodies in recorded poses.
-  std::set<std::string> bodies(const std::string& bodies_topic) const;
+  /// Calls take(message) for each message of this type on a topic.
+  template <typename Message, typename Take>
+  void forEach(const std::string& topic, const Take& take) const {
+    for (const rosbag::MessageInstance& recorded : messages_) {
+      const auto message = recorded.getTopic() == topic ? read<Message>(recorded) : nullptr;
+      if (message)
+        take(*message);
+    }
+  }
 
  private:
   void sort();

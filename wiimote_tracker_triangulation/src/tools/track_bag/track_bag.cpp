@@ -9,6 +9,8 @@
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 #include "wiimote_tracker_triangulation/ros/parameter_file.h"
 
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/interruption.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
@@ -176,10 +178,17 @@ void dropRecordedResults(const Recording& recording,
                          const Topics& topics,
                          const TrackingParameters& parameters,
                          Output* output) {
-  std::set<std::string> labels = recording.labels(topics("points"));
+  std::set<std::string> labels, bodies;
+  recording.forEach<wiimote_tracker_msgs::TrackedPointArray>(topics("points"), [&](auto& message) {
+    for (const auto& point : message.points)
+      labels.insert(point.label);
+  });
+  recording.forEach<wiimote_tracker_msgs::TrackedBodyArray>(topics("bodies"), [&](auto& message) {
+    for (const auto& body : message.bodies)
+      bodies.insert(body.name);
+  });
   for (const std::string& label : parameters.allLabels())
     labels.insert(label);
-  std::set<std::string> bodies = recording.bodies(topics("bodies"));
   if (parameters.bodies.known.empty() && !bodies.empty())
     std::fprintf(stderr,
                  "The recorded tracker had a body '%s', whose LEDs are single ones now: name the "

@@ -27,12 +27,9 @@ ArrivalClocks::ArrivalClocks(std::size_t cameras, double newest_used)
 
 ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, const ImageTimes& times) {
   disordered_ = false;
-  if (!std::isfinite(times.exposure) || !std::isfinite(times.arrival))
+  const double arrival = times.arrival;
+  if (!std::isfinite(times.exposure) || !std::isfinite(arrival))
     return Result::kWrongClock;
-  return checkArrival(camera, times.arrival);
-}
-
-ArrivalClocks::Result ArrivalClocks::checkArrival(std::size_t camera, double arrival) {
   if (awaited_ > 0)
     --awaited_;
   if (comparePairs(camera, arrival))

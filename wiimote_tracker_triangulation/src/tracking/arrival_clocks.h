@@ -99,7 +99,6 @@ class ArrivalClocks {
   std::size_t indexOf(std::size_t a, std::size_t b) const;
   const Pair* activePair(std::size_t a, std::size_t b) const;
   bool doAgree(std::size_t a, std::size_t b) const;
-  Result checkArrival(std::size_t camera, double arrival);
   static void note(double arrival, Camera* camera);
   static void noteProgress(double arrival, bool is_present, Camera* camera);
   static bool isBacklog(const Camera& camera);

@@ -31,9 +31,7 @@ void BodyTracker::useRig(const geometry::Rig& rig) {
   rig.check();
   rig_ = rig;
   associator_.emplace(rig, association::sharedViews(rig, options_.maximum_range), searchOptions());
-  cameras_.clear();
-  for (const geometry::RigCamera& camera : rig_.cameras)
-    cameras_.push_back(rig_.rayCamera(camera));
+  cameras_ = rig_.rayCameras();
   candidates_.resize(cameras_.size());
   sights_.resize(cameras_.size());
   views_.resize(cameras_.size());

@@ -2,6 +2,8 @@
 
 #include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
 
+#include <boost/functional/hash.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -39,15 +41,11 @@ std::optional<Matrix3> CalibrationUncertainty::covarianceNear(const Vector3& poi
   if (!hasCovariance(rig_) || count < 2 || !(point.cwiseAbs().maxCoeff() < kFarthest))
     return std::nullopt;
   std::array<std::int32_t, 3> place;
-  std::uint64_t hash = 14695981039346656037u;  // FNV-1a, over words
-  const auto take = [&hash](std::uint64_t value) { hash = (hash ^ value) * 1099511628211u; };
-  for (int i = 0; i < 3; ++i) {
+  for (int i = 0; i < 3; ++i)
     place[i] = static_cast<std::int32_t>(std::floor(point[i] / kCellSize));
-    take(static_cast<std::uint32_t>(place[i]));
-  }
-  for (std::size_t i = 0; i < count; ++i)
-    take(cameras[i]);
-  Cell& cell = cells_[(hash ^ (hash >> 32)) % kCells];
+  std::size_t hash = boost::hash_range(place.begin(), place.end());
+  boost::hash_range(hash, cameras, cameras + count);
+  Cell& cell = cells_[hash % kCells];
   if (cell.known && cell.place == place && cell.count == count &&
       std::equal(cameras, cameras + count, cell.cameras.begin()))
     return cell.covariance;

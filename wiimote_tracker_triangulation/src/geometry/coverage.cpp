@@ -25,9 +25,8 @@ constexpr double kTurnCost = 0.01;  // of share for a radian: small turns first
 
 /// Centers of so many cells that all aims of so many cameras take about a second.
 std::vector<Eigen::Vector3d> somePlaces(const CellGrid& grid, std::size_t cameras) {
-  const double most = kMostLooks / static_cast<double>(cameras * kAims * kAims);
-  const auto stride =
-      static_cast<std::size_t>(std::max(1.0, std::ceil(static_cast<double>(grid.count()) / most)));
+  const double most = kMostLooks / (cameras * kAims * kAims);
+  const auto stride = static_cast<std::size_t>(std::max(1.0, std::ceil(grid.count() / most)));
   std::vector<Eigen::Vector3d> places;
   places.reserve(grid.count() / stride + 1);
   for (std::size_t i = 0; i < grid.count(); i += stride)
@@ -61,23 +60,19 @@ std::size_t seenByTwo(const Camera& camera,
   return count;
 }
 
-double predictedStddev(const Rig& rig,
+/// @param seeing the cameras that see the point.
+double predictedStddev(const std::vector<Camera>& cameras,
                        const CalibrationUncertainty& calibration,
                        const Eigen::Vector3d& point,
-                       const std::vector<std::size_t>& indices,
+                       const std::vector<std::size_t>& seeing,
                        const TriangulationOptions& options) {
-  std::vector<Camera> cameras;
-  cameras.reserve(indices.size());
-  for (const std::size_t index : indices)
-    cameras.push_back(rig.rayCamera(rig.cameras[index]));
   std::vector<Observation> observations;
-  observations.reserve(cameras.size());
-  for (const Camera& camera : cameras)
-    observations.push_back({&camera, *camera.project(point)});
+  for (const std::size_t camera : seeing)
+    observations.push_back({&cameras[camera], *cameras[camera].project(point)});
   const auto found = triangulate(observations, options);
   if (!found)
     return std::numeric_limits<double>::quiet_NaN();
-  const auto systematic = calibration.covarianceOf(point, indices.data(), indices.size());
+  const auto systematic = calibration.covarianceOf(point, seeing.data(), seeing.size());
   return std::sqrt(found->covariance.trace() + (systematic ? systematic->trace() : 0.0));
 }
 
@@ -109,6 +104,7 @@ std::optional<std::size_t> CellGrid::cellAt(const Eigen::Vector3d& point) const 
 }
 
 std::vector<CoverageCell> coverageOf(const Rig& rig, const CellGrid& grid, double pixel_stddev) {
+  const std::vector<Camera> cameras = rig.rayCameras();
   const CalibrationUncertainty calibration(rig);
   TriangulationOptions options;
   options.pixel_stddev = pixel_stddev;
@@ -119,7 +115,7 @@ std::vector<CoverageCell> coverageOf(const Rig& rig, const CellGrid& grid, doubl
     cell.center = grid.center(i);
     const std::vector<std::size_t> seeing = camerasSeeing(rig, cell.center);
     cell.cameras = seeing.size();
-    cell.stddev = predictedStddev(rig, calibration, cell.center, seeing, options);
+    cell.stddev = predictedStddev(cameras, calibration, cell.center, seeing, options);
     cells.push_back(cell);
   }
   return cells;

@@ -40,8 +40,8 @@ class BodyFilter {
   }
 
   const PoseState& state() const {
-    const auto* inertial = std::get_if<InertialFilter>(&filter_);
-    return inertial ? inertial->state() : std::get<PoseFilter>(filter_).state();
+    return std::visit([](const auto& filter) -> const PoseState& { return filter.state(); },
+                      filter_);
   }
 
   bool isInertial() const { return std::holds_alternative<InertialFilter>(filter_); }

@@ -96,12 +96,11 @@ void Triangulation::subscribeToCameras() {
   std::map<std::string, ros::Subscriber> subscribers;
   for (const geometry::RigCamera& rig_camera : tracker_.rig().cameras) {
     const std::string& camera = rig_camera.camera.name;
-    const auto old = image_subscribers_.find(camera);
-    subscribers[camera] =
-        old != image_subscribers_.end()
-            ? old->second
-            : subscribe<IrBlobArray>(nh_, camera + "/ir_blobs", kImageQueue,
-                                     [this, camera](const auto& event) { onImage(camera, event); });
+    ros::Subscriber& subscriber = subscribers[camera] = image_subscribers_[camera];
+    if (!subscriber)
+      subscriber =
+          subscribe<IrBlobArray>(nh_, camera + "/ir_blobs", kImageQueue,
+                                 [this, camera](const auto& event) { onImage(camera, event); });
   }
   image_subscribers_ = std::move(subscribers);
 }
@@ -153,15 +152,12 @@ void Triangulation::subscribeToImus(const std::vector<body::Constellation>& bodi
   for (const body::Constellation& body : bodies) {
     if (!body.imu)
       continue;
-    const auto old = imu_subscribers_.find(body.name);
-    const bool stays =
-        old != imu_subscribers_.end() && old->second.getTopic() == nh_.resolveName(body.imu->topic);
-    subscribers[body.name] =
-        stays ? old->second
-              : subscribe<sensor_msgs::Imu>(nh_, body.imu->topic, kImageQueue,
-                                            [this, name = body.name](const auto& event) {
-                                              tracker_.takeInertial(name, *event.getConstMessage());
-                                            });
+    ros::Subscriber& subscriber = subscribers[body.name] = imu_subscribers_[body.name];
+    if (subscriber.getTopic() != nh_.resolveName(body.imu->topic))
+      subscriber = subscribe<sensor_msgs::Imu>(
+          nh_, body.imu->topic, kImageQueue, [this, name = body.name](const auto& event) {
+            tracker_.takeInertial(name, *event.getConstMessage());
+          });
   }
   imu_subscribers_ = std::move(subscribers);
 }

@@ -143,19 +143,19 @@ void ImageUpdate::updateMergedPairs(std::vector<MergedPair>* pairs) {
     view.camera = &camera_->forRays();
     view.noise = noise_;
     view.time = image_->time;
-    std::array<std::size_t, association::kMaximumSpots> spot_of;  // of the view
+    boost::container::static_vector<std::size_t, association::kMaximumSpots> spot_of;  // the view's
     for (std::size_t spot = 0; spot < image_->spot_count; ++spot) {
       const bool is_free = track_of_spot_[spot] == association::kFalseDetection;
       if (!is_free && both[0]->spot != spot && both[1]->spot != spot)
         continue;
-      spot_of[view.spot_count] = spot;
-      view.pixels[view.spot_count++] = image_->pixels[spot];
+      spot_of.push_back(spot);
+      view.pixels.push_back(image_->pixels[spot]);
     }
     const auto chosen = pair.update(view, options_.gate);
     if (!chosen)
       continue;
-    for (std::size_t i = 0; i < view.spot_count; ++i)
-      track_of_spot_[spot_of[i]] = association::kFalseDetection;
+    for (const std::size_t spot : spot_of)
+      track_of_spot_[spot] = association::kFalseDetection;
     for (std::size_t i = 0; i < 2; ++i) {
       const std::size_t spot = spot_of[(*chosen)[i]];
       assignSpot(spot, both[i]);

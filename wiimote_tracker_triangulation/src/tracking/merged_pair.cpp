@@ -22,12 +22,12 @@ MergedPair::MergedPair(std::uint32_t a, std::uint32_t b, const Filters& before)
 }
 
 std::optional<MergedPair::SpotIndices> MergedPair::update(const View& view, double gate) {
-  if (view.spot_count < 2)
+  if (view.pixels.size() < 2)
     return std::nullopt;
   Predictions predictions;
   for (std::size_t i = 0; i < hypotheses_.size(); ++i)
     predictions[i] = predict(view, gate, &hypotheses_[i]);
-  const std::optional<SpotIndices> spots = likeliestSpots(predictions, view.spot_count);
+  const std::optional<SpotIndices> spots = likeliestSpots(predictions, view.pixels.size());
   if (!spots)
     return std::nullopt;
   if (!areSeparate(view.time))
@@ -46,7 +46,7 @@ MergedPair::Prediction MergedPair::predict(const View& view,
     motion::MotionFilter& filter = hypothesis->filters[led];
     filter.predict(view.time);
     const auto& predicted = result.pixels[led] = filter.predictPixel(*view.camera, view.noise);
-    for (std::size_t spot = 0; spot < view.spot_count; ++spot) {
+    for (std::size_t spot = 0; spot < view.pixels.size(); ++spot) {
       const double likelihood = predicted ? predicted->logLikelihood(view.pixels[spot])
                                           : -std::numeric_limits<double>::infinity();
       result.log_likelihoods[led][spot] =

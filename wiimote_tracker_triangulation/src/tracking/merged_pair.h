@@ -30,8 +30,7 @@ class MergedPair {
     const geometry::Camera* camera;
     motion::PixelNoise noise;
     double time;  // [s]
-    std::size_t spot_count = 0;
-    std::array<Eigen::Vector2d, association::kMaximumSpots> pixels;
+    boost::container::static_vector<Eigen::Vector2d, association::kMaximumSpots> pixels;
   };
   using SpotIndices = std::array<std::size_t, 2>;  // each LED's spot in a View
 

@@ -15,15 +15,12 @@ BodyPublishers::BodyPublishers(const ros::NodeHandle& nh, const OutputOptions& o
 void BodyPublishers::setBodies(const std::vector<body::Constellation>& bodies) {
   std::map<std::string, Topics> topics;
   for (const body::Constellation& body : bodies) {
-    const auto old = topics_.find(body.name);
-    topics[body.name] =
-        old != topics_.end()
-            ? old->second
-            : Topics{
-                  nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>(body.name + "/pose", 100),
-                  nh_.advertise<geometry_msgs::TwistWithCovarianceStamped>(body.name + "/twist",
-                                                                           100),
-                  nh_.advertise<nav_msgs::Odometry>(body.name + "/odometry", 100)};
+    Topics& own = topics[body.name] = topics_[body.name];
+    if (own.pose)
+      continue;
+    own.pose = nh_.advertise<geometry_msgs::PoseWithCovarianceStamped>(body.name + "/pose", 100);
+    own.twist = nh_.advertise<geometry_msgs::TwistWithCovarianceStamped>(body.name + "/twist", 100);
+    own.odometry = nh_.advertise<nav_msgs::Odometry>(body.name + "/odometry", 100);
   }
   topics_ = std::move(topics);
 }

@@ -1,6 +1,5 @@
 // The layout follows the C3D File Format User Guide: a header block, blocks of parameters, and
 // blocks of points, each of 512 bytes; numbers of 16 and 32 bits, least byte first.
-#include "ros/measurements/part_file.h"
 #include "ros/measurements/sample_table.h"
 #include "ros/measurements/writer.h"
 
@@ -141,49 +140,35 @@ std::string headerOf(const Samples& samples, std::size_t data_block) {
                   integer(data_block) + none + real(samples.rate));
 }
 
-class C3dWriter : public Writer {
- public:
-  C3dWriter(const std::string& path, double rate) : file_(path), rate_(rate) {}
-
-  void add(const Measurement& measurement) override { table_.add(measurement); }
-
-  void finish() override {
-    const Samples samples = table_.resample(rate_);
-    const std::size_t data_block = kParameterBlock + parametersOf(samples, 0).size() / kBlock;
-    file_.write(headerOf(samples, data_block) + parametersOf(samples, data_block));
-    std::size_t size = 0;
-    for (std::size_t frame = 0; frame < samples.frames; ++frame) {
-      const std::string points = pointsOf(samples, frame);
-      file_.write(points);
-      size += points.size();
-    }
-    file_.write(std::string((kBlock - size % kBlock) % kBlock, '\0'));
-    file_.finish();
+/// x, y, z, and what says whether the point is valid: -1 no, 0 interpolated.
+std::string pointsOf(const Samples& samples, std::size_t frame) {
+  std::string bytes;
+  for (const auto& positions : samples.positions) {
+    const Eigen::Vector3d& position = positions[frame];
+    const bool is_valid = position.allFinite();
+    for (int axis = 0; axis < 3; ++axis)
+      bytes += real(is_valid ? kMillimetres * position[axis] : 0.0);
+    bytes += real(is_valid ? 0.0 : -1.0);
   }
+  return bytes;
+}
 
- private:
-  /// x, y, z, and what says whether the point is valid: -1 no, 0 interpolated.
-  static std::string pointsOf(const Samples& samples, std::size_t frame) {
-    std::string bytes;
-    for (const auto& positions : samples.positions) {
-      const Eigen::Vector3d& position = positions[frame];
-      const bool is_valid = position.allFinite();
-      for (int axis = 0; axis < 3; ++axis)
-        bytes += real(is_valid ? kMillimetres * position[axis] : 0.0);
-      bytes += real(is_valid ? 0.0 : -1.0);
-    }
-    return bytes;
+void writeC3d(const Samples& samples, OutputFile* file) {
+  const std::size_t data_block = kParameterBlock + parametersOf(samples, 0).size() / kBlock;
+  file->write(headerOf(samples, data_block) + parametersOf(samples, data_block));
+  std::size_t size = 0;
+  for (std::size_t frame = 0; frame < samples.frames; ++frame) {
+    const std::string points = pointsOf(samples, frame);
+    file->write(points);
+    size += points.size();
   }
-
-  OutputFile file_;
-  double rate_;
-  SampleTable table_;
-};
+  file->write(std::string((kBlock - size % kBlock) % kBlock, '\0'));
+}
 
 }  // namespace
 
 std::unique_ptr<Writer> makeC3dWriter(const std::string& path, double rate) {
-  return std::make_unique<C3dWriter>(path, rate);
+  return std::make_unique<SampledWriter>(path, rate, writeC3d);
 }
 
 }  // namespace wiimote_tracker::measurements

@@ -1,14 +1,17 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H
 
+#include "ros/measurements/part_file.h"
 #include "ros/measurements/writer.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::measurements {
@@ -41,6 +44,29 @@ class SampleTable {
     Eigen::Vector3d position;
   };
   std::map<std::string, std::vector<Sample>> samples_;  // by label
+};
+
+/// A file of a format that wants all positions at one rate.
+class SampledWriter : public Writer {
+ public:
+  /// @param rate [Hz]. @param write writes the content. @throws Error: the file cannot be created.
+  SampledWriter(const std::string& path,
+                double rate,
+                std::function<void(const Samples&, OutputFile*)> write)
+      : file_(path), rate_(rate), write_(std::move(write)) {}
+
+  void add(const Measurement& measurement) override { table_.add(measurement); }
+
+  void finish() override {
+    write_(table_.resample(rate_), &file_);
+    file_.finish();
+  }
+
+ private:
+  OutputFile file_;
+  double rate_;
+  std::function<void(const Samples&, OutputFile*)> write_;
+  SampleTable table_;
 };
 
 }  // namespace wiimote_tracker::measurements

@@ -1,4 +1,3 @@
-#include "ros/measurements/part_file.h"
 #include "ros/measurements/sample_table.h"
 #include "ros/measurements/writer.h"
 
@@ -29,45 +28,32 @@ std::string headerOf(const std::string& path, const Samples& samples) {
   return text.str();
 }
 
-class TrcWriter : public Writer {
- public:
-  TrcWriter(const std::string& path, double rate) : path_(path), file_(path), rate_(rate) {}
-
-  void add(const Measurement& measurement) override { table_.add(measurement); }
-
-  void finish() override {
-    const Samples samples = table_.resample(rate_);
-    file_.write(headerOf(path_, samples));
-    std::ostringstream row;
-    row.imbue(std::locale::classic());
-    row.precision(9);
-    for (std::size_t frame = 0; frame < samples.frames; ++frame) {
-      row.str("");
-      row << frame + 1 << "\t" << static_cast<double>(frame) / rate_;
-      for (const auto& positions : samples.positions) {
-        const Eigen::Vector3d& p = positions[frame];
-        if (p.allFinite())
-          row << "\t" << p.x() << "\t" << p.y() << "\t" << p.z();
-        else
-          row << "\t\t\t";
-      }
-      row << "\n";
-      file_.write(row.str());
+void writeTrc(const std::string& path, const Samples& samples, OutputFile* file) {
+  file->write(headerOf(path, samples));
+  std::ostringstream row;
+  row.imbue(std::locale::classic());
+  row.precision(9);
+  for (std::size_t frame = 0; frame < samples.frames; ++frame) {
+    row.str("");
+    row << frame + 1 << "\t" << frame / samples.rate;
+    for (const auto& positions : samples.positions) {
+      const Eigen::Vector3d& p = positions[frame];
+      if (p.allFinite())
+        row << "\t" << p.x() << "\t" << p.y() << "\t" << p.z();
+      else
+        row << "\t\t\t";
     }
-    file_.finish();
+    row << "\n";
+    file->write(row.str());
   }
-
- private:
-  std::string path_;
-  OutputFile file_;
-  double rate_;
-  SampleTable table_;
-};
+}
 
 }  // namespace
 
 std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate) {
-  return std::make_unique<TrcWriter>(path, rate);
+  return std::make_unique<SampledWriter>(
+      path, rate,
+      [path](const Samples& samples, OutputFile* file) { writeTrc(path, samples, file); });
 }
 
 }  // namespace wiimote_tracker::measurements

@@ -38,15 +38,16 @@ bool haveSameCameras(const geometry::Rig& before, const geometry::Rig& now) {
 }  // namespace
 
 void BodyFollower::setRig(const geometry::Rig& rig) {
-  const bool keeps_times = arrival_clocks_ && haveSameTimes(rig_, rig);
-  if (tracker_ && keeps_times)
+  rig.check();
+  const bool keeps_times = tracker_ && haveSameTimes(rig_, rig);
+  if (keeps_times)
     tracker_->setRig(rig);
   else
-    useTracker(rig, constellations_);
+    tracker_.emplace(rig, constellations_, options_);
   if (!keeps_times || !haveSameCameras(rig_, rig))
-    arrival_clocks_ = std::make_unique<tracking::ArrivalClocks>(
-        rig.cameras.size(),
-        arrival_clocks_ ? arrival_clocks_->newestUsed() : -std::numeric_limits<double>::infinity());
+    arrival_clocks_.emplace(rig.cameras.size(), arrival_clocks_
+                                                    ? arrival_clocks_->newestUsed()
+                                                    : -std::numeric_limits<double>::infinity());
   rig_ = rig;
 }
 
@@ -67,23 +68,15 @@ BodySnapshot BodyFollower::setBodies(const std::vector<Constellation>& constella
   }
   if (constellations == constellations_)
     return lost;
-  if (tracker_ && !constellations.empty())
+  if (tracker_)
     tracker_->setBodies(constellations);
-  else if (arrival_clocks_)
-    useTracker(rig_, constellations);
   constellations_ = constellations;
   snapshot_.bodies = std::move(last);
   return lost;
 }
 
-void BodyFollower::useTracker(const geometry::Rig& rig,
-                              const std::vector<Constellation>& constellations) {
-  tracker_ = constellations.empty() ? nullptr
-                                    : std::make_unique<BodyTracker>(rig, constellations, options_);
-}
-
 void BodyFollower::take(std::size_t camera, double clock_error, tracking::CameraImage* image) {
-  if (!tracker_)
+  if (constellations_.empty())
     return;
   const geometry::RigCamera& calibration = rig_.cameras[camera];
   const tracking::ImageTimes times = tracking::timesOf(calibration, *image);

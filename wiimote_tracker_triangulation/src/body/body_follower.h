@@ -8,7 +8,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -57,13 +56,12 @@ class BodyFollower {
   const BodySnapshot* next();
 
  private:
-  void useTracker(const geometry::Rig& rig, const std::vector<Constellation>& constellations);
-
   BodyTrackerOptions options_;
   geometry::Rig rig_;
   std::vector<Constellation> constellations_;
-  std::unique_ptr<BodyTracker> tracker_;  // only with a rig and constellations
-  std::unique_ptr<tracking::ArrivalClocks> arrival_clocks_;
+  // With a rig:
+  std::optional<BodyTracker> tracker_;
+  std::optional<tracking::ArrivalClocks> arrival_clocks_;
   double latest_arrival_ = 0.0;  // [s]
   double last_output_ = -std::numeric_limits<double>::infinity();
   BodySnapshot snapshot_;

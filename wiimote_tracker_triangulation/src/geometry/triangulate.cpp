@@ -40,11 +40,6 @@ bool haveAngle(const Sights& sights, double minimum_sine_squared) {
   return false;
 }
 
-double minimumSineSquared(double minimum_angle) {
-  const double sine = std::sin(minimum_angle);
-  return sine * sine;
-}
-
 Matrix3 acrossRay(const Sight& sight) {
   return Matrix3::Identity() - sight.direction * sight.direction.transpose();
 }
@@ -197,7 +192,7 @@ std::optional<TriangulatedPoint> triangulate(const Sight* first,
                                              std::size_t count,
                                              const TriangulationOptions& options) {
   const Sights sights{first, count};
-  const double minimum_sine_squared = minimumSineSquared(options.minimum_angle);
+  const double minimum_sine_squared = std::pow(std::sin(options.minimum_angle), 2);
   if (count < 2 || !haveAngle(sights, minimum_sine_squared))
     return std::nullopt;
   TriangulatedPoint point{Vector3::Zero(), Matrix3::Zero(), 0.0};

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 namespace wiimote_tracker {
 
@@ -330,17 +331,13 @@ bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
 
 bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,
                     wiimote_tracker_msgs::ListGestures::Response& response) {
-  for (const gesture::Example& example : recognizer_.examples()) {
-    std::size_t row = 0;
-    while (row < response.gestures.size() &&
-           (response.gestures[row] != example.gesture || response.zones[row] != example.zone))
-      ++row;
-    if (row == response.gestures.size()) {
-      response.gestures.push_back(example.gesture);
-      response.zones.push_back(example.zone);
-      response.examples.push_back(0);
-    }
-    ++response.examples[row];
+  std::map<std::pair<std::string, std::string>, std::uint32_t> examples;
+  for (const gesture::Example& example : recognizer_.examples())
+    ++examples[{example.gesture, example.zone}];
+  for (const auto& [gesture_and_zone, count] : examples) {
+    response.gestures.push_back(gesture_and_zone.first);
+    response.zones.push_back(gesture_and_zone.second);
+    response.examples.push_back(count);
   }
   return true;
 }

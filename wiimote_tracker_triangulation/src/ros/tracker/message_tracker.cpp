@@ -91,18 +91,16 @@ MessageTracker::RigChange MessageTracker::takeRig(
     const wiimote_tracker_msgs::RigCalibration& message) {
   const geometry::Rig rig = fromMessage(message);
   checkFrames(rig, parameters_.allLabels(), bodies_.constellations());
-  const std::string id = rig.id();
   RigChange change;
   if (!estimator_) {
     estimator_ = estimators::makeEstimator(rig, parameters_.estimator);
     change.cameras = true;
-  } else if (id != computed_id_ || !isSame(rig.covariance, rig_.covariance)) {
+  } else if (rig.id() != rig_.id() || !isSame(rig.covariance, rig_.covariance)) {
     estimator_->setRig(rig);
     change.cameras = true;
   }
   if (change.cameras) {
     bodies_.setRig(rig);
-    computed_id_ = id;
     rig_id_ = idOf(message, rig);
     useCameras(rig);
     reported_faults_.useRig(rig_, rig, *estimator_);

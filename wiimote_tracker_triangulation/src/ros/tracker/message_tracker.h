@@ -139,7 +139,6 @@ class MessageTracker {
   MessageSink* sink_;
 
   geometry::Rig rig_;
-  std::string computed_id_;
   std::string rig_id_;
   std::map<std::string, std::size_t> camera_index_;
   std::unique_ptr<tracking::Estimator> estimator_;  // null before the first rig

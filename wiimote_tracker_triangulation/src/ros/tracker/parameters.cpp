@@ -26,19 +26,17 @@ bool isNumbered(const std::string& label) {
          label.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
 }
 
-[[noreturn]] void refuseLabelOf(const std::string& key, const std::string& label, const char* why) {
-  throw ParameterError(key + " has '" + label + "'" + why);
-}
-
 void checkLabels(const std::string& key, const std::vector<std::string>& labels) {
   std::set<std::string> known;
   for (const std::string& label : labels) {
+    const std::string what = key + " has '" + label + "'";
     if (!isWord(label) || isNumbered(label))
-      refuseLabelOf(key, label,
-                    ", but each must be a letter, then letters, digits and underscores, and not "
-                    "led_ with a number, the name of LEDs without a label");
+      throw ParameterError(
+          what +
+          ", but each must be a letter, then letters, digits and underscores, and not led_ with a "
+          "number, the name of LEDs without a label");
     if (!known.insert(label).second)
-      refuseLabelOf(key, label, " twice");
+      throw ParameterError(what + " twice");
   }
 }
 

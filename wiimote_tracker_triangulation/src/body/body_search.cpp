@@ -72,7 +72,7 @@ void BodyTracker::find(const Image& image) {
     for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
       if (!needed_spots_[b] || isTracked(b, time) != tracked)
         continue;
-      const std::optional<Match> match = matchPoints(constellations_[b], points_, options_.match);
+      const std::optional<Match> match = matchPoints(constellations_[b], points_);
       if (!match || match->margin < options_.minimum_margin)
         continue;
       listMatchedSpots(b, *match, found);

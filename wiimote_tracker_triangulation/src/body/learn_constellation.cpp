@@ -122,7 +122,7 @@ class Learning {
     std::vector<MeasuredPoint> points;
     for (const LedsInstant::Led& led : instant.leds)
       points.push_back({led.position, kPointStddev, false});
-    const std::optional<Match> match = matchPoints(body_, points, MatchOptions());
+    const std::optional<Match> match = matchPoints(body_, points);
     return match && match->margin >= kMatchMargin ? match : std::nullopt;
   }
 

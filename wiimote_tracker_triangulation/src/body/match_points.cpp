@@ -18,13 +18,15 @@ bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
 
 namespace {
 
+constexpr double kUnseenCost = 25.0;  // of an LED without a point [chi^2]
+constexpr double kGate = 4.0;         // of a distance between two LEDs [standard deviations]
+constexpr std::size_t kFewest = 3;    // LEDs
+
 /// Depth-first search: each LED takes a point consistent with those before it, or none.
 class MatchSearch {
  public:
-  MatchSearch(const Constellation& constellation,
-              const std::vector<MeasuredPoint>& points,
-              const MatchOptions& options)
-      : leds_(constellation.leds), points_(points), options_(options) {
+  MatchSearch(const Constellation& constellation, const std::vector<MeasuredPoint>& points)
+      : leds_(constellation.leds), points_(points) {
     chosen_.fill(kUnseen);
   }
 
@@ -39,14 +41,14 @@ class MatchSearch {
  private:
   void extend(std::size_t led, std::size_t seen) {
     if (led == leds_.size()) {
-      if (seen >= options_.minimum_seen)
+      if (seen >= kFewest)
         judge(seen);
       return;
     }
     const std::size_t left = leds_.size() - led;
-    const double unseen = (led - seen) * options_.unseen_cost;
+    const double unseen = (led - seen) * kUnseenCost;
     // Costlier branches than the runner-up change nothing.
-    if (seen + left < options_.minimum_seen || unseen > runner_up_cost_)
+    if (seen + left < kFewest || unseen > runner_up_cost_)
       return;
     for (std::size_t p = 0; p < points_.size(); ++p) {
       if (points_[p].taken || !agrees(led, p))
@@ -67,7 +69,7 @@ class MatchSearch {
         return false;
       const double difference =
           (leds_[led] - leds_[other]).norm() - (points_[p].position - points_[q].position).norm();
-      if (std::abs(difference) > options_.gate * std::hypot(points_[p].stddev, points_[q].stddev))
+      if (std::abs(difference) > kGate * std::hypot(points_[p].stddev, points_[q].stddev))
         return false;
     }
     return true;
@@ -84,9 +86,9 @@ class MatchSearch {
     }
     const Alignment alignment = align(pairs.data(), count);
     // Distances that agree by chance, as of a mirrored body.
-    if (alignment.cost > count * options_.gate * options_.gate)
+    if (alignment.cost > count * kGate * kGate)
       return;
-    const double cost = alignment.cost + (leds_.size() - seen) * options_.unseen_cost;
+    const double cost = alignment.cost + (leds_.size() - seen) * kUnseenCost;
     if (cost < best_cost_) {
       // A match of the same pose with one LED more or less is not a rival.
       if (found_ && !isSamePose(leds_, best_.world_from_body, alignment.world_from_body))
@@ -103,7 +105,6 @@ class MatchSearch {
 
   const std::vector<Eigen::Vector3d>& leds_;
   const std::vector<MeasuredPoint>& points_;
-  const MatchOptions& options_;
   std::array<int, kMaximumLeds> chosen_;
   bool found_ = false;
   Match best_;
@@ -114,9 +115,8 @@ class MatchSearch {
 }  // namespace
 
 std::optional<Match> matchPoints(const Constellation& constellation,
-                                 const std::vector<MeasuredPoint>& points,
-                                 const MatchOptions& options) {
-  return MatchSearch(constellation, points, options).run();
+                                 const std::vector<MeasuredPoint>& points) {
+  return MatchSearch(constellation, points).run();
 }
 
 }  // namespace wiimote_tracker::body

@@ -84,7 +84,7 @@ TEST(MatchPoints, FindsTheBodyAmongOtherPoints) {
       points.push_back({pose.translation() + random.inBox(0.5), 0.002, false});
       led_of_point.push_back(-1);
     }
-    const auto match = matchPoints(fourLeds(), points, MatchOptions());
+    const auto match = matchPoints(fourLeds(), points);
     ASSERT_TRUE(match);
     bool good = seenLeds(*match) == (one_hidden ? 3u : 4u);
     for (int led = 0; led < 4; ++led) {
@@ -106,23 +106,21 @@ TEST(MatchPoints, ReportsAmbiguity) {
   std::vector<MeasuredPoint> points;
   for (const Vector3d& led : isosceles.leds)
     points.push_back({led, 0.002, false});
-  const auto match = matchPoints(isosceles, points, MatchOptions());
+  const auto match = matchPoints(isosceles, points);
   ASSERT_TRUE(match);
   EXPECT_NEAR(match->margin, 0.0, 1e-6);
   points[1].taken = true;
-  EXPECT_FALSE(matchPoints(isosceles, points, MatchOptions()));
-  EXPECT_FALSE(matchPoints(isosceles, {}, MatchOptions()));
+  EXPECT_FALSE(matchPoints(isosceles, points));
+  EXPECT_FALSE(matchPoints(isosceles, {}));
 }
 
 TEST(MatchPoints, AMirroredBodyIsAnother) {
   std::vector<MeasuredPoint> points;
   for (const Vector3d& led : fourLeds().leds)
     points.push_back({led.cwiseProduct(Vector3d(1, 1, -1)), 0.002, false});
-  const auto match = matchPoints(fourLeds(), points, MatchOptions());
-  EXPECT_TRUE(!match || seenLeds(*match) < 4);
-  MatchOptions all;
-  all.minimum_seen = 4;
-  EXPECT_FALSE(matchPoints(fourLeds(), points, all)) << "all distances agree";
+  const auto match = matchPoints(fourLeds(), points);
+  ASSERT_TRUE(match);
+  EXPECT_EQ(seenLeds(*match), 3u) << "though all distances agree";
 }
 
 TEST(SolvePose, ReachesTheBoundWithConsistentCovariance) {

@@ -46,7 +46,6 @@ struct BodyTrackerOptions {
   double window = 0.015;         ///< Images this close in time are combined [s, > 0].
   double window_motion = 0.002;  ///< LED motion within the window (std. dev.) [m, > 0].
   double minimum_margin = 15.0;  ///< Least Match::margin to start a body [> 0].
-  MatchOptions match;
 
   double history = 0.2;         ///< Images that are later than this are dropped [s, >= 0].
   double maximum_range = 20.0;  ///< Greatest range of a camera [m, > 0].

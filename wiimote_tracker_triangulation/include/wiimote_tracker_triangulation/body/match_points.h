@@ -7,7 +7,6 @@
 #include <Eigen/Geometry>
 
 #include <array>
-#include <cstddef>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -33,21 +32,10 @@ struct Match {
   double margin = std::numeric_limits<double>::infinity();
 };
 
-struct MatchOptions {
-  /// Cost of an LED without a point, in units of chi^2 [> 0].
-  double unseen_cost = 25.0;
-
-  /// Gate on each distance between two LEDs [standard deviations, > 0].
-  double gate = 4.0;
-
-  std::size_t minimum_seen = 3;  ///< [3..]
-};
-
-/// Minimises chi^2 plus the cost of unseen LEDs over all assignments whose distances pass the gate;
-/// exact. Nothing when fewer than MatchOptions::minimum_seen LEDs can be assigned.
+/// Minimises chi^2 plus a cost for each unseen LED over all assignments that agree with the
+/// distances between LEDs; exact. Nothing when fewer than three LEDs can be assigned.
 std::optional<Match> matchPoints(const Constellation& constellation,
-                                 const std::vector<MeasuredPoint>& points,
-                                 const MatchOptions& options);
+                                 const std::vector<MeasuredPoint>& points);
 
 /// Whether all LEDs lie within half the distance to their nearest neighbour.
 bool isSamePose(const std::vector<Eigen::Vector3d>& leds,

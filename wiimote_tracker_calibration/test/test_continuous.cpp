@@ -140,15 +140,26 @@ TEST(Continuous, NobodyIsAskedWhenClocksWander) {
     WavedLed led(drawTruth(rig, random), 300 + seed, kRate);
     std::map<std::string, double> wander;
     ContinuousCalibration watch(rig, {});
-    led.runUntil(75.0, [&](capture::Image image) {
+    const auto add = [&](capture::Image image) {
       double& error = wander[image.camera];
       error += -error / (kTime * kRate) +
                square::normal(random, kWander * std::sqrt(2.0 / (kTime * kRate)));
       image.stamp += error;
-      const auto proposal = watch.add(image);
+      return watch.add(image);
+    };
+    led.runUntil(75.0, [&](const capture::Image& image) {
+      const auto proposal = add(image);
       ASSERT_TRUE(!proposal || proposal->cause == Cause::kDrift) << proposal->message;
       EXPECT_LT(proposal ? proposal->gain : 0.0, kWorthAsking) << proposal->message;
     });
+    // It has taken these images: it notices a knock.
+    led.truth[1] = turned(led.truth[1], 2.0 * kDegree, random);
+    bool is_found = false;
+    led.runUntil(95.0, [&](const capture::Image& image) {
+      const auto proposal = is_found ? std::nullopt : add(image);
+      is_found = is_found || (proposal && proposal->cause == Cause::kKnock);
+    });
+    EXPECT_TRUE(is_found) << seed;
   }
 }
 
@@ -212,11 +223,23 @@ TEST(Continuous, TheMisfitOfASquareAloneIsNotTakenForDrift) {
     for (geometry::RigCamera& camera : led.truth)
       camera.time_offset = 0.0;
     ContinuousCalibration watch(rig, {});
-    led.runUntil(60.0 / kSlower, [&](capture::Image image) {
+    const auto add = [&](capture::Image image) {
       image.stamp = WavedLed::kClock + kSlower * (image.stamp - WavedLed::kClock);
-      const auto proposal = watch.add(image);
+      return watch.add(image);
+    };
+    led.runUntil(60.0 / kSlower, [&](const capture::Image& image) {
+      const auto proposal = add(image);
       EXPECT_FALSE(proposal) << proposal->message;
     });
+    // It has taken these images: a knock makes a camera suspect.
+    Proposal knock;
+    knock.cause = Cause::kKnock;
+    knock.cameras = {led.truth[1].camera.name};
+    EXPECT_FALSE(watch.isCurrent(knock)) << seed;
+    Random turns(seed);
+    led.truth[1] = turned(led.truth[1], 2.0 * kDegree, turns);
+    led.runUntil(80.0 / kSlower, add);
+    EXPECT_TRUE(watch.isCurrent(knock)) << seed;
   }
 }
 

@@ -283,11 +283,15 @@ TEST(TrackerFit, ACameraThatABodyBlocksIsRight) {
     };
     Scene scene(paperRig(), wanderers(2, 1), options, 1);
     Tracker tracker(paperRig(), exactOptions());
+    IdentityCheck check(scene.leds());
     for (int i = 0; i < 4000; ++i) {  // 10 s
       const SceneImage& image = scene.next();
       tracker.add(image.camera, image.image);
       ASSERT_FALSE(tracker.cameraFault(image.camera)) << lamp << ", image " << i;
+      while (const Snapshot* snapshot = tracker.next())
+        check.look(*snapshot);
     }
+    EXPECT_GT(check.near, 7000u) << lamp;
   }
 }
 
@@ -300,11 +304,15 @@ TEST(TrackerFit, CamerasThatSeeDifferentLedsAreRight) {
   };
   Scene scene(paperRig(), wanderers(2, 1), options, 1);
   Tracker tracker(paperRig(), exactOptions());
+  IdentityCheck check(scene.leds());
   for (int i = 0; i < 4000; ++i) {  // 10 s
     const SceneImage& image = scene.next();
     tracker.add(image.camera, image.image);
     ASSERT_FALSE(tracker.cameraFault(image.camera)) << "image " << i;
+    while (const Snapshot* snapshot = tracker.next())
+      check.look(*snapshot);
   }
+  EXPECT_GT(check.near, 7000u);
 }
 
 TEST(TrackerClocks, DelayedImagesAreNoWrongClocks) {

@@ -278,6 +278,8 @@ TEST(Tracker, ACameraWhoseClockIsSetBackDoesNotHarmTheOthers) {
         << "at the start it is unknown whose clock is right";
     EXPECT_EQ(0u, check.uncovered);
     EXPECT_EQ(0u, check.switches);
+    EXPECT_GT(check.snapshots, 2000u);
+    ASSERT_EQ(4u, snapshots.back().leds.size());
     for (const TrackedLed& led : snapshots.back().leds)
       EXPECT_EQ(4u, led.cameras.size()) << "it is used again";
   }

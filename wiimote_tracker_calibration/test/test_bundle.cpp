@@ -1,5 +1,6 @@
 #include "bundle_synthetic_rig.h"
 #include "expect_says.h"
+#include "refusal_of.h"
 
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
@@ -29,12 +30,7 @@ void align(const SyntheticRig& rig, Reconstruction* solution) {
 }
 
 std::string refusal(const Reconstruction& observed) {
-  try {
-    solve(observed, Options());
-  } catch (const BundleError& error) {
-    return error.what();
-  }
-  return "was not refused";
+  return refusalOf([&] { solve(observed, Options()); });
 }
 
 TEST(Bundle, RecoversARigFromExactPixels) {

@@ -1,4 +1,5 @@
 #include "import_folder.h"
+#include "refusal_of.h"
 #include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/recording.h"
 
@@ -28,12 +29,7 @@ class MultiCamSelfCal : public testing::Test {
   }
 
   std::string refusal() const {
-    try {
-      readRecording(folder.path());
-    } catch (const ImportError& error) {
-      return error.what();
-    }
-    return "was not refused";
+    return refusalOf([&] { readRecording(folder.path()); });
   }
 
   void expectRefusal(const std::string& part) const {

@@ -1,9 +1,9 @@
 #include "board_lenses.h"
 #include "expect_says.h"
+#include "refusal_of.h"
 
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
-#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
@@ -130,12 +130,7 @@ Runs solveOften(int count,
 }
 
 std::string refusal(const Samples& samples, const SolverOptions& options = SolverOptions()) {
-  try {
-    solveIntrinsics(samples, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "was not refused";
+  return refusalOf([&] { solveIntrinsics(samples, options); });
 }
 
 TEST(SolveIntrinsics, ExactPixelsGiveTheExactCamera) {

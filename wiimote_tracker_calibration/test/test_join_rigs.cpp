@@ -3,9 +3,9 @@
 #include "rooms/join_rigs.h"
 
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "samples/grade.h"
 
-#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
@@ -14,22 +14,12 @@
 #include <Eigen/Cholesky>
 
 #include <cmath>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::rooms {
 namespace {
-
-std::string joinRefusal(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
-}
 
 /// Six cameras in a row of two rooms, in the first world.
 std::vector<geometry::Camera> trueCameras() {
@@ -133,9 +123,9 @@ class JoinRigs : public ::testing::Test {
 };
 
 TEST_F(JoinRigs, ARigIsNotJoinedWithItself) {
-  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, first_); }), "the same rig");
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, first_); }), "the same rig");
   geometry::Rig again = exactRig(0, 3, worldFromSecond(), random_);
-  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, again); }), "nothing to join");
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, again); }), "nothing to join");
   // The other way round there is one to add.
   EXPECT_EQ(joinRigs(again, first_).rig.cameras.size(), 4U);
 }
@@ -205,20 +195,18 @@ TEST_F(JoinRigs, ExtensiveRunsHaveErrorsAsLargeAsStated) {
 
 TEST_F(JoinRigs, ACameraThatWasMovedIsNamed) {
   second_.cameras[1].camera.world_from_camera.translation().x() += 0.2;
-  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second_); }),
-              "camera_3 and camera_4 do not stand");
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second_); }), "camera_3 and camera_4 do not stand");
   geometry::Rig second = exactRig(1, 6, worldFromSecond(), random_);
   second.cameras[1].camera.world_from_camera.translation().x() += 0.2;
-  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second); }),
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second); }),
               "camera_3 does not stand to the other shared cameras");
   first_.cameras[3].gravity = Eigen::Vector3d(0.0, -9.8, 0.0);
   second_.cameras[1].gravity = Eigen::Vector3d(0.0, -9.7, 0.9);
-  EXPECT_SAYS(joinRefusal([&] { joinRigs(first_, second_); }),
-              "camera_4 was turned by 5.3 degrees");
+  EXPECT_SAYS(refusalOf([&] { joinRigs(first_, second_); }), "camera_4 was turned by 5.3 degrees");
 }
 
 TEST_F(JoinRigs, WhatCannotBeJoinedIsRefused) {
-  const auto refusal = [this] { return joinRefusal([this] { joinRigs(first_, second_); }); };
+  const auto refusal = [this] { return refusalOf([this] { joinRigs(first_, second_); }); };
   first_.cameras[2].camera.identity = "00:19:1d:00:00:01";
   second_.cameras[0].camera.identity = "00:19:1d:00:00:02";
   EXPECT_SAYS(refusal(), "camera_3 is another device in the second rig");
@@ -308,7 +296,7 @@ TEST_F(JoinRigs, PlacesThatTellTooLittleOrContradictAreRefused) {
   const geometry::Rig first = exactRig(0, 3, Eigen::Isometry3d::Identity(), random_);
   const geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
   std::vector<remap::KnownPoint> common = places(second, 0.003, random_);
-  const auto refusal = [&] { return joinRefusal([&] { joinRigs(first, second, common, 0.003); }); };
+  const auto refusal = [&] { return refusalOf([&] { joinRigs(first, second, common, 0.003); }); };
   common[2].known.z() += 0.2;
   EXPECT_SAYS(refusal(), "place 3 does not lie");
   common.resize(3);

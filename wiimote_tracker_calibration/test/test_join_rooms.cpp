@@ -3,9 +3,8 @@
 #include "rooms/join_rooms.h"
 
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "room_trial.h"
-
-#include <wiimote_tracker_msgs/error.h>
 
 #include <gtest/gtest.h>
 
@@ -21,12 +20,8 @@ namespace {
 
 constexpr double kDegree = M_PI / 180.0;
 
-std::string refusalOf(const TwoRooms& trial, const JoinOptions& options = {}) {
-  try {
-    return "not refused: " + trial.join(options).message;
-  } catch (const Error& error) {
-    return error.what();
-  }
+std::string refusal(const TwoRooms& trial, const JoinOptions& options = {}) {
+  return refusalOf([&] { trial.join(options); });
 }
 
 JoinOptions withSlope(double slope) {
@@ -131,7 +126,7 @@ TEST(JoinRooms, OneLineLeavesTheTiltOpen) {
   const JoinedRooms level = trial.join();
   EXPECT_LT(trial.errorOf(level).tail<3>().norm(), 3.0 * level.position_stddev);
   trial.first_tracks.resize(1);
-  EXPECT_SAYS(refusalOf(trial, withSlope(kNotLevel)), "all passages are on one line");
+  EXPECT_SAYS(refusal(trial, withSlope(kNotLevel)), "all passages are on one line");
 }
 
 TEST(JoinRooms, AWorldMayBeUpsideDownButNotSteep) {
@@ -142,7 +137,7 @@ TEST(JoinRooms, AWorldMayBeUpsideDownButNotSteep) {
   turnSecondWorld(over, &trial);
   EXPECT_LT((trial.join().first_from_second.linear() * over - upright.linear()).norm(), 1e-6);
   turnSecondWorld(Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitX()).matrix(), &trial);
-  EXPECT_SAYS(refusalOf(trial), "the world of the second rig slopes by 17 degrees");
+  EXPECT_SAYS(refusal(trial), "the world of the second rig slopes by 17 degrees");
   trial.join(withSlope(kNotLevel));
 }
 
@@ -164,7 +159,7 @@ TEST(JoinRooms, AnotherLedIsLeftOut) {
   trial.carryOften(2);
   for (PathPoint& point : trial.second_tracks[0])
     point.position += Eigen::Vector3d(1.5, 0.0, 0.0);
-  EXPECT_SAYS(refusalOf(trial), "contradict one another");
+  EXPECT_SAYS(refusal(trial), "contradict one another");
 }
 
 TEST(JoinRooms, OnlyOneLedThatIsCarriedStraightCounts) {
@@ -185,7 +180,7 @@ TEST(JoinRooms, OnlyOneLedThatIsCarriedStraightCounts) {
   // An LED that lies in the room is none that is carried.
   for (PathPoint& point : trial.second_tracks[1])
     point.position = trial.second_tracks[1].front().position;
-  EXPECT_SAYS(refusalOf(trial), "no passage from one room to the other was found");
+  EXPECT_SAYS(refusal(trial), "no passage from one room to the other was found");
 }
 
 TEST(JoinRooms, AnLedSeenFromBothRoomsAtTheSameTimeIsSaid) {
@@ -242,7 +237,7 @@ TEST(JoinRooms, RigsThatShareACameraAreRefused) {
   TwoRooms trial(9, 0.0);
   trial.carryOften(2);
   trial.second.cameras[0].camera.name = trial.first.cameras[0].camera.name;
-  EXPECT_SAYS(refusalOf(trial), "hall_1 is in both rigs");
+  EXPECT_SAYS(refusal(trial), "hall_1 is in both rigs");
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 // A still LED measured with rigs whose errors are known.
 
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "simulated_rig.h"
 
 #include "place/check_place.h"
@@ -42,12 +43,7 @@ capture::CapturedCorner seen(const std::vector<geometry::RigCamera>& truth,
 }
 
 std::string refusal(const geometry::Rig& rig, const capture::CapturedCorner& corner) {
-  try {
-    measurePlace(rig, corner, kPixel);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusalOf([&] { measurePlace(rig, corner, kPixel); });
 }
 
 TEST(CameraParameters, DerivativesAreThoseOfDisplacedCameras) {

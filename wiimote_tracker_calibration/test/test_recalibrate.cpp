@@ -1,11 +1,11 @@
 // A camera that was moved or replaced, solved against the others from a waved LED.
 
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "waved_led.h"
 
 #include "recalibrate/recalibrate_camera.h"
 
-#include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
@@ -65,12 +65,7 @@ Eigen::Matrix<double, 7, 7> covarianceOf(const geometry::Rig& rig, std::size_t c
 }
 
 std::string refusal(const geometry::Rig& rig, const Request& request, const Options& options = {}) {
-  try {
-    recalibrateCamera(rig, request, options);
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return refusalOf([&] { recalibrateCamera(rig, request, options); });
 }
 
 TEST(Recalibrate, FindsAMovedCamera) {
@@ -199,7 +194,7 @@ TEST(Recalibrate, RefusesWithTheReason) {
   const geometry::Rig rig = paperRigWith(wellCalibrated());
   WavedLed waved(rig.cameras, 31);
   const Request good = record(&waved, "camera_2");
-  EXPECT_EQ(refusal(rig, good), "");
+  EXPECT_EQ(refusal(rig, good), "not refused");
 
   Request request = good;
   request.camera = "camera_9";

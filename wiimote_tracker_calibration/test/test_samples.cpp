@@ -1,5 +1,6 @@
 // Solving all that was captured, and the verdict on it. All simulated.
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "simulated_square.h"
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
@@ -19,22 +20,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <random>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::samples {
 namespace {
-
-std::string refusalOf(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "not refused";
-}
 
 /// The same in all bits, as far as anybody reads it.
 void expectSame(const Solution& a, const Solution& b) {

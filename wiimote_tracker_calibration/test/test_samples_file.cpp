@@ -3,6 +3,7 @@
 #include "samples/samples_file.h"
 
 #include "expect_says.h"
+#include "refusal_of.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/atomic_file.h>
@@ -41,12 +42,7 @@ class SamplesFile : public ::testing::Test {
   }
 
   std::string refusal() {
-    try {
-      readSamplesFile(path_);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "not refused";
+    return refusalOf([&] { readSamplesFile(path_); });
   }
 
   std::filesystem::path folder_;

@@ -1,10 +1,10 @@
 #include "bundle_synthetic_rig.h"
 #include "expect_says.h"
+#include "refusal_of.h"
 
 #include "../src/bundle/birge_ratio.h"
 #include "../src/bundle/certainty.h"
 
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
@@ -38,12 +38,7 @@ SelfCalibration solved(const SyntheticRig& rig, const SelfCalibrationOptions& op
 }
 
 std::string refusal(const SyntheticRig& rig, const SelfCalibrationOptions& options = {}) {
-  try {
-    solved(rig, options);
-  } catch (const BundleError& error) {
-    return error.what();
-  }
-  return "was not refused";
+  return refusalOf([&] { solved(rig, options); });
 }
 
 /// RMS distance of the points from the truth after the best similarity [m].

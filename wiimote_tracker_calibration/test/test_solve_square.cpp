@@ -1,7 +1,7 @@
-#include "square/error.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "simulated_square.h"
 
 #include <gtest/gtest.h>
@@ -16,15 +16,10 @@
 namespace wiimote_tracker::square {
 namespace {
 
-std::string refusalOf(const SquareLayout& layout,
-                      const std::vector<CameraSightings>& sightings,
-                      const SolveOptions& options = SolveOptions()) {
-  try {
-    solveSquare(layout, sightings, options);
-  } catch (const SquareError& error) {
-    return error.what();
-  }
-  return "not refused";
+std::string refusal(const SquareLayout& layout,
+                    const std::vector<CameraSightings>& sightings,
+                    const SolveOptions& options = SolveOptions()) {
+  return refusalOf([&] { solveSquare(layout, sightings, options); });
 }
 
 TEST(Solution, HasNoOffsetsOfCornersBeforeItIsSolved) {
@@ -213,7 +208,7 @@ TEST_F(FourCameras, ThreeCornersWhosePlaceIsNotClearAreLeftOut) {
   SolveOptions careful;
   careful.branch_odds = 1e300;
   simulated_.sightings = {simulated_.sightings[0], simulated_.sightings[1]};
-  const std::string text = refusalOf(layout_, simulated_.sightings, careful);
+  const std::string text = refusal(layout_, simulated_.sightings, careful);
   EXPECT_SAYS(text, "camera_2 saw only three corners and was left out");
   EXPECT_SAYS(text, "does not tell which");
 }
@@ -247,58 +242,58 @@ TEST(WideLens, IsSolvedExactly) {
 TEST_F(FourCameras, FewerThanTwoCamerasAreRefusedByName) {
   for (std::size_t i = 1; i < 4; ++i)
     simulated_.sightings[i].corners[i].reset();
-  const std::string text = refusalOf(layout_, simulated_.sightings);
+  const std::string text = refusal(layout_, simulated_.sightings);
   EXPECT_SAYS(text, "at least two cameras");
   EXPECT_SAYS(text, "camera_2 did not see corner 2");
-  EXPECT_SAYS(refusalOf(layout_, {simulated_.sightings[0]}), "at least two cameras");
+  EXPECT_SAYS(refusal(layout_, {simulated_.sightings[0]}), "at least two cameras");
 }
 
 TEST_F(FourCameras, FewerThanFourCornersAreRefused) {
   for (CameraSightings& camera : simulated_.sightings)
     camera.corners[3].reset();
-  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "only 3 of 4 corners");
-  EXPECT_SAYS(refusalOf(layout_, {}), "only 0 of 4 corners");
+  EXPECT_SAYS(refusal(layout_, simulated_.sightings), "only 3 of 4 corners");
+  EXPECT_SAYS(refusal(layout_, {}), "only 0 of 4 corners");
 }
 
 TEST_F(FourCameras, CrossingCornersAreRefused) {
   for (CameraSightings& camera : simulated_.sightings)
     std::swap(camera.corners[2], camera.corners[3]);
-  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "out of order");
+  EXPECT_SAYS(refusal(layout_, simulated_.sightings), "out of order");
 }
 
 TEST_F(FourCameras, CornersOnALineOrInOnePlaceAreRefused) {
   std::vector<CameraSightings> line = simulated_.sightings;
   for (std::size_t i = 0; i < 4; ++i)
     line[i].corners[2] = simulated_.truth[i].project(Eigen::Vector3d(1.25, 0.0, 0.0)).value();
-  EXPECT_SAYS(refusalOf(layout_, line), "on one line");
+  EXPECT_SAYS(refusal(layout_, line), "on one line");
   std::vector<CameraSightings> twice = simulated_.sightings;
   for (std::size_t i = 0; i < 4; ++i)
     twice[i].corners[2] = *twice[i].corners[1] + Eigen::Vector2d(0.5, 0.5);
-  EXPECT_SAYS(refusalOf(layout_, twice), "in one place");
+  EXPECT_SAYS(refusal(layout_, twice), "in one place");
 }
 
 TEST_F(FourCameras, ACornerInsideTheOthersIsRefused) {
   for (std::size_t i = 0; i < 4; ++i)
     simulated_.sightings[i].corners[2] =
         simulated_.truth[i].project(Eigen::Vector3d(0.6, 0.6, 0.0)).value();
-  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "do not look like a square");
+  EXPECT_SAYS(refusal(layout_, simulated_.sightings), "do not look like a square");
 }
 
 TEST_F(FourCameras, BadSidesAndHeightsAreRefused) {
   for (const double side : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                             std::numeric_limits<double>::infinity()}) {
-    EXPECT_SAYS(refusalOf(rectangle(side, 1.0), simulated_.sightings), "first to the second");
-    EXPECT_SAYS(refusalOf(rectangle(1.0, side), simulated_.sightings), "second to the third");
+    EXPECT_SAYS(refusal(rectangle(side, 1.0), simulated_.sightings), "first to the second");
+    EXPECT_SAYS(refusal(rectangle(1.0, side), simulated_.sightings), "second to the third");
   }
   layout_.led_height = -0.1;
-  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "height of the LED");
+  EXPECT_SAYS(refusal(layout_, simulated_.sightings), "height of the LED");
 }
 
 TEST_F(FourCameras, AMirroredImageIsRefusedAndNamed) {
   // Raw pixels whose y axis grows upwards fit a square just as well.
   for (auto& corner : simulated_.sightings[2].corners)
     corner->y() = 767.0 - corner->y();
-  const std::string text = refusalOf(layout_, simulated_.sightings);
+  const std::string text = refusal(layout_, simulated_.sightings);
   EXPECT_SAYS(text, "clockwise for camera_3");
 }
 
@@ -310,11 +305,11 @@ TEST_F(FourCameras, AWorldMirroredInAllCamerasIsRefusedByGravity) {
     for (auto& corner : camera.corners)
       corner->y() = 767.0 - corner->y();
   }
-  EXPECT_SAYS(refusalOf(layout_, simulated_.sightings), "against its accelerometer");
+  EXPECT_SAYS(refusal(layout_, simulated_.sightings), "against its accelerometer");
 }
 
 TEST_F(FourCameras, SidesThatAreNotThoseOfTheSquareAreRefused) {
-  EXPECT_SAYS(refusalOf(rectangle(2.5, 2.0), simulated_.sightings), "check the sides");
+  EXPECT_SAYS(refusal(rectangle(2.5, 2.0), simulated_.sightings), "check the sides");
 }
 
 TEST_F(FourCameras, ACornerFarFromItsPlaceIsNamed) {

@@ -278,7 +278,7 @@ TEST(ExtensiveWave, SlowErrorsOfTheStampsAreStatedInTheOffsets) {
   // Clocks that wander by more than the options allow for the offsets are refused.
   WaveOptions options = optionsFor(scene);
   options.wander = 0.002;
-  EXPECT_SAYS(refusalOf(simulateWave(scene, 1).recording, options), "the clock of camera_2");
+  EXPECT_SAYS(refusal(simulateWave(scene, 1).recording, options), "the clock of camera_2");
 }
 
 TEST(Wave, ApparentJumpOfAClockWithoutWhichNoImageFits) {

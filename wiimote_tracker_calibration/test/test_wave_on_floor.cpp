@@ -1,11 +1,13 @@
 // The world of a wand that lies on the floor before it is waved, against simulations whose truth is
 // known, and what is refused.
 #include "expect_says.h"
+#include "refusal_of.h"
 #include "wave_scenes.h"
 
 #include "wave/wand_on_floor.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
@@ -55,13 +57,8 @@ State stood(const WaveScene& scene, const SimulatedWave& wave) {
   return state;
 }
 
-std::string refusalOf(const WaveScene& scene, const SimulatedWave& wave) {
-  try {
-    stood(scene, wave);
-  } catch (const geometry::Error& error) {
-    return error.what();
-  }
-  return "not refused";
+std::string refusal(const WaveScene& scene, const SimulatedWave& wave) {
+  return refusalOf([&] { stood(scene, wave); });
 }
 
 TEST(WandOnFloor, GivesALevelWorldWithItsOriginAtTheNearerEnd) {
@@ -147,7 +144,7 @@ TEST(WandOnFloor, OneAccelerometerIsEnough) {
   EXPECT_GT(solution.rig.covariance.diagonal().head<2>().sum(), 1.5 * all);
   EXPECT_GT(solution.rig.cameras[0].camera.center().z(), 1.8);
   wave.recording.cameras[3].sightings.gravity.reset();
-  EXPECT_SAYS(refusalOf(scene, wave), "no camera has an accelerometer");
+  EXPECT_SAYS(refusal(scene, wave), "no camera has an accelerometer");
 }
 
 TEST(WandOnFloor, ACameraThatSeesOneEndOnlyDoesNotCount) {
@@ -162,7 +159,7 @@ TEST(WandOnFloor, ACameraThatSeesOneEndOnlyDoesNotCount) {
   hideFrom(2);
   EXPECT_NEAR(stood(scene, wave).cameras[3].center().z(), 2.0, 0.02);
   hideFrom(1);
-  EXPECT_SAYS(refusalOf(scene, wave), "only 1 cameras saw both LEDs of the wand");
+  EXPECT_SAYS(refusal(scene, wave), "only 1 cameras saw both LEDs of the wand");
 }
 
 TEST(WandOnFloor, AWandThatMovesHasNotBeenLaidDown) {
@@ -172,7 +169,7 @@ TEST(WandOnFloor, AWandThatMovesHasNotBeenLaidDown) {
     for (Eigen::Vector2d& spot : frame->spots)
       spot.x() += 20.0 * std::fmod(frame->stamp, 100.0);
   });
-  EXPECT_SAYS(refusalOf(scene, wave), "at rest for 2 s");
+  EXPECT_SAYS(refusal(scene, wave), "at rest for 2 s");
 }
 
 TEST(WandOnFloor, ACameraThatSeesTwoLampsIsNamed) {
@@ -180,7 +177,7 @@ TEST(WandOnFloor, ACameraThatSeesTwoLampsIsNamed) {
   SimulatedWave wave = simulateWave(scene, 9);
   for (Frame& frame : wave.recording.cameras[3].frames)
     frame.spots = {Eigen::Vector2d(100.0, 100.0), Eigen::Vector2d(300.0, 200.0)};
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_4 saw two lights at rest");
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)), "camera_4 saw two lights at rest");
 }
 
 /// Lays the wand elsewhere: its LEDs in the world of the floor [m].
@@ -203,16 +200,16 @@ TEST(WandOnFloor, TheOriginIsTheEndNearerToTheFirstCamera) {
   EXPECT_LT(before, -4.0);
   EXPECT_NEAR(after, before, 0.1);
   layAt(scene, {Eigen::Vector3d(0.0, -0.25, 0.0), Eigen::Vector3d(0.0, 0.25, 0.0)}, &wave);
-  EXPECT_SAYS(refusalOf(scene, wave), "about as far from camera_1");
+  EXPECT_SAYS(refusal(scene, wave), "about as far from camera_1");
 }
 
 TEST(WandOnFloor, AWandOnAStepOrOtherLightsAreRefused) {
   const WaveScene scene = floorScene();
   SimulatedWave wave = simulateWave(scene, 7);
   layAt(scene, {Eigen::Vector3d::Zero(), Eigen::Vector3d(0.48, 0.0, 0.14)}, &wave);
-  EXPECT_SAYS(refusalOf(scene, wave), "16 degrees from level");
+  EXPECT_SAYS(refusal(scene, wave), "16 degrees from level");
   layAt(scene, {Eigen::Vector3d::Zero(), Eigen::Vector3d(1.2, 0.0, 0.0)}, &wave);
-  EXPECT_SAYS(refusalOf(scene, wave), "is not the wand of 0.50 m");
+  EXPECT_SAYS(refusal(scene, wave), "is not the wand of 0.50 m");
 }
 
 /// How often an adjustment was begun before a refusal with these words.

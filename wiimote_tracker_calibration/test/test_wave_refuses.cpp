@@ -17,33 +17,33 @@ namespace wiimote_tracker::wave {
 namespace {
 
 /// What solving this scene says when it refuses.
-std::string refusalOf(const WaveScene& scene) {
-  return refusalOf(simulateWave(scene, 1).recording, optionsFor(scene));
+std::string refusal(const WaveScene& scene) {
+  return refusal(simulateWave(scene, 1).recording, optionsFor(scene));
 }
 
 TEST(WaveRefuses, NothingThatGivesScale) {
   WaveScene scene;
   scene.square = false;
-  EXPECT_SAYS(refusalOf(scene), "the scale is not determined");
+  EXPECT_SAYS(refusal(scene), "the scale is not determined");
 }
 
 TEST(WaveRefuses, OneCamera) {
   WaveScene scene;
   scene.camera_count = 1;
-  EXPECT_SAYS(refusalOf(scene), "one camera alone");
+  EXPECT_SAYS(refusal(scene), "one camera alone");
 }
 
 TEST(WaveRefuses, TooFewImages) {
   WaveScene scene;
   SimulatedWave wave = simulateWave(scene, 1);
   wave.recording.cameras[2].frames.resize(60);
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_3 saw the LED in");
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)), "camera_3 saw the LED in");
 }
 
 TEST(WaveRefuses, ShortRecording) {
   WaveScene scene;
   scene.duration = 1.8;
-  EXPECT_SAYS(refusalOf(scene), "15 s or more");
+  EXPECT_SAYS(refusal(scene), "15 s or more");
 }
 
 TEST(WaveRefuses, NoCameraOfALongWaveThatSharesFewSeconds) {
@@ -73,7 +73,7 @@ TEST(WaveRefuses, CamerasThatShareNothing) {
   wave.recording.cameras[3].sightings.corners = {};
   for (Frame& frame : wave.recording.cameras[3].frames)
     frame.stamp += 60.0;
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)),
               "camera_4 and the other cameras hardly ever saw the LED at the same time");
 }
 
@@ -86,7 +86,7 @@ TEST(ExtensiveWaveRefuses, SlowLed) {
   scene.duration = 30.0;
   scene.rate = 40.0;
   const SimulatedWave wave = simulateWave(scene, path, random);
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "wave faster");
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)), "wave faster");
 }
 
 TEST(WaveRefuses, LedInAPlaneOrOnALine) {
@@ -94,10 +94,10 @@ TEST(WaveRefuses, LedInAPlaneOrOnALine) {
   std::mt19937_64 random(1);
   SimulatedPath path(0.0, random);
   path.reach.y() = 0.002;
-  EXPECT_SAYS(refusalOf(simulateWave(scene, path, random).recording, optionsFor(scene)),
+  EXPECT_SAYS(refusal(simulateWave(scene, path, random).recording, optionsFor(scene)),
               "in a plane only");
   path.reach.z() = 0.002;
-  EXPECT_SAYS(refusalOf(simulateWave(scene, path, random).recording, optionsFor(scene)),
+  EXPECT_SAYS(refusal(simulateWave(scene, path, random).recording, optionsFor(scene)),
               "along a line only");
 }
 
@@ -109,10 +109,10 @@ TEST(WaveRefuses, MirroredImage) {
   for (Frame& frame : camera.frames)
     std::for_each(frame.spots.begin(), frame.spots.end(), [&](auto& spot) { mirror(&spot); });
   // The square was captured before: only the wave is mirrored.
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "mirrored");
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)), "mirrored");
   for (auto& corner : camera.sightings.corners)
     mirror(&*corner);
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)),
               "but clockwise for camera_2: an image is mirrored");
   // Without corners the images nearly fit to a place on the other side of the LED, and any check
   // may be the first to fail. solveSamples() diagnoses contradictions (samples/diagnose.h).
@@ -129,7 +129,7 @@ TEST(WaveRefuses, CameraThatWasMovedAfterTheSquare) {
                               Eigen::AngleAxisd(0.06, Eigen::Vector3d::UnitY()).toRotationMatrix();
   const SimulatedWave after = simulateWave(moved, 1);
   wave.recording.cameras[2].frames = after.recording.cameras[2].frames;
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "camera_3");
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)), "camera_3");
 }
 
 TEST(WaveRefuses, AccelerometerThatContradictsItsCamera) {
@@ -138,7 +138,7 @@ TEST(WaveRefuses, AccelerometerThatContradictsItsCamera) {
   addGravity(&wave);
   Eigen::Vector3d& second = *wave.recording.cameras[1].sightings.gravity;
   second = Eigen::AngleAxisd(0.5, Eigen::Vector3d::UnitX()) * second;
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)),
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)),
               "the world as camera_2 sees it is tilted by");
 }
 
@@ -151,7 +151,7 @@ TEST(WaveRefuses, LensThatCannotBe) {
     camera.sightings.intrinsics.fx *= 1.08;
     camera.sightings.intrinsics.fy *= 1.08;
   }
-  EXPECT_SAYS(refusalOf(wave.recording, optionsFor(scene)), "no lens near its starting intrinsics");
+  EXPECT_SAYS(refusal(wave.recording, optionsFor(scene)), "no lens near its starting intrinsics");
 }
 
 TEST(WaveRefuses, ValuesOutOfRange) {
@@ -160,11 +160,11 @@ TEST(WaveRefuses, ValuesOutOfRange) {
   const WaveOptions options = optionsFor(scene);
   for (const double length : {-0.5, 50.0, std::nan("")}) {  // 0.5 m typed in centimetres
     wave.recording.wand = Wand{length};
-    EXPECT_SAYS(refusalOf(wave.recording, options), "wand_length");
+    EXPECT_SAYS(refusal(wave.recording, options), "wand_length");
   }
   wave.recording.wand.reset();
   wave.recording.cameras[1].frames.back().stamp += 1e6;
-  EXPECT_SAYS(refusalOf(wave.recording, options), "same clock");
+  EXPECT_SAYS(refusal(wave.recording, options), "same clock");
 }
 
 }  // namespace

@@ -1,12 +1,11 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
 #define WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
 
+#include "refusal_of.h"
 #include "wave_trial.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
-
-#include <wiimote_tracker_triangulation/geometry/error.h>
 
 #include <Eigen/Core>
 
@@ -48,13 +47,8 @@ inline VolumeError errorOf(const WaveScene& scene,
 }
 
 /// What solving says when it refuses.
-inline std::string refusalOf(const Recording& recording, const WaveOptions& options) {
-  try {
-    solveWave(recording, options);
-  } catch (const geometry::Error& error) {
-    return error.what();
-  }
-  return "not refused";
+inline std::string refusal(const Recording& recording, const WaveOptions& options) {
+  return refusalOf([&] { solveWave(recording, options); });
 }
 
 }  // namespace wiimote_tracker::wave

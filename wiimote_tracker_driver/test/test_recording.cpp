@@ -2,6 +2,7 @@
 #include "contains.h"
 #include "recording/reader.h"
 #include "recording/recorder.h"
+#include "refusal_of.h"
 #include "temporary_folder.h"
 #include "waiting.h"
 
@@ -63,13 +64,7 @@ Contents read(const std::string& bytes) {
 }
 
 std::string refusal(const std::string& bytes) {
-  try {
-    read(bytes);
-  } catch (const BadRecording& e) {
-    return e.what();
-  }
-  ADD_FAILURE() << "not refused";
-  return "";
+  return refusalOf([&] { read(bytes); });
 }
 
 TEST(RecordingFormat, HandWrittenBytesAreRead) {

@@ -1,6 +1,7 @@
 // A recording of the driver's core, played back to it.
 #include "contains.h"
 #include "recording/reader.h"
+#include "refusal_of.h"
 #include "replays.h"
 #include "waiting.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
@@ -209,12 +210,7 @@ TEST_F(Replays, NoBytesMakeItCrashOrHang) {
 
 TEST_F(Replays, FilesThatCannotBePlayedAreRefusedByName) {
   const auto refusal = [](const std::string& path) -> std::string {
-    try {
-      Replay replay(path);
-    } catch (const BadRecording& e) {
-      return e.what();
-    }
-    return "";
+    return refusalOf([&] { Replay replay(path); });
   };
   EXPECT_TRUE(contains(refusal(folder_ / "none.wiirec"), folder_ / "none.wiirec"));
   EXPECT_TRUE(contains(refusal(folder_.path()), folder_.path()));

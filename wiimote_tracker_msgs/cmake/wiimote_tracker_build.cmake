@@ -86,6 +86,7 @@ macro(_wiimote_tracker_link_test name)
   # libraries under test stay as users run them.
   target_compile_options(${name} PRIVATE -O1
     $<$<CXX_COMPILER_ID:GNU>:-Wno-maybe-uninitialized>)
+  target_include_directories(${name} PRIVATE ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support)
   _wiimote_tracker_link(${name} wiimote_tracker_precompiled_for_tests)
 endmacro()
 
@@ -142,9 +143,8 @@ endfunction()
 # wiimote_tracker_check_parameters(NAME): gives this test, which links yaml-cpp, the function of
 # documented_parameters.h, and the package's folder config as CONFIG_FOLDER.
 function(wiimote_tracker_check_parameters name)
-  set(support ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support)
-  target_sources(${name} PRIVATE ${support}/documented_parameters.cpp)
-  target_include_directories(${name} PRIVATE ${support})
+  target_sources(${name} PRIVATE
+    ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support/documented_parameters.cpp)
   target_compile_definitions(${name} PRIVATE CONFIG_FOLDER="${PROJECT_SOURCE_DIR}/config")
 endfunction()
 

@@ -3,6 +3,7 @@
 #include "body/bodies_file.h"
 #include "body/body_scene.h"
 #include "body/learn_constellation.h"
+#include "refusal_of.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
@@ -26,16 +27,11 @@ using test::fourLeds;
 using test::noise;
 
 std::string messageOf(const Constellation& body) {
-  try {
-    body.check();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "good";
+  return refusalOf([&] { body.check(); });
 }
 
 TEST(Constellation, SaysWhatIsWrong) {
-  EXPECT_EQ(messageOf(fourLeds()), "good");
+  EXPECT_EQ(messageOf(fourLeds()), "not refused");
   EXPECT_NE(messageOf({"", fourLeds().leds}).find("no name"), std::string::npos);
   EXPECT_NE(messageOf({"a", {{0, 0, 0}, {0.1, 0, 0}}}).find("2 LEDs"), std::string::npos);
   EXPECT_NE(messageOf({"a", {{0, 0, 0}, {0.1, 0, 0}, {0.3, 0, 0}}}).find("one line"),
@@ -140,7 +136,7 @@ TEST(Constellation, SymmetricOnesNeedLabels) {
   Constellation square{"square", {{0, 0, 0}, {0.1, 0, 0}, {0.1, 0.1, 0}, {0, 0.1, 0}}};
   EXPECT_NE(messageOf(square).find("looks the same within 0.0 mm"), std::string::npos);
   square.labels = {"a", "b", "c", "d"};
-  EXPECT_EQ(messageOf(square), "good");
+  EXPECT_EQ(messageOf(square), "not refused");
   EXPECT_EQ(square.labelOf(2), "c");
   square.labels[3] = "a";
   EXPECT_NE(messageOf(square).find("labels"), std::string::npos);
@@ -198,15 +194,10 @@ TEST(LearnConstellation, ItsCovarianceIsConsistent) {
 TEST(LearnConstellation, SaysWhatIsWrong) {
   Random random(42);
   const auto messageFor = [](const std::vector<LedsInstant>& instants) {
-    try {
-      learnConstellation("thing", instants);
-    } catch (const Error& e) {
-      return std::string(e.what());
-    }
-    return std::string("learned");
+    return refusalOf([&] { learnConstellation("thing", instants); });
   };
   std::vector<LedsInstant> good = lookAt(fourLeds(), 0.001, random);
-  EXPECT_EQ(messageFor(good), "learned");
+  EXPECT_EQ(messageFor(good), "not refused");
   EXPECT_NE(messageFor({good.begin(), good.begin() + 20}).find("20 instants"), std::string::npos);
   EXPECT_NE(messageFor({}).find("0 LEDs"), std::string::npos);
   std::vector<LedsInstant> two = good;
@@ -227,7 +218,7 @@ TEST(LearnConstellation, SaysWhatIsWrong) {
           .constellation;
   EXPECT_NE(messageOf(symmetric).find("looks the same"), std::string::npos);
   symmetric.labels = {"left", "right", "top"};
-  EXPECT_EQ(messageOf(symmetric), "good");
+  EXPECT_EQ(messageOf(symmetric), "not refused");
 }
 
 /// A file of this process, which is removed at the end.
@@ -282,12 +273,7 @@ TEST_F(BodiesFile, ReadsMarkerPositions) {
 TEST_F(BodiesFile, DamagedOnesAreRefusedByName) {
   const auto messageFor = [&](const std::string& content) {
     std::ofstream(file_) << content;
-    try {
-      readBodies(file_);
-    } catch (const geometry::Error& e) {
-      return std::string(e.what());
-    }
-    return std::string("accepted");
+    return refusalOf([&] { readBodies(file_); });
   };
   const std::string head = "format: wiimote_tracker_bodies\nversion: 1\nbodies:\n";
   EXPECT_NE(messageFor("a: [1").find("not YAML"), std::string::npos);

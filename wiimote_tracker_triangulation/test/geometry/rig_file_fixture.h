@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_RIG_FILE_FIXTURE_H
 
 #include "geometry/random_rigs.h"
-#include "wiimote_tracker_triangulation/geometry/error.h"
+#include "refusal_of.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
 
 #include <gtest/gtest.h>
@@ -32,14 +32,9 @@ class RigFile : public testing::Test {
 
   void put(const std::string& content) { std::ofstream(path_, std::ios::binary) << content; }
 
-  /// The error of readRigFile; empty when the file is accepted.
+  /// The error of readRigFile.
   static std::string complaint(const std::string& path) {
-    try {
-      readRigFile(path);
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "";
+    return refusalOf([&] { readRigFile(path); });
   }
 
   std::string complaintAbout(const std::string& content) {

@@ -1,4 +1,5 @@
 // rig.yaml: damaged, foreign and unusual files are refused.
+#include "refusal_of.h"
 #include "rig_file_fixture.h"
 
 #include <boost/locale/encoding_utf.hpp>
@@ -16,8 +17,8 @@ TEST_F(RigFile, IsRefusedWhenCutOffAnywhere) {
   write(rig);
   // Without the last byte only the line's end is missing.
   for (std::size_t size = 0; size + 1 < written_.size(); ++size)
-    ASSERT_NE("", complaintAbout(written_.substr(0, size))) << size << " bytes";
-  EXPECT_EQ("", complaintAbout(written_.substr(0, written_.size() - 1)));
+    ASSERT_NE("not refused", complaintAbout(written_.substr(0, size))) << size << " bytes";
+  EXPECT_EQ("not refused", complaintAbout(written_.substr(0, written_.size() - 1)));
 }
 
 TEST_F(RigFile, ListThatEndsWithAColonIsRefused) {
@@ -29,14 +30,7 @@ TEST_F(RigFile, ListThatEndsWithAColonIsRefused) {
 
 TEST_F(RigFile, ThatCouldNotBeReadIsNotWritten) {
   write(fullRig());
-  const auto refusal = [&](const Rig& rig) {
-    try {
-      writeRigFile(rig, path_);
-    } catch (const FileError& e) {
-      return std::string(e.what());
-    }
-    return std::string();
-  };
+  const auto refusal = [&](const Rig& rig) { return refusalOf([&] { writeRigFile(rig, path_); }); };
   Rig rig = fullRig();
   rig.zones[0].name = "hall:]";
   EXPECT_NE(std::string::npos, refusal(rig).find("':]'")) << refusal(rig);

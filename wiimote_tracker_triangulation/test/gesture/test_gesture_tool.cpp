@@ -2,6 +2,7 @@
 #include "gesture_tool/dataset.h"
 #include "gesture_tool/evaluate.h"
 #include "gesture_tool/report.h"
+#include "refusal_of.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <gtest/gtest.h>
@@ -40,12 +41,7 @@ class GestureTool : public testing::Test {
   }
 
   std::string messageOf(const std::string& folder) {
-    try {
-      readPeople((folder_ / folder).string());
-    } catch (const Error& e) {
-      return e.what();
-    }
-    return "accepted";
+    return refusalOf([&] { readPeople((folder_ / folder).string()); });
   }
 
   fs::path folder_;

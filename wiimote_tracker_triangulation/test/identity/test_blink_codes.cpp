@@ -1,4 +1,5 @@
 // Blink codes, their file, and the table and sketch for a microcontroller.
+#include "refusal_of.h"
 #include "tools/blink_codes/listing.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
@@ -155,29 +156,18 @@ TEST(Schemes, ChosenWordsFollowTheRules) {
   EXPECT_THROW(chooseWords(1000000), Error);
 }
 
-/// The refusal of codes; empty when they are accepted.
-template <typename Make>
-std::string refusal(Make make) {
-  try {
-    make();
-  } catch (const geometry::Error& e) {
-    return e.what();
-  }
-  return "";
-}
-
 TEST(BlinkCodes, IndistinguishableCodesAreRefusedByName) {
   const auto cyclic = [](const std::string& one, const std::string& other) {
-    return refusal([&] { cyclicCodes({{"hand", one}, {"head", other}}, 0.02, 0.01); });
+    return refusalOf([&] { cyclicCodes({{"hand", one}, {"head", other}}, 0.02, 0.01); });
   };
   EXPECT_NE(std::string::npos, cyclic("0011", "1001").find("hand and head blink alike"));
   EXPECT_NE(std::string::npos, cyclic("0011", "1111").find("head is always on"));
   EXPECT_NE(std::string::npos, cyclic("0011", "0000").find("head is never on"));
   EXPECT_NE(std::string::npos, cyclic("0011", "01011").find("head has another length"));
   EXPECT_NE(std::string::npos, cyclic("0011", "01x1").find("'01x1'"));
-  EXPECT_EQ("", cyclic("0011", "0101"));
+  EXPECT_EQ("not refused", cyclic("0011", "0101"));
   const auto duty = [](double share, double shortest, double longest) {
-    return refusal([&] { dutyCodes({{"hand", 0.5}, {"head", share}}, shortest, longest); });
+    return refusalOf([&] { dutyCodes({{"hand", 0.5}, {"head", share}}, shortest, longest); });
   };
   EXPECT_NE(std::string::npos, duty(0.52, 0.1, 0.1).find("hand and head blink alike"));
   EXPECT_NE(std::string::npos, duty(1.0, 0.1, 0.1).find("share of head"));
@@ -185,18 +175,18 @@ TEST(BlinkCodes, IndistinguishableCodesAreRefusedByName) {
   EXPECT_NE(std::string::npos, duty(0.7, 0.2, 0.1).find("period"));
   EXPECT_NE(std::string::npos, duty(0.7, 0.1, std::nan("")).find("period"));
   EXPECT_NE(std::string::npos, duty(0.7, 0.02, 0.5).find("ten times"));
-  EXPECT_EQ("", duty(0.56, 0.1, 0.5));
-  EXPECT_NE(std::string::npos, refusal([] {
+  EXPECT_EQ("not refused", duty(0.56, 0.1, 0.5));
+  EXPECT_NE(std::string::npos, refusalOf([] {
                                  dutyCodes({{"a b", 0.5}}, 0.1, 0.1);
                                }).find("'a b' is no label"));
-  EXPECT_NE(std::string::npos, refusal([] {
+  EXPECT_NE(std::string::npos, refusalOf([] {
                                  dutyCodes({{"a", 0.5}, {"a", 0.7}}, 0.1, 0.1);
                                }).find("a is there twice"));
-  EXPECT_NE(std::string::npos, refusal([] { dutyCodes({}, 0.1, 0.1); }).find("no LEDs"));
+  EXPECT_NE(std::string::npos, refusalOf([] { dutyCodes({}, 0.1, 0.1); }).find("no LEDs"));
   std::vector<DutyLed> nine;
   for (int i = 0; i < 9; ++i)
     nine.push_back({"led" + std::to_string(i), 0.1 + 0.1 * i - 0.05});
-  EXPECT_NE(std::string::npos, refusal([&] { dutyCodes(nine, 0.1, 0.1); }).find("at most 8"));
+  EXPECT_NE(std::string::npos, refusalOf([&] { dutyCodes(nine, 0.1, 0.1); }).find("at most 8"));
 }
 
 class CodesFile : public testing::Test {
@@ -213,8 +203,8 @@ class CodesFile : public testing::Test {
     std::ofstream(file_) << content;
     return readBlinkCodes(file_);
   }
-  std::string refusalOf(const std::string& content) {
-    return refusal([&] { read(content); });
+  std::string refusal(const std::string& content) {
+    return refusalOf([&] { read(content); });
   }
 
   std::string file_;
@@ -240,7 +230,7 @@ TEST_F(CodesFile, BothSchemesAreRead) {
 TEST_F(CodesFile, ItsFaultsAreNamed) {
   const std::string leds = "leds:\n  - {label: hand, share: 0.7}\n";
   const auto fault = [&](const std::string& content, const std::string& part) {
-    const std::string said = refusalOf(content);
+    const std::string said = refusal(content);
     EXPECT_EQ(0u, said.find(file_)) << said;
     EXPECT_NE(std::string::npos, said.find(part)) << said;
   };

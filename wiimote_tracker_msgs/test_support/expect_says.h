@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_EXPECT_SAYS_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_EXPECT_SAYS_H
+#ifndef WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_EXPECT_SAYS_H
+#define WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_EXPECT_SAYS_H
 
 #include <gtest/gtest.h>
 
@@ -8,4 +8,4 @@
 /// The text contains this part. A failure shows the whole text.
 #define EXPECT_SAYS(text, part) EXPECT_PRED_FORMAT2(testing::IsSubstring, part, text)
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_EXPECT_SAYS_H
+#endif  // WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_EXPECT_SAYS_H

@@ -54,6 +54,15 @@ class Samples : public Node {
       return status_->get()->step == CalibrationStatus::IDLE;
     }));
   }
+
+  /// The square and a wave, from the file of an earlier test if there is one.
+  static void loadSquareAndWave() {
+    if (!std::ifstream(folder_ + "/samples.yaml")) {
+      captureSquareAndWave();
+      ASSERT_TRUE(save("").success);
+    }
+    ASSERT_TRUE(load("", "").success);
+  }
 };
 
 TEST_F(Samples, NothingToSaveIsRefusedAndAFailedLoadChangesNothing) {
@@ -111,7 +120,7 @@ std::pair<int, std::string> solveSamples(const std::string& arguments) {
 }
 
 TEST_F(Samples, AreSolvedWithoutTheNodeByItsParameters) {
-  ASSERT_TRUE(load("", "").success);  // of the test before
+  loadSquareAndWave();
   const auto live = call<SolveCalibration>("calibration/solve");
   ASSERT_TRUE(live.success) << live.message;
   const std::string samples = "'" + folder_ + "/samples.yaml' --params '" + folder_;
@@ -137,7 +146,7 @@ TEST_F(Samples, AreSolvedWithoutTheNodeByItsParameters) {
 }
 
 TEST_F(Samples, ACancelledSolverStopsAndNothingIsLost) {
-  ASSERT_TRUE(load("", "").success);  // of the test before
+  loadSquareAndWave();
   // Whoever is too late to stop the solver loses nothing either, and may try again.
   SolveCalibration::Response response;
   ASSERT_TRUE(waitUntil([&] {

@@ -130,7 +130,7 @@ TEST(Continuous, FindsSlowDrift) {
             0.5 * pixelDistance(rig.cameras[2].camera, truth));
 }
 
-TEST(Continuous, NobodyIsAskedWhenClocksWander) {
+TEST(ExtensiveContinuous, NobodyIsAskedWhenClocksWander) {
   constexpr double kWander = 0.001;  // [s]
   constexpr double kTime = 60.0;     // Over which it is correlated [s].
   constexpr double kRate = 50.0;     // Images of a camera [Hz].

@@ -156,7 +156,7 @@ TEST(SolveIntrinsics, ExactPixelsGiveTheExactCamera) {
   }
 }
 
-TEST(SolveIntrinsics, TwelveViewsReachTheStatedBound) {
+TEST(ExtensiveSolveIntrinsics, TwelveViewsReachTheStatedBound) {
   const geometry::Intrinsics camera = paperCamera();
   SolverOptions options;
   options.model = LensModel::kK1;

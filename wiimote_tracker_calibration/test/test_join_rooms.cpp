@@ -64,7 +64,7 @@ TEST(ExtensiveJoinRooms, TiesTheRoomsAsWellAsStatedAndBetterWithEachPassage) {
   }
 }
 
-TEST(JoinRooms, StatesTheErrorsOfSomebodyWhoseHeadingWandersMore) {
+TEST(ExtensiveJoinRooms, StatesTheErrorsOfSomebodyWhoseHeadingWandersMore) {
   const RoomErrors errors = errorsOfRooms(30, [](TwoRooms* trial) {
     CarriedLed led;
     led.heading = 3.0 * kDegree;
@@ -74,7 +74,7 @@ TEST(JoinRooms, StatesTheErrorsOfSomebodyWhoseHeadingWandersMore) {
   EXPECT_NEAR(errors.stated_position / errors.position, 1.0, 0.2);
 }
 
-TEST(JoinRooms, StatesTheErrorsOfSomebodyWhoSlowsDownAtTheDoor) {
+TEST(ExtensiveJoinRooms, StatesTheErrorsOfSomebodyWhoSlowsDownAtTheDoor) {
   for (const double slowing : {0.0, 0.05}) {
     const RoomErrors errors = errorsOfRooms(20, [slowing](TwoRooms* trial) {
       CarriedLed led;
@@ -104,7 +104,7 @@ TEST(JoinRooms, SaysHowManyMorePassagesAreNeeded) {
   EXPECT_SAYS(trial.join().message, "calibrate the rooms better");
 }
 
-TEST(JoinRooms, WorldsWithoutALevelAreTiltedByThePassages) {
+TEST(ExtensiveJoinRooms, WorldsWithoutALevelAreTiltedByThePassages) {
   // No accelerometer tells otherwise.
   const auto carry = [](TwoRooms* trial) {
     for (geometry::RigCamera& camera : trial->second.cameras)

@@ -1,4 +1,5 @@
 #include "benchmark_calibration_sections.h"
+#include "deformations.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -13,15 +14,7 @@ namespace {
 
 using namespace remap;
 
-using Random = std::mt19937_64;
 using Deformation = Eigen::Vector3d (*)(const Eigen::Vector3d&);
-
-Eigen::Vector3d noise(Random& random, double stddev) {
-  std::normal_distribution<double> normal(0.0, stddev);
-  const double x = normal(random);
-  const double y = normal(random);
-  return Eigen::Vector3d(x, y, normal(random));
-}
 
 /// A shifted, sheared cube, as a wrong principal point leaves it.
 Eigen::Vector3d affine(const Eigen::Vector3d& p) {
@@ -35,11 +28,6 @@ Eigen::Vector3d projective(const Eigen::Vector3d& p) {
 Eigen::Vector3d trilinear(const Eigen::Vector3d& p) {
   return affine(p) + 0.015 * p.x() * p.y() * Eigen::Vector3d(1.0, -0.5, 0.2) +
          0.01 * p.x() * p.y() * p.z() * Eigen::Vector3d(0.5, 0.5, -1.0);
-}
-
-Eigen::Vector3d wavy(const Eigen::Vector3d& p) {
-  return p + 0.05 * Eigen::Vector3d(std::sin(1.2 * p.y()), std::cos(1.2 * p.z()),
-                                    std::sin(1.2 * p.x() + 1.0));
 }
 
 /// `side` points along each edge of the paper's cube, each known to 5 mm and measured to 2 mm.

@@ -1,6 +1,7 @@
 // Corrections of the volume: recovered exactly, chosen honestly, never used silently where they do
 // not hold. All simulated.
 
+#include "deformations.h"
 #include "expect_says.h"
 #include "remap/measured_points.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
@@ -22,15 +23,7 @@ namespace {
 
 const char* const kRig = "0123456789abcdef";
 
-using Random = std::mt19937_64;
 using Deformation = std::function<Eigen::Vector3d(const Eigen::Vector3d&)>;  // measured -> known
-
-Eigen::Vector3d noise(Random& random, double stddev) {
-  std::normal_distribution<double> normal(0.0, stddev);
-  const double x = normal(random);
-  const double y = normal(random);
-  return Eigen::Vector3d(x, y, normal(random));
-}
 
 Eigen::Vector3d inCube(Random& random, double from, double to) {
   std::uniform_real_distribution<double> uniform(from, to);
@@ -69,12 +62,6 @@ Eigen::Vector3d trilinear(const Eigen::Vector3d& p) {
   return affine(p) + 0.02 * p.x() * p.y() * Eigen::Vector3d(1.0, -0.5, 0.2) +
          0.01 * p.y() * p.z() * Eigen::Vector3d(-0.3, 1.0, 0.4) +
          0.015 * p.x() * p.y() * p.z() * Eigen::Vector3d(0.5, 0.5, -1.0);
-}
-
-/// Smooth, and none of the parametric models.
-Eigen::Vector3d wavy(const Eigen::Vector3d& p) {
-  return p + 0.05 * Eigen::Vector3d(std::sin(1.2 * p.y()), std::cos(1.2 * p.z()),
-                                    std::sin(1.2 * p.x() + 1.0));
 }
 
 TEST(Remap, EachModelRecoversItsOwnDeformationExactlyAndIsChosen) {

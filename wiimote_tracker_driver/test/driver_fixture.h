@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H
 #define WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H
 
+#include "waiting.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
 
 #include <ros/callback_queue.h>
@@ -33,7 +34,7 @@ class Remote {
 
   Remote(const std::string& path, const std::string& identity)
       : server(path, identity, virtual_wiimote::Device::Options()),
-        start_(now()),
+        start_(steadyNow()),
         thread_([this] { run(); }) {}
   ~Remote() {
     stop_ = true;
@@ -53,11 +54,6 @@ class Remote {
   /// Exposure of image n on the steady clock [s].
   double exposure(std::uint64_t n) const { return start_ + static_cast<double>(n) * kPeriod; }
 
-  static double now() {
-    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch())
-        .count();
-  }
-
   virtual_wiimote::Server server;
 
  private:
@@ -69,7 +65,7 @@ class Remote {
         instant = script_(n);
       }
       std::this_thread::sleep_for(
-          std::chrono::duration<double>(exposure(n) + instant.delay - now()));
+          std::chrono::duration<double>(exposure(n) + instant.delay - steadyNow()));
       server.sample(instant.senses);
     }
   }
@@ -83,10 +79,9 @@ class Remote {
 
 /// Handles callbacks until the condition holds; false after 20 s.
 template <typename Condition>
-bool eventually(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline || !ros::ok())
+bool spinUntil(Condition condition) {
+  for (const double deadline = steadyNow() + 20.0; !condition();) {
+    if (steadyNow() > deadline || !ros::ok())
       return false;
     ros::getGlobalCallbackQueue()->callAvailable(ros::WallDuration(0.01));
   }

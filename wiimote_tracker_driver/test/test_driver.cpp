@@ -43,22 +43,22 @@ class DriverTest : public testing::Test {
 
 std::unique_ptr<Remote> DriverTest::remote;
 
-/// A time of Remote::now() on the ROS clock. Both are read again when this process was stopped
+/// A time of the steady clock on the ROS clock. Both are read again when this process was stopped
 /// meanwhile.
 ros::Time rosTimeOf(double time) {
   double before = 0.0;
   ros::Time now;
   do {
-    before = Remote::now();
+    before = steadyNow();
     now = ros::Time::now();
-  } while (Remote::now() - before > 0.0002);
+  } while (steadyNow() - before > 0.0002);
   return now - ros::Duration(before - time);
 }
 
 TEST_F(DriverTest, BlobsFollowTheImageConvention) {
   remote->sense(lights({{291, 69, 3, 9}, {1023, 767, 1, 8}, {0, 100, 15, 7}}));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
-  ASSERT_TRUE(eventually(
+  ASSERT_TRUE(spinUntil(
       [&] { return !blobs.messages.empty() && blobs.messages.back().blobs.size() == 3; }));
   const IrBlobArray& message = blobs.messages.back();
   EXPECT_EQ("wiimote_1_optical_frame", message.header.frame_id);
@@ -87,11 +87,11 @@ TEST_F(DriverTest, ARemainingLightKeepsItsSlot) {
   const auto sees = [&](std::size_t count) {
     return !blobs.messages.empty() && blobs.messages.back().blobs.size() == count;
   };
-  ASSERT_TRUE(eventually([&] { return sees(0); }));
+  ASSERT_TRUE(spinUntil([&] { return sees(0); }));
   remote->sense(lights({{300, 100, 2, 2}, {500, 100, 2, 1}}));
-  ASSERT_TRUE(eventually([&] { return sees(2); }));
+  ASSERT_TRUE(spinUntil([&] { return sees(2); }));
   remote->sense(lights({{500, 100, 2, 1}}));
-  ASSERT_TRUE(eventually([&] { return sees(1); }));
+  ASSERT_TRUE(spinUntil([&] { return sees(1); }));
   EXPECT_EQ(500, blobs.messages.back().blobs[0].x);
   EXPECT_EQ(1, blobs.messages.back().blobs[0].slot);
 }
@@ -104,7 +104,7 @@ TEST_F(DriverTest, DarkImagesAreEmptyArrays) {
            std::all_of(blobs.messages.end() - static_cast<std::ptrdiff_t>(count),
                        blobs.messages.end(), [](const IrBlobArray& m) { return m.blobs.empty(); });
   };
-  EXPECT_TRUE(eventually([&] { return last_are_empty(20); }));
+  EXPECT_TRUE(spinUntil([&] { return last_are_empty(20); }));
 }
 
 // Reports are delayed by a soft jitter as it was measured with real remotes. Each image shows its
@@ -118,13 +118,12 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
                            std::max(0.0, delay(*jitter))};
   });
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 600; }));
+  ASSERT_TRUE(spinUntil([&] { return blobs.messages.size() >= 600; }));
 
   // The last 300, after the clock has settled.
   const ros::Time ros_start = rosTimeOf(remote->exposure(0));
   const std::uint64_t thousands =
-      static_cast<std::uint64_t>((Remote::now() - remote->exposure(0)) / Remote::kPeriod) /
-      kNumbers;
+      static_cast<std::uint64_t>((steadyNow() - remote->exposure(0)) / Remote::kPeriod) / kNumbers;
   std::vector<double> stamp_errors;
   std::vector<double> stamp_stddevs;
   std::vector<double> arrival_errors;
@@ -164,7 +163,7 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
 // Nobody sees the images at first.
 TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  ASSERT_TRUE(eventually([&] {
+  ASSERT_TRUE(spinUntil([&] {
     return values(driverStatus(diagnostics))["exposure clock"] == "in step" &&
            remote->server.connected();
   }));
@@ -182,7 +181,7 @@ TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
       return age(m) <= least + 0.3 * Remote::kPeriod;
     });
   };
-  ASSERT_TRUE(eventually([&] {
+  ASSERT_TRUE(spinUntil([&] {
     return blobs.messages.size() >= 20 && first().stamp_stddev < 0.3 * Remote::kPeriod;
   })) << blobs.messages.size()
       << " images";
@@ -194,7 +193,7 @@ TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
 TEST_F(DriverTest, StampsIncreaseAndImagesAreCounted) {
   const ros::Time before = ros::Time::now();
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 50; }));
+  ASSERT_TRUE(spinUntil([&] { return blobs.messages.size() >= 50; }));
   const ros::Time after = ros::Time::now();
   for (std::size_t i = 0; i < blobs.messages.size(); ++i) {
     const IrBlobArray& message = blobs.messages[i];
@@ -217,11 +216,11 @@ TEST_F(DriverTest, AccelerationInMetresPerSecondSquared) {
     // The converter's steps are below 0.2 m/s^2.
     return std::abs(a.x - x) < 0.2 && std::abs(a.y - y) < 0.2 && std::abs(a.z - z) < 0.2;
   };
-  EXPECT_TRUE(eventually([&] { return reads(0.0, 0.0, 9.80665); })) << "lying, buttons up";
+  EXPECT_TRUE(spinUntil([&] { return reads(0.0, 0.0, 9.80665); })) << "lying, buttons up";
   Senses senses;
   senses.acceleration = {0.6, -0.8, 0.0};
   remote->sense(senses);
-  EXPECT_TRUE(eventually([&] { return reads(5.884, -7.845, 0.0); }));
+  EXPECT_TRUE(spinUntil([&] { return reads(5.884, -7.845, 0.0); }));
   const sensor_msgs::Imu& message = imu.messages.back();
   EXPECT_EQ("wiimote_1_imu_frame", message.header.frame_id);
   EXPECT_EQ(-1.0, message.orientation_covariance[0]);
@@ -232,7 +231,7 @@ TEST_F(DriverTest, AccelerationInMetresPerSecondSquared) {
 TEST_F(DriverTest, StaticTransformFromOpticalToImu) {
   Recorder<tf2_msgs::TFMessage> transforms("/tf_static");
   geometry_msgs::TransformStamped transform;
-  ASSERT_TRUE(eventually([&] {
+  ASSERT_TRUE(spinUntil([&] {
     for (const auto& message : transforms.messages) {
       for (const auto& candidate : message.transforms) {
         if (candidate.header.frame_id == "wiimote_1_optical_frame")
@@ -253,7 +252,7 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/camera_info");
   // One that came after the images, too, are connected.
-  ASSERT_TRUE(eventually([&] {
+  ASSERT_TRUE(spinUntil([&] {
     return infos.messages.size() >= 10 && blobs.any() &&
            infos.last().header.stamp >= blobs.messages.front().header.stamp;
   }));
@@ -262,7 +261,7 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   EXPECT_EQ(768u, uncalibrated.height);
   EXPECT_EQ(0.0, uncalibrated.K[0]);
   EXPECT_EQ("wiimote_1_optical_frame", uncalibrated.header.frame_id);
-  EXPECT_TRUE(eventually([&] {
+  EXPECT_TRUE(spinUntil([&] {
     for (const IrBlobArray& message : blobs.messages) {
       if (message.header.stamp == uncalibrated.header.stamp)
         return true;
@@ -280,7 +279,7 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   set.request.camera_info.P = {{1330, 0, 512, 0, 0, 1331, 384, 0, 0, 0, 1, 0}};
   ASSERT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
   EXPECT_TRUE(set.response.success) << set.response.status_message;
-  ASSERT_TRUE(eventually([&] { return infos.messages.back().K[4] == 1331; }));
+  ASSERT_TRUE(spinUntil([&] { return infos.messages.back().K[4] == 1331; }));
   EXPECT_EQ(-0.02, infos.messages.back().D.at(1));
 
   EXPECT_TRUE(std::ifstream(parameter("files") + "_1.yaml").good())
@@ -291,14 +290,14 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
     return driverStatus(diagnostics).message.find("_1.yaml is empty") != std::string::npos;
   };
   std::ofstream(parameter("files") + "_1.yaml").close();  // as a full disk leaves it
-  EXPECT_TRUE(eventually(is_told_empty));
+  EXPECT_TRUE(spinUntil(is_told_empty));
   ASSERT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
-  EXPECT_TRUE(eventually([&] { return !is_told_empty(); }));
+  EXPECT_TRUE(spinUntil([&] { return !is_told_empty(); }));
 }
 
 TEST_F(DriverTest, FactoryCalibrationIsPublished) {
   Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/factory/camera_info");
-  ASSERT_TRUE(eventually([&] { return infos.any(); })) << "latched";
+  ASSERT_TRUE(spinUntil([&] { return infos.any(); })) << "latched";
   // The mean of the four points of the virtual remote, (525.5, 353.75) with y up.
   EXPECT_EQ(525.5, infos.last().K[2]);
   EXPECT_EQ(413.25, infos.last().K[5]);
@@ -308,26 +307,26 @@ TEST_F(DriverTest, FactoryCalibrationIsPublished) {
 
 TEST_F(DriverTest, ButtonsAsJoy) {
   Recorder<sensor_msgs::Joy> joy("/wiimote_1/joy");
-  ASSERT_TRUE(eventually([&] { return joy.any(); })) << "latched";
+  ASSERT_TRUE(spinUntil([&] { return joy.any(); })) << "latched";
   EXPECT_EQ(std::vector<int>(11, 0), joy.last().buttons);
   Senses senses;
   senses.buttons = 0x0008 | 0x1000;  // A and plus
   remote->sense(senses);
   const std::vector<int> pressed{0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0};
-  EXPECT_TRUE(eventually([&] { return joy.last().buttons == pressed; }));
+  EXPECT_TRUE(spinUntil([&] { return joy.last().buttons == pressed; }));
   EXPECT_TRUE(joy.last().axes.empty());
   remote->sense(Senses());
-  EXPECT_TRUE(eventually([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
+  EXPECT_TRUE(spinUntil([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return blobs.messages.size() >= 20; }));
+  ASSERT_TRUE(spinUntil([&] { return blobs.messages.size() >= 20; }));
   EXPECT_LE(joy.messages.size(), 4u) << "changes only";
 }
 
 TEST_F(DriverTest, FeedbackLightsLedsAndRumblesForAWhile) {
   ros::Publisher publisher =
       ros::NodeHandle().advertise<sensor_msgs::JoyFeedbackArray>("/wiimote_1/joy/set_feedback", 10);
-  ASSERT_TRUE(eventually([&] { return publisher.getNumSubscribers() > 0; }));
-  ASSERT_TRUE(eventually([&] { return remote->server.leds() == 0x4; })) << "as configured";
+  ASSERT_TRUE(spinUntil([&] { return publisher.getNumSubscribers() > 0; }));
+  ASSERT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; })) << "as configured";
   EXPECT_FALSE(remote->server.rumble());
   const auto feedback = [](int type, int id, float intensity) {
     sensor_msgs::JoyFeedback f;
@@ -342,24 +341,24 @@ TEST_F(DriverTest, FeedbackLightsLedsAndRumblesForAWhile) {
                    feedback(sensor_msgs::JoyFeedback::TYPE_LED, 7, 1.0f),
                    feedback(sensor_msgs::JoyFeedback::TYPE_BUZZER, 0, 1.0f)};
   publisher.publish(message);
-  EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x1; }));
+  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x1; }));
   message.array = {feedback(sensor_msgs::JoyFeedback::TYPE_RUMBLE, 0, 1.0f)};
-  EXPECT_TRUE(eventually([&] {  // again, since this process may not look while it lasts
+  EXPECT_TRUE(spinUntil([&] {  // again, since this process may not look while it lasts
     publisher.publish(message);
     return remote->server.rumble();
   }));
-  EXPECT_TRUE(eventually([&] { return !remote->server.rumble(); })) << "after rumble_max";
+  EXPECT_TRUE(spinUntil([&] { return !remote->server.rumble(); })) << "after rumble_max";
   EXPECT_EQ(0x1, remote->server.leds());
   message.array = {feedback(sensor_msgs::JoyFeedback::TYPE_LED, 0, 0.0f),
                    feedback(sensor_msgs::JoyFeedback::TYPE_LED, 2, 1.0f)};
   publisher.publish(message);
-  EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x4; }));
+  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; }));
 }
 
 TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
   Recorder<sensor_msgs::BatteryState> battery("/wiimote_1/battery");
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  ASSERT_TRUE(eventually([&] { return battery.any(); })) << "latched";
+  ASSERT_TRUE(spinUntil([&] { return battery.any(); })) << "latched";
   EXPECT_EQ(1.0f, battery.last().percentage);
   EXPECT_TRUE(battery.last().present);
   EXPECT_TRUE(std::isnan(battery.last().voltage));
@@ -367,15 +366,15 @@ TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
   EXPECT_EQ("wiimote_1", battery.last().location);
   EXPECT_EQ(kIdentity, battery.last().serial_number);
   remote->server.setBattery(0x10);
-  EXPECT_TRUE(eventually([&] { return battery.last().percentage < 0.9f; }));
+  EXPECT_TRUE(spinUntil([&] { return battery.last().percentage < 0.9f; }));
   EXPECT_NEAR(2.46 * 16 / 255 - 0.013, battery.last().percentage, 1e-6);
-  EXPECT_TRUE(eventually([&] {
+  EXPECT_TRUE(spinUntil([&] {
     return driverStatus(diagnostics).message.find("batteries are nearly empty") !=
            std::string::npos;
   }));
   EXPECT_EQ("16", values(driverStatus(diagnostics))["battery (raw)"]);
   remote->server.setBattery(0xa0);
-  EXPECT_TRUE(eventually([&] { return battery.last().percentage == 1.0f; }));
+  EXPECT_TRUE(spinUntil([&] { return battery.last().percentage == 1.0f; }));
 }
 
 /// Sets text parameters of the running driver. @returns the settings that are then in use.
@@ -401,17 +400,17 @@ TEST_F(DriverTest, SensitivityChangesWithoutLosingTheStream) {
   const auto sees = [&](std::size_t count) {
     return blobs.any() && blobs.last().blobs.size() == count;
   };
-  ASSERT_TRUE(eventually([&] { return sees(1); }));
+  ASSERT_TRUE(spinUntil([&] { return sees(1); }));
   EXPECT_EQ("wii_1", set({{"ir_sensitivity", "wii_1"}})["ir_sensitivity"]);
-  EXPECT_TRUE(eventually([&] { return sees(0); })) << "too dim for the least sensitivity";
+  EXPECT_TRUE(spinUntil([&] { return sees(0); })) << "too dim for the least sensitivity";
   set({{"ir_sensitivity", "custom"},
        {"ir_sensitivity_block1", "00 00 00 00 00 00 90 00 41"},
        {"ir_sensitivity_block2", "40 00"}});
-  EXPECT_TRUE(eventually([&] { return sees(1); }));
+  EXPECT_TRUE(spinUntil([&] { return sees(1); }));
   EXPECT_EQ(blobs.messages.front().clock_epoch, blobs.last().clock_epoch);
 
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  EXPECT_TRUE(eventually([&] {
+  EXPECT_TRUE(spinUntil([&] {
     return values(driverStatus(diagnostics))["IR sensitivity"] ==
            "custom: 00 00 00 00 00 00 90 00 41 / 40 00";
   }));
@@ -436,14 +435,14 @@ TEST_F(DriverTest, LedsCanBeChanged) {
     EXPECT_TRUE(ros::service::call("/wiimote_1/driver/set_parameters", call));
   };
   set_leds(-1);
-  EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x1; })) << "wiimote_1";
+  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x1; })) << "wiimote_1";
   set_leds(4);
-  EXPECT_TRUE(eventually([&] { return remote->server.leds() == 0x4; }));
+  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; }));
 }
 
 TEST_F(DriverTest, DiagnosticsDescribeTheState) {
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  ASSERT_TRUE(eventually([&] {
+  ASSERT_TRUE(spinUntil([&] {
     const auto status = driverStatus(diagnostics);
     auto value = values(status);
     // After a stall of this computer it takes a while to be like this.
@@ -471,14 +470,14 @@ TEST_F(DriverTest, DiagnosticsDescribeTheState) {
 }
 
 TEST_F(DriverTest, SecondDriverNamesTheUserOfTheRemote) {
-  ASSERT_TRUE(eventually([&] { return remote->server.connected(); }));
+  ASSERT_TRUE(spinUntil([&] { return remote->server.connected(); }));
   ASSERT_EQ(0, std::system(("ROS_NAMESPACE=wiimote_8 rosrun wiimote_tracker_driver driver_node "
                             "__name:=driver _device:=virtual:" +
                             parameter("files") + "_1.sock > /dev/null 2>&1 &")
                                .c_str()));
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   const auto said = [&] { return driverStatus(diagnostics, "wiimote_8").message; };
-  EXPECT_TRUE(eventually([&] { return said().find(parameter("holder")) != std::string::npos; }))
+  EXPECT_TRUE(spinUntil([&] { return said().find(parameter("holder")) != std::string::npos; }))
       << said();
   EXPECT_EQ(0, std::system("rosnode kill /wiimote_8/driver > /dev/null"));
 }
@@ -486,11 +485,11 @@ TEST_F(DriverTest, SecondDriverNamesTheUserOfTheRemote) {
 TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
   remote->sense(lights({{291, 69, 3, 9}}));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return !blobs.messages.empty(); }));
+  ASSERT_TRUE(spinUntil([&] { return !blobs.messages.empty(); }));
   remote->server.setPresent(false);
 
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  EXPECT_TRUE(eventually([&] {  // this driver: others have no remote at all
+  EXPECT_TRUE(spinUntil([&] {  // this driver: others have no remote at all
     const auto status = driverStatus(diagnostics);
     return status.level == diagnostic_msgs::DiagnosticStatus::ERROR &&
            status.message.find("no virtual Wii Remote listens") != std::string::npos;
@@ -498,7 +497,7 @@ TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
 
   const std::uint32_t epoch = blobs.messages.back().clock_epoch;
   remote->server.setPresent(true);
-  ASSERT_TRUE(eventually(
+  ASSERT_TRUE(spinUntil(
       [&] { return blobs.last().clock_epoch > epoch && !blobs.messages.back().blobs.empty(); }));
   const auto first =
       std::find_if(blobs.messages.begin(), blobs.messages.end(),
@@ -514,18 +513,18 @@ TEST_F(DriverTest, ButtonsAreReleasedWhenTheRemoteHasGone) {
   senses.buttons = 0x0008;  // A
   remote->sense(senses);
   Recorder<sensor_msgs::Joy> joy("/wiimote_1/joy");
-  ASSERT_TRUE(eventually([&] { return joy.any() && joy.last().buttons.at(2) == 1; }));
+  ASSERT_TRUE(spinUntil([&] { return joy.any() && joy.last().buttons.at(2) == 1; }));
   remote->server.setPresent(false);
-  EXPECT_TRUE(eventually([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
+  EXPECT_TRUE(spinUntil([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
   remote->server.setPresent(true);
 }
 
 // The last test: the driver does not return.
 TEST_F(DriverTest, ShutDownSwitchesTheRemoteOff) {
-  ASSERT_TRUE(eventually([&] { return remote->server.connected(); }));
-  ASSERT_TRUE(eventually([&] { return remote->server.leds() == 0x4; })) << "as configured";
+  ASSERT_TRUE(spinUntil([&] { return remote->server.connected(); }));
+  ASSERT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; })) << "as configured";
   ASSERT_EQ(0, std::system("rosnode kill /wiimote_1/driver > /dev/null"));
-  EXPECT_TRUE(eventually([&] { return !remote->server.connected(); }));
+  EXPECT_TRUE(spinUntil([&] { return !remote->server.connected(); }));
   EXPECT_EQ(0x0, remote->server.leds());
   EXPECT_FALSE(remote->server.rumble());
 }

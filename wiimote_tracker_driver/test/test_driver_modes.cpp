@@ -16,7 +16,7 @@ TEST(DriverInOtherModes, FullModeHasIntensityAndBoundingBox) {
   Remote full(parameter("files") + "_2.sock", "00:1f:32:00:00:08");
   full.sense(lights({{300, 100, 4, 9}, {1023, 0, 2, 3}}));
   Recorder<IrBlobArray> blobs("/wiimote_2/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return blobs.any() && blobs.last().blobs.size() == 2; }));
+  ASSERT_TRUE(spinUntil([&] { return blobs.any() && blobs.last().blobs.size() == 2; }));
   const IrBlobArray& message = blobs.last();
   EXPECT_EQ(+IrBlobArray::IR_MODE_FULL, message.ir_mode);
   EXPECT_EQ(300, message.blobs[0].x);
@@ -33,10 +33,10 @@ TEST(DriverInOtherModes, FullModeHasIntensityAndBoundingBox) {
     EXPECT_LT(blob.bounding_box[2] - blob.bounding_box[0], 64);
     EXPECT_LT(blob.bounding_box[3] - blob.bounding_box[1], 64);
   }
-  EXPECT_TRUE(eventually([&] { return full.server.leds() == 0x2; })) << "the camera's number";
+  EXPECT_TRUE(spinUntil([&] { return full.server.leds() == 0x2; })) << "the camera's number";
 
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
-  ASSERT_TRUE(eventually([&] {  // after a stall of this computer it takes a while
+  ASSERT_TRUE(spinUntil([&] {  // after a stall of this computer it takes a while
     auto value = values(driverStatus(diagnostics, "wiimote_2"));
     return std::atof(value["rate [Hz]"].c_str()) > 1.0 &&
            std::abs(std::atof(value["period [ms]"].c_str()) - 20.07) < 0.2;
@@ -50,7 +50,7 @@ TEST(DriverInOtherModes, BasicModeHasPositionsOnlyAndArrivalsCanBeStamps) {
   Remote basic(parameter("files") + "_3.sock", "00:1f:32:00:00:09");
   basic.sense(lights({{300, 100, 4, 9}}));
   Recorder<IrBlobArray> blobs("/wiimote_3/ir_blobs");
-  ASSERT_TRUE(eventually([&] { return blobs.any() && blobs.last().blobs.size() == 1; }));
+  ASSERT_TRUE(spinUntil([&] { return blobs.any() && blobs.last().blobs.size() == 1; }));
   const IrBlobArray& message = blobs.last();
   EXPECT_EQ(+IrBlobArray::IR_MODE_BASIC, message.ir_mode);
   EXPECT_EQ(300, message.blobs[0].x);
@@ -71,14 +71,14 @@ TEST(DriverInOtherModes, ARecordingIsPlayedAtItsOwnTimes) {
                             "__name:=driver _replay_rate:=5 _device:=replay:" +
                             parameter("files") + "_1.wiirec > /dev/null 2>&1 &")
                                .c_str()));
-  EXPECT_TRUE(eventually([&] { return blobs.messages.size() >= 100; }));
+  EXPECT_TRUE(spinUntil([&] { return blobs.messages.size() >= 100; }));
   for (const IrBlobArray& message : blobs.messages) {
     EXPECT_LT(message.arrival, now);
     EXPECT_GT(message.arrival, now - ros::Duration(600.0));
     EXPECT_EQ(kIdentity, message.identity);
     EXPECT_EQ("wiimote_4", message.camera);
   }
-  EXPECT_TRUE(eventually([&] {
+  EXPECT_TRUE(spinUntil([&] {
     return driverStatus(diagnostics, "wiimote_4").message.find("has ended") != std::string::npos;
   }));
   EXPECT_EQ(0, std::system("rosnode kill /wiimote_4/driver > /dev/null"));

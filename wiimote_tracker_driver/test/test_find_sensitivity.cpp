@@ -80,7 +80,7 @@ class FindSensitivity : public testing::Test {
     show({kLamp});
     // The program waits for some seconds only.
     ASSERT_TRUE(ros::service::waitForService("/room/driver/set_parameters", ros::Duration(30.0)));
-    ASSERT_TRUE(eventually([&] { return remote_.server.connected(); }));
+    ASSERT_TRUE(spinUntil([&] { return remote_.server.connected(); }));
     Program program("rosrun wiimote_tracker_driver find_sensitivity room --seconds 0.1 " +
                     arguments);
     ASSERT_TRUE(program.says("Switch the LED off")) << program.said;

@@ -3,6 +3,7 @@
 #include "samples/samples_file.h"
 
 #include "expect_says.h"
+#include "german_locale.h"
 #include "refusal_of.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -13,7 +14,6 @@
 #include <unistd.h>
 
 #include <array>
-#include <clocale>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -309,12 +309,12 @@ TEST_F(SamplesFile, KeepsAnyNumberAndName) {
 }
 
 TEST_F(SamplesFile, HasADecimalPointInEveryLocale) {
-  if (!std::setlocale(LC_NUMERIC, "de_DE.UTF-8"))
-    GTEST_SKIP() << "no German locale here";
+  const GermanLocale german;
+  if (!german.isSet())
+    GTEST_SKIP() << GermanLocale::kMissing;
   writeSamplesFile(expectedSamples(), path_);
   EXPECT_EQ(geometry::readFile(path_), kText);
   expectSameSamples(readSamplesFile(path_), expectedSamples());
-  std::setlocale(LC_NUMERIC, "C");
 }
 
 TEST_F(SamplesFile, KeepsWhatWasThereBefore) {

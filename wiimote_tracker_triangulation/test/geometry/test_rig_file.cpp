@@ -89,24 +89,6 @@ TEST_F(RigFile, ComesBackBitForBit) {
   EXPECT_EQ(written_, contentOf(path_));
 }
 
-/// A correction of the volume, and a wide-angle lens on the second camera.
-Rig correctedRig() {
-  Random random(44);
-  Rig rig = fullRig();
-  rig.cameras[1].camera.intrinsics = randomFisheye(random);
-  rig.covariance.row(30).setZero();
-  rig.covariance.col(30).setZero();
-  remap::Remap remap;
-  remap.rig_id = rig.id();
-  remap.model = remap::Model::kThinPlate;
-  for (int i = 0; i < 6; ++i)
-    remap.support.push_back(random.inBox(1.0));
-  for (int i = 0; i < 30; ++i)
-    remap.parameters.push_back(random.gaussian() * 1e-3);
-  rig.remap = remap;
-  return rig;
-}
-
 TEST_F(RigFile, ACorrectionOfTheVolumeAndAWideLensComeBackBitForBit) {
   const Rig rig = correctedRig();
   write(rig);

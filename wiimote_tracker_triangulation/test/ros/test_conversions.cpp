@@ -1,5 +1,5 @@
 // Rigs as messages, and as the files that stock ROS tools read.
-#include "geometry/random_rigs.h"
+#include "geometry/full_rig.h"
 #include "geometry/rotation.h"
 #include "refusal_of.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -24,75 +24,40 @@ namespace wiimote_tracker {
 namespace {
 
 using geometry::Rig;
+using geometry::test::correctedRig;
+using geometry::test::fullRig;
 using geometry::test::Random;
 using wiimote_tracker_msgs::RigCalibration;
 
 constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
-Rig fullRig() {
-  Random random(61);
-  Rig rig = geometry::test::randomRig(random, 3);
-  rig.solved_at = 1766188800.123456789;
-  rig.method = "square";
-  rig.ray_model = geometry::RayModel::kImageCenter;
-  rig.virtual_hfov = 0.7;
-  rig.square_sides = {2.5, 1.0 / 3.0};
-  rig.led_height = 0.1;
-  rig.verdict = "good";
-  rig.zones = {{"hall", {0.1, 0.2, 0.3}, {1.0, 2.0, 3.0}}};
-  rig.covariance = Eigen::MatrixXd::Zero(48, 48);
-  rig.covariance(1, 2) = 1e-9;  // not symmetric: shows the order
-  rig.cameras[1].time_offset = 0.001;
-  rig.cameras[1].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
-  rig.cameras[1].time_offset_epoch = 3;
-  rig.cameras[1].gravity = Eigen::Vector3d(0.1, -9.8, 0.3);
-  rig.cameras[1].masks = {{{1.0, 2.0}, 3.0}};
-  rig.cameras[1].residual_px = 0.4;
-  rig.cameras[1].residual_m = 0.001;
-  rig.cameras[1].observations = 100;
-  rig.cameras[1].inliers = 99;
-  return rig;
-}
-
-/// A pinhole, a wide lens with four coefficients, another pinhole; a volume correction.
-Rig correctedRig() {
-  Random random(63);
-  Rig rig = fullRig();
-  rig.cameras[1].camera.intrinsics = geometry::test::randomFisheye(random);
-  rig.remap = remap::Remap{rig.id(), remap::Model::kAffine, std::vector<double>(12, 0.01), {}};
-  for (int i = 0; i < 5; ++i)
-    rig.remap->support.push_back(random.inBox(1.0));
-  rig.covariance(31, 32) = 2e-9;  // time offset of the wide one, rotation of the third
-  rig.covariance(29, 31) = 3e-9;  // k4 of the wide one
-  return rig;
-}
-
 TEST(Conversions, MessageEqualsTheRig) {
-  const Rig rig = fullRig();
+  const Rig rig = fullRig(3);
   const RigCalibration message = toMessage(rig);
   EXPECT_EQ("world", message.header.frame_id);
   EXPECT_EQ(1766188800u, message.header.stamp.sec);
   EXPECT_EQ(1u, message.format_version);
   EXPECT_EQ(rig.id(), message.id);
-  EXPECT_EQ("square", message.method);
+  EXPECT_EQ(rig.method, message.method);
   EXPECT_EQ(RigCalibration::RAY_MODEL_IMAGE_CENTER, message.ray_model);
-  EXPECT_EQ(0.7, message.virtual_hfov);
+  EXPECT_EQ(rig.virtual_hfov, message.virtual_hfov);
   EXPECT_EQ((std::vector<double>{2.5, 1.0 / 3.0}), message.square_sides);
   EXPECT_EQ(0.1, message.led_height);
-  EXPECT_EQ("good", message.verdict);
+  EXPECT_EQ(rig.verdict, message.verdict);
   ASSERT_EQ(48u * 48u, message.covariance.size());
-  EXPECT_EQ(1e-9, message.covariance[1 * 48 + 2]) << "row-major";
+  ASSERT_NE(rig.covariance(2, 1), rig.covariance(1, 2));
+  EXPECT_EQ(rig.covariance(2, 1), message.covariance[2 * 48 + 1]) << "row-major";
   ASSERT_EQ(1u, message.zones.size());
   EXPECT_EQ("hall", message.zones[0].name);
   EXPECT_EQ(3.0, message.zones[0].maximum.z);
   EXPECT_EQ("", message.remap.rig_id);
 
   ASSERT_EQ(3u, message.cameras.size());
-  const wiimote_tracker_msgs::CameraCalibration& camera = message.cameras[1];
-  const geometry::Intrinsics& intrinsics = rig.cameras[1].camera.intrinsics;
-  EXPECT_EQ("camera_1", camera.name);
-  EXPECT_EQ("00:00:00:00:00:01", camera.identity);
-  EXPECT_EQ("camera_1_optical_frame", camera.frame_id);
+  const wiimote_tracker_msgs::CameraCalibration& camera = message.cameras[0];
+  const geometry::Intrinsics& intrinsics = rig.cameras[0].camera.intrinsics;
+  EXPECT_EQ("camera_0", camera.name);
+  EXPECT_EQ("00:00:00:00:00:00", camera.identity);
+  EXPECT_EQ("camera_0_optical_frame", camera.frame_id);
   EXPECT_EQ(static_cast<std::uint32_t>(intrinsics.width), camera.width);
   EXPECT_EQ(static_cast<std::uint32_t>(intrinsics.height), camera.height);
   EXPECT_EQ("plumb_bob", camera.distortion_model);
@@ -102,18 +67,18 @@ TEST(Conversions, MessageEqualsTheRig) {
   EXPECT_EQ(intrinsics.cy, camera.cy);
   ASSERT_EQ(5u, camera.distortion.size());
   EXPECT_EQ(intrinsics.distortion[2], camera.distortion[2]);
-  EXPECT_EQ(0.001, camera.time_offset);
+  EXPECT_EQ(-1.0 / 300.0, camera.time_offset);
   EXPECT_EQ(wiimote_tracker_msgs::CameraCalibration::TIME_OFFSET_ONE_EPOCH,
             camera.time_offset_rule);
-  EXPECT_EQ(3u, camera.time_offset_epoch);
-  EXPECT_EQ((std::vector<double>{0.1, -9.8, 0.3}), camera.gravity);
-  ASSERT_EQ(1u, camera.masks.size());
-  EXPECT_EQ(3.0, camera.masks[0].radius);
-  EXPECT_EQ(0.4, camera.residual_px);
-  EXPECT_EQ(100u, camera.observations);
-  EXPECT_EQ(99u, camera.inliers);
-  EXPECT_TRUE(message.cameras[0].gravity.empty());
-  EXPECT_TRUE(std::isnan(message.cameras[0].time_offset));
+  EXPECT_EQ(4294967295u, camera.time_offset_epoch);
+  EXPECT_EQ((std::vector<double>{0.1, -9.8, 1.0 / 3.0}), camera.gravity);
+  ASSERT_EQ(2u, camera.masks.size());
+  EXPECT_EQ(12.5, camera.masks[0].radius);
+  EXPECT_EQ(0.1 + 0.2, camera.residual_px);
+  EXPECT_EQ(120u, camera.observations);
+  EXPECT_EQ(119u, camera.inliers);
+  EXPECT_TRUE(message.cameras[1].gravity.empty());
+  EXPECT_TRUE(std::isnan(message.cameras[1].time_offset));
 }
 
 TEST(Conversions, RoundTripsThroughMessageAndFileKeepIdAndBits) {
@@ -141,7 +106,11 @@ TEST(Conversions, RoundTripsThroughMessageAndFileKeepIdAndBits) {
 }
 
 TEST(Conversions, AWideLensHasFourCoefficientsAlsoInTheCovariance) {
-  const RigCalibration message = toMessage(correctedRig());
+  Rig rig = correctedRig(3);
+  rig.covariance(1, 2) = 1e-9;
+  rig.covariance(31, 32) = 2e-9;  // time offset of the wide one, rotation of the third
+  rig.covariance(29, 31) = 3e-9;  // k4 of the wide one
+  const RigCalibration message = toMessage(rig);
   EXPECT_EQ("equidistant", message.cameras[1].distortion_model);
   EXPECT_EQ(4u, message.cameras[1].distortion.size());
   ASSERT_EQ(47u * 47u, message.covariance.size());
@@ -155,9 +124,9 @@ TEST(Conversions, ACorrectionOfTheVolumeIsInTheMessage) {
   const RigCalibration message = toMessage(rig);
   EXPECT_EQ(rig.id(), message.id);
   EXPECT_EQ(rig.id(), message.remap.rig_id);
-  EXPECT_EQ("affine", message.remap.model);
-  EXPECT_EQ(12u, message.remap.parameters.size());
-  ASSERT_EQ(5u, message.remap.support.size());
+  EXPECT_EQ("thin_plate", message.remap.model);
+  EXPECT_EQ(30u, message.remap.parameters.size());
+  ASSERT_EQ(6u, message.remap.support.size());
   EXPECT_EQ(rig.remap->support[3].y(), message.remap.support[3].y);
   const Rig back = fromMessage(message);
   ASSERT_TRUE(back.remap);
@@ -196,7 +165,7 @@ TEST(Conversions, RefusesInvalidMessages) {
   EXPECT_TRUE(
       says([](RigCalibration& m) { m.cameras[1].distortion_model = "equidistant"; }, "camera_1"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].distortion.pop_back(); }, "camera_1"));
-  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].gravity.pop_back(); }, "gravity"));
+  EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[0].gravity.pop_back(); }, "gravity"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].time_offset_rule = 9; }, "camera_1"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].fx = kUnset; }, "fx"));
   EXPECT_TRUE(says([](RigCalibration& m) { m.cameras[1].width = 0; }, "width"));
@@ -210,7 +179,7 @@ TEST(Conversions, RefusesInvalidMessages) {
 }
 
 TEST(Conversions, StaticTransformsAreThePoses) {
-  const Rig rig = fullRig();
+  const Rig rig = fullRig(3);
   const auto transforms = staticTransforms(rig);
   ASSERT_EQ(3u, transforms.size());
   for (std::size_t i = 0; i < 3; ++i) {

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include <random>
 #include <stdexcept>
 #include <vector>
 
@@ -71,40 +70,11 @@ TEST(Infrared, FullReport33) {
   EXPECT_FALSE(data->spots[3].seen);
 }
 
-TEST(Infrared, LowByteFfOfXIsAPlainPosition) {
-  const DataReport data =
-      extended({0xff, 0x10, 0x02, 0xff, 0x10, 0x12, 0xff, 0x10, 0x22, 0xff, 0x10, 0x32});
-  expectSpot(data.spots[0], 255, 16, 2);
-  expectSpot(data.spots[1], 511, 16, 2);
-  expectSpot(data.spots[2], 767, 16, 2);
-  expectSpot(data.spots[3], 1023, 16, 2);
-}
-
-TEST(Infrared, LastLineIsSeenTheNextIsNot) {
-  const DataReport data =
-      extended({0x00, 0xff, 0x80, 0x00, 0x00, 0xc0, 0x01, 0x00, 0x00, 0x00, 0x01, 0x00});
-  expectSpot(data.spots[0], 0, 767, 0);
-  EXPECT_FALSE(data.spots[1].seen);
-  expectSpot(data.spots[2], 1, 0, 0);
-  expectSpot(data.spots[3], 0, 1, 0);
-}
-
 TEST(Infrared, ZerosAreASlotThatNeverHadALight) {
   EXPECT_FALSE(extended(std::vector<std::uint8_t>(12, 0)).spots[2].seen);
   EXPECT_FALSE(basic(std::vector<std::uint8_t>(10, 0)).spots[3].seen);
   // With a size it is a light in the corner.
   expectSpot(extended({0, 0, 0x04, 0, 0, 0, 0, 0, 0, 0, 0, 0}).spots[0], 0, 0, 4);
-}
-
-TEST(Infrared, Report36CarriesItRightAfterTheButtons) {
-  Report report{0x36, 0x00, 0x08, 0x23, 0x45, 0x1b, 0xff, 0xff, 0x00, 0x80, 0x6f, 0xff, 0xff};
-  report.size = 22;
-  const std::optional<DataReport> data = decodeDataReport(report);
-  ASSERT_TRUE(data);
-  EXPECT_FALSE(data->acceleration);
-  EXPECT_EQ(0x0008, data->buttons);
-  expectSpot(data->spots[0], 291, 69, 0);
-  expectSpot(data->spots[1], 1023, 767, 0);
 }
 
 // Accelerometer X = 0x86, Y = 0x7f, Z = 0x9a, its bits scattered over both halves.
@@ -129,16 +99,6 @@ TEST(Infrared, FullGoldenVector) {
   EXPECT_EQ((std::array<int, 4>{126, 94, 127, 95}), data->spots[2].box);
   EXPECT_FALSE(data->spots[3].seen) << "zeros: never lit";
   EXPECT_TRUE(data->plausible);
-}
-
-TEST(Infrared, HalvesInAnotherOrderAreNoImage) {
-  EXPECT_FALSE(decodeInterleaved(kSecondHalf, kFirstHalf));
-  EXPECT_FALSE(decodeInterleaved(kFirstHalf, kFirstHalf));
-  EXPECT_FALSE(decodeInterleaved(kSecondHalf, kSecondHalf));
-  EXPECT_FALSE(decodeInterleaved(Report(), kSecondHalf));
-  Report cut = kSecondHalf;
-  cut.size = 21;
-  EXPECT_FALSE(decodeInterleaved(kFirstHalf, cut));
   EXPECT_FALSE(decodeDataReport(kFirstHalf)) << "half an image is none";
 }
 
@@ -288,46 +248,12 @@ TEST(Memory, RealLine) {
   EXPECT_EQ(0xff, packet->data[5]);
 }
 
-TEST(Memory, ErrorHasNoData) {
-  Report report{0x21, 0x00, 0x00, 0xf7, 0x00, 0xfa};
-  report.size = 22;
-  const std::optional<MemoryPacket> packet = decodeMemoryPacket(report);
-  ASSERT_TRUE(packet);
-  EXPECT_EQ(7, packet->error);
-  EXPECT_EQ(0u, packet->size);
-  EXPECT_EQ(0x00fa, packet->address);
-}
-
 TEST(Memory, ErrorsHaveNames) {
   EXPECT_STREQ("busy with another read", errorName(4));
   EXPECT_STREQ("no such address space", errorName(6));
   EXPECT_STREQ("no answer at this address", errorName(7));
   EXPECT_STREQ("address out of range", errorName(8));
   EXPECT_STREQ("unknown", errorName(0x5a));
-}
-
-TEST(Input, EveryDecoderRefusesOtherIdsAndShortReports) {
-  std::mt19937 random(1);
-  for (int i = 0; i < 20000; ++i) {
-    Report report;
-    report.size = random() % (Report::kCapacity + 1);
-    for (std::size_t j = 0; j < report.size; ++j)
-      report.bytes[j] = static_cast<std::uint8_t>(random());
-    if (report.size > 0 && i % 2 == 0)
-      report.bytes[0] = static_cast<std::uint8_t>(0x20 + random() % 0x20);
-    const bool is_data = report.size > 0 && report.bytes[0] >= 0x30 && report.bytes[0] <= 0x37;
-    const std::size_t data_sizes[] = {3, 6, 11, 18, 22, 22, 22, 22};
-    EXPECT_EQ(is_data && report.size >= data_sizes[report.bytes[0] & 7],
-              decodeDataReport(report).has_value());
-    EXPECT_EQ(report.id() == 0x20 && report.size >= 7, decodeStatus(report).has_value());
-    EXPECT_EQ(report.id() == 0x21 && report.size >= 22, decodeMemoryPacket(report).has_value());
-    EXPECT_EQ(report.id() == 0x22 && report.size >= 5, decodeAcknowledgement(report).has_value());
-    const std::optional<DataReport> data = decodeDataReport(report);
-    for (std::size_t j = 0; data && j < 4; ++j) {
-      EXPECT_TRUE(data->spots[j].x >= 0 && data->spots[j].x < 1024);
-      EXPECT_TRUE(data->spots[j].y >= 0 && data->spots[j].y < 768);
-    }
-  }
 }
 
 TEST(Output, Bytes) {

@@ -1,4 +1,5 @@
 // The sketch of the board lights what the decoder expects: the table of doc/board.md.
+#include "arduino.h"
 #include "board_table.h"
 
 #include <gtest/gtest.h>
@@ -7,41 +8,11 @@
 #include <set>
 #include <vector>
 
-namespace {
-
-// What an Arduino gives its sketches, with a clock that goes on by itself.
 namespace arduino {
-
-using byte = unsigned char;
-enum { OUTPUT };
-
-unsigned long clock = 0;  // [us]
-std::map<int, bool> outputs;
-
-struct Change {
-  unsigned long time;  // [us]
-  int pin;
-  bool high;
-};
-std::vector<Change> changes;
-
-void pinMode(int pin, int /*mode*/) {
-  outputs[pin] = false;
-}
-
-unsigned long micros() {
-  return clock += 4;
-}
-
-void digitalWrite(int pin, int level) {
-  ++clock;
-  outputs.at(pin) = level != 0;
-  changes.push_back({clock, pin, level != 0});
-}
-
 #include "../doc/board/board.ino"
-
 }  // namespace arduino
+
+namespace {
 
 /// LEDs, by number, with a switched-on row and column at this time.
 std::set<int> litAt(unsigned long time) {
@@ -49,7 +20,7 @@ std::set<int> litAt(unsigned long time) {
   for (const arduino::Change& change : arduino::changes) {
     if (change.time > time)
       break;
-    high[change.pin] = change.high;
+    high[change.pin] = change.level == arduino::HIGH;
   }
   std::set<int> lit;
   for (int led = 0; led < 16; ++led) {

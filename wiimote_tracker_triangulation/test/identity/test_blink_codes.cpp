@@ -1,4 +1,5 @@
 // Blink codes, their file, and the table and sketch for a microcontroller.
+#include "arduino.h"
 #include "refusal_of.h"
 #include "tools/blink_codes/listing.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -14,27 +15,8 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <map>
-#include <set>
 
-// What an Arduino gives its sketches, with a clock that goes on by itself.
 namespace arduino {
-constexpr int OUTPUT = 1, HIGH = 1, LOW = 0;
-std::set<int> outputs;
-std::map<int, std::vector<std::pair<unsigned long, int>>> written;  // pin: time [us], level
-unsigned long clock = 0;
-
-void pinMode(int pin, int mode) {
-  if (mode == OUTPUT)
-    outputs.insert(pin);
-}
-unsigned long micros() {
-  return clock += 4;
-}
-void digitalWrite(int pin, int level) {
-  written[pin].push_back({clock, level});
-}
-
 namespace cyclic {
 #include "blink_codes.ino"
 }
@@ -280,7 +262,7 @@ TEST(Listing, RemarksNameWhatCamerasMiss) {
 /// Runs a sketch for ten periods and samples its pins.
 void checkSketch(void (*setup)(), void (*loop)(), const BlinkCodes& codes, double period) {
   arduino::outputs.clear();
-  arduino::written.clear();
+  arduino::changes.clear();
   // The counter of microseconds overflows meanwhile, as an Arduino's does after 71 minutes.
   arduino::clock =
       std::numeric_limits<unsigned long>::max() - static_cast<unsigned long>(3.5e6 * period);
@@ -294,11 +276,10 @@ void checkSketch(void (*setup)(), void (*loop)(), const BlinkCodes& codes, doubl
     EXPECT_EQ(1u, arduino::outputs.count(pin));
     double error = 0.0;
     int level = 0;
-    std::size_t next = 0;
-    const auto& written = arduino::written[pin];
+    auto next = arduino::changes.begin();
     for (unsigned long time = 50; time < static_cast<unsigned long>(10e6 * period); time += 100) {
-      while (next < written.size() && written[next].first - start <= time)
-        level = written[next++].second;
+      for (; next != arduino::changes.end() && next->time - start <= time; ++next)
+        level = next->pin == pin ? next->level : level;
       const double phase = 1e-6 * static_cast<double>(time) / period;
       error += 1e-4 * std::abs(level - litShare(codes.codes[led].waveform, phase, 0.0));
     }

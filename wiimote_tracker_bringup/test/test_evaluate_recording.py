@@ -15,7 +15,8 @@ from scipy.spatial.transform import Rotation
 from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import (
-    accuracy, body, disturbed, flight as flights, lighthouse, multicamselfcal, pipeline, program)
+    accuracy, body, disturbed, flight as flights, formats, lighthouse, multicamselfcal, pipeline,
+    program)
 from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of
 from wiimote_tracker_evaluation.recordings.views import Camera, Truth, Views
 
@@ -296,12 +297,13 @@ def test_a_pixel_is_predicted_from_the_other_cameras(tmp_path):
     assert multicamselfcal.prediction_error(cameras, pixels, 'a') is None
 
 
-def test_real_pixels_that_were_held_out(tmp_path):
-    source = os.path.join(HERE, 'data', 'flydra_excerpt')
-    figures, errors = multicamselfcal.evaluate(source, str(tmp_path))
-    assert figures['all']['observations'] == figures['all']['inliers'] == len(errors) == 429
-    assert figures['all']['median'] < 0.35, 'noise of the pixels: 0.2 px'
-    assert figures['all']['p95'] < 1.2
+def test_real_pixels_that_were_held_out():
+    outcome = formats.measure('multicamselfcal', os.path.join(HERE, 'data', 'flydra_excerpt'))
+    figures = outcome.scores['pixels']
+    assert figures['observations'] == figures['inliers'] == len(outcome.errors) == 429
+    assert figures['median'] < 0.35, 'noise of the pixels: 0.2 px'
+    assert figures['p95'] < 1.2
+    assert outcome.unit == 'px' and set(outcome.result) == {'held_out', 'disturbed', 'method'}
 
 
 def test_the_motion_brings_a_disturbed_camera_back(tmp_path):

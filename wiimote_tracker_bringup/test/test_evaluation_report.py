@@ -260,7 +260,14 @@ def test_a_section_may_have_options(evaluate):
     assert seen == ['right']
 
 
-def test_recordings_by_others_are_marked_as_measured(tmp_path, capsys):
+def outcome(unit, result):
+    pixels = dict.fromkeys(('median', 'mean', 'rms', 'p95', 'inliers', 'observations'), 1.0)
+    return formats.Outcome('Measured', result, [], {'pixels': pixels}, 'time [s]',
+                           np.arange(20.0), unit, np.ones(20))
+
+
+def test_recordings_by_others_are_marked_as_measured(tmp_path, capsys, monkeypatch):
+    monkeypatch.setattr(formats, 'measure', lambda name, path: outcome('px', {}))
     run = ['--rig', PAPER_RIG, '--output', str(tmp_path / 'out'), '--recordings']
     assert evaluation.parse(run + [HERE]).sections[-1] == 'recordings'
     assert 'recordings' not in evaluation.parse(run[:-1]).sections
@@ -287,8 +294,7 @@ def test_recordings_by_others_are_marked_as_measured(tmp_path, capsys):
 @pytest.mark.parametrize('title', ['2021-05-01', 'Flüge/über dem Tisch', 20 * 'long'])
 def test_a_recording_may_have_any_name(title, tmp_path):
     run = section_run(tmp_path)
-    recordings.tell(run, title, formats.Outcome('Measured', {'tracked': 0.9}, [], {}, 'time [s]',
-                                                np.arange(20.0), 'mm', np.ones(20)))
+    recordings.tell(run, title, outcome('mm', {'tracked': 0.9}))
     data.write_section(run)
     assert [figure.value for figure in run.figures] == [1.0, 90.0]
 

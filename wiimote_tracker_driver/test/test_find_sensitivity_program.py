@@ -1,10 +1,9 @@
 """What find_sensitivity does when something fails, without a driver."""
 
-import importlib.machinery
-import importlib.util
 import io
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -13,12 +12,31 @@ import types
 import pytest
 import rospy
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-sys.dont_write_bytecode = True
-loader = importlib.machinery.SourceFileLoader(
-    'find_sensitivity', os.path.join(HERE, '../scripts/find_sensitivity'))
-program = importlib.util.module_from_spec(importlib.util.spec_from_loader(loader.name, loader))
-loader.exec_module(program)
+from conftest import SCRIPTS, load
+
+program = load('find_sensitivity')
+
+
+@pytest.mark.parametrize('address, advice', [
+    ('', 'ROS_MASTER_URI is empty, but must be such as http://HOST:11311: correct it'),
+    ('htp://x', 'ROS_MASTER_URI is htp://x, but must be such as http://HOST:11311: correct it'),
+    ('http://x.invalid:11311', 'there is no ROS master at http://x.invalid:11311: start the ')])
+def test_a_master_that_cannot_be_used_is_named(monkeypatch, address, advice):
+    monkeypatch.setenv('ROS_MASTER_URI', address)
+    # The name is refused soon also where no name server answers.
+    monkeypatch.setenv('RES_OPTIONS', 'timeout:1 attempts:1')
+    with pytest.raises(program.SensitivityError, match=advice):
+        program.require_master()
+
+
+def test_without_a_master_it_ends_with_what_to_do():
+    done = subprocess.run([sys.executable, os.path.join(SCRIPTS, 'find_sensitivity'), 'room'],
+                          timeout=60, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                          universal_newlines=True,
+                          env=dict(os.environ, ROS_MASTER_URI='http://localhost:1'))
+    assert (done.returncode, done.stdout) == (1, '')
+    assert done.stderr == ('find_sensitivity: there is no ROS master at http://localhost:1: start '
+                           'the driver with roslaunch\n')
 
 
 class FakeCamera:

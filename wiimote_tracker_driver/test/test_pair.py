@@ -1,23 +1,16 @@
 """Pairing, against a FAKE bluetoothctl (see fake_bluetoothctl) and a fake list_wiimotes."""
 
-import importlib.machinery
-import importlib.util
 import json
 import os
 import sys
 
 import pytest
 
-HERE = os.path.dirname(os.path.realpath(__file__))
-SCRIPTS = os.path.join(HERE, '../scripts')
-sys.path.insert(0, SCRIPTS)
-sys.dont_write_bytecode = True
-loader = importlib.machinery.SourceFileLoader('pair', os.path.join(SCRIPTS, 'pair'))
-spec = importlib.util.spec_from_loader('pair', loader)
-pair = importlib.util.module_from_spec(spec)
-loader.exec_module(pair)
+from conftest import load
+from pairing import steps
 
-from pairing import steps  # noqa: E402
+HERE = os.path.dirname(os.path.realpath(__file__))
+pair = load('pair')
 
 # The remote, and the computer's adapter.
 A = '00:1F:32:12:34:56'

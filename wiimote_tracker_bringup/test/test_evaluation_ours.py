@@ -257,13 +257,9 @@ def test_a_place_is_one_led_that_lies_still():
     assert running_tracker.RunningTracker._place(two) is None, 'which one?'
 
 
-@pytest.mark.parametrize('address, advice', [
-    ('', 'is empty, but must be such as http://HOST:11311'),
-    ('htp://x', 'is htp://x, but must be such as http://HOST:11311'),
-    ('http://localhost:1', 'at http://localhost:1: start the tracker first')])
-def test_a_live_measurement_needs_a_master(monkeypatch, address, advice):
-    monkeypatch.setenv('ROS_MASTER_URI', address)
-    with pytest.raises(Refusal, match=advice):
+def test_a_live_measurement_needs_a_master(monkeypatch):
+    monkeypatch.setenv('ROS_MASTER_URI', 'http://localhost:1')
+    with pytest.raises(Refusal, match='at http://localhost:1: start the tracker first'):
         running_tracker.RunningTracker()
 
 

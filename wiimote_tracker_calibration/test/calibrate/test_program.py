@@ -2,6 +2,7 @@
 
 import os
 import pty
+import runpy
 import signal
 import subprocess
 import sys
@@ -14,16 +15,21 @@ PROGRAM = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../../scrip
 @pytest.mark.parametrize('address, advice', [
     ('', 'ROS_MASTER_URI is empty, but must be such as http://HOST:11311: correct it'),
     ('htp://x', 'ROS_MASTER_URI is htp://x, but must be such as http://HOST:11311: correct it'),
-    ('http://x.invalid:11311', 'there is no ROS master at http://x.invalid:11311: start the '),
-    ('http://localhost:1', 'there is no ROS master at http://localhost:1: start the ')])
-def test_without_a_master_it_says_what_to_do(address, advice):
+    ('http://x.invalid:11311', 'there is no ROS master at http://x.invalid:11311: start the ')])
+def test_a_master_that_cannot_be_used_is_named(monkeypatch, address, advice):
+    monkeypatch.setenv('ROS_MASTER_URI', address)
+    # The name is refused soon also where no name server answers.
+    monkeypatch.setenv('RES_OPTIONS', 'timeout:1 attempts:1')
+    assert runpy.run_path(PROGRAM)['master_problem']().startswith(advice)
+
+
+def test_without_a_master_it_ends_with_what_to_do():
     done = subprocess.run([sys.executable, PROGRAM], timeout=60,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          # The name is refused soon also where no name server answers.
-                          env=dict(os.environ, ROS_MASTER_URI=address,
-                                   RES_OPTIONS='timeout:1 attempts:1'))
+                          env=dict(os.environ, ROS_MASTER_URI='http://localhost:1'))
     assert (done.returncode, done.stdout) == (1, '')
-    assert done.stderr.startswith(advice) and done.stderr.count('\n') == 1
+    assert done.stderr.startswith('there is no ROS master at http://localhost:1: start the ')
+    assert done.stderr.count('\n') == 1
 
 
 def test_a_wand_that_nobody_can_wave_is_refused():

@@ -120,7 +120,15 @@ def test_the_search_betters_a_poor_start(monkeypatch):
     assert prediction.cost(ROOM, *found, points) < 0.5 * prediction.cost(ROOM, *poor, points)
 
 
-def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(tmp_path, capsys):
+@pytest.fixture
+def coarse(monkeypatch):
+    """What is proposed and told is of few candidates and places, where all that counts is that it
+    is told."""
+    monkeypatch.setattr(search, 'CANDIDATES', 20)
+    monkeypatch.setattr(plan_rig, 'ACROSS', 2)
+
+
+def test_a_proposal_is_a_rig_that_can_be_simulated_and_scored(coarse, tmp_path, capsys):
     path = str(tmp_path / 'rig.yaml')
     (tmp_path / 'rig.yaml').write_text('# of a user')
     plan_rig.main([EXAMPLE, '--generations', '1', '--output', path])
@@ -195,7 +203,7 @@ def test_what_is_no_rig_description_is_refused(text, words, tmp_path):
         plan_rig.main([EXAMPLE, '--score', str(path)])
 
 
-def test_a_map_of_an_unknown_kind_is_refused(tmp_path):
+def test_a_map_of_an_unknown_kind_is_refused(coarse, tmp_path):
     with pytest.raises(SystemExit, match="plan_rig: .*map.xyz: Format 'xyz' is not supported"):
         plan_rig.main([EXAMPLE, '--score', PAPER_RIG, '--plot', str(tmp_path / 'map.xyz')])
 
@@ -241,8 +249,7 @@ def test_a_body_whose_leds_look_away_is_not_located():
     assert not located[0] and located[3]
 
 
-def test_cameras_for_a_body_are_planned(tmp_path, capsys, monkeypatch):
-    monkeypatch.setattr(search, 'CANDIDATES', 20)
+def test_cameras_for_a_body_are_planned(coarse, tmp_path, capsys):
     path = tmp_path / 'plan.yaml'
     with open(EXAMPLE) as example:
         path.write_text(example.read().replace(

@@ -102,10 +102,9 @@ class EndToEnd(unittest.TestCase):
         deviation = bound.deviation_of(self.scene, experiment.NOMINAL_LENS, experiment.CORNERS,
                                        experiment.placed_corners(1))
         bounds = bound.position_bounds(self.scene, experiment.CORNERS, TEST_POINTS,
-                                       ALIGNMENT_POINTS, min(samples), DWELL * RATE, DWELL * RATE,
-                                       deviation=deviation)
+                                       ALIGNMENT_POINTS, min(samples), DWELL * RATE, DWELL * RATE)
         for kind in alignment.KINDS:
-            measured, best = 1e-3 * score['position_rms_mm'][kind], bounds[kind].best
+            measured, best = 1e-3 * score['position_rms_mm'][kind], bounds[kind].best(deviation)
             print('%s: measured %.2f mm, best %.2f mm, bound %.2f mm, 95 %% in %.2f .. %.2f mm' % (
                 kind, 1e3 * measured, 1e3 * best, 1e3 * bounds[kind].rms, 1e3 * bounds[kind].low,
                 1e3 * bounds[kind].high))

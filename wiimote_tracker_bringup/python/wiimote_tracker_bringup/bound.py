@@ -9,7 +9,6 @@ Independent of the tracker: separate camera model, numerical derivatives.
 """
 
 import dataclasses
-from typing import Optional
 
 import numpy as np
 from scipy.spatial.transform import Rotation
@@ -137,7 +136,7 @@ class Calibration:
 
 
 def deviation_of(scene, nominal_lens, corners, placed):
-    """Deviation of a rig from the priors: the argument of Calibration.error()."""
+    """Deviation of a rig from the priors: the argument of Calibration.error() and Bound.best()."""
     return np.concatenate([camera.parameters - nominal_lens for camera in scene.cameras]
                           + [(np.asarray(placed) - corners)[:, :2].reshape(-1)])
 
@@ -169,17 +168,25 @@ def alignment_basis(points: np.ndarray, kind: str) -> np.ndarray:
 @dataclasses.dataclass(eq=False)
 class Bound:
     """Bound of the RMS error over the test points [m], for one kind of alignment. rms: over all
-    rigs; low, high: range of the RMS of one rig with probability 0.95; best: by the best estimate
-    for this rig, None if the rig's deviation was not given."""
+    rigs; low, high: range of the RMS of one rig with probability 0.95. by_calibration: errors of
+    the test points by those of the cameras; pixels: variance of the points by their pixels, summed
+    [m^2]."""
 
     rms: float
     low: float
     high: float
-    best: Optional[float]
+    calibration: Calibration
+    by_calibration: np.ndarray
+    pixels: float
+
+    def best(self, deviation):
+        """The RMS error of the best estimate for one rig; see Calibration.error()."""
+        error = self.by_calibration @ self.calibration.error(deviation)
+        return float(np.sqrt((error @ error + self.pixels) / (len(error) // 3)))
 
 
 def position_bounds(scene, corners, test_points, alignment_points, corner_samples, test_samples,
-                    alignment_samples, knowledge=None, deviation=None, experiments=4000):
+                    alignment_samples, knowledge=None, experiments=4000):
     """Bound of each of KINDS, for points measured by averaging this many images each."""
     calibration = Calibration(scene, corners, corner_samples, knowledge or Knowledge())
 
@@ -205,10 +212,6 @@ def position_bounds(scene, corners, test_points, alignment_points, corner_sample
             by_calibration @ calibration.covariance @ by_calibration.T + by_pixels), 0.0, None)
         squares = random.randn(experiments, len(variances)) ** 2 @ variances / len(test_points)
         low, high = np.sqrt(np.percentile(squares, [2.5, 97.5]))
-        best = None
-        if deviation is not None:
-            error = by_calibration @ calibration.error(deviation)
-            best = float(np.sqrt((error @ error + np.trace(by_pixels)) / len(test_points)))
         bounds[kind] = Bound(float(np.sqrt(variances.sum() / len(test_points))), float(low),
-                             float(high), best)
+                             float(high), calibration, by_calibration, np.trace(by_pixels))
     return bounds

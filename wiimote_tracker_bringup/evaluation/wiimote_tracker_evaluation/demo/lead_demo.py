@@ -157,10 +157,11 @@ class Demo:
         bounds = bound.position_bounds(
             self._scene, experiment.CORNERS, experiment.TEST_POINTS,
             experiment.alignment_points(ALIGNMENT_SEED), corner_samples,
-            TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE,
-            deviation=bound.deviation_of(self._scene, experiment.NOMINAL_LENS, experiment.CORNERS,
-                                         experiment.placed_corners(CORNER_SEED)))
-        report.write_summary(self.file('summary.json'), self._mode, score, bounds)
+            TEST_DWELL * CAMERA_RATE, ALIGNMENT_DWELL * CAMERA_RATE)
+        deviation = bound.deviation_of(self._scene, experiment.NOMINAL_LENS, experiment.CORNERS,
+                                       experiment.placed_corners(CORNER_SEED))
+        best = {kind: each.best(deviation) for kind, each in bounds.items()}
+        report.write_summary(self.file('summary.json'), self._mode, score, bounds, best)
         report.write_csv(self.file('points.csv'), recorded, segments)
         report.draw_tracks(self.file('tracks.png'), recorded, segments, score)
         files = 'summary.json, rig.yaml, demo.bag, points.csv, tracks.png'
@@ -169,7 +170,7 @@ class Demo:
             files += ', tracks.gif'
 
         self._progress.step('Results')
-        for line in [''] + report.table(score, bounds) + ['']:
+        for line in [''] + report.table(score, bounds, best) + ['']:
             self._progress.line(line)
         self._progress.line(f'In {self._output}: {files}')
         return report.sentence(self._mode, score)

@@ -10,7 +10,8 @@ from wiimote_tracker_bringup.alignment import KINDS
 from wiimote_tracker_evaluation.demo.scoring import milli
 
 
-def table(score, bounds):
+def table(score, bounds, best):
+    """best: for this rig, by the kind of alignment [m]."""
     lines = [f"{'':<3}  {'true [m]':<22}  {'measured [m]':<22}  {'error [mm]'}"]
     for place in score['points']:
         lines.append('%-3s  %s  %s  %10.1f' % (
@@ -23,7 +24,7 @@ def table(score, bounds):
         lines.append('%-24s  %8.1f  %13.1f  %9.1f  %.1f .. %.1f' % (
             '  ' + {'absolute': 'absolute', 'rigid': 'rigid-aligned (3)',
                     'similarity': 'similarity-aligned (3)'}[kind],
-            score['position_rms_mm'][kind], 1e3 * bound.best, 1e3 * bound.rms, 1e3 * bound.low,
+            score['position_rms_mm'][kind], 1e3 * best[kind], 1e3 * bound.rms, 1e3 * bound.low,
             1e3 * bound.high))
     lines += ['', f"{'RMS on the circles [mm]':<30}  {'radial':>8}  {'height':>8}"]
     for circle in score['circles']:
@@ -54,11 +55,11 @@ def sentence(mode, score):
                 + (score['rate_hz'], score['latency_ms']['p50'], score['latency_ms']['p99'])))
 
 
-def write_summary(path, mode, score, bounds):
+def write_summary(path, mode, score, bounds, best):
     with open(path, 'w') as file:
         json.dump({
             'simulated': True, 'mode': mode, 'position_rms_mm': score['position_rms_mm'],
-            'best_for_this_rig_mm': {kind: milli(bounds[kind].best) for kind in KINDS},
+            'best_for_this_rig_mm': {kind: milli(best[kind]) for kind in KINDS},
             'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
             'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
                                     for kind in KINDS}, **score}, file, indent=2)

@@ -10,6 +10,8 @@ from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation import evaluation
 from wiimote_tracker_rig_planning import plan_rig
 
+hand = program_module.load('simulation/simulated_hand')
+
 TRAJECTORY = evaluate_trajectory.main, ['run.bag', '--estimate', '/odom', '--truth', '/body/pose']
 BASE = body_to_base.main, ['run.bag', '--body', '/body/pose', '--odom', '/odom']
 
@@ -45,7 +47,6 @@ def test_parameters(value, monkeypatch):
     monkeypatch.setattr(probe, 'read_body', lambda: 'wand')
     with pytest.raises(Refusal, match='duration is .*, but must be within 0.1 and 3600'):
         probe.Node()
-    hand = program_module.load('simulation/simulated_hand')
     with pytest.raises(Refusal, match='side is .*, but must be within 0.1 and 20'):
         hand.Hand()
 
@@ -57,4 +58,4 @@ def test_the_simulated_hand_needs_its_led(monkeypatch, tmp_path):
         '~description': str(path)}.get(name, default))
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: name)
     with pytest.raises(Refusal, match='rig.yaml has no LED led, .*: correct ~led'):
-        program_module.load('simulation/simulated_hand').Hand()
+        hand.Hand()

@@ -17,7 +17,9 @@ const char kLens[] =
 /// Two cameras, four frames, in the layout of MultiCamSelfCal.
 class MultiCamSelfCal : public testing::Test {
  protected:
-  MultiCamSelfCal() {
+  MultiCamSelfCal() { writeFiles(); }
+
+  void writeFiles() {
     folder.write("Res.dat", "640 480\n656 491\n");
     folder.write("camera_order.txt", "left\n2nd camera\n");
     folder.write("basename1.rad", kLens);
@@ -107,54 +109,44 @@ TEST_F(MultiCamSelfCal, AMissingFileIsNamed) {
   expectRefusal("Res.dat is missing");
 }
 
-TEST_F(MultiCamSelfCal, AMissingCameraIsNoticed) {
-  folder.write("points.dat", "1 2 3 4\n1 2 3 4\n1 1 1 1\n");
-  expectRefusal("points.dat has 3 rows, but must have 6");
-}
-
-TEST_F(MultiCamSelfCal, BadNumbersAreNamedByLineAndColumn) {
-  folder.remove("IdMat.dat");
-  folder.write("points.dat", "1 2\n1 2\n1 1\n3 x4\n3 4\n1 1\n");
-  expectRefusal("points.dat line 4 column 2: 'x4' is not a number");
-  folder.write("points.dat", "1 2\n1 2\n1 1\n3 4\n3 inf\n1 1\n");
-  expectRefusal("points.dat line 5 column 2: 'inf' is not a finite number");
-  folder.write("points.dat", "1 2\n1 2\n1 1\n3 4\n3\n1 1\n");
-  expectRefusal("points.dat line 5 has 1 column, but the first has 2");
-  folder.write("points.dat", "1 2\n1 2\n1 1\n3 4\n3 4\n1 0.5\n");
-  expectRefusal("points.dat row 6 column 2 must be 1, 0 or NaN");
-  folder.write("points.dat", "\n");
-  expectRefusal("points.dat is empty");
-}
-
-TEST_F(MultiCamSelfCal, FilesMustAgreeOnTheirSizes) {
-  folder.write("IdMat.dat", "1 1 0\n1 1 1\n");
-  expectRefusal("IdMat.dat has 3 columns, but must have 4");
-  folder.write("camera_order.txt", "only_one\n");
-  expectRefusal("camera_order.txt names 1 cameras");
-  folder.write("camera_order.txt", "same\nsame\n");
-  expectRefusal("camera_order.txt names a camera twice");
-}
-
-TEST_F(MultiCamSelfCal, ABadLensIsNamed) {
-  folder.write("basename1.rad", "K11 = four\n");
-  expectRefusal("basename1.rad K11: 'four' is not a number");
-  folder.write("basename1.rad", "K11 400\n");
-  expectRefusal("basename1.rad: 'K11 400' is not of the form key = number");
+/// The lens with other words in place of some.
+std::string lensWith(const std::string& words, const std::string& others) {
   std::string text = kLens;
-  folder.write("basename1.rad", text.substr(0, text.find("kc4")));
-  expectRefusal("basename1.rad lacks kc4");
-  text.replace(text.find("K12 = 0.0"), 9, "K12 = 0.5");
-  folder.write("basename1.rad", text);
-  expectRefusal("basename1.rad: K12 must be 0");
-  text = kLens;
-  text.replace(text.find("K11 = 400.5"), 11, "K11 = -400.");
-  folder.write("basename1.rad", text);
-  expectRefusal("basename1.rad: ");
+  return text.replace(text.find(words), words.size(), others);
 }
 
-TEST_F(MultiCamSelfCal, ImageSizesMustBeWholePixels) {
-  folder.write("Res.dat", "640 480\n656 -1\n");
-  expectRefusal("Res.dat row 2 must hold the width and height");
+TEST_F(MultiCamSelfCal, MistakesAreNamedByFileAndPlace) {
+  struct Mistake {
+    const char* file;
+    std::string text;
+    const char* refusal;
+  };
+  const Mistake mistakes[] = {
+      {"Res.dat", "640 480\n656 -1\n", "Res.dat row 2 must hold the width and height"},
+      {"camera_order.txt", "only_one\n", "camera_order.txt names 1 cameras"},
+      {"camera_order.txt", "same\nsame\n", "camera_order.txt names a camera twice"},
+      {"points.dat", "1 2 3 4\n1 2 3 4\n1 1 1 1\n", "points.dat has 3 rows, but must have 6"},
+      {"points.dat", "1 2\n1 2\n1 1\n3 x4\n3 4\n1 1\n",
+       "points.dat line 4 column 2: 'x4' is not a number"},
+      {"points.dat", "1 2\n1 2\n1 1\n3 4\n3 inf\n1 1\n",
+       "points.dat line 5 column 2: 'inf' is not a finite number"},
+      {"points.dat", "1 2\n1 2\n1 1\n3 4\n3\n1 1\n",
+       "points.dat line 5 has 1 column, but the first has 2"},
+      {"points.dat", "1 2 3 4\n1 2 3 4\n1 1 1 1\n3 4 5 6\n3 4 5 6\n1 0.5 1 1\n",
+       "points.dat row 6 column 2 must be 1, 0 or NaN"},
+      {"points.dat", "\n", "points.dat is empty"},
+      {"IdMat.dat", "1 1 0\n1 1 1\n", "IdMat.dat has 3 columns, but must have 4"},
+      {"basename1.rad", "K11 = four\n", "basename1.rad K11: 'four' is not a number"},
+      {"basename1.rad", "K11 400\n", "basename1.rad: 'K11 400' is not of the form key = number"},
+      {"basename1.rad", lensWith("kc4 = -0.0001\n", ""), "basename1.rad lacks kc4"},
+      {"basename1.rad", lensWith("K12 = 0.0", "K12 = 0.5"), "basename1.rad: K12 must be 0"},
+      {"basename1.rad", lensWith("K11 = 400.5", "K11 = -400."), "basename1.rad: "},
+  };
+  for (const Mistake& mistake : mistakes) {
+    writeFiles();
+    folder.write(mistake.file, mistake.text);
+    expectRefusal(mistake.refusal);
+  }
 }
 
 /// Two cameras in flydra's layout; camera 2 misses a point and sees one that camera 1 does not.

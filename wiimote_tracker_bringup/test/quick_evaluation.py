@@ -39,6 +39,17 @@ class Results:
         with open(os.path.join(self.folder, section, name + '.csv'), newline='') as file:
             return list(csv.DictReader(file))
 
+    def columns(self, section, name):
+        """A table as arrays by name: strings, or numbers with NaN in empty cells."""
+        rows, columns = self.table(section, name), {}
+        for name in rows[0]:
+            cells = [row[name] for row in rows]
+            try:
+                columns[name] = np.array([float(cell or 'nan') for cell in cells])
+            except ValueError:
+                columns[name] = np.array(cells)
+        return columns
+
 
 def evaluate(names, folder):
     """Runs these sections; all files lie in the folder."""

@@ -6,8 +6,12 @@ import pytest
 
 from quick_evaluation import COMPUTED, PAPER_RIG, TIMED, check, evaluate
 
-from wiimote_tracker_bringup import bound, experiment, scene
+from wiimote_tracker_bringup import bound, experiment, scene, statistics
 from wiimote_tracker_evaluation import sections
+from wiimote_tracker_evaluation.sections import ours
+from wiimote_tracker_evaluation.sessions import where
+
+SIGMAS = 4.0
 
 
 @pytest.fixture(scope='module')
@@ -94,3 +98,48 @@ def test_tracks_are_better_than_the_bound_of_single_images(results):
                    for which in ('radial', 'height'))
     square_millimetres = 1e6  # in a square metre
     assert 0.0 < measured < square_millimetres * np.mean(least)
+
+
+def test_single_points_reach_the_bound_and_the_papers_mean_does_not(results):
+    table = results.columns('ours', 'cameras')
+    counts = (2, 4, 8)
+    bounds = dict(zip(counts, ours.cameras.ring_bounds(PAPER_RIG, table, counts)))
+    for count, least in bounds.items():
+        errors = table['error_mm'][(table['cameras'] == count) & (table['method'] == 'most_likely')]
+        assert np.isfinite(errors).all(), 'a point was not measured'
+        # A mean of squares of about three normal coordinates each; rounding is not quite normal
+        # noise.
+        spread = np.sqrt(2.0 / len(errors)) * least ** 2
+        assert abs(np.mean(errors ** 2) - least ** 2) < SIGMAS * spread
+    four = table['cameras'] == 4
+    mean = statistics.rms(table['error_mm'][four & (table['method'] == 'mean_closest')])
+    assert mean > 1.2 * bounds[4]
+
+
+def test_tracks_continue_where_fewer_than_two_cameras_see(results):
+    table = results.columns('ours', 'occlusion')
+    instants, tracks = table['method'] == 'instants', table['method'] == 'tracks'
+    assert instants.any()
+    # Each time that they end they cover 25 ms more; in 10 s there are at most about 20 ends.
+    assert (table['covered_share'][instants] <= table['two_views_share'][instants] + 0.06).all()
+    hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 4)
+    assert (table['covered_share'][tracks & hidden].mean()
+            > table['two_views_share'][tracks & hidden].mean())
+    # With fewer than two cameras distances are extrapolated; such points are not marked as tracked.
+    tracked = table['method'] == 'tracked'
+    hidden = (table['hidden_share'] >= 0.3) & (table['cameras'] == 2)
+    assert table['astray_share'][tracked].max() < 0.01
+    assert table['astray_share'][tracks & hidden].mean() > 0.05
+
+
+def test_cameras_on_their_own_clocks_need_estimated_times_as_the_speed_grows(results):
+    table = results.columns('ours', 'unsynchronised')
+
+    def rms(speed, stamps, method):
+        return statistics.rms(table['rms_mm'][where(
+            table, speed_m_per_s=speed, stamps=stamps, clocks='own', method=method)])
+    # The jitter of arrivals, 2.4 ms, is 2.4 mm per m/s in each camera. The mean of four cameras and
+    # of a few images of each reduces it.
+    assert rms(3.0, 'arrival', 'tracks') > 0.5 * 2.4 * 3.0
+    assert rms(3.0, 'estimated', 'tracks') < 0.6 * rms(3.0, 'arrival', 'tracks')
+    assert rms(3.0, 'exact', 'latest') > 2.0 * rms(3.0, 'estimated', 'tracks')

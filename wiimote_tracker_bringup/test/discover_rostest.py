@@ -7,23 +7,20 @@ import shutil
 import subprocess
 import sys
 import tempfile
-import time
-import unittest
 
 import roslib.packages
 import rospy
 import rostest
 import yaml
+from live_rig import DEADLINE, NodeTest
 from wiimote_tracker_msgs.msg import IrBlobArray
-
-DEADLINE = 60.0  # [s]
 
 
 def program(package, name):
     return roslib.packages.find_node(package, name)[0]
 
 
-class Discover(unittest.TestCase):
+class Discover(NodeTest):
     def setUp(self):
         self.folder = tempfile.mkdtemp(prefix='discover')
         self.addCleanup(shutil.rmtree, self.folder, ignore_errors=True)
@@ -54,11 +51,9 @@ class Discover(unittest.TestCase):
 
     def wait_for_more_of(self, *names):
         before = dict(self.images)
-        end = time.monotonic() + DEADLINE
-        while any(self.images.get(name, 0) < before.get(name, 0) + 20 for name in names):
-            self.assertLess(time.monotonic(), end, f"no images from {', '.join(names)}, but "
-                                                   f"{self.images}; the file: {self.devices()}")
-            time.sleep(0.01)
+        for name in names:
+            self.wait(lambda: self.images.get(name, 0) >= before.get(name, 0) + 20,
+                      f'images of {name}')
 
     def devices(self):
         with open(self.cameras) as file:

@@ -1,5 +1,6 @@
 """Launch files take paths from the user's folder, with spaces, and leave no simulated time."""
 
+import fnmatch
 import glob
 import os
 import re
@@ -256,3 +257,17 @@ def test_gestures_take_a_button_of_any_topic(load, nodelet):
     launch = os.path.join(LAUNCH, '../../wiimote_tracker_triangulation/launch/gestures.launch')
     node = load(launch, 'joy:=/wiimote_1/joy', 'nodelet:=' + nodelet)[0]['gestures']
     assert [list(each) for each in node.remap_args] == [['joy', '/wiimote_1/joy']]
+
+
+@pytest.mark.parametrize('path', sorted(glob.glob(
+    os.path.join(LAUNCH, '../../wiimote_tracker_*/test/**/*_nodelet.test'), recursive=True)),
+    ids=os.path.basename)
+def test_what_a_nodelets_test_chooses_is_there(path):
+    """gtest runs nothing for a name that has changed, and calls it a success."""
+    text = ''.join(open(each, encoding='utf-8').read() for each in glob.glob(
+        os.path.join(os.path.dirname(path), '*.cpp')))
+    tests = ['.'.join(found) for found in re.findall(r'^TEST(?:_F)?\((\w+), (\w+)\)', text, re.M)]
+    for test in ElementTree.parse(path).getroot().iter('test'):
+        for names in re.findall(r'--gtest_filter=(\S+)', test.get('args', '')):
+            for name in names.split(':'):
+                assert fnmatch.filter(tests, name), name

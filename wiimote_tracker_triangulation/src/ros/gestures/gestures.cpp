@@ -145,7 +145,16 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
     return;
   Hand& hand = hands_.try_emplace(point.id, point.id, parameters_, button_).first->second;
   hand.label = point.label;
+  if (time - hand.last_seen > parameters_.segmenter.dark_time)
+    hand.on_since = time;
   hand.last_seen = time;
+  if (parameters_.segmenter.boundary == gesture::Boundary::kLight &&
+      time - hand.on_since > parameters_.segmenter.maximum_duration)
+    ROS_WARN_THROTTLE(60.0,
+                      "'%s' is on for more than %g s, but with boundary light a gesture ends when "
+                      "its LED is switched off: switch it off, set boundary to rest, or name the "
+                      "LEDs that draw in labels.",
+                      hand.label.c_str(), parameters_.segmenter.maximum_duration);
   const gesture::PathPoint here{time, vectorOf(point.position)};
   // An example needs a start and an end.
   if (parameters_.continuous && !wanted_) {

@@ -43,6 +43,7 @@ class Gestures {
     std::uint32_t id;
     std::string label;
     double last_seen = 0.0;  // [s]
+    double on_since = 0.0;   // [s]
     gesture::Segmenter segmenter;
     gesture::Spotter spotter;
   };

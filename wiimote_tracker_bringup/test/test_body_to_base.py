@@ -142,6 +142,26 @@ def test_refuses_an_imu_in_other_units(rate, force, reason):
         inertial.solve(body, imu)
 
 
+@pytest.mark.parametrize('rates, forces, reason', [
+    (9.0, 9.0, r'the accelerometer clips: \d+\.\d % of the time it stays at 9 m/s\^2 along z'),
+    (9.0, 9.9, r'the accelerometer clips: .* at 9\.9 m/s\^2 along z; set a larger range'),
+    (0.5, 90.0, r'the gyro clips: .* at -?0\.5 rad/s along [xyz]')])
+@pytest.mark.parametrize('interval', [0.02, 0.004])
+def test_refuses_an_imu_that_clips(rates, forces, reason, interval):
+    body, imu = with_imu(np.random.default_rng(7), interval=interval)
+    imu = dataclasses.replace(imu, rates=np.clip(imu.rates, -rates, rates),
+                              forces=np.clip(imu.forces, -forces, forces))
+    with pytest.raises(Refusal, match=reason):
+        inertial.solve(body, imu)
+
+
+def test_an_imu_of_few_bits_does_not_clip():
+    """Where it changes slowly, many of its samples equal the one before."""
+    _, imu = with_imu(np.random.default_rng(7), 60.0)
+    for sensor, values, bit in (('accelerometer', imu.forces, 0.3), ('gyro', imu.rates, 0.05)):
+        inertial.check_range(sensor, bit * np.round(values / bit), '')
+
+
 def test_refuses_stamps_that_are_zero(tmp_path):
     path = str(tmp_path / 'run.bag')
     with rosbag.Bag(path, 'w') as bag:

@@ -16,6 +16,7 @@ from wiimote_tracker_bringup.errors import Refusal
 GRAVITY = np.array([0.0, 0.0, -9.80665])  # [m/s^2]
 SHORTEST_STEP = 0.008  # faster samples are averaged [s]
 FORCES = 0.7, 1.5  # median, times gravity; IMUs that measure in g have 0.1
+MOST_CLIPPED = 0.005  # of the samples
 
 
 @dataclasses.dataclass
@@ -62,11 +63,28 @@ def solve(body, imu, largest_offset=2.0, report=lambda sentence: None):
         raise Refusal(f'the accelerometer measures {force:.3g} m/s^2 (median), but about '
                       '9.8 are expected: sensor_msgs/Imu is in m/s^2, not in g, and '
                       'gravity is not subtracted')
+    check_range('accelerometer', imu.forces, 'm/s^2')
+    check_range('gyro', imu.rates, 'rad/s')
     imu = imu.averaged()
     body, rotation, offset = mount_start.start(body, imu.rotations(), largest_offset)
     problem = Problem(body, imu, offset)
     return mount_solver.solve(problem, problem.start(rotation), (body.child, imu.child),
                               report)
+
+
+def check_range(sensor, values, unit):
+    """Throws Refusal if a sensor clips: samples that equal the one before are then at an end of its
+    range, since noise changes the others. values: n x 3."""
+    stays = np.diff(values, axis=0) == 0.0
+    ends = np.stack([values.min(axis=0), values.max(axis=0)])
+    at_end = values[1:] == ends[:, None]
+    clipped = (stays & at_end).mean(axis=1)
+    others = (stays & ~at_end.any(axis=0)).mean(axis=0)
+    for end, axis in np.argwhere((clipped > MOST_CLIPPED) & (clipped > others)):
+        share = 100.0 * clipped[end, axis]
+        raise Refusal(f'the {sensor} clips: {share:.1f} % of the time it stays at '
+                      f'{ends[end, axis]:.4g} {unit} along {"xyz"[axis]}; set a larger range, or '
+                      'move it more gently')
 
 
 class Problem:

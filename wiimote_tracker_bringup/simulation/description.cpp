@@ -113,6 +113,15 @@ void readLight(YamlMap* section, Shining* shining) {
   shining->lit = section->get<bool>("lit", shining->lit);
 }
 
+/// Why a file that the description names cannot be used.
+std::string unusable(const std::filesystem::path& file, const Error& error) {
+  std::error_code ignored;
+  return std::string("cannot be used: ") + error.what() +
+         (std::filesystem::exists(file, ignored)
+              ? ""
+              : "; paths begin at the folder of the description: copy this file there, too");
+}
+
 /// A label of a file of codes, relative to `folder`, or a word of chips.
 Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
   identity::BlinkCodes codes;
@@ -128,7 +137,8 @@ Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
       codes = identity::readBlinkCodes((folder / text).string());
     }
   } catch (const Error& error) {
-    throw section.error(key, std::string("cannot be used: ") + error.what());
+    throw section.error(key, key == "word" ? std::string("cannot be used: ") + error.what()
+                                           : unusable(folder / text, error));
   }
   if (key == "codes")
     label = section.get<std::string>("label");
@@ -226,7 +236,7 @@ Drawing readDrawing(YamlMap section, const std::filesystem::path& folder) {
   try {
     return Drawing(gesture::readPath((folder / file).string()), size, rest);
   } catch (const Error& error) {
-    throw section.error("file", std::string("cannot be used: ") + error.what());
+    throw section.error("file", unusable(folder / file, error));
   } catch (const std::invalid_argument& error) {
     throw section.error("file", error.what());
   }

@@ -158,6 +158,7 @@ TEST_F(DescriptionFile, drawings_are_read_from_the_same_folder) {
   const std::string drawing =
       "drawings: {roof: {file: " + name + ", size: 0.5, rest: 0.3}}\n" + key;
   expectRefused(key, drawing, "drawings/roof/file cannot be used: " + csv);
+  expectRefused(key, drawing, "copy this file there, too");
 
   std::ofstream(csv) << "x y z t_ms\n0 0 0 100\n2 0 1 1100\n4 0 0 4100\n";
   const Description d = read(with(key, drawing));
@@ -175,6 +176,7 @@ TEST_F(DescriptionFile, drawings_are_read_from_the_same_folder) {
     std::ofstream(csv) << rows;
     expectRefused(key, drawing, "drawings/roof/file");
     expectRefused(key, drawing, reason);
+    EXPECT_EQ(complaint(key, drawing).find("copy this file"), std::string::npos);
   }
   std::remove(csv.c_str());
 }

@@ -197,8 +197,16 @@ def test_a_recording_may_be_of_the_newest_gigabytes(load, given, split):
             if word.startswith(('--duration', '--size', '--max-splits'))] == split
 
 
+def test_rviz_beside_a_service_has_the_coverage(load):
+    started = load('rviz.launch')[0]
+    assert set(started) == {'coverage', 'rviz'}
+    service, all_at_once = load('tracker.launch')[0], load('tracker.launch', 'rviz:=true')[0]
+    assert set(all_at_once) == set(service) | set(started)
+
+
 @pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch',
-                                  'several_machines.launch', 'simulated_rig.launch hand:=true'])
+                                  'several_machines.launch', 'simulated_rig.launch hand:=true',
+                                  'rviz.launch'])
 def test_nodes_that_are_respawned_know_it(load, name):
     nodes = load(*name.split())[0].values()
     # Of drivers it is what they start that is respawned.

@@ -152,6 +152,29 @@ def test_the_page_is_self_contained(evaluate, tmp_path):
         assert words in plain
 
 
+NAMES = ['a | b', '<b>c</b>', '*d*', '_e_ f_g', '`h', '[i](http://j)', 'k \\| l', '&lt;',
+         '<http://m>']
+
+
+def test_names_are_no_markup(evaluate, tmp_path):
+    def with_names(run):
+        run.table('names', [('name', ''), ('other', '')], [[name, name] for name in NAMES])
+        for number, name in enumerate(NAMES):
+            run.figure(f'number_{number}', 1.0, '', 1, note=name)
+            recordings.tell(run, name, formats.Outcome(
+                'Measured', {}, [], {}, 'time [s]', np.arange(20.0), 'mm', np.ones(20)))
+    assert evaluate([a_section('first', with_names)]) == 0
+    page = (tmp_path / 'out/report.html').read_text(encoding='utf-8')
+    Reader(page)
+    rows = [[html.unescape(cell) for cell in re.findall('<td[^>]*>(.*?)</td>', row)]
+            for row in re.findall('<tr>(.*?)</tr>', page, re.S)]
+    for name in NAMES:
+        assert [name, name] in rows
+        assert [name, '1', '', '1', 'simulated, in process'] in rows
+    heads = [html.unescape(head) for head in re.findall('<h3[^>]*>(.*?)</h3>', page)]
+    assert [name for name in NAMES if name not in heads] == []
+
+
 def test_the_same_figure_is_the_same_svg(tmp_path):
     def drawn():
         run = section_run(tmp_path)

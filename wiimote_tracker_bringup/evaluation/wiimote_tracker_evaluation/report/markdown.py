@@ -11,7 +11,7 @@ def page(report):
     for run in report.runs:
         short += ['- ' + sentence for sentence in run.summaries]
         if run.failure:
-            short.append(f'- **{run.title} failed:** {literal(run.failure)}')
+            short.append(f'- **{run.title} failed:** {words.literal(run.failure)}')
     lines += ['', '## In short', ''] + short if short else []
     for run in report.runs:
         lines += section(run)
@@ -34,18 +34,12 @@ def section(run):
         elif isinstance(each, Table):
             lines += content_table(run, each)
     if run.failure:
-        lines += ['', '**This section failed:** ' + literal(run.failure)]
+        lines += ['', '**This section failed:** ' + words.literal(run.failure)]
     return lines
 
 
-def literal(text):
-    """The text of an error, as code: none of its signs is markup."""
-    marks = '``' if '`' in text else '`'
-    return f'{marks}{" ".join(text.split())}{marks}'
-
-
 def row(cells):
-    return '| ' + ' | '.join(cell.replace('|', '\\|').replace('\n', ' ') for cell in cells) + ' |'
+    return '| ' + ' | '.join(words.escaped(cell) for cell in cells) + ' |'
 
 
 def content_table(run, table):

@@ -1,5 +1,7 @@
 """Numbers and names for readers; the same in all pages."""
 
+import re
+
 PAPER = ('"The paper" is P. Peltola, M. Valtonen and J. Vanhala, A Portable and Low-Cost 3D '
          'Tracking System Using Four-Point Planar Square Calibration, IPIN 2012, doi '
          '10.1109/IPIN.2012.6418918.')
@@ -32,6 +34,18 @@ def with_unit(name: str, unit: str) -> str:
     return f'{plain(name)} [{unit}]' if unit else plain(name)
 
 
+def literal(text: str) -> str:
+    """Text such as that of an error, as code: none of its signs is markup."""
+    marks = '``' if '`' in text else '`'
+    return f'{marks}{" ".join(text.split())}{marks}'
+
+
+def escaped(text: str) -> str:
+    """Text such as a name that a person gave, of a line: none of its signs is markup."""
+    text = re.sub(r'[\\`*|]|(?<!\w)_|_(?!\w)|\](?=[(\[])', r'\\\g<0>', ' '.join(text.split()))
+    return text.replace('&', '&amp;').replace('<', '&lt;')
+
+
 def kind(simulated: bool, end_to_end: bool) -> str:
     if not simulated:
         return 'measured'
@@ -62,7 +76,7 @@ def about(report):
     elif not report.simulated:
         how = 'Measured on recordings by others'
     else:
-        how = f'Simulated, rig `{report.rig}`'
+        how = f'Simulated, rig {literal(report.rig)}'
     return '%s, seed %d, %s of %s with version %s; took %s. %s' % (
         how, report.seed, 'quick run' if report.quick else 'full run',
         report.date, report.version, duration(report.seconds), PAPER)

@@ -7,6 +7,7 @@ import numpy as np
 
 from wiimote_tracker_bringup import charts, statistics
 from wiimote_tracker_bringup.files import existing_folder
+from wiimote_tracker_evaluation.report import words
 
 TITLE = 'Recordings by others'
 SECONDS = 60, 60
@@ -77,9 +78,10 @@ def drawing(outcome):
 
 def tell(run, title, outcome):
     name = name_of(title)
-    run.say(f'### {title}\n\n{outcome.method}.\n\n' + '\n'.join(
+    heading = words.escaped(title)
+    run.say(f'### {heading}\n\n{outcome.method}.\n\n' + '\n'.join(
         f'- {row}: {value}' for row, value in outcome.rows))
-    run.plot('errors_of_' + name, drawing(outcome), f'Errors of {title}.')
+    run.plot('errors_of_' + name, drawing(outcome), f'Errors of {heading}.')
     statistic, word = (np.mean, 'mean') if outcome.unit == 'mm' else (np.median, 'median')
     in_order = outcome.errors[np.argsort(outcome.places, kind='stable')]
     run.estimate(f'{name}_{word}', statistics.blocks(in_order, PARTS), statistic, outcome.unit,

@@ -16,7 +16,7 @@ PATIENCE = 60.0  # on a busy computer [s]
 
 
 # Stands in for roslaunch, which its master_watch ends.
-LAUNCHER = 'import subprocess, sys; subprocess.call([sys.executable] + sys.argv[1:])'
+LAUNCHER = 'import subprocess, sys; subprocess.call([sys.executable, sys.argv[1]])'
 
 
 class Programs:
@@ -41,9 +41,9 @@ class Programs:
     def master(self):
         return self.start(['rosmaster', '--core', '-p', str(self._port)])
 
-    def watch(self):
+    def watch(self, *arguments):
         return self.start([sys.executable, str(self._launcher),
-                           os.path.join(HERE, '../launch/master_watch')])
+                           os.path.join(HERE, '../launch/master_watch'), *arguments])
 
     def wait(self, condition):
         deadline = time.monotonic() + PATIENCE
@@ -99,3 +99,10 @@ def test_a_master_that_ends_and_comes_back(programs):
     second = programs.address()
     programs.wait(lambda: first.poll() is not None)
     assert programs.address() == second
+
+
+def test_a_misspelt_argument_is_told(programs):
+    programs.master()
+    programs.wait(lambda: rosgraph.is_master_online(programs._uri))
+    programs.watch('wiimote_tracker_bringup', 'tracker.launch', 'cemeras:=cameras.yaml')
+    programs.wait(lambda: programs.says('cemeras:= has no effect: write cameras:='))

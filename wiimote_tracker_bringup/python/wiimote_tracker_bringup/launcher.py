@@ -1,0 +1,57 @@
+"""The roslaunch that started this node, and its arguments that have no effect."""
+
+import difflib
+import os
+import re
+import xml.etree.ElementTree as ElementTree
+from typing import Iterator, List, Optional, Set
+
+import rospkg
+
+PACKAGE = 'wiimote_tracker_bringup'
+
+
+def command_line() -> Optional[List[str]]:
+    """Its words after `roslaunch`; None: another program started this node."""
+    with open(f'/proc/{os.getppid()}/cmdline') as file:
+        words = file.read().split('\0')[:-1]
+    for number, word in enumerate(words[:2]):  # the interpreter and its script
+        if os.path.basename(word) == 'roslaunch':
+            return words[number + 1:]
+    return None
+
+
+def without_effect(words: List[str]) -> Iterator[str]:
+    """A sentence for each argument that no launch file takes, of which roslaunch says nothing."""
+    paths = own_files(words)
+    known = set().union(*map(arguments_of, paths))
+    for name in (word.split(':=')[0] for word in words if re.match(r'[A-Za-z]\w*:=', word)):
+        if paths and name not in known:
+            file, meant = os.path.basename(paths[0]), difflib.get_close_matches(name, known, 1)
+            yield f'{file} has no argument {name}, so {name}:= has no effect: ' + (
+                f'write {meant[0]}:=' if meant else
+                f'choose one of roslaunch --ros-args {PACKAGE} {file}')
+
+
+def own_files(words: List[str]) -> List[str]:
+    """Paths of the launch files; none if one of them is not of this package."""
+    folder = os.path.join(rospkg.RosPack().get_path(PACKAGE), 'launch')
+    paths = []
+    for before, word in zip([''] + words, words):
+        if word.endswith('.launch'):
+            paths.append(os.path.join(folder, os.path.basename(word)))
+            is_same = os.path.realpath(word) == os.path.realpath(paths[-1])
+            if not os.path.exists(paths[-1]) or not (before == PACKAGE or is_same):
+                return []
+    return paths
+
+
+def arguments_of(path: str) -> Set[str]:
+    """Those of a launch file of this package, and of files to which it passes all."""
+    root = ElementTree.parse(path).getroot()
+    names = {each.get('name') for each in root if each.tag == 'arg'}
+    for include in root.iter('include'):
+        if include.get('pass_all_args') == 'true':
+            names |= arguments_of(os.path.join(os.path.dirname(path),
+                                               os.path.basename(include.get('file'))))
+    return names

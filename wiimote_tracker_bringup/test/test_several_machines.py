@@ -1,9 +1,11 @@
 """The distribution of nodes when the tracker runs on several computers."""
 
 import os
+import shlex
 
 import roslaunch.config
 import roslaunch.core
+from rosgraph_msgs.msg import Log
 from wiimote_tracker_bringup import cameras_file
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -33,9 +35,20 @@ def test_drivers_run_near_the_remotes_and_the_rest_here():
     assert config.params['/first_drivers/file'].value == '/etc/a.yaml'
 
 
+def test_why_drivers_end_far_away_is_shown_here():
+    node, = [node for node in load('first:=192.0.2.1').nodes if node.name == 'far_log']
+    assert not node.machine_name and node.output == 'screen'
+    words = shlex.split(node.args)
+    shown = words[words.index('--filter') + 1]
+    for level, name, is_shown in (
+            (Log.FATAL, '/first_drivers', True), (Log.WARN, '/wiimote_1/driver', True),
+            (Log.INFO, '/first_drivers', False), (Log.FATAL, '/calibration', False)):
+        assert eval(shown, {'m': Log(level=level, name=name)}) == is_shown
+
+
 def test_without_arguments_everything_runs_here():
     machines = load().machines
-    assert machines
+    assert machines and 'far_log' not in [node.name for node in load().nodes]
     assert all(roslaunch.core.is_machine_local(machine) for machine in machines.values())
 
 

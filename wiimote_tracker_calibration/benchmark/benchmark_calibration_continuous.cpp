@@ -23,7 +23,6 @@ namespace wiimote_tracker {
 namespace {
 
 using continuous::ContinuousCalibration;
-using continuous::Proposal;
 
 constexpr double kOneDegree = M_PI / 180.0;
 constexpr int kHours = 8;

@@ -70,8 +70,7 @@ void runTilts(int runs, const RowCallback& row) {
   for (int bin = 0; bin < kBins; ++bin)
     row(tiltRow(
         "tilt " + std::to_string(15 * bin) + " to " + std::to_string(15 * bin + 15) + " degrees",
-        geometry::Intrinsics(), bin * kBinWidth, (bin + 1) * kBinWidth, poses,
-        static_cast<std::uint64_t>(bin + 1)));
+        geometry::Intrinsics(), bin * kBinWidth, (bin + 1) * kBinWidth, poses, bin + 1));
   geometry::Intrinsics distorting;
   distorting.distortion = {-0.12, 0.03, 0.001, -0.002, 0.0};
   row(tiltRow("tilt 0 to 75 degrees, lens with distortion", distorting, 0.0, kBins * kBinWidth,

@@ -42,8 +42,8 @@ BenchmarkRow rowOf(const std::string& name, Deformation deformation, int side, i
     Random random(static_cast<std::uint64_t>(seed));
     std::vector<KnownPoint> points;
     for (int i = 0; i < side * side * side; ++i) {
-      const Eigen::Vector3d place =
-          2.5 / (side - 1) * Eigen::Vector3d(i % side, i / side % side, i / side / side);
+      const Eigen::Vector3i cell(i % side, i / side % side, i / side / side);
+      const Eigen::Vector3d place = 2.5 / (side - 1) * cell.cast<double>();
       points.push_back({place + noise(random, 0.002), deformation(place) + noise(random, 0.005)});
     }
     try {

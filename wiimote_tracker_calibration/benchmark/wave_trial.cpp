@@ -160,8 +160,8 @@ std::vector<Eigen::Vector3d> cubePoints(const std::vector<geometry::Camera>& tru
   std::vector<Eigen::Vector3d> points;
   constexpr int kSteps = 6;
   for (int i = 0; i < kSteps * kSteps * kSteps; ++i) {
-    const Eigen::Vector3d point =
-        2.5 / (kSteps - 1) * Eigen::Vector3d(i / kSteps / kSteps, i / kSteps % kSteps, i % kSteps);
+    const Eigen::Vector3i cell(i / kSteps / kSteps, i / kSteps % kSteps, i % kSteps);
+    const Eigen::Vector3d point = 2.5 / (kSteps - 1) * cell.cast<double>();
     if (allSee(truth, point))
       points.push_back(point);
   }

@@ -58,10 +58,12 @@ void blur(double stddev, std::vector<double>* masses, std::vector<double>* spare
     return;
   const int size = static_cast<int>(masses->size());
   std::fill(spare->begin(), spare->end(), 0.0);
+  const double* const from = masses->data();
+  double* const to = spare->data();
   for (int d = -reach; d <= reach; ++d) {
     const double weight = std::exp(-0.5 * d * d / (stddev * stddev));
     for (int i = std::max(0, -d); i < std::min(size, size - d); ++i)
-      (*spare)[static_cast<std::size_t>(i + d)] += weight * (*masses)[static_cast<std::size_t>(i)];
+      to[i + d] += weight * from[i];
   }
   masses->swap(*spare);
 }
@@ -151,11 +153,12 @@ class ExposureGrid {
   static constexpr int kCells = 500;  // per period
   static constexpr int kPeriods = 11;
   static constexpr int kSize = kCells * kPeriods;
+  static constexpr int kMiddle = kSize / 2;
 
   static std::size_t index(std::int64_t period, int phase) {
     return static_cast<std::size_t>(period * kCells + phase);
   }
-  double offset(int i) const { return (i - kSize / 2) * cell_; }
+  double offset(int i) const { return (i - kMiddle) * cell_; }
 
   double cell_;
   std::vector<double> mass_ = std::vector<double>(kSize, 1.0 / kSize);

@@ -68,8 +68,9 @@ void VirtualRemotes::serve() {
         std::chrono::duration<double>(kPeriod / count_));
     auto due = SteadyClock::now();
     for (std::uint32_t sample = 1; sample < kMostSamples; ++sample) {
-      senses.lights[0].x = sample % 1024;
-      senses.lights[0].y = sample / 1024;
+      const std::uint32_t column = sample % 1024, row = sample / 1024;
+      senses.lights[0].x = column;
+      senses.lights[0].y = row;
       for (int i = 0; i < count_; ++i, due += step) {
         std::this_thread::sleep_until(due);
         const double before = steadyNow();

@@ -10,8 +10,9 @@
 namespace wiimote_tracker::panel {
 namespace {
 
-constexpr int kMargin = 6;                        // [px of the screen]
-constexpr int kCellColumns = 8, kCellRows = 6;    // as CalibrationCameraStatus.image_cells
+constexpr int kMargin = 6;                      // [px of the screen]
+constexpr int kCellColumns = 8, kCellRows = 6;  // as CalibrationCameraStatus.image_cells
+constexpr int kCells = kCellColumns * kCellRows;
 constexpr double kWiimoteRatio = 768.0 / 1024.0;  // height by width, until an image tells them
 const QColor kGround(30, 33, 40), kPicture(12, 13, 17), kText(232, 235, 240), kFaint(150, 156, 168);
 const QColor kSpot(255, 244, 214), kMask(90, 94, 104), kCell(60, 130, 200, 70);
@@ -128,11 +129,11 @@ void CameraTile::paintPicture(QPainter* painter) const {
 
 void CameraTile::paintCells(QPainter* painter, const QRectF& area) const {
   const auto& cells = camera_->status.image_cells;
-  if (cells.size() != kCellColumns * kCellRows)
+  if (cells.size() != kCells)
     return;
   const double width = area.width() / kCellColumns;
   const double height = area.height() / kCellRows;
-  for (int i = 0; i < kCellColumns * kCellRows; ++i) {
+  for (int i = 0; i < kCells; ++i) {
     const int column = i % kCellColumns, row = i / kCellColumns;
     if (cells[static_cast<std::size_t>(i)])
       painter->fillRect(QRectF(area.left() + column * width, area.top() + row * height, width - 1.0,

@@ -62,8 +62,8 @@ void HealthPage::show(const HealthView& health, double now) {
     for (const auto& value : part.values) {
       auto* row = new QTreeWidgetItem(
           item, {QString::fromStdString(value.key), QString::fromStdString(value.value)});
-      for (const int column : {0, 1})
-        row->setToolTip(column, row->text(column));
+      row->setToolTip(0, row->text(0));
+      row->setToolTip(1, row->text(1));
     }
     item->setExpanded(unfolded.count(name) > 0);
   }

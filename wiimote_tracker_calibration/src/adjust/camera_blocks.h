@@ -3,11 +3,13 @@
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
+#include <ceres/loss_function.h>
 #include <ceres/problem.h>
 
 #include <Eigen/Core>
 
 #include <array>
+#include <cmath>
 #include <vector>
 
 namespace wiimote_tracker::adjust {
@@ -49,6 +51,11 @@ struct CameraBlocks {
   std::array<double, kHigherDistortionSize> higher_distortion;
   double time_offset;  ///< Exposure time minus stamp [s].
 };
+
+/// A new Cauchy loss for one residual; null if the scale is infinite.
+inline ceres::LossFunction* lossOf(double scale) {
+  return std::isfinite(scale) ? new ceres::CauchyLoss(scale) : nullptr;
+}
 
 /// Those of several cameras, one after the other.
 inline std::vector<double*> blocksOf(std::vector<CameraBlocks>* cameras) {

@@ -135,7 +135,7 @@ class RigProblem {
         const auto pixel =
             adjust::PixelError::of(prior.cameras[view.camera].camera, view.pixel, pixel_stddev);
         const adjust::InterpolatedPixelError error{pixel, view.velocity, camera.time_offset};
-        camera.addTo(&problem_, error.cost(), lossOf(loss_scale), &camera.time_offset,
+        camera.addTo(&problem_, error.cost(), adjust::lossOf(loss_scale), &camera.time_offset,
                      keyframe.point.data());
       }
     }
@@ -163,11 +163,6 @@ class RigProblem {
   std::optional<Eigen::MatrixXd> covariance() { return adjust::covarianceOf(&problem_, blocks_); }
 
  private:
-  /// Cauchy's; none if the scale is infinite. The problem owns it.
-  static ceres::LossFunction* lossOf(double scale) {
-    return std::isfinite(scale) ? new ceres::CauchyLoss(scale) : nullptr;
-  }
-
   void addPrior(const geometry::Rig& prior, std::vector<CameraBlocks>* cameras) {
     Eigen::VectorXd mean(prior.covariance.rows());
     std::vector<std::int32_t> sizes;

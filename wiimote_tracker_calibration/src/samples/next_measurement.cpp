@@ -66,11 +66,11 @@ MeasurementModel pixelsOf(const geometry::Rig& rig,
 std::vector<Eigen::Vector3d> placesOver(const square::Corners& corners, bool z_up) {
   std::vector<Eigen::Vector3d> places;
   for (const double height : {0.0, 1.0, 2.0}) {
-    for (int k = 0; k < 9; ++k) {
-      const Eigen::Vector3d along_x = 0.5 * (k % 3) * (corners[1] - corners[0]);
-      const Eigen::Vector3d along_y = 0.5 * (k / 3) * (corners[3] - corners[0]);
-      places.push_back(corners[0] + along_x + along_y +
-                       Eigen::Vector3d(0.0, 0.0, z_up ? height : -height));
+    for (const double y : {0.0, 0.5, 1.0}) {
+      for (const double x : {0.0, 0.5, 1.0})
+        places.push_back(corners[0] + x * (corners[1] - corners[0]) +
+                         y * (corners[3] - corners[0]) +
+                         Eigen::Vector3d(0.0, 0.0, z_up ? height : -height));
     }
   }
   return places;

@@ -174,7 +174,9 @@ SimulatedWave simulateWave(const WaveScene& scene, std::uint64_t seed) {
   return simulateWave(scene, path, random);
 }
 
-SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19937_64& random) {
+SimulatedWave simulateWave(const WaveScene& scene,
+                           const SimulatedPath& path,
+                           std::mt19937_64& random) {
   SimulatedWave result{{}, {}, {}, {}, path, {}, {}};
   if (scene.square) {
     square::SquareLayout layout;

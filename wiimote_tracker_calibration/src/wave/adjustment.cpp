@@ -146,9 +146,6 @@ class WaveProblem {
   double residuals() const { return 2.0 * static_cast<double>(matches_.size()); }
 
   void addMatches(const std::vector<Match>& matches, double loss_scale) {
-    // The problem owns it.
-    ceres::LossFunction* const loss =
-        std::isfinite(loss_scale) ? new ceres::CauchyLoss(loss_scale) : nullptr;
     Trajectory& path = state_.trajectory;
     for (const Match& match : matches) {
       adjust::CameraBlocks& camera = cameras_[match.camera];
@@ -158,7 +155,7 @@ class WaveProblem {
           &problem_,
           new adjust::PathPixelError(pixel, match.stamp - path.timeOf(match.interval),
                                      path.spacing()),
-          loss, &camera.time_offset, path.control(match.interval, match.led),
+          adjust::lossOf(loss_scale), &camera.time_offset, path.control(match.interval, match.led),
           path.control(match.interval + 1, match.led), path.control(match.interval + 2, match.led),
           path.control(match.interval + 3, match.led)));
       for (Eigen::Index k = 0; k < 4; ++k)

@@ -139,7 +139,9 @@ class ParameterTree {
     return true;
   }
 
-  static void appendNames(const std::string& prefix, Value value, std::vector<std::string>* names) {
+  static void appendNames(const std::string& prefix,
+                          const Value& value,
+                          std::vector<std::string>* names) {
     if (value.getType() != Value::TypeStruct) {
       names->push_back(prefix);
       return;

@@ -22,8 +22,8 @@ void KinematicState::predict(const Transition& transition) {
   timesTransposed(transition.F, covariance);
   covariance.transposeInPlace();
   timesTransposed(transition.F, covariance);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j)
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j)
       covariance.block<3, 3>(3 * i, 3 * j).diagonal().array() += transition.Q(i, j);
   }
   covariance.triangularView<Eigen::StrictlyLower>() = covariance.transpose();

@@ -34,7 +34,7 @@ Mapped displaced(const Remap& remap, const Frame& frame, const Eigen::Vector3d& 
     derivative += coefficients.row(i).transpose() * gradient.row(i);
   }
   if (remap.model == Model::kThinPlate) {
-    const double* row = remap.parameters.data() + 3 * kAffineTerms;
+    const double* row = coefficients.data() + coefficients.size();
     for (const Eigen::Vector3d& center : remap.support) {
       const Eigen::Map<const Eigen::Vector3d> weight(row);
       row += 3;

@@ -33,15 +33,16 @@ Model modelFromName(const std::string& name) {
 }
 
 std::size_t parameterCount(Model model, std::size_t support) {
+  constexpr std::size_t kAxes = 3;
   switch (model) {
     case Model::kAffine:
-      return 3 * kAffineTerms;
+      return kAxes * kAffineTerms;
     case Model::kProjective:
       return 15;
     case Model::kTrilinear:
-      return 3 * kTrilinearTerms;
+      return kAxes * kTrilinearTerms;
     default:
-      return 3 * (kAffineTerms + support);
+      return kAxes * (kAffineTerms + support);
   }
 }
 

@@ -142,9 +142,12 @@ PaperSession drawPaperSession(const simulation::Description& description,
   for (const geometry::Camera& camera : aimed->cameras)
     session.board_lenses.push_back(lensFromBoard(camera.intrinsics, description.pixel_noise,
                                                  static_cast<std::uint32_t>(random())));
-  for (int i = 0; i < 27; ++i)
-    session.known_places.push_back(
-        put(0.5 * kSide * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9), random));
+  for (const double z : {0.0, 0.5, 1.0}) {
+    for (const double y : {0.0, 0.5, 1.0}) {
+      for (const double x : {0.0, 0.5, 1.0})
+        session.known_places.push_back(put(kSide * Eigen::Vector3d(x, y, z), random));
+    }
+  }
   for (std::vector<StillLed>* leds : {&session.points, &session.known_places}) {
     for (StillLed& led : *leds)
       look(aimed->cameras, description.pixel_noise, random, &led);

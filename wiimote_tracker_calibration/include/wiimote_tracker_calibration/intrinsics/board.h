@@ -23,7 +23,8 @@ struct Board {
 
   /// Place of an LED in the board frame [m].
   Eigen::Vector3d position(int led) const {
-    return {led % kBoardColumns * column_spacing, led / kBoardColumns * row_spacing, 0.0};
+    const int column = led % kBoardColumns, row = led / kBoardColumns;
+    return {column * column_spacing, row * row_spacing, 0.0};
   }
 };
 

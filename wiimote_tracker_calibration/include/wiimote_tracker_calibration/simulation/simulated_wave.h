@@ -89,7 +89,9 @@ struct SimulatedWave {
 SimulatedWave simulateWave(const WaveScene& scene, std::uint64_t seed);
 
 /// Same with a path of one's own.
-SimulatedWave simulateWave(const WaveScene& scene, SimulatedPath path, std::mt19937_64& random);
+SimulatedWave simulateWave(const WaveScene& scene,
+                           const SimulatedPath& path,
+                           std::mt19937_64& random);
 
 /// Another wave before the cameras of a session that was simulated before, with the same lenses,
 /// time offsets and corners: `scene` says how it is waved and seen.

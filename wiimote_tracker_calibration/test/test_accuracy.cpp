@@ -238,8 +238,8 @@ void addErrors(const SimulatedSquare& simulated, const geometry::Rig& rig, Point
       0, 0, 0, 0, 2.5, 2.5, 2.5, 2.5, 0, 1.5;
   Eigen::Matrix3Xd others(3, 27);
   for (int k = 0; k < 27; ++k)
-    others.col(k) =
-        Eigen::Vector3d(0.4 + 0.85 * (k % 3), 0.4 + 0.85 * (k / 3 % 3), 0.4 + 0.85 * (k / 9));
+    others.col(k) = 0.85 * Eigen::Vector3i(k % 3, k / 3 % 3, k / 9).cast<double>();
+  others.array() += 0.4;
   const Eigen::Matrix3Xd measured = triangulateAll(simulated, rig, points);
   const Eigen::Matrix3Xd measured_others = triangulateAll(simulated, rig, others);
   errors->absolute += (measured - points).squaredNorm();

@@ -24,8 +24,12 @@ using square::Random;
 /// Corners and middle of a cube in front of the cameras [m].
 std::vector<Eigen::Vector3d> cube() {
   std::vector<Eigen::Vector3d> places = {{1.25, 1.25, 1.25}};
-  for (int i = 0; i < 8; ++i)
-    places.emplace_back(0.5 + i % 2 * 1.5, 0.5 + i / 2 % 2 * 1.5, 0.5 + i / 4 * 1.5);
+  for (const double z : {0.5, 2.0}) {
+    for (const double y : {0.5, 2.0}) {
+      for (const double x : {0.5, 2.0})
+        places.emplace_back(x, y, z);
+    }
+  }
   return places;
 }
 

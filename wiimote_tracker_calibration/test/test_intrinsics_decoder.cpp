@@ -32,7 +32,8 @@ struct Scene {
   std::optional<Eigen::Vector2d> lamp;              // always lit
 
   Eigen::Vector2d place(int led, double time) const {
-    const Eigen::Vector2d p(spacing * (led % 4 - 1.5), spacing * (led / 4 - 1.5));
+    const int column = led % 4, row = led / 4;
+    const Eigen::Vector2d p(spacing * (column - 1.5), spacing * (row - 1.5));
     // Seen at a slant: rows converge.
     const Eigen::Vector2d slanted = p / (1.0 + 0.0008 * p.y());
     return center + speed * time + Eigen::Rotation2Dd(turn) * slanted;

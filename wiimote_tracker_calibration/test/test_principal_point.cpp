@@ -36,8 +36,7 @@ struct Means {
 Means meansOf(PaperSession session) {
   constexpr int kSessions = 3;
   Means means;
-  for (int i = 0; i < kSessions; ++i) {
-    session.seed = static_cast<std::uint64_t>(i + 1);
+  for (session.seed = 1; session.seed <= kSessions; ++session.seed) {
     const PaperResult result = runPaperSession(session);
     means.before += result.before / kSessions;
     means.after += result.after / kSessions;

@@ -36,7 +36,8 @@ Eigen::Vector3d inCube(Random& random, double from, double to) {
 std::vector<Eigen::Vector3d> grid(Random& random) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 27; ++i)
-    points.push_back(1.25 * Eigen::Vector3d(i % 3, i / 3 % 3, i / 9) + noise(random, 0.02));
+    points.push_back(1.25 * Eigen::Vector3i(i % 3, i / 3 % 3, i / 9).cast<double>() +
+                     noise(random, 0.02));
   return points;
 }
 
@@ -263,7 +264,7 @@ TEST(Remap, AnotherCalibrationAndDamagedValuesAreRefused) {
   const Remap good = fitRemap(deformed(grid(random), affine), kRig).remap;
   EXPECT_NO_THROW(Correction(good, kRig));
   try {
-    Correction(good, "fedcba9876543210");
+    const Correction correction(good, "fedcba9876543210");
     FAIL();
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find("void"), std::string::npos);

@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -153,9 +154,10 @@ Samples expectedSamples() {
   return samples;
 }
 
-/// Compares bits: 0 is not -0.
+/// 0 is not -0.
 void expectSameSamples(double a, double b) {
-  EXPECT_EQ(std::memcmp(&a, &b, sizeof a), 0) << a << " " << b;
+  EXPECT_EQ(a, b);
+  EXPECT_EQ(std::signbit(a), std::signbit(b)) << a << " " << b;
 }
 
 template <typename A, typename B>

@@ -32,16 +32,16 @@ using wiimote_tracker_msgs::IrBlobArray;
 class DriverTest : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    remote = std::make_unique<Remote>(parameter("files") + "_1.sock", kIdentity);
+    remote_ = std::make_unique<Remote>(parameter("files") + "_1.sock", kIdentity);
   }
-  static void TearDownTestSuite() { remote.reset(); }
+  static void TearDownTestSuite() { remote_.reset(); }
 
-  void SetUp() override { remote->sense(Senses()); }
+  void SetUp() override { remote_->sense(Senses()); }
 
-  static std::unique_ptr<Remote> remote;
+  static std::unique_ptr<Remote> remote_;
 };
 
-std::unique_ptr<Remote> DriverTest::remote;
+std::unique_ptr<Remote> DriverTest::remote_;
 
 /// A time of the steady clock on the ROS clock. Both are read again when this process was stopped
 /// meanwhile.
@@ -56,7 +56,7 @@ ros::Time rosTimeOf(double time) {
 }
 
 TEST_F(DriverTest, BlobsFollowTheImageConvention) {
-  remote->sense(lights({{291, 69, 3, 9}, {1023, 767, 1, 8}, {0, 100, 15, 7}}));
+  remote_->sense(lights({{291, 69, 3, 9}, {1023, 767, 1, 8}, {0, 100, 15, 7}}));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   ASSERT_TRUE(spinUntil(
       [&] { return !blobs.messages.empty() && blobs.messages.back().blobs.size() == 3; }));
@@ -88,9 +88,9 @@ TEST_F(DriverTest, ARemainingLightKeepsItsSlot) {
     return !blobs.messages.empty() && blobs.messages.back().blobs.size() == count;
   };
   ASSERT_TRUE(spinUntil([&] { return sees(0); }));
-  remote->sense(lights({{300, 100, 2, 2}, {500, 100, 2, 1}}));
+  remote_->sense(lights({{300, 100, 2, 2}, {500, 100, 2, 1}}));
   ASSERT_TRUE(spinUntil([&] { return sees(2); }));
-  remote->sense(lights({{500, 100, 2, 1}}));
+  remote_->sense(lights({{500, 100, 2, 1}}));
   ASSERT_TRUE(spinUntil([&] { return sees(1); }));
   EXPECT_EQ(500, blobs.messages.back().blobs[0].x);
   EXPECT_EQ(1, blobs.messages.back().blobs[0].slot);
@@ -112,7 +112,7 @@ TEST_F(DriverTest, DarkImagesAreEmptyArrays) {
 TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
   constexpr std::uint64_t kNumbers = 1000;
   const auto jitter = std::make_shared<std::mt19937>(17);
-  remote->play([jitter](std::uint64_t n) {
+  remote_->play([jitter](std::uint64_t n) {
     std::normal_distribution<double> delay(Remote::kDelay, 0.0024);
     return Remote::Instant{lights({{static_cast<double>(n % kNumbers), 384, 3, 9}}),
                            std::max(0.0, delay(*jitter))};
@@ -121,9 +121,9 @@ TEST_F(DriverTest, StampsFollowTheExposuresNotTheArrivals) {
   ASSERT_TRUE(spinUntil([&] { return blobs.messages.size() >= 600; }));
 
   // The last 300, after the clock has settled.
-  const ros::Time ros_start = rosTimeOf(remote->exposure(0));
+  const ros::Time ros_start = rosTimeOf(remote_->exposure(0));
   const std::uint64_t thousands =
-      static_cast<std::uint64_t>((steadyNow() - remote->exposure(0)) / Remote::kPeriod) / kNumbers;
+      static_cast<std::uint64_t>((steadyNow() - remote_->exposure(0)) / Remote::kPeriod) / kNumbers;
   std::vector<double> stamp_errors;
   std::vector<double> stamp_stddevs;
   std::vector<double> arrival_errors;
@@ -165,7 +165,7 @@ TEST_F(DriverTest, ALateSubscriberFindsTheClockInStep) {
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   ASSERT_TRUE(spinUntil([&] {
     return values(driverStatus(diagnostics))["exposure clock"] == "in step" &&
-           remote->server.connected();
+           remote_->server.connected();
   }));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   const auto age = [](const IrBlobArray& message) {
@@ -219,7 +219,7 @@ TEST_F(DriverTest, AccelerationInMetresPerSecondSquared) {
   EXPECT_TRUE(spinUntil([&] { return reads(0.0, 0.0, 9.80665); })) << "lying, buttons up";
   Senses senses;
   senses.acceleration = {0.6, -0.8, 0.0};
-  remote->sense(senses);
+  remote_->sense(senses);
   EXPECT_TRUE(spinUntil([&] { return reads(5.884, -7.845, 0.0); }));
   const sensor_msgs::Imu& message = imu.messages.back();
   EXPECT_EQ("wiimote_1_imu_frame", message.header.frame_id);
@@ -311,11 +311,11 @@ TEST_F(DriverTest, ButtonsAsJoy) {
   EXPECT_EQ(std::vector<int>(11, 0), joy.last().buttons);
   Senses senses;
   senses.buttons = 0x0008 | 0x1000;  // A and plus
-  remote->sense(senses);
+  remote_->sense(senses);
   const std::vector<int> pressed{0, 0, 1, 0, 1, 0, 0, 0, 0, 0, 0};
   EXPECT_TRUE(spinUntil([&] { return joy.last().buttons == pressed; }));
   EXPECT_TRUE(joy.last().axes.empty());
-  remote->sense(Senses());
+  remote_->sense(Senses());
   EXPECT_TRUE(spinUntil([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   ASSERT_TRUE(spinUntil([&] { return blobs.messages.size() >= 20; }));
@@ -326,8 +326,8 @@ TEST_F(DriverTest, FeedbackLightsLedsAndRumblesForAWhile) {
   ros::Publisher publisher =
       ros::NodeHandle().advertise<sensor_msgs::JoyFeedbackArray>("/wiimote_1/joy/set_feedback", 10);
   ASSERT_TRUE(spinUntil([&] { return publisher.getNumSubscribers() > 0; }));
-  ASSERT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; })) << "as configured";
-  EXPECT_FALSE(remote->server.rumble());
+  ASSERT_TRUE(spinUntil([&] { return remote_->server.leds() == 0x4; })) << "as configured";
+  EXPECT_FALSE(remote_->server.rumble());
   const auto feedback = [](int type, int id, float intensity) {
     sensor_msgs::JoyFeedback f;
     f.type = static_cast<std::uint8_t>(type);
@@ -341,18 +341,18 @@ TEST_F(DriverTest, FeedbackLightsLedsAndRumblesForAWhile) {
                    feedback(sensor_msgs::JoyFeedback::TYPE_LED, 7, 1.0f),
                    feedback(sensor_msgs::JoyFeedback::TYPE_BUZZER, 0, 1.0f)};
   publisher.publish(message);
-  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x1; }));
+  EXPECT_TRUE(spinUntil([&] { return remote_->server.leds() == 0x1; }));
   message.array = {feedback(sensor_msgs::JoyFeedback::TYPE_RUMBLE, 0, 1.0f)};
   EXPECT_TRUE(spinUntil([&] {  // again, since this process may not look while it lasts
     publisher.publish(message);
-    return remote->server.rumble();
+    return remote_->server.rumble();
   }));
-  EXPECT_TRUE(spinUntil([&] { return !remote->server.rumble(); })) << "after rumble_max";
-  EXPECT_EQ(0x1, remote->server.leds());
+  EXPECT_TRUE(spinUntil([&] { return !remote_->server.rumble(); })) << "after rumble_max";
+  EXPECT_EQ(0x1, remote_->server.leds());
   message.array = {feedback(sensor_msgs::JoyFeedback::TYPE_LED, 0, 0.0f),
                    feedback(sensor_msgs::JoyFeedback::TYPE_LED, 2, 1.0f)};
   publisher.publish(message);
-  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; }));
+  EXPECT_TRUE(spinUntil([&] { return remote_->server.leds() == 0x4; }));
 }
 
 TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
@@ -365,7 +365,7 @@ TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
   EXPECT_TRUE(std::isnan(battery.last().temperature));
   EXPECT_EQ("wiimote_1", battery.last().location);
   EXPECT_EQ(kIdentity, battery.last().serial_number);
-  remote->server.setBattery(0x10);
+  remote_->server.setBattery(0x10);
   EXPECT_TRUE(spinUntil([&] { return battery.last().percentage < 0.9f; }));
   EXPECT_NEAR(2.46 * 16 / 255 - 0.013, battery.last().percentage, 1e-6);
   EXPECT_TRUE(spinUntil([&] {
@@ -373,7 +373,7 @@ TEST_F(DriverTest, BatteryIsPublishedWithAWarning) {
            std::string::npos;
   }));
   EXPECT_EQ("16", values(driverStatus(diagnostics))["battery (raw)"]);
-  remote->server.setBattery(0xa0);
+  remote_->server.setBattery(0xa0);
   EXPECT_TRUE(spinUntil([&] { return battery.last().percentage == 1.0f; }));
 }
 
@@ -395,7 +395,7 @@ std::map<std::string, std::string> set(
 }
 
 TEST_F(DriverTest, SensitivityChangesWithoutLosingTheStream) {
-  remote->sense(lights({{300, 100, 3, 0.05}}));
+  remote_->sense(lights({{300, 100, 3, 0.05}}));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   const auto sees = [&](std::size_t count) {
     return blobs.any() && blobs.last().blobs.size() == count;
@@ -435,9 +435,9 @@ TEST_F(DriverTest, LedsCanBeChanged) {
     EXPECT_TRUE(ros::service::call("/wiimote_1/driver/set_parameters", call));
   };
   set_leds(-1);
-  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x1; })) << "wiimote_1";
+  EXPECT_TRUE(spinUntil([&] { return remote_->server.leds() == 0x1; })) << "wiimote_1";
   set_leds(4);
-  EXPECT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; }));
+  EXPECT_TRUE(spinUntil([&] { return remote_->server.leds() == 0x4; }));
 }
 
 TEST_F(DriverTest, DiagnosticsDescribeTheState) {
@@ -470,7 +470,7 @@ TEST_F(DriverTest, DiagnosticsDescribeTheState) {
 }
 
 TEST_F(DriverTest, SecondDriverNamesTheUserOfTheRemote) {
-  ASSERT_TRUE(spinUntil([&] { return remote->server.connected(); }));
+  ASSERT_TRUE(spinUntil([&] { return remote_->server.connected(); }));
   ASSERT_EQ(0, std::system(("ROS_NAMESPACE=wiimote_8 rosrun wiimote_tracker_driver driver_node "
                             "__name:=driver _device:=virtual:" +
                             parameter("files") + "_1.sock > /dev/null 2>&1 &")
@@ -483,10 +483,10 @@ TEST_F(DriverTest, SecondDriverNamesTheUserOfTheRemote) {
 }
 
 TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
-  remote->sense(lights({{291, 69, 3, 9}}));
+  remote_->sense(lights({{291, 69, 3, 9}}));
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   ASSERT_TRUE(spinUntil([&] { return !blobs.messages.empty(); }));
-  remote->server.setPresent(false);
+  remote_->server.setPresent(false);
 
   Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
   EXPECT_TRUE(spinUntil([&] {  // this driver: others have no remote at all
@@ -496,7 +496,7 @@ TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
   })) << "diagnostics say what is missing";
 
   const std::uint32_t epoch = blobs.messages.back().clock_epoch;
-  remote->server.setPresent(true);
+  remote_->server.setPresent(true);
   ASSERT_TRUE(spinUntil(
       [&] { return blobs.last().clock_epoch > epoch && !blobs.messages.back().blobs.empty(); }));
   const auto first =
@@ -511,22 +511,22 @@ TEST_F(DriverTest, UnplugAndReplugIsANewEpochOfTheSameStream) {
 TEST_F(DriverTest, ButtonsAreReleasedWhenTheRemoteHasGone) {
   Senses senses;
   senses.buttons = 0x0008;  // A
-  remote->sense(senses);
+  remote_->sense(senses);
   Recorder<sensor_msgs::Joy> joy("/wiimote_1/joy");
   ASSERT_TRUE(spinUntil([&] { return joy.any() && joy.last().buttons.at(2) == 1; }));
-  remote->server.setPresent(false);
+  remote_->server.setPresent(false);
   EXPECT_TRUE(spinUntil([&] { return joy.last().buttons == std::vector<int>(11, 0); }));
-  remote->server.setPresent(true);
+  remote_->server.setPresent(true);
 }
 
 // The last test: the driver does not return.
 TEST_F(DriverTest, ShutDownSwitchesTheRemoteOff) {
-  ASSERT_TRUE(spinUntil([&] { return remote->server.connected(); }));
-  ASSERT_TRUE(spinUntil([&] { return remote->server.leds() == 0x4; })) << "as configured";
+  ASSERT_TRUE(spinUntil([&] { return remote_->server.connected(); }));
+  ASSERT_TRUE(spinUntil([&] { return remote_->server.leds() == 0x4; })) << "as configured";
   ASSERT_EQ(0, std::system("rosnode kill /wiimote_1/driver > /dev/null"));
-  EXPECT_TRUE(spinUntil([&] { return !remote->server.connected(); }));
-  EXPECT_EQ(0x0, remote->server.leds());
-  EXPECT_FALSE(remote->server.rumble());
+  EXPECT_TRUE(spinUntil([&] { return !remote_->server.connected(); }));
+  EXPECT_EQ(0x0, remote_->server.leds());
+  EXPECT_FALSE(remote_->server.rumble());
 }
 
 }  // namespace

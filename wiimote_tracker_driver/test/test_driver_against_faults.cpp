@@ -60,8 +60,8 @@ struct Case {
   double longest;  ///< Longest gap [s].
 };
 
-void PrintTo(const Case& c, std::ostream* out) {
-  *out << c.name;
+std::ostream& operator<<(std::ostream& out, const Case& c) {
+  return out << c.name;
 }
 
 class DriverAgainst : public testing::TestWithParam<Case> {};

@@ -45,7 +45,7 @@ TEST(ImageAssembler, OneReportAnImageUnlessTheFormatIsFull) {
   EXPECT_TRUE(extended.expects(0x33));
   EXPECT_FALSE(extended.expects(0x37));
   EXPECT_FALSE(extended.expects(0x3f));
-  EXPECT_THROW(ImageAssembler(IrFormat::kNone), std::invalid_argument);
+  EXPECT_THROW(ImageAssembler{IrFormat::kNone}, std::invalid_argument);
 }
 
 class ImageHalves : public testing::Test {

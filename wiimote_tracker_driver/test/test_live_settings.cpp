@@ -57,7 +57,8 @@ TEST_F(WiimoteTest, NoImageIsTakenWhileTheCameraIsStopped) {
 TEST_F(WiimoteTest, TheLastSensitivityAppliesAtAnyMomentOfChange) {
   const protocol::IrSensitivity marcan = *protocol::irSensitivity("marcan");
   for (int i = 0; i < 240; ++i) {
-    const double moment = 100.0 + 0.001 * (i / 2);
+    const int milliseconds = i / 2;
+    const double moment = 100.0 + 0.001 * milliseconds;
     FakeRemote remote;
     Wiimote wiimote(
         Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });

@@ -15,7 +15,6 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <system_error>
@@ -88,7 +87,7 @@ TEST(SocketTransport, RemoteThatReadsNoMoreDoesNotBlock) {
   const std::string path = folder / "remote.sock";
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  std::strcpy(address.sun_path, path.c_str());
+  path.copy(address.sun_path, sizeof(address.sun_path) - 1);
   const int listener = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
   ASSERT_EQ(0, ::bind(listener, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
   ASSERT_EQ(0, ::listen(listener, 1));
@@ -157,7 +156,7 @@ class Sockets : public testing::Test {
     const int fd = ::socket(AF_UNIX, SOCK_SEQPACKET, 0);
     sockaddr_un address{};
     address.sun_family = AF_UNIX;
-    std::strcpy(address.sun_path, path_.c_str());
+    path_.copy(address.sun_path, sizeof(address.sun_path) - 1);
     EXPECT_EQ(0, ::bind(fd, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));
     return fd;
   }

@@ -10,6 +10,7 @@
 namespace arduino {
 
 using byte = unsigned char;
+// NOLINTNEXTLINE(readability-identifier-naming): the sketches call them so
 constexpr int OUTPUT = 1, HIGH = 1, LOW = 0;
 
 struct Change {

@@ -21,7 +21,7 @@ using tracking::TrackState;
 
 constexpr double kStart = 1.7e9;  // [s since 1970]
 
-TrackedLed ledAt(const Vector3d& position, std::optional<Vector3d> velocity = std::nullopt) {
+TrackedLed ledAt(const Vector3d& position, const std::optional<Vector3d>& velocity = {}) {
   TrackedLed led;
   led.id = 3;
   led.state = TrackState::kTracked;

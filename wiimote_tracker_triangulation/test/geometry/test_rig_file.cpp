@@ -7,8 +7,8 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <cmath>
 #include <csignal>
-#include <cstring>
 #include <filesystem>
 #include <iterator>
 #include <thread>
@@ -20,8 +20,9 @@ namespace fs = std::filesystem;
 
 constexpr double kUnset = std::numeric_limits<double>::quiet_NaN();
 
+/// 0 is not -0.
 bool same(double a, double b) {
-  return (std::isnan(a) && std::isnan(b)) || std::memcmp(&a, &b, sizeof a) == 0;
+  return (std::isnan(a) && std::isnan(b)) || (a == b && std::signbit(a) == std::signbit(b));
 }
 
 void expectSame(const RigCamera& a, const RigCamera& b) {

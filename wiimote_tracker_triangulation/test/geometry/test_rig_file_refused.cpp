@@ -81,9 +81,7 @@ TEST_F(RigFile, OnlyRegularFilesOfUsualSizeAreRead) {
 TEST_F(RigFile, ForeignFilesAreRefused) {
   for (const std::string content :
        {"", "\n", "just text", "[1, 2, 3]", "a: 1\n", "format: something_else\nversion: 1\n",
-        "format: [wiimote_tracker_rig]\n", "image_width: 640\nimage_height: 480\n",
-        "\x7f"
-        "ELF\x02",
+        "format: [wiimote_tracker_rig]\n", "image_width: 640\nimage_height: 480\n", "\177ELF\2",
         "{{{{", "a: b: c", "*alias", "&a [*a]"}) {
     const std::string complaint = complaintAbout(content);
     EXPECT_NE(std::string::npos, complaint.find(path_)) << "'" << content << "': " << complaint;

@@ -305,7 +305,7 @@ TEST(Triangulate, MaximumLikelihoodFitsThePixelsBest) {
 
 /// By how much Newton's method with numerical derivatives lowers the cost of a point [px^2].
 double gainLeft(const std::vector<Observation>& observations, const Vector3d& point) {
-  constexpr double h = 1e-3;  // [m]
+  const double h = 1e-3;  // [m]
   const auto cost = [&](const Vector3d& offset) {
     return squaredResiduals(observations, point + offset);
   };

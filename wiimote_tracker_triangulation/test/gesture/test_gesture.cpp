@@ -34,7 +34,7 @@ Shape shapeOfDrawing(const Curve& curve, const Drawing& drawing) {
 
 /// Time warping over the full cost table.
 double distanceByTable(const Shape& a, const Shape& b) {
-  constexpr int n = Shape::kPoints;
+  const int n = Shape::kPoints;
   std::vector<std::vector<double>> table(n + 1, std::vector<double>(n + 1, INFINITY));
   table[0][0] = 0.0;
   for (int i = 1; i <= n; ++i) {

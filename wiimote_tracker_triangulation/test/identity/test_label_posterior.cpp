@@ -35,7 +35,7 @@ Eigen::MatrixXd posteriorOf(const Hypotheses& hypotheses,
 
 /// Largest difference from the exhaustive probabilities in some runs. @param raster step to which
 /// the times of sightings are rounded [s]; 0: not rounded.
-double errorAgainstExhaustive(BlinkingOptions options, int runs, double raster) {
+double errorAgainstExhaustive(const BlinkingOptions& options, int runs, double raster) {
   const Hypotheses hypotheses(options.codes, {}, 1.0);
   test::ExhaustiveLabels exhaustive;
   exhaustive.codes = options.codes;

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -51,8 +52,9 @@ std::vector<std::string> cellsOf(const std::string& line) {
   return cells;
 }
 
+/// 0 is not -0.
 bool isSame(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  return a == b && std::signbit(a) == std::signbit(b);
 }
 
 class WriterTest : public testing::Test {
@@ -168,10 +170,12 @@ TEST_F(WriterTest, CsvGivesNumbersBackBitForBit) {
   const auto rows = written(measurements);
   ASSERT_EQ(measurements.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (int axis = 0; axis < 3; ++axis)
+    for (int axis = 0; axis < 3; ++axis) {
+      const std::string& cell = rows[i][7 + axis];
       EXPECT_TRUE(isSame(vectorOf(measurements[i].points[0].position)[axis],
-                         std::strtod(rows[i][static_cast<std::size_t>(7 + axis)].c_str(), nullptr)))
-          << rows[i][static_cast<std::size_t>(7 + axis)];
+                         std::strtod(cell.c_str(), nullptr)))
+          << cell;
+    }
   }
 }
 

@@ -56,7 +56,7 @@ TEST(ConvexHull, holds_all_mixtures_of_its_points_and_nothing_beyond) {
 TEST(ConvexHull, a_box_with_points_on_its_faces_is_a_box) {
   std::vector<Eigen::Vector3d> points;
   for (int i = 0; i < 125; ++i)
-    points.push_back(0.5 * Eigen::Vector3d(i % 5, i / 5 % 5, i / 25));
+    points.push_back(0.5 * Eigen::Vector3i(i % 5, i / 5 % 5, i / 25).cast<double>());
   const ConvexHull hull(points);
   EXPECT_TRUE(hull.encloses({0.0, 0.0, 0.0}));
   EXPECT_TRUE(hull.encloses({2.0, 1.3, 0.7}));
@@ -74,8 +74,12 @@ TEST(ConvexHull, nothing_is_inside_of_points_without_volume) {
 
 TEST(ConvexHull, a_line_leaves_a_box_where_it_must) {
   std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.emplace_back(2.0 * (i % 2), 2.0 * (i / 2 % 2), 2.0 * (i / 4));
+  for (const double z : {0.0, 2.0}) {
+    for (const double y : {0.0, 2.0}) {
+      for (const double x : {0.0, 2.0})
+        corners.emplace_back(x, y, z);
+    }
+  }
   const ConvexHull box(corners);
   const Eigen::Vector3d inside(0.5, 1.0, 1.0);
   const ConvexHull::Exit right = box.exit(inside, {3.5, 1.0, 1.5});

@@ -16,8 +16,12 @@ const char* const kRig = "0123456789abcdef";
 /// unit is 2 m.
 std::vector<Eigen::Vector3d> box() {
   std::vector<Eigen::Vector3d> corners;
-  for (int i = 0; i < 8; ++i)
-    corners.emplace_back(2.0 * (i % 2), 4.0 * (i / 2 % 2), 2.0 * (i / 4));
+  for (const double z : {0.0, 2.0}) {
+    for (const double y : {0.0, 4.0}) {
+      for (const double x : {0.0, 2.0})
+        corners.emplace_back(x, y, z);
+    }
+  }
   return corners;
 }
 
@@ -112,7 +116,7 @@ TEST(Correction, points_that_are_not_finite_are_not_corrected) {
 }
 
 TEST(Correction, another_calibration_and_damage_are_refused_with_different_texts) {
-  const auto says = [](Remap remap, const std::string& rig, const std::string& part) {
+  const auto says = [](const Remap& remap, const std::string& rig, const std::string& part) {
     try {
       Correction(remap, rig);
     } catch (const Error& e) {

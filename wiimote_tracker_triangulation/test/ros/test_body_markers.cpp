@@ -65,7 +65,7 @@ TEST_F(ShownBodies, AxesTurnWithTheBody) {
   const Marker axes = find("body_axes", 0);
   EXPECT_EQ(wand(TrackedBody::TRACKED).bodies[0].pose.pose, axes.pose);
   ASSERT_EQ(6u, axes.points.size());
-  for (int axis = 0; axis < 3; ++axis) {
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
     EXPECT_EQ(Vector3d::Zero(), vectorOf(axes.points[2 * axis]));
     EXPECT_EQ(Vector3d::Unit(axis), vectorOf(axes.points[2 * axis + 1]).normalized());
     const auto& color = axes.colors[2 * axis + 1];  // x red, y green, z blue

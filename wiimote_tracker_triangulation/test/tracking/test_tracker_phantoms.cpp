@@ -96,7 +96,8 @@ TEST(ExtensiveTrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {
     geometry::test::Random random(seed);
     std::vector<Path> leds;
     for (int i = 0; i < 12; ++i) {
-      const Eigen::Vector3d place(0.5 + 0.5 * (i % 4), 0.6 + 0.6 * (i / 4), 1.0);
+      const int column = i % 4, row = i / 4;
+      const Eigen::Vector3d place(0.5 + 0.5 * column, 0.6 + 0.6 * row, 1.0);
       leds.push_back(wandering(random, place, 0.2, 0.5));
     }
     const PhantomRows rows = rowsOf(paperRig(), leds, leds, SceneOptions(), 4000, seed);

@@ -123,8 +123,8 @@ Transition::Transition(const MatrixXd& A, const MatrixXd& density, double durati
 Transition Transition::inThreeAxes() const {
   Transition result = *this;
   result.F = result.Q = MatrixXd::Zero(9, 9);
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) {
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    for (Eigen::Index j = 0; j < 3; ++j) {
       result.F.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(F(i, j));
       result.Q.block<3, 3>(3 * i, 3 * j).diagonal().setConstant(Q(i, j));
     }

@@ -10,6 +10,8 @@
 namespace wiimote_tracker::health {
 namespace {
 
+using square::Random;
+
 TEST(Alarm, DoesNotFlap) {
   Alarm alarm;
   int changes = 0;

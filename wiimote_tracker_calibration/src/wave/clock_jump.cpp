@@ -56,7 +56,7 @@ std::optional<Lag> lagOf(const State& state, const Match& match) {
 }
 
 /// A jump of one camera's clock during the wave.
-struct ClockStep {
+struct ClockJump {
   double after = 0.0;      ///< Stamp of the last image before the jump [s].
   double size = 0.0;       ///< How much too late the stamps after it are [s].
   double explained = 0.0;  ///< Part of the squared residuals that it explains [px^2].
@@ -66,13 +66,13 @@ struct ClockStep {
 /// For each camera the jump that explains the residuals along the motion of its spots best (the
 /// change point of a mean, Hinkley 1970). The path follows a jump in part, so that the size is too
 /// small.
-std::vector<ClockStep> clockSteps(const State& state, const std::vector<Match>& matches) {
+std::vector<ClockJump> clockJumps(const State& state, const std::vector<Match>& matches) {
   std::vector<std::vector<Lag>> cameras(state.cameras.size());
   for (const Match& match : matches) {
     if (const auto lag = lagOf(state, match))
       cameras[match.camera].push_back(*lag);
   }
-  std::vector<ClockStep> result;
+  std::vector<ClockJump> result;
   for (std::vector<Lag>& lags : cameras) {
     std::sort(lags.begin(), lags.end(),
               [](const Lag& a, const Lag& b) { return a.stamp < b.stamp; });
@@ -82,7 +82,7 @@ std::vector<ClockStep> clockSteps(const State& state, const std::vector<Match>& 
       all.score += lag.score;
       all.squared += lag.squared;
     }
-    ClockStep best;
+    ClockJump best;
     best.squared = all.squared;
     Lag before{};
     for (const Lag& lag : lags) {
@@ -101,27 +101,27 @@ std::vector<ClockStep> clockSteps(const State& state, const std::vector<Match>& 
 
 }  // namespace
 
-// The path follows a clock that jumps and hides a part of the jump. So the largest step is removed,
-// the path is fitted again, and the step is measured again: a true one grows.
+// The path follows a clock that jumps and hides a part of the jump. So the largest jump is removed,
+// the path is fitted again, and the jump is measured again: a true one grows.
 void checkClocks(const Task& task,
                  const Gate& gate,
                  const std::function<void()>& report,
                  State state) {
   Gate wide = gate;
   wide.limit = kFarOff / gate.pixel_stddev;
-  const auto stepsOf = [&](const Recording& waved) {
-    return clockSteps(state, matchSpots(waved, state, wide).matches);
+  const auto jumpsOf = [&](const Recording& waved) {
+    return clockJumps(state, matchSpots(waved, state, wide).matches);
   };
-  const auto squared = [](const std::vector<ClockStep>& steps) {
-    return std::accumulate(steps.begin(), steps.end(), 0.0,
-                           [](double sum, const ClockStep& step) { return sum + step.squared; });
+  const auto squared = [](const std::vector<ClockJump>& jumps) {
+    return std::accumulate(jumps.begin(), jumps.end(), 0.0,
+                           [](double sum, const ClockJump& jump) { return sum + jump.squared; });
   };
-  std::vector<ClockStep> steps = stepsOf(task.recording);
-  const double before = squared(steps);
+  std::vector<ClockJump> jumps = jumpsOf(task.recording);
+  const double before = squared(jumps);
   const auto worst = std::max_element(
-      steps.begin(), steps.end(),
-      [](const ClockStep& a, const ClockStep& b) { return a.explained < b.explained; });
-  const auto camera = static_cast<std::size_t>(worst - steps.begin());
+      jumps.begin(), jumps.end(),
+      [](const ClockJump& a, const ClockJump& b) { return a.explained < b.explained; });
+  const auto camera = static_cast<std::size_t>(worst - jumps.begin());
   const double apparent = std::abs(worst->size);
   if (worst->explained < kLeastExplained * before || apparent < kLeastJump)
     return;
@@ -130,15 +130,15 @@ void checkClocks(const Task& task,
   for (int round = 0; round < kJumpRounds; ++round) {
     corrected.recording = task.recording;
     for (Frame& frame : corrected.recording.cameras[camera].frames)
-      frame.stamp -= frame.stamp > steps[camera].after ? steps[camera].size : 0.0;
+      frame.stamp -= frame.stamp > jumps[camera].after ? jumps[camera].size : 0.0;
     matching = matchSpots(corrected.recording, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
-      return;  // not a step: the camera would fit nowhere
+      return;  // not a jump: the camera would fit nowhere
     refine(corrected, matching.matches, std::numeric_limits<double>::infinity(), report, &state);
-    steps = stepsOf(task.recording);
+    jumps = jumpsOf(task.recording);
   }
-  if (std::abs(steps[camera].size) < kLeastGrowth * apparent ||
-      squared(stepsOf(corrected.recording)) > kMostLeft * before ||
+  if (std::abs(jumps[camera].size) < kLeastGrowth * apparent ||
+      squared(jumpsOf(corrected.recording)) > kMostLeft * before ||
       agreementOf(corrected, matching.matches, state).isContradiction())
     return;
   const auto name = [&](std::size_t i) { return task.recording.cameras[i].sightings.name; };
@@ -147,7 +147,7 @@ void checkClocks(const Task& task,
   throw WaveError("the clock of " + (two ? name(0) + " or " + name(1) : name(camera)) +
                   format(" jumped by about %.0f ms during the wave: check the time of its computer "
                          "and its driver, and wave again",
-                         1e3 * std::abs(steps[camera].size)));
+                         1e3 * std::abs(jumps[camera].size)));
 }
 
 }  // namespace wiimote_tracker::wave

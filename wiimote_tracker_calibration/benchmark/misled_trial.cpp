@@ -25,7 +25,8 @@ constexpr double kEmpty = 0.95;           // Share of the images without a false
 /// A light that moves with the LED: of the LED's position at a time shifted by `delay`, its
 /// coordinates times `scale` plus `offset`.
 struct Light {
-  double delay = 0.0;  // [s]
+  bool masked = false;  // No light at all.
+  double delay = 0.0;   // [s]
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m]
 
@@ -39,8 +40,7 @@ Eigen::Vector3d anyPlace(square::Random& random) {
           square::uniform(random, 0.0, 2.5)};
 }
 
-/// Nothing: the camera is masked.
-std::optional<Light> lightOf(Misled by, square::Random& random) {
+Light lightOf(Misled by, square::Random& random) {
   Light light;
   switch (by) {
     case Misled::kMirror: {
@@ -67,7 +67,8 @@ std::optional<Light> lightOf(Misled by, square::Random& random) {
     case Misled::kTwoLights:
       break;
   }
-  return std::nullopt;
+  light.masked = true;
+  return light;
 }
 
 Misled anyLight(square::Random& random) {
@@ -83,12 +84,12 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
   rig.solved_at = WavedLed::kClock;
   WavedLed led(drawTruth(rig, random), seed + 1, kImageRate);
   const bool two_lights = by == Misled::kTwoLights;
-  const auto light = lightOf(two_lights ? anyLight(random) : by, random);
-  const auto other_light = two_lights ? lightOf(anyLight(random), random) : light;
+  const Light light = lightOf(two_lights ? anyLight(random) : by, random);
+  const Light other_light = two_lights ? lightOf(anyLight(random), random) : light;
   const auto any = static_cast<std::size_t>(square::uniform(random, 0.0, 3.999));
   const std::size_t next = two_lights ? (any + 1 + seed % 3) % 4 : (any + 1) % 4;
   // What each misled camera sees.
-  std::map<std::string, std::optional<Light>> misled = {{led.truth[any].camera.name, light}};
+  std::map<std::string, Light> misled = {{led.truth[any].camera.name, light}};
   if (two_lights || square::uniform(random, 0.0, 1.0) < 0.3)
     misled.emplace(led.truth[next].camera.name, other_light);
   const bool always = square::uniform(random, 0.0, 1.0) < 0.5;
@@ -105,8 +106,9 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
     const auto seen = misled.find(image.camera);
     if (seen != misled.end() && std::fmod(time, kMisledPeriod) < share * kMisledPeriod) {
       image.spots.clear();
+      const Light& light_seen = seen->second;
       const auto pixel =
-          seen->second ? camera.camera.project(seen->second->at(led.path, time)) : std::nullopt;
+          light_seen.masked ? std::nullopt : camera.camera.project(light_seen.at(led.path, time));
       if (pixel)
         image.spots.emplace_back(pixel->array().round());
     }

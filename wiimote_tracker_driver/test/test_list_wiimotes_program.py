@@ -203,7 +203,7 @@ def test_replace_finds_the_calibration_where_ros_keeps_it(tmp_path):
     calibration.write_text('old')
     status, text = list_wiimotes('--replace', 'door', '00:1F:32:00:00:09', '--cameras', str(path),
                                  ROS_HOME=str(tmp_path / 'ros'))
-    assert status == 0 and 'calibrate the rig again' in text
+    assert status == 0 and 'solve this camera again (key r of calibrate)' in text
     assert 'the triangulation ignores this camera' in text
     assert path.read_text() == 'cameras:\n  door: "00:1f:32:00:00:09"\n'
     assert not calibration.exists()

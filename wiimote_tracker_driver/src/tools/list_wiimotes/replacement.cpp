@@ -55,8 +55,9 @@ std::string replaceRemote(const Replacement& replacement) {
   }
   return "Camera " + camera + " is now " + *address + " in " + replacement.cameras_file +
          " (previous list: " + replacement.cameras_file + ".bak).\n" + done +
-         "Restart the drivers and calibrate the rig again: until then its rig.yaml names the old "
-         "remote, and the triangulation ignores this camera.\n";
+         "Restart the drivers, then solve this camera again (key r of calibrate), or calibrate "
+         "again: until then rig.yaml names the old remote, and the triangulation ignores this "
+         "camera.\n";
 }
 
 }  // namespace wiimote_tracker::list_wiimotes

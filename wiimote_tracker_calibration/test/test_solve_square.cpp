@@ -244,6 +244,7 @@ TEST_F(FourCameras, FewerThanTwoCamerasAreRefusedByName) {
     simulated_.sightings[i].corners[i].reset();
   const std::string text = refusal(layout_, simulated_.sightings);
   EXPECT_SAYS(text, "at least two cameras");
+  EXPECT_SAYS(text, "four, or three with its accelerometer");
   EXPECT_SAYS(text, "camera_2 did not see corner 2");
   EXPECT_SAYS(refusal(layout_, {simulated_.sightings[0]}), "at least two cameras");
 }

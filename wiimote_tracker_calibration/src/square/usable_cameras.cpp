@@ -93,9 +93,11 @@ UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {
     }
     if (missing.empty())
       missing.push_back("there is only one camera");
-    throw SquareError("at least two cameras must see all four corners, but " + listOf(missing) +
-                      ": turn the cameras so that they see the whole square, or capture those "
-                      "corners again");
+    throw SquareError(
+        "at least two cameras must see the square, one all four corners and another four, or three "
+        "with its accelerometer, but " +
+        listOf(missing) +
+        ": turn the cameras so that they see the whole square, or capture those corners again");
   }
   for (const std::string& camera : missing)
     usable.warnings.push_back(camera + " and was left out");

@@ -51,11 +51,27 @@ def test_parameters(value, monkeypatch):
         hand.Hand()
 
 
-def test_the_simulated_hand_needs_its_led(monkeypatch, tmp_path):
+@pytest.mark.parametrize('content, words', [
+    ('seed: 1\nleds: {left: {}}', 'rig.yaml has no LED led, .*: correct ~led'),
+    ('cameras: {}', '~description is .*rig.yaml.*, but must be the file that describes'),
+    (None, '~description is .*rig.yaml.*, but must be the file that describes')])
+def test_the_simulated_hand_needs_a_rig_with_its_led(content, words, monkeypatch, tmp_path):
     path = tmp_path / 'rig.yaml'
-    path.write_text('leds: {left: {}}')
+    if content:
+        path.write_text(content)
     monkeypatch.setattr(rospy, 'get_param', lambda name, default=None: {
         '~description': str(path)}.get(name, default))
     monkeypatch.setattr(rospy, 'resolve_name', lambda name: name)
-    with pytest.raises(Refusal, match='rig.yaml has no LED led, .*: correct ~led'):
+    with pytest.raises(Refusal, match=words):
+        hand.Hand()
+
+
+def test_the_simulated_hand_needs_a_description(monkeypatch):
+    def get_param(name, *default):
+        if not default:
+            raise KeyError(name)
+        return default[0]
+    monkeypatch.setattr(rospy, 'get_param', get_param)
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: name)
+    with pytest.raises(Refusal, match="~description is '', but"):
         hand.Hand()

@@ -99,6 +99,10 @@ class Conductor:
         message.box.x = message.box.y = message.box.z = side
         self._succeed('waving the LED', self._call('simulation/set_led', SetLed, message))
 
+    def switch(self, led, on):
+        """Switches an LED, which then stays where it is."""
+        self._succeed('switching the LED', self._call('simulation/set_led', SetLed, led=led, on=on))
+
     def _set_led(self, target, **request):
         message = SetLedRequest(led=self._led, on=True, **request)
         message.target.x, message.target.y, message.target.z = target

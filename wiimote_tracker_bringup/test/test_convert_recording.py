@@ -98,14 +98,30 @@ def test_a_broken_project_is_refused(tmp_path):
     assert done.stderr.startswith('convert_recording: ')
 
 
+def test_files_that_are_cut_off_are_refused_in_words(tmp_path):
+    (tmp_path / 'calibration' / 'extrinsic').mkdir(parents=True)
+    (tmp_path / 'camera_array.toml').write_text(CAMERA % 0)
+    (tmp_path / 'calibration' / 'extrinsic' / 'xy.csv').write_text(
+        'sync_index,cam_id,object_id,keypoint_id,img_loc_x,img_loc_y\n0,0,0,0,10.5\n')
+    (tmp_path / 'stereo.xml').write_text('<java></java>')
+    for kind, error in (('caliscope', 'TypeError'), ('boofcv', 'IndexError')):
+        done = convert(kind, tmp_path, tmp_path / 'converted')
+        assert done.returncode == 1
+        assert done.stderr.startswith(f'convert_recording: {error}: ')
+        assert 'Traceback' not in done.stderr
+
+
 @pytest.mark.parametrize('names', ['RT', 'rt'])
 def test_a_stereo_calibration_of_boofcv(tmp_path, names):
-    write_stereo(tmp_path, *names)
-    (tmp_path / 'left2.txt').write_text('10.5 20\n30 40.25\n')
-    (tmp_path / 'left10.txt').write_text('50 60\n')
-    (tmp_path / 'right2.txt').write_text('70 80\n90 100\n')
+    source = tmp_path / 'stereo [1]'
+    source.mkdir()
+    write_stereo(source, *names)
+    (source / 'left2.txt').write_text('10.5 20\n30 40.25\n')
+    (source / 'left10.txt').write_text('50 60\n')
+    (source / 'right2.txt').write_text('70 80\n90 100\n')
+    (source / 'left_corners.txt').write_text('all of them\n')  # not read
     folder = tmp_path / 'converted'
-    done = convert('boofcv', tmp_path, folder)
+    done = convert('boofcv', source, folder)
     assert done.returncode == 0, done.stderr
     assert (folder / 'camera_order.txt').read_text().split() == ['left', 'right']
     assert np.loadtxt(folder / 'Res.dat').tolist() == [[640, 480], [640, 480]]

@@ -10,11 +10,11 @@ something passed and nothing failed.
 
 import argparse
 import dataclasses
-import glob
 import os
 import re
 import sys
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 from typing import List, Optional, Set, Tuple
 
 # A rostest also writes a "rosunit-" file for each of its test programs. Its own "rostest-" file
@@ -45,9 +45,9 @@ def verdict_of(testcase: ElementTree.Element) -> Tuple[str, str]:
     return PASSED, ''
 
 
-def read_cases(path: str, package: str) -> List[Case]:
+def read_cases(path: Path, package: Path) -> List[Case]:
     """All cases of one result file. A damaged or empty file is a failed case."""
-    source = f'{package}/{os.path.splitext(os.path.basename(path))[0]}'
+    source = f'{package}/{path.stem}'
     try:
         root = ElementTree.parse(path).getroot()
     except (ElementTree.ParseError, OSError) as error:
@@ -60,38 +60,34 @@ def read_cases(path: str, package: str) -> List[Case]:
     return cases or [Case(source, FAILED, 'no test ran')]
 
 
-def expected_results(build: str, kinds: Tuple[str, ...]) -> Set[str]:
+def expected_results(build: Path, kinds: Tuple[str, ...]) -> Set[str]:
     """Result files expected from the makefiles of a build folder, as "package/file.xml". Those of
     tests that were removed stay there: CMake lists which are its own."""
     expected = set()
-    targets = os.path.join(build, 'CMakeFiles', 'TargetDirectories.txt')
+    targets = build / 'CMakeFiles' / 'TargetDirectories.txt'
     current = None
-    if os.path.isfile(targets):
-        with open(targets) as file:
-            current = {os.path.realpath(line) for line in file.read().splitlines()}
-    for makefile in glob.glob(os.path.join(build, '**', 'CMakeFiles', 'run_tests_*.dir',
-                                           'build.make'), recursive=True):
-        if current is not None and os.path.realpath(os.path.dirname(makefile)) not in current:
+    if targets.is_file():
+        current = {os.path.realpath(line) for line in targets.read_text().splitlines()}
+    for makefile in build.glob('**/CMakeFiles/run_tests_*.dir/build.make'):
+        if current is not None and os.path.realpath(makefile.parent) not in current:
             continue
-        with open(makefile) as file:
-            found = re.findall(r'run_tests\.py"?\s+"?\S*?/test_results/([^/\s"]+/[^/\s"]+\.xml)',
-                               file.read())
+        found = re.findall(r'run_tests\.py"?\s+"?\S*?/test_results/([^/\s"]+/[^/\s"]+\.xml)',
+                           makefile.read_text())
         expected.update(f for f in found if os.path.basename(f).startswith(kinds))
     return expected
 
 
-def count(build: str, kinds: Tuple[str, ...] = LEAF_KINDS + WRAPPER_KINDS) -> List[Case]:
+def count(build: Path, kinds: Tuple[str, ...] = LEAF_KINDS + WRAPPER_KINDS) -> List[Case]:
     """All cases of one build folder, including missing results."""
-    results = os.path.join(build, 'test_results')
+    results = build / 'test_results'
     cases = []
     found = set()
-    for path in sorted(glob.glob(os.path.join(results, '**', '*.xml'), recursive=True)):
-        name = os.path.basename(path)
-        package = os.path.relpath(os.path.dirname(path), results)
-        found.add(f'{package}/{name}')
-        if name.startswith(LEAF_KINDS):
+    for path in sorted(results.rglob('*.xml')):
+        package = path.parent.relative_to(results)
+        found.add(f'{package}/{path.name}')
+        if path.name.startswith(LEAF_KINDS):
             cases += read_cases(path, package)
-        elif name.startswith(WRAPPER_KINDS):
+        elif path.name.startswith(WRAPPER_KINDS):
             cases += [case for case in read_cases(path, package) if case.verdict == FAILED]
     # A "MISSING-" file stands for the result of the same name and is reported above.
     found |= set(f.replace('/MISSING-', '/') for f in found)
@@ -103,8 +99,8 @@ def count(build: str, kinds: Tuple[str, ...] = LEAF_KINDS + WRAPPER_KINDS) -> Li
 def main(arguments: Optional[List[str]] = None) -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument('build', help='build folder whose tests all ran')
-    parser.add_argument('--sanitized', metavar='BUILD',
+    parser.add_argument('build', type=Path, help='build folder whose tests all ran')
+    parser.add_argument('--sanitized', metavar='BUILD', type=Path,
                         help='build folder whose gtests ran under sanitizers')
     options = parser.parse_args(arguments)
 

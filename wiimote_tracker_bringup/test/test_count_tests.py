@@ -31,9 +31,10 @@ def run(capsys, *arguments):
 
 
 def test_counts_cases_not_files_and_succeeds_when_all_pass(tmp_path, capsys):
-    write(tmp_path, 'gtest-a.xml', GOOD)
-    write(tmp_path, 'rosunit-b.xml', GOOD)
-    status, lines = run(capsys, tmp_path)
+    build = tmp_path / 'build [1]'
+    write(build, 'gtest-a.xml', GOOD)
+    write(build, 'rosunit-b.xml', GOOD)
+    status, lines = run(capsys, build)
     assert (status, lines[-1]) == (0, '4 passed, 0 failed, 0 skipped')
 
 

@@ -143,6 +143,18 @@ def test_a_discovered_virtual_remote_keeps_its_socket(tmp_path):
                                               ('b', 'virtual:/tmp/s/b.sock')]
 
 
+def test_remotes_are_discovered_in_a_folder_with_brackets(tmp_path, monkeypatch):
+    sockets = tmp_path / 'room [1]'
+    sockets.mkdir()
+    (sockets / 'a.sock').touch()
+    finder = tmp_path / 'finder'
+    finder.write_text('#!/bin/sh\necho "$@" | tee "$2"\n')
+    finder.chmod(0o755)
+    monkeypatch.setattr(drivers.roslib.packages, 'find_node', lambda *_: [str(finder)])
+    drivers.discover(str(tmp_path / 'found'), str(sockets))
+    assert (tmp_path / 'found').read_text().endswith(f'--virtual {sockets}/a.sock\n')
+
+
 def test_discovery_must_be_true_or_false(tmp_path):
     path = tmp_path / 'cameras.yaml'
     path.write_text('discover: maybe\ncameras: {a: "00:1f:32:00:00:01"}')

@@ -1,5 +1,6 @@
 """The list of cameras, cameras.yaml, which `drivers` explains; rig descriptions have one, too."""
 
+import glob
 import re
 
 import yaml
@@ -125,6 +126,11 @@ def read_parameters(path):
 def is_address(device):
     """Whether it is a Bluetooth address."""
     return re.match(ADDRESS, device) is not None
+
+
+def adapters():
+    """How many Bluetooth adapters this computer has."""
+    return len(glob.glob('/sys/class/bluetooth/hci*'))
 
 
 def too_many(devices, adapters):

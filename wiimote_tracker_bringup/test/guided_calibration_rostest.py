@@ -52,7 +52,7 @@ class Program:
     def __init__(self, *arguments):
         self._process = subprocess.Popen(CALIBRATE + ['--plain'] + list(arguments),
                                          stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                         stderr=subprocess.STDOUT, universal_newlines=True)
+                                         stderr=subprocess.STDOUT, text=True)
         self._lines = queue.Queue()
         self.heard = []
         threading.Thread(target=self._read, daemon=True).start()

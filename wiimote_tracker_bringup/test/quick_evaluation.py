@@ -56,7 +56,7 @@ def evaluate(names, folder):
     done = subprocess.run(
         [sys.executable, os.path.join(EVALUATION, 'evaluate'), '--quick', '--seed', str(SEED),
          '--sections', ','.join(names), '--rig', PAPER_RIG, '--output', folder],
-        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True, timeout=LIMIT)
+        stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, timeout=LIMIT)
     assert done.returncode == 0, done.stdout
     return Results(folder)
 

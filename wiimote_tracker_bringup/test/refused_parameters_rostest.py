@@ -28,8 +28,8 @@ SAID = {'coverage': '/coverage/cell_size is -1, but', 'triangulation': '/triangu
 class RefusedParameters(unittest.TestCase):
     def start(self, name, **environment):
         process = subprocess.Popen(NODES.get(name, MANAGER) + ['__name:=' + name],
-                                   stderr=subprocess.PIPE, env=dict(os.environ, **environment),
-                                   universal_newlines=True)
+                                   stderr=subprocess.PIPE, text=True,
+                                   env=dict(os.environ, **environment))
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)

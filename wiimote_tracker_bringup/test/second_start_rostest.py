@@ -16,7 +16,7 @@ class SecondStart(NodeTest):
     def start(self):
         node = roslib.packages.find_node('wiimote_tracker_triangulation', 'coverage_node')[0]
         process = subprocess.Popen([node], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
-                                   universal_newlines=True)
+                                   text=True)
         self.addCleanup(process.stderr.close)
         self.addCleanup(process.wait)
         self.addCleanup(process.kill)

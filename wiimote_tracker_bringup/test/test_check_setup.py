@@ -135,7 +135,7 @@ def test_the_real_list_of_remotes_is_understood(check, tmp_path):
             while not os.path.exists(sockets[0]) and time.monotonic() < end:
                 time.sleep(0.01)
             found = subprocess.run([program('list_wiimotes'), '--json', '--virtual'] + sockets,
-                                   stdout=subprocess.PIPE, universal_newlines=True).stdout
+                                   stdout=subprocess.PIPE, text=True).stdout
         finally:
             one.terminate()
     _, lines = check(remotes=found)
@@ -193,7 +193,7 @@ def test_without_the_workspace_it_says_to_source_it():
     program = os.path.join(program_module.PACKAGE, 'launch/check_setup')
     unsourced = ("import runpy, sys; sys.modules['wiimote_tracker_bringup'] = None; "
                  f"runpy.run_path({program!r}, run_name='__main__')")
-    done = subprocess.run([sys.executable, '-c', unsourced], stdout=subprocess.PIPE,
-                          stderr=subprocess.PIPE, universal_newlines=True, timeout=60)
+    done = subprocess.run([sys.executable, '-c', unsourced], capture_output=True, text=True,
+                          timeout=60)
     assert (done.returncode, done.stdout) == (1, '')
     assert done.stderr == 'check_setup: source the setup.bash of your workspace\n'

@@ -69,7 +69,7 @@ def write_stereo(folder, rotation='R', translation='T'):
 
 def convert(kind, source, folder, *options):
     return subprocess.run([sys.executable, PROGRAM, kind, str(source), str(folder), *options],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                          capture_output=True, text=True)
 
 
 def test_a_project_of_caliscope(tmp_path):

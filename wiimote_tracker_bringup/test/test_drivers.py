@@ -100,7 +100,7 @@ def test_a_list_is_read_or_refused_with_a_reason_as_by_list_wiimotes(tmp_path, t
     program = drivers.roslib.packages.find_node('wiimote_tracker_driver', 'list_wiimotes')[0]
     listed = subprocess.run(
         [program, '--json', '--cameras', str(path), '--virtual', str(tmp_path / 'none.sock')],
-        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, universal_newlines=True).stdout
+        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True).stdout
     assert (listed != '' and json.loads(listed)['camera_problems'] == []) == (complaint is None)
 
 

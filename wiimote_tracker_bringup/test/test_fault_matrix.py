@@ -34,7 +34,7 @@ def test_a_file_that_cannot_be_written_is_named_at_once(option, tmp_path, capsys
 def test_quick_faults_are_survived(tmp_path):
     path = tmp_path / 'faults.json'
     done = subprocess.run([sys.executable, PROGRAM, '--quick', '--json', str(path)],
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, universal_newlines=True,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                           timeout=LIMIT)
     results = json.loads(path.read_text())
     quick = sorted(fault.name for fault in matrix.FAULTS if fault.quick)

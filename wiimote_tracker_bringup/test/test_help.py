@@ -19,8 +19,7 @@ NOWHERE = 'http://localhost:1'
     '(default: 10)', 'no parameters', '[m]', 'needed', '[s] (default: 10)')))
 def test_help_tells_the_parameters(program, words):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program), '__name:=other',
-                           '--help'], stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
-                          universal_newlines=True,
+                           '--help'], capture_output=True, text=True, timeout=60,
                           env=dict(os.environ, ROS_MASTER_URI=NOWHERE))
     assert (done.returncode, done.stderr) == (0, '')
     assert done.stdout.startswith(f'usage: {os.path.basename(program)} ')
@@ -41,7 +40,7 @@ def test_a_master_that_cannot_be_used_is_named(monkeypatch, address, problem):
 @pytest.mark.parametrize('program', NODES)
 def test_without_a_master_it_ends_with_what_to_do(program):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
+                          capture_output=True, text=True,
                           env=dict(os.environ, ROS_MASTER_URI=NOWHERE))
     assert done.returncode == 1
     assert done.stderr == (f'{os.path.basename(program)}: there is no ROS master at {NOWHERE}: '
@@ -56,8 +55,7 @@ def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
                                        'time.sleep(60.0)\n')
     path = os.pathsep.join([str(tmp_path), os.environ.get('PYTHONPATH', '')])
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True,
-                          env=dict(os.environ, PYTHONPATH=path))
+                          capture_output=True, text=True, env=dict(os.environ, PYTHONPATH=path))
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, '', '')
 
 
@@ -71,8 +69,7 @@ def test_a_program_names_the_python_package_that_it_lacks(program):
     without_scipy = ("import runpy, sys; sys.modules['scipy'] = None; sys.argv = sys.argv[1:]; "
                      "runpy.run_path(sys.argv[0], run_name='__main__')")
     done = subprocess.run([sys.executable, '-c', without_scipy, os.path.join(PACKAGE, program)],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60,
-                          universal_newlines=True)
+                          capture_output=True, text=True, timeout=60)
     assert done.returncode == 1
     assert done.stderr.endswith('apt install python3-scipy\n')
     assert 'Traceback' not in done.stderr

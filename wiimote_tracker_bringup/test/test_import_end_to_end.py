@@ -25,8 +25,7 @@ def run(program, *arguments, package=PACKAGE):
     found = roslib.packages.find_node(package, program)
     if not found:
         raise AssertionError(f'{program} is not built')
-    process = subprocess.run([found[0]] + list(arguments), stdout=subprocess.PIPE,
-                             stderr=subprocess.PIPE, universal_newlines=True)
+    process = subprocess.run([found[0]] + list(arguments), capture_output=True, text=True)
     return process.returncode, process.stdout, process.stderr
 
 

@@ -36,5 +36,5 @@ def test_no_package_is_in_two_lists():
 def test_this_release_of_debian_has_every_package_that_is_not_optional(name):
     wanted = {line for line in lines_of(name) if not line.endswith('?')}
     known = subprocess.run(['apt-cache', 'pkgnames'], stdout=subprocess.PIPE, check=True,
-                           universal_newlines=True).stdout.split()
+                           text=True).stdout.split()
     assert wanted <= set(known)

@@ -23,7 +23,7 @@ def test_systemd_understands_the_unit(tmp_path):
     instance = tmp_path / 'wiimote-tracker@root.service'
     shutil.copy(UNIT, instance)
     done = subprocess.run(['systemd-analyze', 'verify', str(instance)], stdout=subprocess.PIPE,
-                          stderr=subprocess.STDOUT, universal_newlines=True)
+                          stderr=subprocess.STDOUT, text=True)
     said = [line for line in done.stdout.splitlines() if 'wiimote-tracker' in line]
     assert (done.returncode, said) == (0, [])
 

@@ -17,8 +17,8 @@ def shell_with_workspace(tmp_path):
         script = tmp_path / 'script'  # a file, since workspace.sh may start it again
         script.write_text(f'source {shlex.quote(source)}\n{commands}\n')
         return subprocess.run(['bash', str(script)], cwd=folder, check=True,
-                              env=dict(os.environ, **environment), stdout=subprocess.PIPE,
-                              universal_newlines=True).stdout
+                              env=dict(os.environ, **environment), text=True,
+                              stdout=subprocess.PIPE).stdout
     return shell
 
 

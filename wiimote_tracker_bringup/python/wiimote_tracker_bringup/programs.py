@@ -41,7 +41,7 @@ def find_program(name: str) -> str:
 def run(program, *arguments):
     """Runs a program, named as for find_program. @raise Refusal with its own words."""
     done = subprocess.run([find_program(program)] + [str(word) for word in arguments],
-                          stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
+                          capture_output=True, text=True)
     if done.returncode != 0:
         raise Refusal(done.stderr.strip() or f'{program} failed')
 

@@ -5,11 +5,11 @@ import os
 import socket
 import subprocess
 import sys
-import time
 
 import program_module
 import pytest
 import roslib.packages
+from wiimote_tracker_bringup.waiting import wait_until
 
 check_setup = program_module.load('launch/check_setup')
 
@@ -131,9 +131,7 @@ def test_the_real_list_of_remotes_is_understood(check, tmp_path):
     command = [program('virtual_wiimote'), '--socket', sockets[0], '--address', A]
     with subprocess.Popen(command) as one:
         try:
-            end = time.monotonic() + 30.0
-            while not os.path.exists(sockets[0]) and time.monotonic() < end:
-                time.sleep(0.01)
+            wait_until(lambda: os.path.exists(sockets[0]), 30.0, 'no virtual Wii Remote')
             found = subprocess.run([program('list_wiimotes'), '--json', '--virtual'] + sockets,
                                    stdout=subprocess.PIPE, text=True).stdout
         finally:

@@ -1,59 +1,44 @@
 """master_watch tells of a master that is gone or was started again, and makes way for the next."""
 
 import os
-import signal
-import subprocess
 import sys
-import time
 
 import pytest
 import rosgraph
 
-from wiimote_tracker_bringup.processes import free_port
+from wiimote_tracker_bringup.processes import Processes, free_port
+from wiimote_tracker_bringup.waiting import wait_until
 
-HERE = os.path.dirname(os.path.realpath(__file__))
+WATCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/master_watch')
 PATIENCE = 60.0  # on a busy computer [s]
-
 
 # Stands in for roslaunch, which its master_watch ends.
 LAUNCHER = 'import subprocess, sys; subprocess.call([sys.executable, sys.argv[1]])'
 
 
 class Programs:
-    """Starts programs on a master of their own."""
+    """Starts programs on a master of their own, that of ROS_MASTER_URI."""
 
-    def __init__(self, folder):
+    def __init__(self, folder, port):
         self._launcher = folder / 'roslaunch'
         self._launcher.write_text(LAUNCHER)
         self.output = folder / 'output'
-        self._port = free_port()
-        self._uri = f'http://localhost:{self._port}'
-        self._environment = dict(os.environ, ROS_MASTER_URI=self._uri, ROS_HOSTNAME='localhost',
-                                 ROS_HOME=str(folder))
-        self._started = []
-
-    def start(self, command):
-        with open(self.output, 'ab') as file:
-            self._started.append(subprocess.Popen(command, stdout=file, stderr=file,
-                                                  env=self._environment, start_new_session=True))
-        return self._started[-1]
+        self._port = port
+        self.processes = Processes()
 
     def master(self):
-        return self.start(['rosmaster', '--core', '-p', str(self._port)])
+        return self.processes.start_master(self._port, str(self.output), PATIENCE)
 
     def watch(self, *arguments):
-        return self.start([sys.executable, str(self._launcher),
-                           os.path.join(HERE, '../launch/master_watch'), *arguments])
+        return self.processes.start('roslaunch', [sys.executable, str(self._launcher), WATCH,
+                                                  *arguments], str(self.output))
 
     def wait(self, condition):
-        deadline = time.monotonic() + PATIENCE
-        while not condition():
-            assert time.monotonic() < deadline, self.output.read_text()
-            time.sleep(0.05)
+        wait_until(condition, PATIENCE, self.output.read_text)
 
     def address(self):
         """Of the watch that the master knows and that has started; None: of none."""
-        master = rosgraph.Master('/test', self._uri)
+        master = rosgraph.Master('/test')
         try:
             publishers = dict(master.getSystemState()[0]).get('/diagnostics', [])
             return master.lookupNode('/master_watch') if publishers else None
@@ -63,31 +48,26 @@ class Programs:
     def says(self, word):
         return word in self.output.read_text()
 
-    def stop(self):
-        for process in self._started:
-            try:
-                os.killpg(process.pid, signal.SIGKILL)  # with a launcher's child
-            except ProcessLookupError:
-                pass
-            process.wait()
-
 
 @pytest.fixture
-def programs(tmp_path):
-    started = Programs(tmp_path)
+def programs(tmp_path, monkeypatch):
+    port = free_port()
+    monkeypatch.setenv('ROS_MASTER_URI', f'http://localhost:{port}')
+    monkeypatch.setenv('ROS_HOSTNAME', 'localhost')
+    monkeypatch.setenv('ROS_HOME', str(tmp_path))
+    started = Programs(tmp_path, port)
     yield started
-    started.stop()
+    started.processes.stop_all()
 
 
 def test_a_master_that_ends_and_comes_back(programs):
     master = programs.master()
-    programs.wait(lambda: rosgraph.is_master_online(programs._uri))
     first = programs.watch()
     programs.wait(programs.address)
     assert not programs.says('master')
 
     master.kill()
-    master.wait()
+    programs.processes.stop(master)
     programs.wait(lambda: programs.says('There is no ROS master'))
 
     programs.master()
@@ -103,6 +83,5 @@ def test_a_master_that_ends_and_comes_back(programs):
 
 def test_a_misspelt_argument_is_told(programs):
     programs.master()
-    programs.wait(lambda: rosgraph.is_master_online(programs._uri))
     programs.watch('wiimote_tracker_bringup', 'tracker.launch', 'cemeras:=cameras.yaml')
     programs.wait(lambda: programs.says('cemeras:= has no effect: write cameras:='))

@@ -9,6 +9,7 @@ import sys
 import numpy as np
 import yaml
 from scipy.interpolate import CubicSpline
+from wiimote_tracker_bringup.scene import look_at
 
 # Of each camera: frames a second as stated, drift against the truth's clock, time of frame 0 [s],
 # read-out of all lines [s].
@@ -31,7 +32,7 @@ class Cameras:
         self.centers = middle + np.column_stack([DISTANCE * np.cos(angles),
                                                  DISTANCE * np.sin(angles),
                                                  np.full(len(CLOCKS), ELEVATION)])
-        self.rotations = [looking(center, middle) for center in self.centers]
+        self.rotations = look_at(self.centers, middle)
 
     def project(self, number, times):
         inside = (self.path(times) - self.centers[number]) @ self.rotations[number]
@@ -75,14 +76,6 @@ class Cameras:
                     file.write(f'c{number},{frame:.0f},{u:.3f},{v:.3f}\n')
         np.savetxt(os.path.join(folder, 'truth.csv'), np.column_stack([self.times, self.positions]),
                    '%.6f', ',', header='time,x,y,z', comments='')
-
-
-def looking(position, target):
-    """Rotation of a camera: x to the right, y down, z to the target."""
-    z = (target - position) / np.linalg.norm(target - position)
-    x = np.cross(z, [0.0, 0.0, 1.0])
-    x /= np.linalg.norm(x)
-    return np.stack([x, np.cross(z, x), z], axis=1)
 
 
 if __name__ == '__main__':

@@ -122,26 +122,33 @@ std::string unusable(const std::filesystem::path& file, const Error& error) {
               : "; paths begin at the folder of the description: copy this file there, too");
 }
 
+/// The one code of a word of chips.
+identity::BlinkCodes codesOfWord(YamlMap* section) {
+  const std::vector<identity::CyclicLed> leds = {{"led", section->get<std::string>("word")}};
+  const double chip = section->bounded("chip", 0.001, 1.0);
+  try {
+    return identity::cyclicCodes(leds, chip, 0.0);
+  } catch (const Error& error) {
+    throw section->error("word", std::string("cannot be used: ") + error.what());
+  }
+}
+
+/// A file of codes, relative to `folder`.
+identity::BlinkCodes codesOfFile(const std::filesystem::path& folder, YamlMap* section) {
+  const std::filesystem::path file = folder / section->get<std::string>("codes");
+  try {
+    return identity::readBlinkCodes(file.string());
+  } catch (const Error& error) {
+    throw section->error("codes", unusable(file, error));
+  }
+}
+
 /// A label of a file of codes, relative to `folder`, or a word of chips.
 Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
-  identity::BlinkCodes codes;
-  std::string label = "led";
-  const std::string key = section.has("word") ? "word" : "codes";
-  const auto text = section.get<std::string>(key);
-  const double chip = key == "word" ? section.bounded("chip", 0.001, 1.0) : 0.0;
-  try {
-    if (key == "word") {
-      const std::vector<identity::CyclicLed> word = {{label, text}};
-      codes = identity::cyclicCodes(word, chip, 0.0);
-    } else {
-      codes = identity::readBlinkCodes((folder / text).string());
-    }
-  } catch (const Error& error) {
-    throw section.error(key, key == "word" ? std::string("cannot be used: ") + error.what()
-                                           : unusable(folder / text, error));
-  }
-  if (key == "codes")
-    label = section.get<std::string>("label");
+  const bool is_word = section.has("word");
+  const identity::BlinkCodes codes =
+      is_word ? codesOfWord(&section) : codesOfFile(folder, &section);
+  const auto label = is_word ? codes.codes.front().label : section.get<std::string>("label");
   const auto code =
       std::find_if(codes.codes.begin(), codes.codes.end(),
                    [&](const identity::BlinkCode& other) { return other.label == label; });

@@ -6,10 +6,10 @@
 #include <geometry_msgs/PoseStamped.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <cmath>
 #include <random>
-#include <sstream>
 #include <thread>
 
 namespace wiimote_tracker::simulation {
@@ -106,27 +106,27 @@ std::string SimulatedRig::set(const SetLed::Request& request, double* time) {
     return setBoard(request);
   if (ReflectionDescription* reflection = rig_.findReflection(request.led))
     return setReflection(request, reflection);
-  LedDescription* led = rig_.findLed(request.led);
-  PersonDescription* person = rig_.findPerson(request.led);
-  RigidBodyDescription* body = rig_.findBody(request.led);
-  if (!led && !person && !body)
+  const double begin = *time;
+  const char* state = request.on ? "is there" : "is away";
+  if (LedDescription* led = rig_.findLed(request.led)) {
+    const std::string& holder = led->turns ? led->turns->around : led->carried_by;
+    if (holder.empty())
+      *time = move(request, begin, &led->motion);
+    else if (request.motion != SetLed::Request::HOLD)
+      throw Refusal("LED '" + request.led + "' goes where '" + holder + "' goes: move that one");
+    led->lit = request.on;
+    state = request.on ? "shines" : "is dark";
+  } else if (PersonDescription* person = rig_.findPerson(request.led)) {
+    *time = move(request, begin, &person->motion);
+    person->present = request.on;
+  } else if (RigidBodyDescription* body = rig_.findBody(request.led)) {
+    *time = move(request, begin, &body->motion);
+    body->present = request.on;
+  } else {
     throw Refusal("there is no LED, person, body or reflection '" + request.led +
                   "' in the rig's description");
-  const std::string holder = led && led->turns ? led->turns->around
-                             : led             ? led->carried_by
-                                               : std::string();
-  if (!holder.empty() && request.motion != SetLed::Request::HOLD)
-    throw Refusal("LED '" + request.led + "' goes where '" + holder + "' goes: move that one");
-  const double begin = *time;
-  if (holder.empty())
-    *time = move(request, begin, led ? &led->motion : person ? &person->motion : &body->motion);
-  (led ? led->lit : person ? person->present : body->present) = request.on;
-
-  std::ostringstream text;
-  text << "'" << request.led << "' "
-       << (led ? (request.on ? "shines" : "is dark") : (request.on ? "is there" : "is away"))
-       << ", arrives in " << *time - begin << " s";
-  return text.str();
+  }
+  return format("'%s' %s, arrives in %g s", request.led.c_str(), state, *time - begin);
 }
 
 /// @returns when the requested motion arrives [s].

@@ -8,9 +8,9 @@
 namespace wiimote_tracker::simulation {
 namespace {
 
-/// The part of the way after a part of the time, both 0 to 1: the motion of a hand, which starts
-/// and stops with the least jerk (Flash and Hogan 1985).
-double wayOfHand(double time) {
+/// Minimum-jerk motion, as of a hand (Flash and Hogan 1985): the share of the way after a share of
+/// the time.
+double minimumJerk(double time) {
   return time * time * time * (10.0 + time * (6.0 * time - 15.0));
 }
 
@@ -51,7 +51,7 @@ Eigen::Vector3d LedMotion::position(double time) const {
   if (time <= begin_ && time < arrival_)
     return from_;
   if (time < arrival_)
-    return from_ + wayOfHand((time - begin_) / (arrival_ - begin_)) * (to_ - from_);
+    return from_ + minimumJerk((time - begin_) / (arrival_ - begin_)) * (to_ - from_);
   return then_ ? then_(time - arrival_) : to_;
 }
 

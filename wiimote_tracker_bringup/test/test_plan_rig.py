@@ -222,7 +222,7 @@ CARRIED = dataclasses.replace(ROOM, body=LEDS, beam=150.0)
 
 def test_a_bodys_covariance_is_that_of_its_pixels_by_numeric_derivatives():
     point = np.array([[1.0, 1.0, 1.0]])
-    each, located = prediction.told(CARRIED, POSITIONS, TARGETS, point, None)
+    each, located = prediction.target_information(CARRIED, POSITIONS, TARGETS, point, None)
     assert each.shape == (3, body.HEADINGS, 6, 6) and located.all()
     levers = np.array(LEDS)[:, :3]
     sees = prediction.look(CARRIED, POSITIONS, TARGETS, point + levers, np.array(LEDS)[:, 3:]).sees
@@ -245,7 +245,8 @@ def test_a_body_whose_leds_look_away_is_not_located():
     alone = dataclasses.replace(CARRIED, body=tuple(led for led in LEDS if led[3] > 0.3),
                                 beam=200.0)
     twice = [0, 0]  # two cameras at one place
-    _, located = prediction.told(alone, POSITIONS[twice], TARGETS[twice], TARGETS[:1], None)
+    _, located = prediction.target_information(alone, POSITIONS[twice], TARGETS[twice],
+                                               TARGETS[:1], None)
     assert not located[0] and located[3]
 
 

@@ -35,6 +35,6 @@ def draw(chosen, positions, targets, path):
 def errors_at(chosen, positions, targets, x, y, height):
     """Standard deviations by the pixels alone [mm], by x and y; NaN: seen by fewer than two."""
     points = np.stack(np.meshgrid(x, y, [height], indexing='ij'), axis=-1).reshape(-1, 3)
-    each, located = prediction.told(chosen, positions, targets, points, None)
+    each, located = prediction.target_information(chosen, positions, targets, points, None)
     errors = 1e3 * np.sqrt(prediction.variances(each))
     return np.where(located, errors, np.nan).reshape(len(x), len(y), -1).mean(axis=-1)

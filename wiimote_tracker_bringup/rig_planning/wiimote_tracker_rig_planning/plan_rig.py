@@ -51,12 +51,12 @@ def describe_sight(chosen, names, positions, targets):
 
 def describe_body(chosen, positions, targets, points):
     """The same of a body."""
-    each, located = prediction.told(chosen, positions, targets, points, None)
+    each, located = prediction.target_information(chosen, positions, targets, points, None)
     lines = ['  seen four times or more, by three LEDs or more: %.1f %% of places and headings'
              % (100 * located.mean())]
     if not located.any():
         return lines
-    covariance = np.linalg.inv(each.sum(axis=0)[located] + prediction.guess(6))
+    covariance = np.linalg.inv(each.sum(axis=0)[located] + prediction.prior_information(6))
     place, turn = (np.sqrt(np.trace(covariance[:, part, part], axis1=1, axis2=2))
                    for part in (slice(0, 3), slice(3, 6)))
     return lines + [

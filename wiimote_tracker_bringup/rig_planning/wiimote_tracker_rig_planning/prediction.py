@@ -72,11 +72,11 @@ def calibration(plan, corners: Look):
     """N x 11 x 11: covariance of each camera's parameters after a calibration by the square,
     without the errors of its corners, which are common to all cameras."""
     used = corners.by_camera * corners.sees[..., None, None]
-    told = PRIOR + IMAGES / plan.pixel_stddev ** 2 * np.einsum('nmij,nmik->njk', used, used)
+    total = PRIOR + IMAGES / plan.pixel_stddev ** 2 * np.einsum('nmij,nmik->njk', used, used)
     # Scaled before inverting: pixels, radians and metres differ by many orders of magnitude.
-    scale = 1.0 / np.sqrt(np.diagonal(told, axis1=1, axis2=2))
+    scale = 1.0 / np.sqrt(np.diagonal(total, axis1=1, axis2=2))
     scale = scale[:, :, None] * scale[:, None]
-    return np.linalg.inv(told * scale) * scale
+    return np.linalg.inv(total * scale) * scale
 
 
 def information(plan, seen: Look, covariance):
@@ -95,7 +95,7 @@ def look_at_square(plan, positions, targets) -> Look:
                 plan.corners())
 
 
-def told(plan, positions, targets, points, covariance):
+def target_information(plan, positions, targets, points, covariance):
     """What each camera tells of each target, N x B x K x K, and whether it can be located, B. K is
     3 for an LED at each of the points, seen by two cameras; 6 for a body's place and turn about the
     world's axes, at each point in each heading, with four sightings of three LEDs. What a
@@ -119,12 +119,12 @@ def trace_of_inverse(matrices):
     return sum(minors) / (a * minors[0] - b * (b * f - c * e) + c * (b * e - c * d))
 
 
-def guess(size):
+def prior_information(size):
     """Of a target that nobody sees, as information."""
     return np.diag(([UNSEEN ** -2] * 3 + [UNTURNED ** -2] * 3)[:size])
 
 
-def of_place(whole):
+def position_variance(whole):
     """Trace of the covariance of the place alone [m^2], from the information on it, and on the
     turn."""
     if whole.shape[-1] == 3:
@@ -137,7 +137,7 @@ def of_place(whole):
 def variances(each):
     """Of each place, with the information of all cameras: the covariance's trace [m^2]. About
     UNSEEN squared for what one camera or none sees."""
-    return of_place(each.sum(axis=0) + guess(each.shape[-1]))
+    return position_variance(each.sum(axis=0) + prior_information(each.shape[-1]))
 
 
 def at_points(plan, positions, targets, points):
@@ -145,7 +145,7 @@ def at_points(plan, positions, targets, points):
     after a calibration by the square [m], NaN where it is not located. Of a body: in its worst
     heading."""
     covariance = calibration(plan, look_at_square(plan, positions, targets))
-    each, located = told(plan, positions, targets, points, covariance)
+    each, located = target_information(plan, positions, targets, points, covariance)
     cameras = (np.trace(each, axis1=-2, axis2=-1) > 0.0).sum(axis=0)
     stddev = np.where(located, np.sqrt(variances(each)), np.nan)
     return (cameras.reshape(len(points), -1).min(axis=1),
@@ -156,10 +156,10 @@ def cost(plan, positions, targets, points):
     """RMS over the points of their expected standard deviation [m]. A corner of the square that a
     camera misses counts as a point that nobody sees."""
     corners = look_at_square(plan, positions, targets)
-    each, _ = told(plan, positions, targets, points, calibration(plan, corners))
-    whole = each.sum(axis=0) + guess(each.shape[-1])
-    expected = ((1.0 - plan.hidden) * of_place(whole).mean()
-                + plan.hidden * of_place(whole - each).mean())
+    each, _ = target_information(plan, positions, targets, points, calibration(plan, corners))
+    whole = each.sum(axis=0) + prior_information(each.shape[-1])
+    expected = ((1.0 - plan.hidden) * position_variance(whole).mean()
+                + plan.hidden * position_variance(whole - each).mean())
     return float(np.sqrt(expected + (1.0 - corners.sees.mean()) * UNSEEN ** 2))
 
 

@@ -1,10 +1,12 @@
 """check_setup, with fakes of the driver's programs and of the ROS master."""
 
+import http.server
 import json
 import os
 import socket
 import subprocess
 import sys
+import threading
 
 import program_module
 import pytest
@@ -30,7 +32,7 @@ def remote(address=A, usable=True, problems=()):
 
 NO_PERMISSION = ['permission denied on /dev/hidraw3: install the rule']
 CAMERAS = 'cameras:\n  door: "%s"\n'
-RIG = 'cameras:\n  door:\n    identity: "%s"\ncomplete: true\n'
+RIG = 'cameras:\n  door:\n    identity: "%s"\n    extrinsics: {}\ncomplete: true\n'
 
 
 class Master:
@@ -111,6 +113,8 @@ def test_all_is_well(check):
     ({'cameras': CAMERAS % A + '  window: "%s"\n' % A}, 'so has another one'),
     ({'rig': None}, 'rig.yaml yet: start the tracker, then run'),
     ({'rig': 'cameras:\n'}, 'no complete rig file'),
+    ({'rig': 'cameras:\ncomplete: true\n'}, 'no complete rig file'),
+    ({'rig': CAMERAS % A + 'complete: true\n'}, 'no complete rig file'),
     ({'rig': (RIG % A).replace('door', 'window')}, 'lacks door'),
     ({'rig': RIG % B}, f'door was {B}, but now is {A}'),
     ({'master': [], 'parameters': {'/use_sim_time': True}}, 'a replay has left its simulated time'),
@@ -148,6 +152,23 @@ def test_an_address_of_a_master_that_is_none_is_to_be_corrected(monkeypatch, add
     monkeypatch.setenv('ROS_MASTER_URI', address)
     (_, is_fine, advice), = check_setup.check_master()
     assert not is_fine and f'ROS_MASTER_URI is {named}, but' in advice
+
+
+@pytest.mark.parametrize('answer', [
+    b'HTTP/1.0 404 Not Found\r\n\r\n', b'HTTP/1.0 200 OK\r\n\r\n<html>', b'SSH-2.0\r\n'])
+def test_a_service_that_is_no_master_is_named(monkeypatch, answer):
+    class Service(http.server.BaseHTTPRequestHandler):
+        def do_POST(self):
+            self.rfile.read(int(self.headers['Content-Length']))
+            self.wfile.write(answer)
+
+    with http.server.HTTPServer(('localhost', 0), Service) as server:
+        monkeypatch.setenv('ROS_MASTER_URI', f'http://localhost:{server.server_port}')
+        thread = threading.Thread(target=server.handle_request)
+        thread.start()
+        (_, is_fine, advice), = check_setup.check_master()
+        thread.join()
+    assert not is_fine and 'answers, but is no ROS master: correct ROS_MASTER_URI' in advice
 
 
 def test_a_list_that_is_not_there_is_to_be_written(tmp_path):

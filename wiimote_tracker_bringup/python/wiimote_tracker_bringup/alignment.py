@@ -1,17 +1,19 @@
 """Closed-form alignment of two sets of corresponding points (S. Umeyama, PAMI 13(4), 1991)."""
 
+import dataclasses
+
 import numpy as np
 
 from wiimote_tracker_bringup.errors import Refusal
 
 
+@dataclasses.dataclass(eq=False)
 class Alignment:
     """p -> scale * rotation @ p + translation."""
 
-    def __init__(self, rotation=None, translation=None, scale=1.0):
-        self.rotation = np.eye(3) if rotation is None else rotation
-        self.translation = np.zeros(3) if translation is None else translation
-        self.scale = scale
+    rotation: np.ndarray
+    translation: np.ndarray
+    scale: float
 
     def apply(self, points: np.ndarray) -> np.ndarray:
         return self.scale * np.asarray(points) @ self.rotation.T + self.translation
@@ -62,5 +64,5 @@ KINDS = ('absolute', 'rigid', 'similarity')
 def fit_kind(kind: str, source: np.ndarray, target: np.ndarray, line: bool = False) -> Alignment:
     """Alignment of one of KINDS; line as in fit."""
     if kind == 'absolute':
-        return Alignment()
+        return Alignment(np.eye(3), np.zeros(3), 1.0)
     return fit(source, target, kind == 'similarity', line)

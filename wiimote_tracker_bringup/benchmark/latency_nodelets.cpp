@@ -103,7 +103,10 @@ void LatencyProbe::onInit() {
 }
 
 LatencyProbe::~LatencyProbe() {
-  ended_ = true;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);  // wait() must not miss it
+    ended_ = true;
+  }
   change_.notify_all();
   if (thread_.joinable())
     thread_.join();

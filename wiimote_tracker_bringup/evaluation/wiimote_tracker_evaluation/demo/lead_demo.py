@@ -79,13 +79,17 @@ class Demo:
         self._recorder = stack.record(self._output, self.file('demo.bag'), '--regex', RECORDED)
 
     def _experiment(self):
-        """The LED's tour. Returns the measured segments, and the images used per corner."""
+        """The LED's tour. Returns the measured segments, and the fewest images of a corner."""
         # Imported late: rospy reads the master's address at import.
         from wiimote_tracker_bringup.conductor import Conductor
         from wiimote_tracker_evaluation.demo.published import LiveRecorder
-        progress = self._progress
-        conductor = Conductor(LED, LiveRecorder(), stack.check, progress.passing)
+        conductor = Conductor(LED, LiveRecorder(), stack.check, self._progress.passing)
+        self._check_connection(conductor)
+        samples = self._calibrate(conductor)
+        return self._measure(conductor), samples
 
+    def _check_connection(self, conductor):
+        progress = self._progress
         progress.step('Connection check')
         conductor.wait_for_cameras([camera.name for camera in self._scene.cameras])
         checked = conductor.check_connection()
@@ -98,6 +102,9 @@ class Demo:
             raise Refusal('the connection check failed: ' + checked.message)
         self._report_view()
 
+    def _calibrate(self, conductor):
+        """Returns the fewest images that a camera used at a corner."""
+        progress = self._progress
         progress.step('Calibration: the LED is put on the four corners, %.0f mm off'
                       % (1e3 * experiment.CORNER_STDDEV))
         conductor.start(experiment.SIDE)
@@ -112,8 +119,10 @@ class Demo:
             progress.line(f"    {camera.name.strip('/'):<10} residual {camera.residual_px:.2f} "
                           f"px, {1e3 * camera.residual_m:.1f} mm")
         progress.line('    ' + conductor.save().message)
+        return min(samples)
 
-        segments = []
+    def _measure(self, conductor):
+        progress, segments = self._progress, []
         progress.step('Tracking: the ten test points')
         for number, place in enumerate(experiment.TEST_POINTS, 1):
             progress.passing(f'point {number} of {len(experiment.TEST_POINTS)}')
@@ -131,7 +140,7 @@ class Demo:
             segments.append(conductor.circle(
                 'circle at (%g, %g, %g)' % tuple(center), center, experiment.CIRCLE_RADIUS,
                 CIRCLE_SPEED, lap))
-        return segments, min(samples)
+        return segments
 
     def _report_view(self):
         complete = True

@@ -94,7 +94,7 @@ def connected_topics(master, node):
 
 
 def read_trace(path, cameras):
-    """Trace of a bag. Images, exposures and points are matched by their times."""
+    """Trace of a bag."""
     import rosbag
     delivered = {camera: [] for camera in cameras}  # rows: delivered, exposure, hop
     arrivals, points, triggered, images = [], [], {}, []
@@ -114,10 +114,16 @@ def read_trace(path, cameras):
                     triggered[message.header.stamp.to_nsec()] = position
             else:
                 arrivals.append((message.arrival.to_sec(), message.camera, received))
-    arrivals.sort()
+    rows = matched(points, sorted(arrivals), {
+        camera: np.array(sorted(reports)).reshape(-1, 3) for camera, reports in delivered.items()})
+    if not rows:
+        raise Refusal('no point was published while the LED was measured; see nodes.log')
+    return Trace(rows, images, triggered)
+
+
+def matched(points, arrivals, delivered):
+    """Rows of a Trace. Images, exposures and points are matched by their times."""
     arrival_times = np.array([when for when, _, _ in arrivals])
-    delivered = {camera: np.array(sorted(rows)).reshape(-1, 3)
-                 for camera, rows in delivered.items()}
     rows = []
     for message, published in points:
         position = first_position(message)
@@ -132,9 +138,7 @@ def read_trace(path, cameras):
         handed, exposure, hop = reports[index]
         rows.append((exposure, handed, arrived, published, arrivals[image][2], hop,
                      message.header.stamp.to_sec()) + position)
-    if not rows:
-        raise Refusal('no point was published while the LED was measured; see nodes.log')
-    return Trace(rows, images, triggered)
+    return rows
 
 
 def first_position(message):

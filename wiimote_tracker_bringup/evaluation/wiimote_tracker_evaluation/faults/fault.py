@@ -132,11 +132,9 @@ def judge(chosen, result, room, start, end, nodes):
     others = [name for name in result.ended if name not in chosen.ends and name not in lost]
     if others and chosen.ends != ('*',):
         result.problems.append('ended, too: ' + ', '.join(others))
-    said = [sentence for _, _, sentence in room.window(start, end).said]
-    matching = [sentence for sentence in said if chosen.named in sentence]
-    if chosen.named:
-        result.said = matching[0] if matching else ''
-        if not matching:
-            result.problems.append(f'nothing said "{chosen.named}"')
-    elif said:
-        result.said = said[0]
+    naming = [sentence for _, _, sentence in room.window(start, end).said
+              if chosen.named in sentence]
+    if naming:
+        result.said = naming[0]
+    elif chosen.named:
+        result.problems.append(f'nothing said "{chosen.named}"')

@@ -110,13 +110,12 @@ def call_all(pipe):
             try:
                 answer = call(filled_message(request, content))
             except rospy.ServiceException as error:
-                if service.endswith(OF_NODELETS):
-                    continue
-                problems.append(f'{service}, content {number}: {error}')
-                continue
-            if not getattr(answer, 'success', True) and not (
-                    getattr(answer, 'message', '') or getattr(answer, 'status_message', '')):
-                problems.append(f'{service}, content {number}: refused without a reason')
+                if not service.endswith(OF_NODELETS):
+                    problems.append(f'{service}, content {number}: {error}')
+            else:
+                reason = getattr(answer, 'message', '') or getattr(answer, 'status_message', '')
+                if not getattr(answer, 'success', True) and not reason:
+                    problems.append(f'{service}, content {number}: refused without a reason')
     pipe.send(problems)
 
 

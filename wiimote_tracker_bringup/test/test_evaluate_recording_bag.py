@@ -2,6 +2,8 @@
 make."""
 
 import pytest
+import rosbag
+from wiimote_tracker_msgs.msg import IrBlobArray, RigCalibration
 
 from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.recordings import program, replay, reprojection
@@ -34,6 +36,17 @@ def test_only_refusals_are_told_in_words(raised, seen, monkeypatch):
     monkeypatch.setattr('sys.argv', ['evaluate_recording', 'bag', 'in.bag'])
     with pytest.raises(type(seen), match=f'^{seen}$'):
         program.main()
+
+
+def test_a_bag_that_is_too_short_for_the_tracker(tmp_path, monkeypatch):
+    with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as bag:
+        bag.write('/calibration/rig', RigCalibration())
+        image = IrBlobArray()
+        image.header.stamp.secs = 10
+        bag.write('/camera/ir_blobs', image)
+    monkeypatch.setattr(replay, 'track', lambda recorded, mode: [])
+    with pytest.raises(Refusal, match='in.bag is too short'):
+        replay.evaluate(str(tmp_path / 'in.bag'))
 
 
 @pytest.mark.parametrize('points, by_two, observed, words', [

@@ -95,6 +95,9 @@ def evaluate(path, inlier_px=reprojection.INLIER_PX):
     """Figures, and the published points."""
     recorded = Bag(path)
     arrays, tracked = (track(recorded, mode) for mode in ('instant', 'tracks'))
+    if not arrays:
+        raise Refusal(f'{path} is too short: it ends before the tracker has heard all cameras of '
+                      'the rig, or waited for them')
     points, in_tracks = positions(arrays), positions(tracked, [TrackedPoint.TRACKED])
 
     def errors(rig, located):

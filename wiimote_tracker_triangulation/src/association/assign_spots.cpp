@@ -7,107 +7,100 @@ namespace wiimote_tracker::association {
 namespace {
 
 constexpr double kTooFar = std::numeric_limits<double>::infinity();
-constexpr int kNobody = -1;
+constexpr int kNone = -1;
 
-/// Spots are rows, tracks are columns. The false detection is one more column, which any number of
-/// rows may share. A pair costs what it adds to the track's missed detection, so that free columns
-/// cost nothing.
+/// Spots are rows. Columns are the tracks, then each spot's own false detection. A pair costs what
+/// it adds to the track's missed detection, so that a column without a spot costs nothing.
 class Assignment {
  public:
-  explicit Assignment(const SpotCosts& costs) : costs_(costs) {
-    track_of_spot_.fill(kFalseDetection);
-    spot_of_track_.fill(kNobody);
+  explicit Assignment(const SpotCosts& costs)
+      : costs_(costs), columns_(static_cast<int>(costs.tracks + costs.spots)) {
+    spot_of_column_.fill(kNone);
     spot_price_.fill(0.0);
-    track_price_.fill(0.0);
+    column_price_.fill(0.0);
   }
 
-  const std::array<int, kMaximumSpots>& solve() {
-    for (std::size_t spot = 0; spot < costs_.spots; ++spot)
+  std::array<int, kMaximumSpots> solve() {
+    for (int spot = 0; spot < static_cast<int>(costs_.spots); ++spot)
       insert(spot);
-    return track_of_spot_;
+    std::array<int, kMaximumSpots> track_of_spot;
+    track_of_spot.fill(kFalseDetection);
+    for (int track = 0; track < static_cast<int>(costs_.tracks); ++track) {
+      if (spot_of_column_[track] != kNone)
+        track_of_spot[spot_of_column_[track]] = track;
+    }
+    return track_of_spot;
   }
 
  private:
-  double extra(std::size_t spot, std::size_t track) const {
-    return costs_.pair[spot][track] - costs_.miss[track];
+  static constexpr std::size_t kMaximumColumns = kMaximumTracks + kMaximumSpots;
+  using Columns = std::array<int, kMaximumColumns>;
+
+  double cost(int spot, int column) const {
+    const int tracks = static_cast<int>(costs_.tracks);
+    if (column < tracks)
+      return costs_.pair[spot][column] - costs_.miss[column];
+    return column - tracks == spot ? costs_.ghost[spot] : kTooFar;
   }
 
-  void give(std::size_t spot, int track) {
-    track_of_spot_[spot] = track;
-    if (track != kFalseDetection)
-      spot_of_track_[track] = static_cast<int>(spot);
-  }
-
-  /// Assigns a spot along the shortest path, by reduced costs, over tracks that are reassigned to a
-  /// free track or a false detection.
-  void insert(std::size_t spot) {
-    constexpr int kStart = -2;  // before the spot itself
-    std::array<bool, kMaximumTracks> reached{};
-    std::array<double, kMaximumTracks> distance;  // from the tree of reached tracks
-    std::array<int, kMaximumTracks> previous;     // the reached track before
+  /// Assigns a spot along the shortest path to a free column, over columns whose spots are
+  /// reassigned: Dijkstra's algorithm on the reduced costs, of which only the new spot's may be
+  /// negative.
+  void insert(int new_spot) {
+    std::array<bool, kMaximumColumns> reached{};
+    std::array<double, kMaximumColumns> distance;  // from the columns that are reached
     distance.fill(kTooFar);
-    double ghost_distance = kTooFar;
-    int ghost_previous = kStart;
-
-    int last = kStart;  // the track reached last
-    std::size_t owner = spot;
-    int end = kStart;
-    int end_previous = kStart;
+    Columns previous;  // on the shortest path; kNone: the new spot
+    previous.fill(kNone);
+    int last = kNone;  // the column reached last, and its spot
+    int spot = new_spot;
     for (;;) {
-      const double ghost = costs_.ghost[owner] - spot_price_[owner];
-      if (ghost < ghost_distance) {
-        ghost_distance = ghost;
-        ghost_previous = last;
-      }
-      double step = ghost_distance;
-      int nearest = kFalseDetection;
-      for (std::size_t track = 0; track < costs_.tracks; ++track) {
-        if (reached[track])
+      int nearest = kNone;
+      for (int column = 0; column < columns_; ++column) {
+        if (reached[column])
           continue;
-        const double cost = extra(owner, track) - spot_price_[owner] - track_price_[track];
-        if (cost < distance[track]) {
-          distance[track] = cost;
-          previous[track] = last;
+        const double reduced = cost(spot, column) - spot_price_[spot] - column_price_[column];
+        if (reduced < distance[column]) {
+          distance[column] = reduced;
+          previous[column] = last;
         }
-        if (distance[track] < step) {
-          step = distance[track];
-          nearest = static_cast<int>(track);
-        }
+        if (nearest == kNone || distance[column] < distance[nearest])
+          nearest = column;
       }
-      spot_price_[spot] += step;
-      for (std::size_t track = 0; track < costs_.tracks; ++track) {
-        if (reached[track]) {
-          spot_price_[spot_of_track_[track]] += step;
-          track_price_[track] -= step;
-        } else {
-          distance[track] -= step;
-        }
-      }
-      ghost_distance -= step;
-      if (nearest == kFalseDetection || spot_of_track_[nearest] == kNobody) {
-        end = nearest;
-        end_previous = nearest == kFalseDetection ? ghost_previous : previous[nearest];
-        break;
-      }
-      reached[nearest] = true;
+      raisePrices(distance[nearest], new_spot, reached, &distance);
       last = nearest;
-      owner = spot_of_track_[nearest];
+      if (spot_of_column_[last] == kNone)
+        break;
+      reached[last] = true;
+      spot = spot_of_column_[last];
     }
-    // Along the path, each track is reassigned to the owner of the track before it.
-    for (int track = end, before = end_previous;; track = before, before = previous[before]) {
-      if (before == kStart) {
-        give(spot, track);
-        return;
+    // Each column on the path gets the spot of the one before.
+    for (int column = last; column != kNone; column = previous[column])
+      spot_of_column_[column] =
+          previous[column] == kNone ? new_spot : spot_of_column_[previous[column]];
+  }
+
+  /// Keeps the reduced costs along the paths zero, and those of all pairs at zero or more.
+  void raisePrices(double step,
+                   int new_spot,
+                   const std::array<bool, kMaximumColumns>& reached,
+                   std::array<double, kMaximumColumns>* distance) {
+    spot_price_[new_spot] += step;
+    for (int column = 0; column < columns_; ++column) {
+      if (reached[column]) {
+        spot_price_[spot_of_column_[column]] += step;
+        column_price_[column] -= step;
+      } else {
+        (*distance)[column] -= step;
       }
-      give(spot_of_track_[before], track);
     }
   }
 
   const SpotCosts& costs_;
-  std::array<int, kMaximumSpots> track_of_spot_;
-  std::array<int, kMaximumTracks> spot_of_track_;
-  std::array<double, kMaximumSpots> spot_price_;    // dual variables
-  std::array<double, kMaximumTracks> track_price_;  // at most zero
+  int columns_;
+  Columns spot_of_column_;
+  std::array<double, kMaximumSpots> spot_price_;      // dual variables
+  std::array<double, kMaximumColumns> column_price_;  // at most zero
 };
 
 }  // namespace

@@ -90,7 +90,7 @@ class Track {
 
   /// Whether a tentative track may continue that of a lost LED. This takes less than to confirm a
   /// new LED.
-  bool mayContinue() const { return may_continue_; }
+  bool mayContinue() const { return may_continue_ && !finished_; }
 
   /// A cheap linear prediction of the position [m], to select cameras that may see it.
   Eigen::Vector3d approximatePosition(double time) const;

@@ -1,7 +1,6 @@
 #include "track.h"
 
 #include <algorithm>
-#include <array>
 #include <bitset>
 #include <cmath>
 #include <limits>
@@ -124,87 +123,73 @@ void Track::continueAs(const Track& found) {
   agreement_.reacquire();
 }
 
-void Track::updateStatus(double time, const TrackerOptions& options) {
-  std::size_t seen_by = 0;
-  std::size_t possible = 0;
-  double squares = 0.0;  // residuals [px^2]
+Track::Visibility Track::visibilityAt(double time, const TrackerOptions& options) const {
+  Visibility result;
+  const double since = time - options.tracked_time;
   for (const CameraRecord& record : records_) {
-    possible += record.last_expected >= time - options.tracked_time;
-    if (record.last_detected < time - options.tracked_time)
+    const bool is_expected = record.last_expected >= since;
+    result.expected += is_expected;
+    result.in_view += is_expected || record.last_saturated >= since;
+    result.supporting += is_expected && std::bitset<4>(record.recent).count() >= 2;
+    if (record.last_detected < since)
       continue;
-    ++seen_by;
-    squares += record.squared_residual;
+    if (result.detected < result.rays.size())
+      result.rays[result.detected] = &record.ray;
+    ++result.detected;
+    result.squared_residuals += record.squared_residual;
   }
-  if (seen_by >= 2)
-    last_located_ = time;
-  weighRays(time, options);
-  if (!position_.allFinite()) {
-    finished_ = true;
-    return;
-  }
-  if (confirmed_) {
-    finished_ = time - last_observed_ > options.prediction_time ||
-                time - last_located_ > options.single_view_time || isDuplicate();
-    return;
-  }
-  const std::size_t supporting = supportingCameras(time, options);
-  const std::size_t in_view = camerasInView(time, options);
-  const bool is_supported = supporting >= 2 && supporting >= options.minimum_support * possible;
-  const double limit = options.birth_pixel_stddev;
-  may_continue_ = initial_spots_ + hits_ >= kReacquisitionSpots &&
-                  squares <= seen_by * limit * limit &&
-                  (seen_by >= 3 || (is_supported && agreement_.areNowOne()));
-  confirmed_ =
-      is_supported && hits_ >= options.confirmation_hits && !isDoubtful(supporting, in_view);
-  if (confirmed_)
-    return;
-  constexpr double kMaximumTentativeTime = 0.5;  // [s]
-  const double unseen = time - last_observed_;
-  const double patience = options.tracked_time + options.dark_time;
-  finished_ =
-      unseen > patience || time - last_located_ > patience ||
-      (unseen >= options.dark_time && misses_in_a_row_ >= 2 * std::max<std::size_t>(possible, 2)) ||
-      (time - initiated_ > kMaximumTentativeTime + options.dark_time &&
-       !isDoubtful(supporting, in_view));
+  return result;
 }
 
-/// Cameras that should show it, and those that show as many others as they can.
-std::size_t Track::camerasInView(double time, const TrackerOptions& options) const {
-  return std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-    return std::max(record.last_expected, record.last_saturated) >= time - options.tracked_time;
-  });
+void Track::updateStatus(double time, const TrackerOptions& options) {
+  const Visibility now = visibilityAt(time, options);
+  if (now.detected >= 2)
+    last_located_ = time;
+  weighRays(now, time, options);
+  if (!position_.allFinite())
+    finished_ = true;
+  else if (confirmed_)
+    finished_ = time - last_observed_ > options.prediction_time ||
+                time - last_located_ > options.single_view_time || isDuplicate();
+  else
+    updateTentative(now, time, options);
+}
+
+void Track::weighRays(const Visibility& now, double time, const TrackerOptions& options) {
+  const auto [a, b] = now.rays;
+  if (now.detected > 2)
+    agreement_.weigh(0.0, options.pixel_stddev, time);
+  else if (now.detected == 2 && a->count > 0.0 && b->count > 0.0)
+    agreement_.weigh(distanceOf(*a, *b), stddevOf(*a, *b), time);
+  else
+    agreement_.wait(time);
+}
+
+void Track::updateTentative(const Visibility& now, double time, const TrackerOptions& options) {
+  constexpr double kMaximumTentativeTime = 0.5;  // [s]
+  const bool is_supported =
+      now.supporting >= 2 && now.supporting >= options.minimum_support * now.expected;
+  const bool is_doubtful = isDoubtful(now.supporting, now.in_view);
+  const double limit = options.birth_pixel_stddev;
+  may_continue_ = initial_spots_ + hits_ >= kReacquisitionSpots &&
+                  now.squared_residuals <= now.detected * limit * limit &&
+                  (now.detected >= 3 || (is_supported && agreement_.areNowOne()));
+  confirmed_ = is_supported && hits_ >= options.confirmation_hits && !is_doubtful;
+
+  const double unseen = time - last_observed_;
+  const double patience = options.tracked_time + options.dark_time;
+  const bool is_missed =
+      unseen >= options.dark_time && misses_in_a_row_ >= 2 * std::max<std::size_t>(now.expected, 2);
+  const bool is_too_old =
+      time - initiated_ > kMaximumTentativeTime + options.dark_time && !is_doubtful;
+  finished_ = !confirmed_ &&
+              (unseen > patience || time - last_located_ > patience || is_missed || is_too_old);
 }
 
 /// Whether only two cameras see it of more that have it in view, and these two may see different
 /// lights.
 bool Track::isDoubtful(std::size_t seen_by, std::size_t in_view) const {
   return seen_by == 2 && in_view > 2 && !agreement_.areLikelyOne();
-}
-
-void Track::weighRays(double time, const TrackerOptions& options) {
-  std::array<const RayOffset*, 2> rays;
-  std::size_t count = 0;
-  for (const CameraRecord& record : records_) {
-    if (record.last_detected < time - options.tracked_time)
-      continue;
-    if (count < 2)
-      rays[count] = &record.ray;
-    ++count;
-  }
-  if (count == 2 && rays[0]->count > 0.0 && rays[1]->count > 0.0)
-    agreement_.weigh(distanceOf(*rays[0], *rays[1]), stddevOf(*rays[0], *rays[1]), time);
-  else if (count > 2)
-    agreement_.weigh(0.0, options.pixel_stddev, time);
-  else
-    agreement_.wait(time);
-}
-
-/// Cameras that detected it in two of their last four images.
-std::size_t Track::supportingCameras(double time, const TrackerOptions& options) const {
-  return std::count_if(records_.begin(), records_.end(), [&](const CameraRecord& record) {
-    return record.last_expected >= time - options.tracked_time &&
-           std::bitset<4>(record.recent).count() >= 2;
-  });
 }
 
 Eigen::Vector3d Track::approximatePosition(double time) const {
@@ -258,24 +243,18 @@ void Track::report(double time,
   led->first_seen = initiated_;
   led->last_observed = last_observed_;
   led->same_led_probability = same_led_probability_;
+  const Visibility now = visibilityAt(time, options);
+  led->rays_possible = now.expected;
+  led->residual = std::sqrt(now.squared_residuals / now.detected);  // NaN: none
   led->cameras.clear();
-  led->rays_possible = 0;
-  double squares = 0.0;
   for (const CameraRecord& record : records_) {
-    if (record.last_expected < time - options.tracked_time)
-      continue;
-    ++led->rays_possible;
-    if (record.last_detected < time - options.tracked_time)
-      continue;
-    led->cameras.push_back(rig_index[record.camera]);
-    squares += record.squared_residual;
+    if (record.last_detected >= time - options.tracked_time)
+      led->cameras.push_back(rig_index[record.camera]);
   }
   std::sort(led->cameras.begin(), led->cameras.end());
-  led->residual = std::sqrt(squares / led->cameras.size());  // NaN: none
   // Predicted: one camera alone does not measure the distance; the two cameras that see it may see
   // different lights; or no spot is near its prediction, as of a track that follows another light.
-  const bool is_located = led->cameras.size() >= 2 &&
-                          !isDoubtful(led->cameras.size(), camerasInView(time, options)) &&
+  const bool is_located = now.detected >= 2 && !isDoubtful(now.detected, now.in_view) &&
                           led->residual <= 2.0 * options.birth_pixel_stddev;
   led->state = !confirmed_  ? TrackState::kTentative
                : is_located ? TrackState::kTracked

@@ -9,6 +9,7 @@
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -108,11 +109,21 @@ class Track {
   std::uint32_t id;
 
  private:
+  /// Numbers of cameras, by their images within tracked_time.
+  struct Visibility {
+    std::size_t expected = 0;                // should show the LED
+    std::size_t in_view = 0;                 // should show it, or show as many others as they can
+    std::size_t detected = 0;                // show it
+    std::size_t supporting = 0;              // showed it in two of their last four images
+    double squared_residuals = 0.0;          // sum over those that show it [px^2]
+    std::array<const RayOffset*, 2> rays{};  // of the first two that show it
+  };
+
   CameraRecord& recordOf(std::size_t camera);
-  std::size_t camerasInView(double time, const TrackerOptions& options) const;
+  Visibility visibilityAt(double time, const TrackerOptions& options) const;
   bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
-  void weighRays(double time, const TrackerOptions& options);
-  std::size_t supportingCameras(double time, const TrackerOptions& options) const;
+  void weighRays(const Visibility& now, double time, const TrackerOptions& options);
+  void updateTentative(const Visibility& now, double time, const TrackerOptions& options);
 
   double initiated_;             // TrackedLed::first_seen; stays with continueAs() [s]
   double started_;               // see startedAt() [s]

@@ -78,10 +78,10 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
   rig_ = rig;
   uncertainty_.emplace(rig_);
   groups_.clear();
-  places_.resize(rig_.cameras.size());
+  cameras_.resize(rig_.cameras.size());
   for (const std::vector<std::size_t>& members : groupsOf(partners)) {
     for (std::size_t i = 0; i < members.size(); ++i)
-      places_[members[i]] = Place{groups_.size(), i};
+      cameras_[members[i]] = CameraState{groups_.size(), i};
     groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, options_));
   }
   arrival_clocks_ = std::make_unique<ArrivalClocks>(
@@ -109,38 +109,25 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 }
 
 void Tracker::add(std::size_t camera, const CameraImage& image) {
-  const geometry::RigCamera& calibration = rig_.cameras.at(camera);
-  const ImageTimes times = timesOf(calibration, image);
+  const ImageTimes times = timesOf(rig_.cameras.at(camera), image);
   const ArrivalClocks::Result result = arrival_clocks_->check(camera, times);
   counters_.disordered += arrival_clocks_->isDisordered();
   if (result == ArrivalClocks::Result::kWrongClock) {
     ++counters_.dropped;
     return;
   }
-  if (result == ArrivalClocks::Result::kJumpedBack) {
-    ++counters_.resets;
-    for (const auto& each : groups_)
-      each->clear();
-    views_.assign(views_.size(), CameraView());
-    newest_time_ = newest_arrival_ = last_output_ = kNever;
-  }
-  Place& place = places_[camera];
-  CameraGroup& group = *groups_[place.group];
-  const ClockRegression::Estimate clock = group.clocks().correctionOf(
-      place.member, image.clock_epoch, !calibration.hasNewClock(image.clock_epoch));
-  const double time = times.exposure - clock.offset;
-  StoredImage stored_image = stored(camera, image);
-  stored_image.time = time;
-  stored_image.stamp_stddev = std::hypot(stored_image.stamp_stddev, std::sqrt(clock.variance));
-  stored_image.clocks = group.clocks().version();
-  switch (group.add(stored_image, ids_.get(), &views_)) {
+  if (result == ArrivalClocks::Result::kJumpedBack)
+    reset();
+  const StoredImage stored_image = stored(camera, image, times.exposure);
+  CameraState& state = cameras_[camera];
+  switch (groups_[state.group]->add(stored_image, ids_.get(), &views_)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
       return;
     case CameraGroup::Outcome::kDropped:
       ++counters_.dropped;
-      ++place.late_in_a_row;
-      place.age = newest_time_ - time;
+      ++state.dropped_in_a_row;
+      state.lateness = newest_time_ - stored_image.time;
       return;
     case CameraGroup::Outcome::kLate:
       ++counters_.late;
@@ -148,24 +135,39 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     case CameraGroup::Outcome::kAdded:
       break;
   }
-  place.late_in_a_row = 0;
-  newest_time_ = std::max(newest_time_, time);
+  state.dropped_in_a_row = 0;
+  newest_time_ = std::max(newest_time_, stored_image.time);
   newest_arrival_ = std::max(newest_arrival_, image.arrival);
   ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
 }
 
-/// The usable spots, then the masked ones. Spots outside the image are left out.
-StoredImage Tracker::stored(std::size_t camera, const CameraImage& image) {
-  const Place& place = places_[camera];
-  const GroupCamera& view = groups_[place.group]->camera(place.member);
+/// Time jumped back: the images and tracks so far are of another time.
+void Tracker::reset() {
+  ++counters_.resets;
+  for (const auto& group : groups_)
+    group->clear();
+  views_.assign(views_.size(), CameraView());
+  newest_time_ = newest_arrival_ = last_output_ = kNever;
+}
+
+/// The image at its time by the camera's corrected clock, with the usable spots first, then the
+/// masked ones. Spots outside the image are left out. @param exposure by the rig's time offset [s]
+StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double exposure) {
+  const CameraState& state = cameras_[camera];
+  CameraGroup& group = *groups_[state.group];
+  const ClockRegression::Estimate clock = group.clocks().correctionOf(
+      state.member, image.clock_epoch, !rig_.cameras[camera].hasNewClock(image.clock_epoch));
+  const bool is_stddev_known = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0;
   StoredImage result;
-  result.camera = place.member;
+  result.camera = state.member;
+  result.time = exposure - clock.offset;
   result.arrival = image.arrival;
+  result.stamp_stddev = std::hypot(is_stddev_known ? image.stamp_stddev : options_.stamp_stddev,
+                                   std::sqrt(clock.variance));
+  result.clocks = group.clocks().version();
   result.number = images_++;
-  result.stamp_stddev = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0
-                            ? image.stamp_stddev
-                            : options_.stamp_stddev;
   result.full = image.spots.size() >= image.maximum_spots;
+  const GroupCamera& view = group.camera(state.member);
   const auto collect = [&](bool masked) {
     for (const Spot& spot : image.spots) {
       if (view.isInImage(spot.pixel, 0.5) && view.isMasked(spot.pixel) == masked &&
@@ -260,24 +262,24 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
     return CameraFault{CameraFault::Kind::kWrongClock, *ahead};
   // More than a driver reads at once after a pause.
   constexpr std::size_t kManyLate = 100;
-  const Place& place = places_[camera];
-  if (place.late_in_a_row >= kManyLate)
-    return CameraFault{CameraFault::Kind::kLate, -place.age};
-  const CameraGroup& group = *groups_[place.group];
-  if (group.isMisfit(place.member))
-    return CameraFault{group.isExplained(place.member) ? CameraFault::Kind::kInaccurate
+  const CameraState& state = cameras_[camera];
+  if (state.dropped_in_a_row >= kManyLate)
+    return CameraFault{CameraFault::Kind::kLate, -state.lateness};
+  const CameraGroup& group = *groups_[state.group];
+  if (group.isMisfit(state.member))
+    return CameraFault{group.isExplained(state.member) ? CameraFault::Kind::kInaccurate
                                                        : CameraFault::Kind::kMisfit,
                        0.0};
   constexpr double kNoticeable = 0.004;  // [s]
-  const double error = group.clocks().errorOf(place.member);
+  const double error = group.clocks().errorOf(state.member);
   if (std::abs(error) >= kNoticeable)
     return CameraFault{CameraFault::Kind::kCorrectedClock, error};
   return std::nullopt;
 }
 
 double Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
-  const Place& place = places_.at(camera);
-  return groups_[place.group]->clocks().errorIn(place.member, clock_epoch,
+  const CameraState& state = cameras_.at(camera);
+  return groups_[state.group]->clocks().errorIn(state.member, clock_epoch,
                                                 !rig_.cameras[camera].hasNewClock(clock_epoch));
 }
 

@@ -50,11 +50,11 @@ class Tracker : public Estimator {
   bool predictTo(double time, Snapshot* snapshot) override;
 
  private:
-  struct Place {
+  struct CameraState {
     std::size_t group;
-    std::size_t member;
-    std::size_t late_in_a_row = 0;  // images
-    double age = 0.0;               // of the last one, if it was late [s]
+    std::size_t member;                // of the group
+    std::size_t dropped_in_a_row = 0;  // images, because they were too late
+    double lateness = 0.0;             // of the last of them, behind the newest of all cameras [s]
   };
 
   /// Per camera of a rig those that share its view.
@@ -63,7 +63,8 @@ class Tracker : public Estimator {
   bool hasSameGroups(const geometry::Rig& rig, const Partners& partners) const;
   void useRig(const geometry::Rig& rig, const Partners& partners);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
-  StoredImage stored(std::size_t camera, const CameraImage& image);
+  void reset();
+  StoredImage stored(std::size_t camera, const CameraImage& image, double exposure);
   void updateGroups();
   void report(double time, Snapshot* snapshot) const;
   void addLost();
@@ -71,7 +72,7 @@ class Tracker : public Estimator {
   TrackerOptions options_;
   geometry::Rig rig_;
   std::vector<std::unique_ptr<CameraGroup>> groups_;
-  std::vector<Place> places_;  // per camera of the rig
+  std::vector<CameraState> cameras_;  // of the rig
   std::unique_ptr<ArrivalClocks> arrival_clocks_;
   std::unique_ptr<Ids> ids_;
   std::optional<geometry::CalibrationUncertainty> uncertainty_;  // never empty

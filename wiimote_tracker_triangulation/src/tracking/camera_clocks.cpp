@@ -21,6 +21,14 @@ double squared(double x) {
   return x * x;
 }
 
+/// Of an even number the mean of the middle two; 0 of none. @param values are sorted
+double medianOf(std::vector<double>* values) {
+  if (values->empty())
+    return 0.0;
+  std::sort(values->begin(), values->end());
+  return 0.5 * ((*values)[(values->size() - 1) / 2] + (*values)[values->size() / 2]);
+}
+
 }  // namespace
 
 ClockRegression::Estimate CameraClocks::correctionOf(std::size_t camera,
@@ -56,19 +64,24 @@ double CameraClocks::errorOf(std::size_t camera) const {
   return clock.is_known ? clock.correction().offset : 0.0;
 }
 
+/// Whether the median of the offsets counts it: a known one, or any if none is known.
+bool CameraClocks::isReference(const Clock& clock) const {
+  return clock.is_known || std::none_of(clocks_.begin(), clocks_.end(),
+                                        [](const Clock& other) { return other.is_known; });
+}
+
 /// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
 ClockRegression::Estimate CameraClocks::commonRemainder() {
+  offsets_.clear();
   double variances = 0.0;
-  double count = 0.0;
-  const double common = medianOf([&](std::size_t i) -> std::optional<double> {
-    const auto& remainder = remainders_[i];
-    if (!remainder)
-      return std::nullopt;
-    variances += remainder->variance + remainder->bias;
-    count += 1.0;
-    return remainder->offset;
-  });
-  return {common, count > 0.0 ? variances / (count * count) : 0.0};
+  for (std::size_t i = 0; i < clocks_.size(); ++i) {
+    if (!remainders_[i] || !isReference(clocks_[i]))
+      continue;
+    offsets_.push_back(remainders_[i]->offset);
+    variances += remainders_[i]->variance + remainders_[i]->bias;
+  }
+  const auto count = static_cast<double>(offsets_.size());
+  return {medianOf(&offsets_), count > 0.0 ? variances / squared(count) : 0.0};
 }
 
 void CameraClocks::update(const std::vector<CameraFit>& fits,
@@ -96,33 +109,18 @@ void CameraClocks::update(const std::vector<CameraFit>& fits,
     offset.offset += gain * innovation;
     offset.variance = (1.0 - gain) * variance;
   }
-  const double middle =
-      medianOf([&](std::size_t i) { return std::make_optional(clocks_[i].offset.offset); });
+  offsets_.clear();
+  for (const Clock& clock : clocks_) {
+    if (isReference(clock))
+      offsets_.push_back(clock.offset.offset);
+  }
+  const double middle = medianOf(&offsets_);
   for (Clock& clock : clocks_) {
     clock.offset.offset = std::clamp(clock.offset.offset - middle, -kLargest, kLargest);
     clock.is_used = !clock.is_known ||
                     std::abs(clock.offset.offset) >= (clock.is_used ? 0.5 : 1.0) * kNoticeable;
   }
   ++version_;
-}
-
-/// The median of a value of each known clock, or of all if none is known [s]. @param value_of the
-/// camera at an index; nothing: left out
-template <typename ValueOf>
-double CameraClocks::medianOf(const ValueOf& value_of) {
-  const bool none_known =
-      std::none_of(clocks_.begin(), clocks_.end(), [](auto& clock) { return clock.is_known; });
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < clocks_.size(); ++i) {
-    const std::optional<double> value =
-        clocks_[i].is_known || none_known ? value_of(i) : std::nullopt;
-    if (value)
-      sorted_[count++] = *value;
-  }
-  if (count == 0)
-    return 0.0;
-  std::sort(sorted_.begin(), sorted_.begin() + count);
-  return 0.5 * (sorted_[(count - 1) / 2] + sorted_[count / 2]);
 }
 
 }  // namespace wiimote_tracker::tracking

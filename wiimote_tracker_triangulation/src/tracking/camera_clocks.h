@@ -21,7 +21,7 @@ namespace wiimote_tracker::tracking {
 class CameraClocks {
  public:
   explicit CameraClocks(std::size_t cameras)
-      : turn_stddevs_(cameras), clocks_(cameras), remainders_(cameras), sorted_(cameras) {}
+      : turn_stddevs_(cameras), clocks_(cameras), remainders_(cameras), offsets_(cameras) {}
 
   /// @param turn_stddevs of each camera, see ClockRegression::estimate().
   void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
@@ -55,16 +55,14 @@ class CameraClocks {
     Clock in(std::uint32_t another_epoch, bool is_known_there) const;
   };
 
-  template <typename ValueOf>
-  double medianOf(const ValueOf& value_of);
-
   using Remainders = std::vector<std::optional<ClockRegression::Estimate>>;
+  bool isReference(const Clock& clock) const;
   ClockRegression::Estimate commonRemainder();
 
   std::vector<double> turn_stddevs_;  // per camera
   std::vector<Clock> clocks_;         // the same
   Remainders remainders_;             // per camera, of the last update()
-  std::vector<double> sorted_;        // [s]
+  std::vector<double> offsets_;       // reused [s]
   std::uint32_t version_ = 0;
 };
 

@@ -22,7 +22,7 @@ ArrivalClocks::ArrivalClocks(std::size_t cameras, double newest_used)
       newest_used_(newest_used),
       awaited_(newest_used > -kInfinity ? 2 * cameras : 0) {
   for (Camera& camera : cameras_)
-    camera.furthest = newest_used;
+    camera.in_step_until = newest_used;
 }
 
 ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, const ImageTimes& times) {
@@ -35,16 +35,16 @@ ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, const ImageTimes&
   if (comparePairs(camera, arrival))
     vote();
   const bool is_outlier = isOutlier(camera, arrival);
-  note(arrival, &cameras_[camera]);
+  noteNewest(arrival, &cameras_[camera]);
   if (!cameras_[camera].trusted || is_outlier)
     return Result::kWrongClock;
   cameras_[camera].used = arrival;
   const bool jumped_back = hasJumpedBack(camera);
   if (jumped_back) {
     for (Camera& each : cameras_)
-      each.furthest = -kInfinity;
+      each.in_step_until = -kInfinity;
   }
-  noteProgress(arrival, jumped_back || arrival >= newest_used_ - kJump, &cameras_[camera]);
+  noteStep(arrival, jumped_back || arrival >= newest_used_ - kJump, &cameras_[camera]);
   disordered_ = !jumped_back && arrival < newest_used_;
   if (jumped_back || arrival >= newest_used_) {
     newest_used_ = arrival;
@@ -54,17 +54,20 @@ ArrivalClocks::Result ArrivalClocks::check(std::size_t camera, const ImageTimes&
 }
 
 /// One image that is older than those before does not set the camera back; two in a row do.
-void ArrivalClocks::note(double arrival, Camera* camera) {
+void ArrivalClocks::noteNewest(double arrival, Camera* camera) {
   const bool is_behind = camera->newest && arrival < *camera->newest - kTolerance;
   if (is_behind ? camera->was_behind : arrival > camera->newest.value_or(-kInfinity))
     camera->newest = arrival;
   camera->was_behind = is_behind;
 }
 
-void ArrivalClocks::noteProgress(double arrival, bool is_present, Camera* camera) {
-  if (is_present)
-    camera->furthest = std::max(camera->furthest, arrival);
-  camera->waited = is_present ? 0 : std::min(camera->waited + 1, kLongestBacklog + 1);
+void ArrivalClocks::noteStep(double arrival, bool is_in_step, Camera* camera) {
+  if (is_in_step) {
+    camera->in_step_until = std::max(camera->in_step_until, arrival);
+    camera->images_behind = 0;
+  } else if (camera->images_behind <= kLongestBacklog) {  // more would overflow some day
+    ++camera->images_behind;
+  }
 }
 
 void ArrivalClocks::Pair::add(double lead) {
@@ -191,8 +194,8 @@ bool ArrivalClocks::hasJumpedBack(std::size_t camera) const {
 
 /// Whether its images go on where they were when the camera was last with the others.
 bool ArrivalClocks::isBacklog(const Camera& camera) {
-  return camera.furthest > -kInfinity && *camera.newest >= camera.furthest - kTolerance &&
-         camera.waited <= kLongestBacklog;
+  return camera.in_step_until > -kInfinity && *camera.newest >= camera.in_step_until - kTolerance &&
+         camera.images_behind <= kLongestBacklog;
 }
 
 std::optional<double> ArrivalClocks::ahead(std::size_t camera) const {

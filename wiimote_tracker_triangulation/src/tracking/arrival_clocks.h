@@ -79,10 +79,9 @@ class ArrivalClocks {
   struct Camera {
     std::optional<double> newest;  // arrival of its newest image [s]
     std::optional<double> used;    // of the last one that was used [s]
-    // Of the newest one since the last jump that was not kJump behind all others [s]; and images
-    // since.
-    double furthest = -std::numeric_limits<double>::infinity();
-    int waited = 0;
+    // Of its newest image since the last jump that was at most kJump behind the newest of all [s].
+    double in_step_until = -std::numeric_limits<double>::infinity();
+    int images_behind = 0;    // since that one
     bool was_behind = false;  // its last image was older than `newest`
     bool trusted = true;
   };
@@ -99,8 +98,8 @@ class ArrivalClocks {
   std::size_t indexOf(std::size_t a, std::size_t b) const;
   const Pair* activePair(std::size_t a, std::size_t b) const;
   bool doAgree(std::size_t a, std::size_t b) const;
-  static void note(double arrival, Camera* camera);
-  static void noteProgress(double arrival, bool is_present, Camera* camera);
+  static void noteNewest(double arrival, Camera* camera);
+  static void noteStep(double arrival, bool is_in_step, Camera* camera);
   static bool isBacklog(const Camera& camera);
   bool comparePairs(std::size_t camera, double arrival);
   void vote();

@@ -216,6 +216,16 @@ void BodyTracker::assign(const Image& image) {
   }
 }
 
+/// Which LEDs of a body have a spot in the image that assign() was called with.
+std::array<bool, kMaximumLeds> BodyTracker::ledsWithSpot(std::size_t body) const {
+  std::array<bool, kMaximumLeds> has_spot{};
+  for (const std::optional<SpotLed>& spot : led_of_spot_) {
+    if (spot && spot->body == body)
+      has_spot[spot->led] = true;
+  }
+  return has_spot;
+}
+
 /// Whether a spot of the same body, other than this one, fits only as that of several LEDs.
 bool BodyTracker::hasMerged(const LedGroups& groups,
                             const Image& image,
@@ -240,41 +250,36 @@ void BodyTracker::follow(const Image& image) {
   }
   assign(image);
   leaveToSearch(image.time);
-  const std::vector<Eigen::Vector2d>& pixels = image.pixels;
   LastImage& last = state_.images[image.camera];
   last.time = image.time;
   last.taken.clear();
   last.free.clear();
-  spots_taken_.assign(pixels.size(), false);
-  for (std::size_t s = 0; s < pixels.size(); ++s) {
-    if (!led_of_spot_[s]) {
-      last.free.push_back(pixels[s]);
-      continue;
-    }
-    spots_taken_[s] = true;
-    const SpotLed spot = *led_of_spot_[s];
-    std::array<bool, kMaximumLeds> has_spot{};
-    double spots = 0.0;
-    for (const std::optional<SpotLed>& other : led_of_spot_) {
-      if (!other || other->body != spot.body)
-        continue;
-      has_spot[other->led] = true;
-      spots += 1.0;
-    }
-    // Each update moves the body, and with it the predictions of the remaining spots.
-    const LedGroups groups = groupsOf(spot.body, image, spots);
-    if (const LedGroup* group = groups.best(spot.led, pixels[s], has_spot)) {
-      update(spot.body, *group, pixels[s], cameras_[image.camera], &last);
-    } else if (!hasMerged(groups, image, s, has_spot)) {
-      // Another light, or the pose is wrong: the search needs this spot.
-      spots_taken_[s] = false;
-      last.free.push_back(pixels[s]);
-    }
+  spots_taken_.assign(image.pixels.size(), false);
+  for (std::size_t s = 0; s < image.pixels.size(); ++s) {
+    spots_taken_[s] = led_of_spot_[s] && take(s, image, &last);
+    if (!spots_taken_[s])
+      last.free.push_back(image.pixels[s]);
   }
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (state_.bodies[b] && isSeen(b, last))
       state_.bodies[b]->last_observed = image.time;
   }
+}
+
+/// Updates the body of an assigned spot with it. False if the spot does not fit any more, since
+/// each update moves the body: it is of another light, or the pose is wrong, and the search needs
+/// it.
+bool BodyTracker::take(std::size_t spot, const Image& image, LastImage* last) {
+  const auto [body, led] = *led_of_spot_[spot];
+  const Eigen::Vector2d& pixel = image.pixels[spot];
+  const std::array<bool, kMaximumLeds> has_spot = ledsWithSpot(body);
+  const auto spots = static_cast<double>(std::count(has_spot.begin(), has_spot.end(), true));
+  const LedGroups groups = groupsOf(body, image, spots);
+  const LedGroup* group = groups.best(led, pixel, has_spot);
+  if (!group)
+    return hasMerged(groups, image, spot, has_spot);
+  update(body, *group, pixel, cameras_[image.camera], last);
+  return true;
 }
 
 void BodyTracker::update(std::size_t index,

@@ -199,6 +199,7 @@ class BodyTracker {
   std::uint64_t firstOutdated(std::uint64_t place);
   void step(std::uint64_t place);
   void follow(const Image& image);
+  bool take(std::size_t spot, const Image& image, LastImage* last);
   void update(std::size_t index,
               const LedGroup& group,
               const Eigen::Vector2d& pixel,
@@ -207,6 +208,7 @@ class BodyTracker {
   SpotNoise noiseOf(const Image& image, double spots) const;
   LedGroups groupsOf(std::size_t body, const Image& image, double spots) const;
   void assign(const Image& image);
+  std::array<bool, kMaximumLeds> ledsWithSpot(std::size_t body) const;
   bool hasMerged(const LedGroups& groups,
                  const Image& image,
                  std::size_t spot,

@@ -68,28 +68,9 @@ void LedLabels::update(double time,
       lost_.push_back(led.id);
       continue;
     }
-    if (identifier)
-      takeIdentity(led.id, *identifier);
-    const Identity* identity = identifier ? identifier->identityOf(led.id) : nullptr;
-    const bool may_be_listed = !identifier || (identity && identity->steady);
-    if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
-      giveFreeLabel(time, led);
-    const auto given = given_.find(led.id);
-    if (given == given_.end() || given->second.identified ||
-        led.state != tracking::TrackState::kTracked)
-      continue;
-    Place& place = places_[given->second.name];
-    place.position = led.position;
-    place.speed = led.velocity ? led.velocity->norm() : 0.0;
-    place.age = 0.0;
-    place.tracked_with = tracked_;
-    LedLabel& label = given->second;
-    if (led.same_led_probability < label.same_led_probability) {
-      former_[label.name] = place;
-      setConfidence(place.confidence * led.same_led_probability / label.same_led_probability,
-                    &label);
-      label.same_led_probability = led.same_led_probability;
-    }
+    giveLabel(time, led, identifier);
+    if (led.state == tracking::TrackState::kTracked)
+      notePlace(led);
   }
 }
 
@@ -102,6 +83,18 @@ void LedLabels::agePlaces(double time) {
     for (auto& place : *places)
       place.second.age = std::max(-kPlaceMemory, place.second.age + passed);
   }
+}
+
+/// That of its code or, if it does not blink and is tracked, one of the list.
+void LedLabels::giveLabel(double time,
+                          const tracking::TrackedLed& led,
+                          const Identifier* identifier) {
+  if (identifier)
+    takeIdentity(led.id, *identifier);
+  const Identity* identity = identifier ? identifier->identityOf(led.id) : nullptr;
+  const bool may_be_listed = !identifier || (identity && identity->steady);
+  if (may_be_listed && led.state == tracking::TrackState::kTracked && given_.count(led.id) == 0)
+    giveFreeLabel(time, led);
 }
 
 void LedLabels::takeIdentity(std::uint32_t id, const Identifier& identifier) {
@@ -165,6 +158,24 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
                     (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1),
                 &given);
   given.since = time;
+}
+
+/// Where an LED with a label of the list is, and whether it met another one.
+void LedLabels::notePlace(const tracking::TrackedLed& led) {
+  const auto given = given_.find(led.id);
+  if (given == given_.end() || given->second.identified)
+    return;
+  LedLabel& label = given->second;
+  Place& place = places_[label.name];
+  place.position = led.position;
+  place.speed = led.velocity ? led.velocity->norm() : 0.0;
+  place.age = 0.0;
+  place.tracked_with = tracked_;
+  if (!(led.same_led_probability < label.same_led_probability))
+    return;
+  former_[label.name] = place;
+  setConfidence(place.confidence * led.same_led_probability / label.same_led_probability, &label);
+  label.same_led_probability = led.same_led_probability;
 }
 
 void LedLabels::setConfidence(double confidence, LedLabel* given) {

@@ -77,9 +77,11 @@ class LedLabels {
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
  private:
-  void takeIdentity(std::uint32_t id, const Identifier& identifier);
   void agePlaces(double time);
+  void giveLabel(double time, const tracking::TrackedLed& led, const Identifier* identifier);
+  void takeIdentity(std::uint32_t id, const Identifier& identifier);
   void giveFreeLabel(double time, const tracking::TrackedLed& led);
+  void notePlace(const tracking::TrackedLed& led);
   void setConfidence(double confidence, LedLabel* given);
   const LedLabel* holderOf(const std::string& label) const;
 
@@ -89,7 +91,7 @@ class LedLabels {
   std::vector<std::uint32_t> lost_;          // since the last update began
   std::vector<std::uint32_t> forgotten_;     // lost before that; their labels are free
   Places places_;
-  Places former_;                 // of doubtful labels: where the LED was, before this one had it
+  Places former_;  // where a label's LED was when the label was given again, or when it met another
   std::optional<double> newest_;  // snapshot [s]
   bool is_updated_ = false;       // since the places were kept
   std::vector<std::string> doubtful_;

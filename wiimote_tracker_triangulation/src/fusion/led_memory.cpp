@@ -68,10 +68,10 @@ void LedMemory::findPairs(double time, const std::vector<Locator::Point>& points
 /// Removes absent tentative LEDs, which are never reported as lost, and ends the other absent
 /// ones.
 void LedMemory::endAbsent(double time) {
-  const auto isNone = [time](const Led& led) {
+  const auto isFalse = [time](const Led& led) {
     return led.state == TrackState::kTentative && time - led.last_seen > kTentativeAbsence;
   };
-  leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isNone), leds_.end());
+  leds_.erase(std::remove_if(leds_.begin(), leds_.end(), isFalse), leds_.end());
   for (Led& led : leds_) {
     if (time - led.last_seen > options_.maximum_absence)
       led.state = TrackState::kLost;

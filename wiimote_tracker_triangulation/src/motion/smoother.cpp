@@ -69,41 +69,53 @@ std::optional<double> multiply(const KinematicState& a,
          sum.matrixLLT().diagonal().array().log().sum();
 }
 
+/// What both filters know together of the LED's state if it is in one mode.
+/// @param a forwards. @param b backwards, but in the forward direction of time.
+/// @returns log of the likelihood of the mode, up to a constant of all modes; nothing when the
+/// product is not normal
+std::optional<double> combineStates(const MotionOptions& options,
+                                    int mode,
+                                    const KinematicState& a,
+                                    const KinematicState& b,
+                                    KinematicState* product) {
+  const double variance = accelerationVariance(options, mode);
+  const bool has_acceleration = variance > 0.0;
+  const Eigen::Index size = isAtRest(mode) ? 3 : has_acceleration ? 9 : 6;
+  // A state that came from a more agile mode may know less of the acceleration than the mode's
+  // prior. Then a wider prior is divided out, so that the product stays normal.
+  const double known = b.covariance.diagonal().tail<3>().maxCoeff();
+  const double prior = known < 1.01 * variance ? variance : 2.0 * known;
+  const auto overlap = multiply(a, b, size, prior, product);
+  if (!overlap)
+    return std::nullopt;
+  // Both contain the prior densities of velocity and acceleration, if the mode has them: one of
+  // each is divided out, at 0. That over the product, as in the exact integral, would favour modes
+  // whose prior nearly excludes the motion, since states that came from other modes do not have
+  // this prior. Powers of 2 pi are then common to all modes.
+  return *overlap + (isAtRest(mode) ? 0.0 : 3.0 * std::log(options.initial_speed)) +
+         (has_acceleration ? 1.5 * std::log(variance) : 0.0);
+}
+
 /// What two filters of opposite directions in time know together of the LED at one time.
 KinematicState combine(const MotionOptions& options,
                        const Modes& forwards,
                        const Modes& backwards) {
   const Modes initial = initialModes(options, Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity());
   std::array<double, kModes> log_weights;
+  log_weights.fill(-std::numeric_limits<double>::infinity());
   Modes products;
-  double greatest = -std::numeric_limits<double>::infinity();
   for (int i = 0; i < kModes; ++i) {
-    log_weights[i] = -std::numeric_limits<double>::infinity();
     if (!(forwards[i].probability > 0.0 && backwards[i].probability > 0.0))
       continue;
-    const KinematicState& a = forwards[i].state;
-    const KinematicState b = reversed(backwards[i].state);
-    const double variance = accelerationVariance(options, i);
-    // What came from a more agile mode may know less of the acceleration than the mode's prior:
-    // then less is divided out, so that the product stays normal.
-    const double known = b.covariance.diagonal().tail<3>().maxCoeff();
-    const double prior = known < 1.01 * variance ? variance : 2.0 * known;
-    KinematicState* product = &products[i].state;
-    const Eigen::Index size = isAtRest(i) ? 3 : variance > 0.0 ? 9 : 6;
-    const auto overlap = multiply(a, b, size, prior, product);
-    if (!overlap)
-      continue;
-    // Divided by the priors, which both filters contain: the probability of the mode, and the
-    // densities of velocity and acceleration, if it has them, at 0. The exact integral has them
-    // over the product: that would favour modes whose prior nearly excludes the motion, since
-    // states that came from other modes do not have this prior. Powers of 2 pi are then common to
-    // all modes.
-    log_weights[i] =
-        *overlap + (isAtRest(i) ? 0.0 : 3.0 * std::log(options.initial_speed)) +
-        (variance > 0.0 ? 1.5 * std::log(variance) : 0.0) +
-        std::log(forwards[i].probability * backwards[i].probability / initial[i].probability);
-    greatest = std::max(greatest, log_weights[i]);
+    const auto log_likelihood = combineStates(options, i, forwards[i].state,
+                                              reversed(backwards[i].state), &products[i].state);
+    // Both contain the mode's prior probability.
+    if (log_likelihood)
+      log_weights[i] =
+          *log_likelihood +
+          std::log(forwards[i].probability * backwards[i].probability / initial[i].probability);
   }
+  const double greatest = *std::max_element(log_weights.begin(), log_weights.end());
   if (!std::isfinite(greatest))
     return momentsOf(forwards);
   double sum = 0.0;

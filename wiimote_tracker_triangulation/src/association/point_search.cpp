@@ -131,13 +131,14 @@ void PointSearch::decide(std::size_t spot, std::size_t ghosts) {
 
 /// Tries the best-fitting points first, so that the first association is a good bound.
 void PointSearch::tryJoining(std::size_t spot, std::size_t ghosts) {
-  std::pair<double, std::size_t> last(-kInfinity, 0);
+  using Choice = std::pair<double, std::size_t>;  // mean cost of its pairs, and the draft
+  Choice last(-kInfinity, 0);
   for (;;) {
-    std::pair<double, std::size_t> next(kInfinity, 0);
+    Choice next(kInfinity, 0);
     for (std::size_t i = 0; i < draft_count_; ++i) {
-      const std::pair<double, std::size_t> candidate(meanPairCost(drafts_[i], spot), i);
-      if (candidate > last && candidate < next)
-        next = candidate;
+      const Choice choice(meanPairCost(drafts_[i], spot), i);
+      if (choice > last)
+        next = std::min(next, choice);
     }
     if (next.first == kInfinity)
       return;

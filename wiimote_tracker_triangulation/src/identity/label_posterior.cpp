@@ -85,8 +85,10 @@ void LabelPosterior::computeTogether(std::size_t leds) {
                        (likeliest / phases * labels + label) * phases + likeliest % phases)));
   }
   for (Eigen::Index cell = 0; cell < bound_.size(); ++cell) {
-    if (bound_(cell) > best - kNegligible)
-      addCell(cell / phases, cell % phases, leds);
+    if (!(bound_(cell) > best - kNegligible))
+      continue;
+    weigh(cell / phases, cell % phases, leds);
+    addCell(leds);
   }
   // Each column has the same sum, that of all assignments, which underflows if none is possible.
   if (!(posterior_.colwise().sum().minCoeff() > 0.0)) {
@@ -103,21 +105,30 @@ void LabelPosterior::setPrior() {
   posterior_.row(labels).setConstant(steady_prior_);
 }
 
-// The sum over all assignments of distinct labels, or none, is a permanent. It is computed by a
-// forward and a backward recursion over the LEDs whose state is the set of used labels.
-void LabelPosterior::addCell(std::size_t frequency, std::size_t phase, std::size_t leds) {
+/// Sets weights_ for one period and phase.
+void LabelPosterior::weigh(std::size_t frequency, std::size_t phase, std::size_t leds) {
   const std::size_t labels = hypotheses_.labels();
-  const std::size_t sets = std::size_t{1} << labels;
-  weights_.resize(leds * (labels + 1));
-  forward_.assign((leds + 1) * sets, 0.0);
-  backward_.assign((leds + 1) * sets, 0.0);
+  weights_.clear();
   for (std::size_t led = 0; led < leds; ++led) {
     for (std::size_t label = 0; label < labels; ++label)
-      weights_[led * (labels + 1) + label] =
+      weights_.push_back(
           std::exp(leds_[led].cells((frequency * labels + label) * hypotheses_.phases() + phase) -
-                   reference_[led]);
-    weights_[led * (labels + 1) + labels] = std::exp(logWeightOfSteady(led) - reference_[led]);
+                   reference_[led]));
+    weights_.push_back(std::exp(logWeightOfSteady(led) - reference_[led]));
   }
+}
+
+/// Adds all assignments of distinct labels, or none, to the LEDs; their sum is a permanent. With
+/// the weights w, over the sets S of labels that the LEDs before one have taken:
+///   forward(led + 1, S + label) += forward(led, S) w(led, label),
+///   backward(led, S) = sum over labels of w(led, label) backward(led + 1, S + label),
+///   P(label of led) ~ sum over S of forward(led, S) w(led, label) backward(led + 1, S + label).
+/// Without a label, S stays.
+void LabelPosterior::addCell(std::size_t leds) {
+  const std::size_t labels = hypotheses_.labels();
+  const std::size_t sets = std::size_t{1} << labels;
+  forward_.assign((leds + 1) * sets, 0.0);
+  backward_.assign((leds + 1) * sets, 0.0);
   forward_[0] = 1.0;
   std::fill(backward_.end() - sets, backward_.end(), 1.0);
   for (std::size_t led = 0; led < leds; ++led) {

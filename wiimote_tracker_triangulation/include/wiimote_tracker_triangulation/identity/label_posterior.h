@@ -27,7 +27,8 @@ class LabelPosterior {
   void computeAlone(std::size_t led);
   void computeTogether(std::size_t leds);
   void setPrior();
-  void addCell(std::size_t frequency, std::size_t phase, std::size_t leds);
+  void weigh(std::size_t frequency, std::size_t phase, std::size_t leds);
+  void addCell(std::size_t leds);
   double logWeightOfSteady(std::size_t led) const;
 
   const Hypotheses& hypotheses_;
@@ -35,7 +36,9 @@ class LabelPosterior {
   std::vector<LogLikelihoods> leds_;
   Eigen::MatrixXd posterior_;
   Eigen::ArrayXf best_, bound_;
-  std::vector<double> reference_, weights_, forward_, backward_;
+  std::vector<double> reference_;           // per LED, logarithms
+  std::vector<double> weights_;             // of one cell: [LED][label, then not blinking]
+  std::vector<double> forward_, backward_;  // of one cell: [LED][set of labels]
 };
 
 }  // namespace wiimote_tracker::identity

@@ -38,7 +38,6 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
   unassigned_ = unassigned;
   if (!collectViews(newest))
     return;
-  const double time = (*unassigned)[newest].time;
   const association::Association& found = associator_.associate(views_);
   used_.clear();
   for (const association::AssociatedPoint& point : found.points) {
@@ -47,25 +46,39 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
         !isAllowed(point) || mayShowInAnother(point, first))
       continue;
-    initial_spots_.clear();
-    for (const auto* spot = first; spot != last; ++spot)
-      initial_spots_.push_back(spotAt(*spot).key);
-    const std::uint32_t id = ids->idFor(initial_spots_, time, [&](std::uint32_t candidate) {
-      return std::any_of(tracks->begin(), tracks->end(),
-                         [&](const Track& track) { return track.id == candidate; });
-    });
-    tracks->emplace_back(filterOf(point, first), id);
-    for (const auto* spot = first; spot != last; ++spot) {
-      tracks->back().addInitialSpot(spot->view, (*unassigned)[spot->view].time,
-                                    point.point.reprojection_error);
-      starts_.push_back({spot->view, spotAt(*spot).key.spot, id});
-    }
+    start(point, first, (*unassigned)[newest].time, tracks, ids);
     used_.insert(used_.end(), first, last);
   }
-  // In descending order, so that the remaining indices stay valid.
+  removeUsed();
+}
+
+/// Starts a track from the spots of a point, at the time of the newest of them.
+void TrackInitiation::start(const association::AssociatedPoint& point,
+                            const association::SpotReference* spots,
+                            double time,
+                            std::vector<Track>* tracks,
+                            Ids* ids) {
+  const auto* end = spots + point.spot_count;
+  initial_spots_.clear();
+  for (const auto* spot = spots; spot != end; ++spot)
+    initial_spots_.push_back(spotAt(*spot).key);
+  const std::uint32_t id = ids->idFor(initial_spots_, time, [&](std::uint32_t candidate) {
+    return std::any_of(tracks->begin(), tracks->end(),
+                       [&](const Track& track) { return track.id == candidate; });
+  });
+  Track& track = tracks->emplace_back(filterOf(point, spots), id);
+  for (const auto* spot = spots; spot != end; ++spot) {
+    track.addInitialSpot(spot->view, (*unassigned_)[spot->view].time,
+                         point.point.reprojection_error);
+    starts_.push_back({spot->view, spotAt(*spot).key.spot, id});
+  }
+}
+
+/// In descending order, so that the remaining indices stay valid.
+void TrackInitiation::removeUsed() {
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
   for (const association::SpotReference& spot : used_) {
-    UnassignedSpots& rest = (*unassigned)[spot.view];
+    UnassignedSpots& rest = (*unassigned_)[spot.view];
     rest.spots.erase(rest.spots.begin() + spot.spot);
     rest.sights.erase(rest.sights.begin() + spot.spot);
   }

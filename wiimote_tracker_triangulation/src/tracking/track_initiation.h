@@ -72,11 +72,17 @@ class TrackInitiation {
   const UnassignedSpots::Spot& spotAt(const association::SpotReference& spot) const {
     return (*unassigned_)[spot.view].spots[spot.spot];
   }
+  bool isAllowed(const association::AssociatedPoint& point) const;
   bool mayShowInAnother(const association::AssociatedPoint& point,
                         const association::SpotReference* spots) const;
+  void start(const association::AssociatedPoint& point,
+             const association::SpotReference* spots,
+             double time,
+             std::vector<Track>* tracks,
+             Ids* ids);
   motion::MotionFilter filterOf(const association::AssociatedPoint& point,
                                 const association::SpotReference* spots);
-  bool isAllowed(const association::AssociatedPoint& point) const;
+  void removeUsed();
 
   const TrackerOptions& options_;
   std::vector<std::vector<std::size_t>> partners_;

@@ -247,20 +247,24 @@ class BodyTracker {
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
-  std::vector<bool> taken_;
+  std::vector<bool> taken_;  // see taken()
 
-  // Reused buffers.
-  Image image_;
+  // Of the image of the last step().
   std::vector<std::optional<SpotLed>> led_of_spot_;  // nothing: free
-  std::vector<bool> spots_taken_;
-  std::vector<geometry::Sight> body_sights_;
-  std::vector<std::optional<std::size_t>> needed_spots_;  // per body
+  std::vector<bool> spots_taken_;                    // by a body
+
+  // Of the last search, in the newest images of all cameras.
+  std::vector<std::optional<std::size_t>> needed_spots_;  // per body, see neededSpots()
   std::vector<std::vector<Eigen::Vector2d>> candidates_;  // spots to search, per camera [px]
-  std::vector<std::vector<geometry::Sight>> sights_;
+  std::vector<std::vector<geometry::Sight>> sights_;      // theirs
   std::vector<association::View> views_;
   std::vector<MeasuredPoint> points_;
-  std::vector<MatchedSpot> matched_spots_;
-  std::vector<LedObservation> observations_;
+  std::vector<MatchedSpot> matched_spots_;    // of one match
+  std::vector<LedObservation> observations_;  // the same
+
+  // Reused buffers.
+  Image image_;                               // of add()
+  std::vector<geometry::Sight> body_sights_;  // of isSeen()
 };
 
 }  // namespace wiimote_tracker::body

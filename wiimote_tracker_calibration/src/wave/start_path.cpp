@@ -130,47 +130,57 @@ bool disjoint(const Point& a, const Point& b) {
   });
 }
 
+/// Two points of different spots that may be the ends of the wand.
+struct Ends {
+  const Point* first;
+  const Point* second;
+
+  double distance() const { return (first->position - second->position).norm(); }
+  std::size_t support() const { return first->spots.size() + second->spots.size(); }
+  double error() const { return first->error + second->error; }
+};
+
+std::vector<Ends> possibleEnds(const std::vector<Point>& points, double length) {
+  std::vector<Ends> all;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    for (std::size_t j = i + 1; j < points.size(); ++j) {
+      const Ends ends{&points[i], &points[j]};
+      const double distance = ends.distance();
+      const bool wrong = std::abs(distance - length) > kLengthTolerance * length;  // false of NaN
+      if (disjoint(points[i], points[j]) && distance != 0.0 && !wrong)
+        all.push_back(ends);
+    }
+  }
+  return all;
+}
+
+/// Whether the same two points were found from other spots.
+bool areSame(const Ends& a, const Ends& b) {
+  const auto apart = [](const Point* one, const Point* other) {
+    return (one->position - other->position).norm();
+  };
+  return std::min(apart(a.first, b.first) + apart(a.second, b.second),
+                  apart(a.first, b.second) + apart(a.second, b.first)) < 0.2 * a.distance();
+}
+
 /// The two ends of the wand: the two points that explain most. Nothing when another assignment of
 /// the spots is as good. @param length NaN: not known yet.
 std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> wandEnds(
     const std::vector<Point>& points,
     double length) {
-  const Point* best[2] = {nullptr, nullptr};
-  std::size_t best_support = 0;
-  double best_error = 0.0;
-  bool ambiguous = false;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    for (std::size_t j = i + 1; j < points.size(); ++j) {
-      if (!disjoint(points[i], points[j]))
-        continue;
-      const double distance = (points[i].position - points[j].position).norm();
-      if (distance == 0.0 || std::abs(distance - length) > kLengthTolerance * length)
-        continue;
-      const std::size_t support = points[i].spots.size() + points[j].spots.size();
-      const double error = points[i].error + points[j].error;
-      const bool better =
-          !best[0] || support > best_support || (support == best_support && error < best_error);
-      // The same two points found from other spots are the same assignment.
-      const bool same =
-          best[0] && std::min((points[i].position - best[0]->position).norm() +
-                                  (points[j].position - best[1]->position).norm(),
-                              (points[i].position - best[1]->position).norm() +
-                                  (points[j].position - best[0]->position).norm()) < 0.2 * distance;
-      if (!same && best[0] && support == best_support)
-        ambiguous = std::abs(error - best_error) < kTellApart || (!better && ambiguous);
-      else if (better && !same)
-        ambiguous = false;
-      if (better) {
-        best[0] = &points[i];
-        best[1] = &points[j];
-        best_support = support;
-        best_error = error;
-      }
-    }
-  }
-  if (!best[0] || ambiguous)
+  const std::vector<Ends> all = possibleEnds(points, length);
+  const auto best = std::min_element(all.begin(), all.end(), [](const Ends& a, const Ends& b) {
+    return a.support() != b.support() ? a.support() > b.support() : a.error() < b.error();
+  });
+  if (best == all.end())
     return std::nullopt;
-  return std::make_pair(best[0]->position, best[1]->position);
+  const bool is_ambiguous = std::any_of(all.begin(), all.end(), [&](const Ends& other) {
+    return other.support() == best->support() && other.error() - best->error() < kTellApart &&
+           !areSame(other, *best);
+  });
+  if (is_ambiguous)
+    return std::nullopt;
+  return std::make_pair(best->first->position, best->second->position);
 }
 
 /// Spots of all cameras around each of the times, camera by camera.

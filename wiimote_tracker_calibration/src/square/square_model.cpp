@@ -143,56 +143,83 @@ Eigen::MatrixXd SquareModel::covarianceOfAll(const RigState& state) const {
   return Problem(*this, state).covariance();
 }
 
+namespace {
+
+constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
+constexpr Eigen::Index kLens = adjust::kLensSize;
+constexpr Eigen::Index kPrincipalPoint = 2;  // of a lens
+
+/// Derivatives of the pixels of the corners that a camera saw, two rows each.
+struct CornerPixels {
+  Eigen::Matrix<double, Eigen::Dynamic, geometry::kParameters> by_camera;
+  Eigen::Matrix<double, Eigen::Dynamic, kCornerParameters> by_corners;
+};
+
+CornerPixels cornerPixels(const geometry::Camera& camera,
+                          const CameraSightings& seen,
+                          const Corners& corners) {
+  const auto rows = 2 * static_cast<Eigen::Index>(seen.cornersSeen());
+  CornerPixels pixels;
+  pixels.by_camera.resize(rows, geometry::kParameters);
+  pixels.by_corners.setZero(rows, kCornerParameters);
+  Eigen::Index row = 0;
+  for (std::size_t c = 0; c < corners.size(); ++c) {
+    if (!seen.corners[c])
+      continue;
+    const auto projection = geometry::projectionOf(camera, corners[c]).value();
+    pixels.by_camera.middleRows<2>(row) = projection.by_parameters;
+    pixels.by_corners.block<2, 2>(row, 2 * static_cast<Eigen::Index>(c)) =
+        projection.by_point.leftCols<2>();
+    row += 2;
+  }
+  return pixels;
+}
+
+/// Derivative of a lens by unit errors of its focal length, aspect, principal point and k1.
+Eigen::Matrix<double, kLens, kLens> lensByErrors(const geometry::Intrinsics& lens,
+                                                 const Uncertainty& stated) {
+  Eigen::Matrix<double, kLens, kLens> by_errors = Eigen::Matrix<double, kLens, kLens>::Zero();
+  by_errors.topLeftCorner<2, 2>() << lens.fx * stated.focal, 0.5 * lens.fx * stated.aspect,
+      lens.fy * stated.focal, -0.5 * lens.fy * stated.aspect;
+  by_errors.diagonal().tail<3>() << stated.principal_point, stated.principal_point, stated.k1;
+  return by_errors;
+}
+
+}  // namespace
+
+// A pose of least reprojection error follows the pixels p(pose, lens, corners) to first order by
+// d pose = (dp/d pose)^+ (dp - dp/d lens d lens - dp/d corners d corners).
 Eigen::MatrixXd SquareModel::covarianceOfPoses(const RigState& state) const {
-  const Uncertainty& stated = uncertainty_;
-  const auto cameras = static_cast<Eigen::Index>(sightings_.size());
-  constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
-  constexpr Eigen::Index kLensSize = adjust::kLensSize;
   constexpr Eigen::Index kShared = 2;
   constexpr Eigen::Index kPixels = 8;
-  // Estimated parameters as a linear function of independent unit errors: of all corners, of the
-  // principal points' shared offset, then of the lens and the pixels camera by camera. The sign of
-  // an error does not matter where it enters nothing but poses: of corners and pixels.
-  const Eigen::Index errors = kCornerParameters + kShared + (kLensSize + kPixels) * cameras;
-  Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras, errors);
+  constexpr Eigen::Index kOwn = kLens + kPixels;
+  const auto cameras = static_cast<Eigen::Index>(sightings_.size());
+  // Derivative of all parameters by independent unit errors: of all corners, of the principal
+  // points' shared offset, then of the lens and the pixels camera by camera.
+  Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras,
+                                                    kCornerParameters + kShared + kOwn * cameras);
   for (std::size_t i = 0; i < sightings_.size(); ++i) {
-    const CameraSightings& seen = sightings_[i];
-    const auto pixels = 2 * static_cast<Eigen::Index>(seen.cornersSeen());
-    Eigen::Matrix<double, Eigen::Dynamic, geometry::kParameters> by_camera(pixels,
-                                                                           geometry::kParameters);
-    Eigen::MatrixXd by_corners = Eigen::MatrixXd::Zero(pixels, kCornerParameters);
-    Eigen::Index pixel = 0;
-    for (std::size_t c = 0; c < seen.corners.size(); ++c) {
-      if (!seen.corners[c])
-        continue;
-      const auto projection = geometry::projectionOf(state.cameras[i], state.corners[c]).value();
-      by_camera.middleRows<2>(pixel) = projection.by_parameters;
-      by_corners.block<2, 2>(pixel, 2 * static_cast<Eigen::Index>(c)) =
-          projection.by_point.leftCols<2>();
-      pixel += 2;
-    }
-    const geometry::Intrinsics& lens = state.cameras[i].intrinsics;
-    Eigen::Matrix<double, kLensSize, kLensSize> lens_by_error =
-        Eigen::Matrix<double, kLensSize, kLensSize>::Zero();
-    lens_by_error.topLeftCorner<2, 2>() << lens.fx * stated.focal, 0.5 * lens.fx * stated.aspect,
-        lens.fy * stated.focal, -0.5 * lens.fy * stated.aspect;
-    lens_by_error.diagonal().tail<3>() << stated.principal_point, stated.principal_point, stated.k1;
-
-    const Eigen::MatrixXd pose_by_pixels = -geometry::pseudoInverse(by_camera.leftCols<kPose>());
+    const CornerPixels pixels = cornerPixels(state.cameras[i], sightings_[i], state.corners);
+    const auto lens_by_errors = lensByErrors(state.cameras[i].intrinsics, uncertainty_);
+    const Eigen::MatrixXd pose_by_pixels =
+        geometry::pseudoInverse(pixels.by_camera.leftCols<kPose>());
     const Eigen::MatrixXd pose_by_lens =
-        pose_by_pixels * by_camera.middleCols<kLensSize>(geometry::kIntrinsics);
-    const Eigen::Index own =
-        kCornerParameters + kShared + (kLensSize + kPixels) * static_cast<Eigen::Index>(i);
+        -pose_by_pixels * pixels.by_camera.middleCols<kLens>(geometry::kIntrinsics);
+
     auto rows = by_errors.middleRows<geometry::kParameters>(geometry::firstParameter(i));
-    rows.topLeftCorner<kPose, kCornerParameters>() = stated.placement * pose_by_pixels * by_corners;
-    rows.block<kPose, kLensSize>(0, own) = pose_by_lens * lens_by_error;
-    rows.block(0, own + kLensSize, kPose, pixels) = stated.pixel * pose_by_pixels;
-    rows.block<kLensSize, kLensSize>(geometry::kIntrinsics, own) = lens_by_error;
-    if (sharesOffset(seen.intrinsics)) {
-      const double shared = stated.shared_principal_point;
-      rows.block<kPose, kShared>(0, kCornerParameters) =
-          shared * pose_by_lens.middleCols<kShared>(2);
-      rows.block<kShared, kShared>(geometry::kIntrinsics + 2, kCornerParameters)
+    auto pose = rows.topRows<kPose>();
+    auto lens = rows.middleRows<kLens>(geometry::kIntrinsics);
+    const Eigen::Index own = kCornerParameters + kShared + kOwn * static_cast<Eigen::Index>(i);
+    pose.leftCols<kCornerParameters>() =
+        -uncertainty_.placement * pose_by_pixels * pixels.by_corners;
+    pose.middleCols<kLens>(own) = pose_by_lens * lens_by_errors;
+    pose.middleCols(own + kLens, pose_by_pixels.cols()) = uncertainty_.pixel * pose_by_pixels;
+    lens.middleCols<kLens>(own) = lens_by_errors;
+    if (sharesOffset(sightings_[i].intrinsics)) {
+      const double shared = uncertainty_.shared_principal_point;
+      pose.middleCols<kShared>(kCornerParameters) =
+          shared * pose_by_lens.middleCols<kShared>(kPrincipalPoint);
+      lens.block<kShared, kShared>(kPrincipalPoint, kCornerParameters)
           .diagonal()
           .setConstant(shared);
     }

@@ -291,9 +291,9 @@ Eigen::MatrixX3d controlsThrough(const std::vector<Trajectory::Place>& places,
   return solver.solve(right);
 }
 
-/// Spline through points with outliers: least squares, reweighted for the loss of Geman and McClure
-/// (1985), whose scale shrinks from round to round.
-void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
+/// A spline for each LED through points with outliers: least squares, reweighted for the loss of
+/// Geman and McClure (1985), whose scale shrinks from round to round.
+void fitSplines(const std::vector<Instant>& instants, double acceleration, Trajectory* trajectory) {
   // Scale of the loss, round by round [m].
   const double kErrors[] = {1.0, 0.3, 0.1, 0.05, 0.05};
   const double bend = trajectory->spacing() * trajectory->spacing() * acceleration;
@@ -304,15 +304,15 @@ void fit(const std::vector<Instant>& instants, double acceleration, Trajectory* 
     std::vector<Eigen::Vector3d> positions;
     for (const Instant& instant : instants)
       positions.push_back(instant.leds[static_cast<std::size_t>(led)]);
-    std::vector<double> offs(instants.size(), 0.0);  // [m]
+    std::vector<double> distances(instants.size(), 0.0);  // of the points from the spline [m]
     for (const double error : kErrors) {
       std::vector<double> errors;
-      for (const double off : offs)
-        errors.push_back(error + off * off / error);
+      for (const double distance : distances)
+        errors.push_back(error + distance * distance / error);
       auto controls = trajectory->controls().middleRows<3>(3 * led);
       controls = controlsThrough(places, positions, errors, bend, controls.cols()).transpose();
       for (std::size_t i = 0; i < places.size(); ++i)
-        offs[i] = (trajectory->position(places[i], led) - positions[i]).norm();
+        distances[i] = (trajectory->position(places[i], led) - positions[i]).norm();
     }
   }
 }
@@ -343,7 +343,7 @@ Trajectory startPath(const Recording& recording, const WaveOptions& options, Sta
       scaleByWand(recording.wand->length, &instants, poses);
   }
   Trajectory trajectory(start - kMargin, end + kMargin, options.knot_spacing, wand ? 2 : 1);
-  fit(instants, options.acceleration, &trajectory);
+  fitSplines(instants, options.acceleration, &trajectory);
   return trajectory;
 }
 

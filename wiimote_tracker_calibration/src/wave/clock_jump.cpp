@@ -99,6 +99,17 @@ std::vector<ClockJump> clockJumps(const State& state, const std::vector<Match>& 
   return result;
 }
 
+double sumOfSquares(const std::vector<ClockJump>& jumps) {
+  return std::accumulate(jumps.begin(), jumps.end(), 0.0,
+                         [](double sum, const ClockJump& jump) { return sum + jump.squared; });
+}
+
+Recording withoutJump(Recording recording, std::size_t camera, const ClockJump& jump) {
+  for (Frame& frame : recording.cameras[camera].frames)
+    frame.stamp -= frame.stamp > jump.after ? jump.size : 0.0;
+  return recording;
+}
+
 }  // namespace
 
 // The path follows a clock that jumps and hides a part of the jump. So the largest jump is removed,
@@ -112,12 +123,8 @@ void checkClocks(const Task& task,
   const auto jumpsOf = [&](const Recording& waved) {
     return clockJumps(state, matchSpots(waved, state, wide).matches);
   };
-  const auto squared = [](const std::vector<ClockJump>& jumps) {
-    return std::accumulate(jumps.begin(), jumps.end(), 0.0,
-                           [](double sum, const ClockJump& jump) { return sum + jump.squared; });
-  };
   std::vector<ClockJump> jumps = jumpsOf(task.recording);
-  const double before = squared(jumps);
+  const double before = sumOfSquares(jumps);
   const auto worst = std::max_element(
       jumps.begin(), jumps.end(),
       [](const ClockJump& a, const ClockJump& b) { return a.explained < b.explained; });
@@ -128,9 +135,7 @@ void checkClocks(const Task& task,
   Task corrected = task;
   Matching matching;
   for (int round = 0; round < kJumpRounds; ++round) {
-    corrected.recording = task.recording;
-    for (Frame& frame : corrected.recording.cameras[camera].frames)
-      frame.stamp -= frame.stamp > jumps[camera].after ? jumps[camera].size : 0.0;
+    corrected.recording = withoutJump(task.recording, camera, jumps[camera]);
     matching = matchSpots(corrected.recording, state, gate);
     if (std::count(matching.found.begin(), matching.found.end(), 0) > 0)
       return;  // not a jump: the camera would fit nowhere
@@ -138,7 +143,7 @@ void checkClocks(const Task& task,
     jumps = jumpsOf(task.recording);
   }
   if (std::abs(jumps[camera].size) < kLeastGrowth * apparent ||
-      squared(jumpsOf(corrected.recording)) > kMostLeft * before ||
+      sumOfSquares(jumpsOf(corrected.recording)) > kMostLeft * before ||
       agreementOf(corrected, matching.matches, state).isContradiction())
     return;
   const auto name = [&](std::size_t i) { return task.recording.cameras[i].sightings.name; };

@@ -179,12 +179,6 @@ void connectCameras(const Recording& recording,
                     "where it and another camera see the LED together");
 }
 
-/// Words a refusal of the reconstruction for a wave.
-[[noreturn]] void refuse(const bundle::BundleError& error) {
-  throw WaveContradiction(std::string("the wave does not tell where the cameras stand: ") +
-                          error.what());
-}
-
 /// Poses of the cameras that the square did not place, from the others.
 void placeRest(const bundle::Options& options, bundle::Reconstruction* reconstruction) {
   const std::vector<bool>& placed = reconstruction->placed;
@@ -192,6 +186,26 @@ void placeRest(const bundle::Options& options, bundle::Reconstruction* reconstru
     bundle::triangulatePoints(reconstruction, options.maximum_error, placed);
     bundle::resect(options, bundle::nextToResect(options, *reconstruction), reconstruction);
   }
+}
+
+/// Places the cameras that saw the whole square by it, and the others by the wave.
+void startFromSquare(const square::SquareLayout& layout,
+                     const std::vector<square::CameraSightings>& sightings,
+                     const square::Uncertainty& uncertainty,
+                     const bundle::Options& options,
+                     bundle::Reconstruction* wave,
+                     StartPoses* result) {
+  square::SolveOptions square_options;
+  square_options.uncertainty = uncertainty;
+  const square::Solution solution = square::solveSquare(layout, sightings, square_options);
+  for (geometry::Camera& camera : wave->cameras) {
+    if (const geometry::RigCamera* solved = solution.rig.find(camera.name))
+      camera = solved->camera;
+  }
+  placeRest(options, wave);
+  result->metric = true;
+  result->from_square = true;
+  result->z_up = solution.z_up;
 }
 
 /// Aligns a reconstruction, known up to a similarity, with the corners that two cameras saw.
@@ -249,10 +263,10 @@ void moveOnSquare(const Recording& recording,
 }  // namespace
 
 StartPoses startPoses(const Recording& recording, const WaveOptions& options, int attempt) {
-  bundle::Options tolerance;
-  tolerance.maximum_error = kTolerances[attempt % 2];
-  tolerance.loss_scale = 3.0;
-  tolerance.minimum_common_points = kLeastCommon;
+  bundle::Options rough;
+  rough.maximum_error = kTolerances[attempt % 2];
+  rough.loss_scale = 3.0;
+  rough.minimum_common_points = kLeastCommon;
 
   StartPoses result;
   bundle::Reconstruction wave;
@@ -272,25 +286,15 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
   wave.points.resize(wave.observations.empty() ? 0 : wave.observations.back().point + 1);
   try {
     if (sightings.size() >= 2) {
-      square::SolveOptions square_options;
-      square_options.uncertainty = options.uncertainty;
-      const square::Solution solution =
-          square::solveSquare(*recording.square, sightings, square_options);
-      for (geometry::Camera& camera : wave.cameras) {
-        if (const geometry::RigCamera* solved = solution.rig.find(camera.name))
-          camera = solved->camera;
-      }
-      result.metric = true;
-      result.from_square = true;
-      result.z_up = solution.z_up;
-      placeRest(tolerance, &wave);
+      startFromSquare(*recording.square, sightings, options.uncertainty, rough, &wave, &result);
     } else {
-      wave = bundle::solve(wave, tolerance);
+      wave = bundle::solve(wave, rough);
       if (recording.square)
-        moveOnSquare(recording, tolerance, &wave, &result);
+        moveOnSquare(recording, rough, &wave, &result);
     }
   } catch (const bundle::BundleError& error) {
-    refuse(error);
+    throw WaveContradiction(std::string("the wave does not tell where the cameras stand: ") +
+                            error.what());
   }
   result.cameras = wave.cameras;
   return result;

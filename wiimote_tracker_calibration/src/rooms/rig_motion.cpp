@@ -22,8 +22,10 @@ namespace so3 = geometry::so3;
 
 // Smallest standard deviation [rad, m]: keeps covariances invertible if a parameter was held.
 constexpr double kLeastStddev = 1e-5;
-// Conditions of a shared vertical.
+// Conditions of what is shared, which tell its kind.
 constexpr Eigen::Index kVertical = 2;
+constexpr Eigen::Index kPlace = 3;
+constexpr Eigen::Index kCamera = 6;
 
 /// Linearised conditions: residual + by_motion * m + by_errors * e = 0, with the errors m of the
 /// motion and e, both as RigMotion counts them.
@@ -50,30 +52,30 @@ Conditions conditionsAt(const Eigen::Isometry3d& motion, const std::vector<Share
   Eigen::Index row = 0;
   for (const Shared& one : shared) {
     const Eigen::Index rows = one.by_second.rows();
+    auto residual = result.residual.segment(row, rows);
+    auto by_motion = result.by_motion.middleRows(row, rows);
+    auto by_second = result.by_errors.block(row, first_size, rows, second_size);
     result.by_errors.block(row, 0, rows, first_size) = -one.by_first;
     const Eigen::Isometry3d moved = motion * one.in_second;
     if (rows == kVertical) {
       const Eigen::Matrix<double, 2, 3> level = one.in_first.linear().leftCols<2>().transpose();
       const Eigen::Vector3d up = moved.linear().col(2);
-      result.by_errors.block(row, first_size, rows, second_size) = one.by_second;
-      result.residual.segment<2>(row) = level * up;
-      result.by_motion.block<2, 3>(row, 0) = -level * so3::skew(up);
-      row += rows;
-      continue;
-    }
-    for (Eigen::Index k = 0; k < rows; k += 3)
-      result.by_errors.block(row + k, first_size, 3, second_size) =
-          motion.linear() * one.by_second.middleRows<3>(k);
-    if (rows == 6) {
-      result.residual.segment<3>(row) =
-          so3::log(moved.linear() * one.in_first.linear().transpose());
-      result.by_motion.block<3, 3>(row, 0).setIdentity();
+      residual = level * up;
+      by_motion.leftCols<3>() = -level * so3::skew(up);
+      by_second = one.by_second;
+    } else {
+      if (rows == kCamera) {
+        residual.head<3>() = so3::log(moved.linear() * one.in_first.linear().transpose());
+        by_motion.topLeftCorner<3, 3>().setIdentity();
+      }
+      residual.tail<3>() = moved.translation() - one.in_first.translation();
+      by_motion.bottomLeftCorner<3, 3>() =
+          -so3::skew(motion.linear() * one.in_second.translation());
+      by_motion.bottomRightCorner<3, 3>().setIdentity();
+      for (Eigen::Index k = 0; k < rows; k += 3)
+        by_second.middleRows<3>(k) = motion.linear() * one.by_second.middleRows<3>(k);
     }
     row += rows;
-    result.residual.segment<3>(row - 3) = moved.translation() - one.in_first.translation();
-    result.by_motion.block<3, 3>(row - 3, 0) =
-        -so3::skew(motion.linear() * one.in_second.translation());
-    result.by_motion.block<3, 3>(row - 3, 3).setIdentity();
   }
   return result;
 }
@@ -92,7 +94,7 @@ Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
   Eigen::VectorXd common = Eigen::VectorXd::Zero(size);
   for (const Shared& one : shared) {
     const Eigen::Index rows = one.by_second.rows();
-    if (rows == 3)
+    if (rows == kPlace)
       common.segment<3>(row) = one.common;
     Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
     if (rows != kVertical)

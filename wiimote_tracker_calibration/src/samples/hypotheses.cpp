@@ -35,31 +35,33 @@ Hypothesis& add(const Hypothesis& as_is, Hypotheses* all, Describe describe) {
 }
 
 void addCorners(const Hypothesis& as_is, Hypotheses* all) {
-  for (std::size_t c = 0; c < 4; ++c)
-    add(as_is, all, [c](const Attempt& attempt) {
+  for (std::size_t c = 0; c < 4; ++c) {
+    Hypothesis& elsewhere = add(as_is, all, [c](const Attempt& attempt) {
       return format(
           "corner %zu was captured %.0f mm from its place: put the LED there, capture "
           "corner %zu again and solve",
           c + 1, 1e3 * attempt.corner_offsets[c].norm(), c + 1);
-    }).uncertainty.unknown_corner = c;
+    });
+    elsewhere.uncertainty.unknown_corner = c;
+  }
 }
 
 /// Each of the lengths that were taped is wrong.
 void addTapedLengths(const Hypothesis& as_is, Hypotheses* all) {
   const square::SquareLayout& layout = *as_is.recording.square;
   for (std::size_t i = 0; i < layout.lengths.size(); ++i) {
-    auto& lengths = add(as_is, all, [layout, i](const Attempt& attempt) {
-                      const square::TapedLength& taped = layout.lengths[i];
-                      const square::Corners places = layout.corners(attempt.z_up);
-                      const double length =
-                          (places[taped.to] + attempt.corner_offsets[taped.to] -
-                           places[taped.from] - attempt.corner_offsets[taped.from])
-                              .norm();
-                      return format(
-                          "the length from corner %zu to corner %zu is %.3f m by all else, not "
-                          "%.3f m: measure it again",
-                          taped.from + 1, taped.to + 1, length, taped.length);
-                    }).recording.square->lengths;
+    Hypothesis& without = add(as_is, all, [layout, i](const Attempt& attempt) {
+      const square::TapedLength& taped = layout.lengths[i];
+      const square::Corners places = layout.corners(attempt.z_up);
+      const double length = (places[taped.to] + attempt.corner_offsets[taped.to] -
+                             places[taped.from] - attempt.corner_offsets[taped.from])
+                                .norm();
+      return format(
+          "the length from corner %zu to corner %zu is %.3f m by all else, not "
+          "%.3f m: measure it again",
+          taped.from + 1, taped.to + 1, length, taped.length);
+    });
+    std::vector<square::TapedLength>& lengths = without.recording.square->lengths;
     lengths.erase(lengths.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
@@ -73,31 +75,34 @@ void addLengths(const Hypothesis& as_is, const std::optional<Attempt>& free, Hyp
   const double ratio = ((at[2] - at[1]).norm() + (at[3] - at[0]).norm()) /
                        ((at[1] - at[0]).norm() + (at[3] - at[2]).norm());
   const double side_y = layout.side_x * ratio;
-  if (std::abs(std::log(side_y / layout.side_y)) > kLeastSide)
-    add(as_is, all, [=](const Attempt&) {
+  if (std::abs(std::log(side_y / layout.side_y)) > kLeastSide) {
+    Hypothesis& other_sides = add(as_is, all, [=](const Attempt&) {
       return format(
           "the sides of the square are not %.3g m and %.3g m: the second would be "
           "%.3g m, or the first %.3g m; measure both, and start again with them",
           layout.side_x, layout.side_y, side_y, layout.side_y / ratio);
-    }).recording.square->side_y = side_y;
+    });
+    other_sides.recording.square->side_y = side_y;
+  }
   if (!as_is.recording.wand)
     return;
   const double length = as_is.recording.wand->length;
-  add(as_is, all, [=](const Attempt& attempt) {
+  Hypothesis& other_wand = add(as_is, all, [=](const Attempt& attempt) {
     const double scale = length / attempt.wand_length;
     return format(
         "the wand and the square contradict each other: by the square the wand is %.4g m "
         "long, not %.4g m, or by the wand the sides are %.3g m and %.3g m; measure them "
         "again",
         attempt.wand_length, length, scale * layout.side_x, scale * layout.side_y);
-  }).recording.wand->stddev = length;
+  });
+  other_wand.recording.wand->stddev = length;
 }
 
 void addGravity(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
   if (!as_is.recording.cameras[i].sightings.gravity)
     return;
-  add(as_is, all,
-      [seen = as_is.recording.cameras[i].sightings](const Attempt& attempt) {
+  Hypothesis& without =
+      add(as_is, all, [seen = as_is.recording.cameras[i].sightings](const Attempt& attempt) {
         const geometry::RigCamera* camera = attempt.rig.find(seen.name);
         const auto tilt =
             camera ? seen.tilt(camera->camera.world_from_camera, attempt.z_up) : std::nullopt;
@@ -105,9 +110,8 @@ void addGravity(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
             "the accelerometer of %s contradicts all images by %.0f degrees: its axes or its "
             "image are turned; correct that, or do not use gravity",
             seen.name.c_str(), tilt.value_or(0.0) * 180.0 / M_PI);
-      })
-      .recording.cameras[i]
-      .sightings.gravity.reset();
+      });
+  without.recording.cameras[i].sightings.gravity.reset();
 }
 
 void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
@@ -135,12 +139,12 @@ void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
   }
   const std::size_t count = recording.cameras.size();
   for (std::size_t j = i + 1; j < count && count <= kMostForPairs && recording.square; ++j) {
-    auto& cameras = add(as_is, all, [=, other = nameOf(as_is, j)](const Attempt&) {
-                      return name + " and " + other +
-                             " were exchanged between the corners and the wave: check the "
-                             "addresses of their drivers, and start again";
-                    }).recording.cameras;
-    std::swap(cameras[i].frames, cameras[j].frames);
+    Hypothesis& exchanged = add(as_is, all, [=, other = nameOf(as_is, j)](const Attempt&) {
+      return name + " and " + other +
+             " were exchanged between the corners and the wave: check the "
+             "addresses of their drivers, and start again";
+    });
+    std::swap(exchanged.recording.cameras[i].frames, exchanged.recording.cameras[j].frames);
   }
 }
 
@@ -165,13 +169,13 @@ Hypotheses movedCameras(const Hypothesis& as_is) {
   Hypotheses all;
   if (!as_is.recording.square || !as_is.recording.hasFrames())
     return all;
-  for (const wave::CameraRecording& camera : as_is.recording.cameras) {
-    const std::size_t i = all.size();
-    add(as_is, &all,
-        [seen = camera.sightings, &as_is](const Attempt& attempt) {
+  for (std::size_t i = 0; i < as_is.recording.cameras.size(); ++i) {
+    const square::CameraSightings& sightings = as_is.recording.cameras[i].sightings;
+    Hypothesis& without = add(
+        as_is, &all, [seen = sightings, layout = *as_is.recording.square](const Attempt& attempt) {
           const geometry::Camera& solved = attempt.rig.find(seen.name)->camera;
-          const auto poses = square::cornerPoses(solved.intrinsics, seen.corners,
-                                                 as_is.recording.square->corners(attempt.z_up));
+          const auto poses =
+              square::cornerPoses(solved.intrinsics, seen.corners, layout.corners(attempt.z_up));
           std::string how_far;
           if (!poses.empty()) {
             const Eigen::Isometry3d moved =
@@ -181,11 +185,9 @@ Hypotheses movedCameras(const Hypothesis& as_is) {
           }
           return seen.name + " moved" + how_far +
                  " between the corners and the wave, or its spots at the corners were not the LED: "
-                 "fix "
-                 "it, and start again";
-        })
-        .recording.cameras[i]
-        .sightings.corners = {};
+                 "fix it, and start again";
+        });
+    without.recording.cameras[i].sightings.corners = {};
   }
   return all;
 }

@@ -171,6 +171,19 @@ double motionBetweenFlashes(const Leds& leds) {
   return count > 0 ? std::sqrt(sum / count) : 0.0;
 }
 
+BoardView viewOf(const Leds& leds) {
+  BoardView view;
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    if (leds[i].seen())
+      view.pixels[i] = leds[i].mean();
+  }
+  return view;
+}
+
+BoardReading refusal(const std::string& why) {
+  return {std::nullopt, why};
+}
+
 double smallestSeparation(const BoardView& view) {
   double smallest = HUGE_VAL;
   for (std::size_t i = 0; i < view.pixels.size(); ++i) {
@@ -217,10 +230,9 @@ std::string BoardDecoder::whyNotReady() const {
 }
 
 BoardReading BoardDecoder::read() const {
-  BoardReading reading;
-  reading.message = whyNotReady();
-  if (!reading.message.empty())
-    return reading;
+  const std::string why_not_ready = whyNotReady();
+  if (!why_not_ready.empty())
+    return refusal(why_not_ready);
 
   std::vector<Light> lights;
   for (const Frame& frame : frames_) {
@@ -233,46 +245,36 @@ BoardReading BoardDecoder::read() const {
   });
   const bool has_lamps = lamps != lights.end();
   lights.erase(lamps, lights.end());
-  if (lights.empty()) {
-    reading.message = has_lamps ? "only lights that do not blink: switch them off or cover them, "
-                                  "and switch the board on"
-                                : "no light: switch the board on and bring it before the camera";
-    return reading;
-  }
+  if (lights.empty())
+    return refusal(has_lamps ? "only lights that do not blink: switch them off or cover them, and "
+                               "switch the board on"
+                             : "no light: switch the board on and bring it before the camera");
 
   const double phase = bestPhase(lights, frames_.front().time);
   const Leds leds = ledsAtPhase(lights, phase);
-  BoardView view;
-  for (std::size_t i = 0; i < leds.size(); ++i) {
-    if (leds[i].seen())
-      view.pixels[i] = leds[i].mean();
-  }
-  const double motion = motionBetweenFlashes(leds);
   const double explained = has_lamps ? shareInLitSteps(lights, phase) : shareOfLeds(lights, leds);
   if (explained < kLeastExplained)
-    reading.message = format(
-        "%.0f %% of the spots follow the board's sequence, at least %.0f %% are "
-        "needed: hold the board still and cover other lights",
-        100.0 * explained, 100.0 * kLeastExplained);
-  else if (motion > kMostMotion)
-    reading.message =
-        format("the board moved by %.1f px, at most %.1f px are allowed: hold it still", motion,
-               kMostMotion);
-  else if (static_cast<int>(view.count()) < minimum_leds_)
-    reading.message = format(
-        "%zu of %d LEDs stayed in place, at least %d are needed: hold the board "
-        "still, and more of it in the image%s",
-        view.count(), kBoardLeds, minimum_leds_, has_lamps ? "; cover other lights" : "");
-  else if (smallestSeparation(view) < kLeastSeparation)
-    reading.message = format(
-        "LEDs are %.0f px from one another, at least %.0f px are needed: bring "
-        "the board nearer or tilt it less",
-        smallestSeparation(view), kLeastSeparation);
-  else {
-    reading.message = format("%zu of %d LEDs", view.count(), kBoardLeds);
-    reading.view = view;
-  }
-  return reading;
+    return refusal(
+        format("%.0f %% of the spots follow the board's sequence, at least %.0f %% are needed: "
+               "hold the board still and cover other lights",
+               100.0 * explained, 100.0 * kLeastExplained));
+  const double motion = motionBetweenFlashes(leds);
+  if (motion > kMostMotion)
+    return refusal(format("the board moved by %.1f px, at most %.1f px are allowed: hold it still",
+                          motion, kMostMotion));
+  const BoardView view = viewOf(leds);
+  if (static_cast<int>(view.count()) < minimum_leds_)
+    return refusal(
+        format("%zu of %d LEDs stayed in place, at least %d are needed: hold the board still, "
+               "and more of it in the image%s",
+               view.count(), kBoardLeds, minimum_leds_, has_lamps ? "; cover other lights" : ""));
+  const double separation = smallestSeparation(view);
+  if (separation < kLeastSeparation)
+    return refusal(
+        format("LEDs are %.0f px from one another, at least %.0f px are needed: bring the board "
+               "nearer or tilt it less",
+               separation, kLeastSeparation));
+  return {view, format("%zu of %d LEDs", view.count(), kBoardLeds)};
 }
 
 }  // namespace wiimote_tracker::intrinsics

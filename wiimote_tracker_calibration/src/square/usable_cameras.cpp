@@ -57,6 +57,25 @@ std::string refusal(CornerOrder order, const std::string& cameras) {
   }
 }
 
+/// Whether the corners go round counter-clockwise seen from above.
+/// @throws SquareError: they do not go round a square, or not in all images alike.
+bool areCounterClockwise(const std::vector<CameraSightings>& cameras) {
+  std::map<CornerOrder, std::vector<std::string>> names;
+  for (const CameraSightings& camera : cameras)
+    names[orderSeenBy(camera)].push_back(camera.name);
+  for (const auto& [order, seeing] : names) {
+    if (order != CornerOrder::kCounterClockwise && order != CornerOrder::kClockwise)
+      throw SquareError(refusal(order, listOf(seeing)));
+  }
+  if (names.size() > 1)
+    throw SquareError("the corners go round counter-clockwise for " +
+                      listOf(names[CornerOrder::kCounterClockwise]) + " but clockwise for " +
+                      listOf(names[CornerOrder::kClockwise]) +
+                      ": an image is mirrored, a camera is below the floor, or a spot was not the "
+                      "LED; check these cameras and capture the corners again");
+  return names.count(CornerOrder::kCounterClockwise) > 0;
+}
+
 }  // namespace
 
 std::string listOf(const std::vector<std::string>& words) {
@@ -101,21 +120,7 @@ UsableCameras usableCameras(const std::vector<CameraSightings>& cameras) {
   }
   for (const std::string& camera : missing)
     usable.warnings.push_back(camera + " and was left out");
-
-  std::map<CornerOrder, std::vector<std::string>> names;
-  for (const CameraSightings& camera : usable.cameras)
-    names[orderSeenBy(camera)].push_back(camera.name);
-  for (const auto& entry : names) {
-    if (entry.first != CornerOrder::kCounterClockwise && entry.first != CornerOrder::kClockwise)
-      throw SquareError(refusal(entry.first, listOf(entry.second)));
-  }
-  if (names.size() > 1)
-    throw SquareError("the corners go round counter-clockwise for " +
-                      listOf(names[CornerOrder::kCounterClockwise]) + " but clockwise for " +
-                      listOf(names[CornerOrder::kClockwise]) +
-                      ": an image is mirrored, a camera is below the floor, or a spot was not the "
-                      "LED; check these cameras and capture the corners again");
-  usable.z_up = names.count(CornerOrder::kCounterClockwise) > 0;
+  usable.z_up = areCounterClockwise(usable.cameras);
   if (!usable.z_up)
     usable.warnings.emplace_back(kZDown);
   return usable;

@@ -17,11 +17,11 @@ std::string SquareRun::nameOf(std::size_t corner) {
 
 Reply SquareRun::begin(std::optional<std::size_t> retake, double now) {
   if (retake && *retake >= corners_.size())
-    return {false, nameOf(*retake) + " cannot be captured again, " +
-                       std::to_string(corners_.size()) +
-                       " are captured so far: take the next corner, or retake one of those"};
+    return refusal(nameOf(*retake) + " cannot be captured again, " +
+                   std::to_string(corners_.size()) +
+                   " are captured so far: take the next corner, or retake one of those");
   if (!retake && isComplete())
-    return {false, "all four corners are captured: solve, or retake one of them"};
+    return refusal("all four corners are captured: solve, or retake one of them");
   current_corner_ = retake.value_or(corners_.size());
   capture_.emplace(cameras_, options_, now);
   outcome_.reset();
@@ -44,7 +44,7 @@ void SquareRun::update(double now) {
 
 void SquareRun::abandon(const std::string& why) {
   if (capture_)
-    end({false, nameOf(current_corner_) + " was not captured: " + why});
+    end(refusal(nameOf(current_corner_) + " was not captured: " + why));
 }
 
 void SquareRun::finish() {
@@ -72,7 +72,7 @@ void SquareRun::end(const Reply& outcome) {
 
 Reply SquareRun::undo() {
   if (corners_.empty())
-    return {false, "there is no captured corner to undo"};
+    return refusal("there is no captured corner to undo");
   corners_.pop_back();
   return {true, nameOf(corners_.size()) + " was dropped: put the LED there and capture it"};
 }

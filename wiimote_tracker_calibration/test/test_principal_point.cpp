@@ -3,6 +3,8 @@
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 
 #include "square/error.h"
+#include "wiimote_tracker_calibration/square/branches.h"
+#include "wiimote_tracker_calibration/square/square_model.h"
 
 #include "expect_says.h"
 #include "paper_procedure.h"
@@ -13,7 +15,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::principal_point {
 namespace {
@@ -44,27 +49,38 @@ Means meansOf(PaperSession session) {
   return means;
 }
 
-/// Two adjacent cameras of one lens that saw the square without any error.
+/// A camera that saw the square without any error.
+square::CameraSightings exactSightingsOf(const std::string& name,
+                                         const Eigen::Vector3d& center,
+                                         const geometry::Intrinsics& lens,
+                                         const square::Corners& corners) {
+  geometry::Camera camera;
+  camera.intrinsics = lens;
+  camera.world_from_camera =
+      geometry::lookAt(center, Eigen::Vector3d(1.25, 1.25, 0.0), Eigen::Vector3d::UnitZ());
+  square::CameraSightings sightings;
+  sightings.name = name;
+  sightings.intrinsics = lens;
+  for (std::size_t c = 0; c < corners.size(); ++c)
+    sightings.corners[c] = camera.project(corners[c]).value();
+  sightings.gravity =
+      9.81 * (camera.world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ());
+  return sightings;
+}
+
+/// Two adjacent cameras of one lens.
 std::vector<square::CameraSightings> exactSightings(const geometry::Intrinsics& lens,
                                                     const square::Corners& corners) {
-  std::vector<square::CameraSightings> cameras;
-  for (const double side : {-1.0, 1.0}) {
-    geometry::Camera camera;
-    camera.name = side < 0.0 ? "left" : "right";
-    camera.intrinsics = lens;
-    camera.world_from_camera =
-        geometry::lookAt(Eigen::Vector3d(1.25 + 4.0 * side, -4.0, 2.5),
-                         Eigen::Vector3d(1.25, 1.25, 0.0), Eigen::Vector3d::UnitZ());
-    square::CameraSightings sightings;
-    sightings.name = camera.name;
-    sightings.intrinsics = lens;
-    for (std::size_t c = 0; c < corners.size(); ++c)
-      sightings.corners[c] = camera.project(corners[c]).value();
-    sightings.gravity =
-        9.81 * (camera.world_from_camera.linear().transpose() * Eigen::Vector3d::UnitZ());
-    cameras.push_back(sightings);
-  }
-  return cameras;
+  return {exactSightingsOf("left", {-2.75, -4.0, 2.5}, lens, corners),
+          exactSightingsOf("right", {5.25, -4.0, 2.5}, lens, corners)};
+}
+
+/// Difference of the costs of the two most probable places of a camera; infinite: it has one.
+double clarityOf(const square::CameraSightings& camera, const square::Uncertainty& uncertainty) {
+  const square::SquareModel model({camera}, paperSquare(), true, uncertainty);
+  const std::vector<square::Branch> branches = square::findBranches(model, 0);
+  return branches.size() > 1 ? branches[1].cost - branches[0].cost
+                             : std::numeric_limits<double>::infinity();
 }
 
 TEST(PrincipalPoint, ConsistentModelIsGoodToTwoCentimetresAndHardlyChanges) {
@@ -248,6 +264,42 @@ TEST(PrincipalPoint, ACornerThatOneCameraSawIsNamed) {
     }
   }
   EXPECT_GE(named, 1U);
+}
+
+// The place of a camera that saw three corners may become unclear by its corrected lens.
+TEST(PrincipalPoint, ACameraThatIsLeftOutLaterEndsTheCorrection) {
+  const square::Corners corners = paperSquare().corners(true);
+  // Not the default, whose principal point is less certain than a corrected one.
+  geometry::Intrinsics lens;
+  lens.cx = 540.0;
+  bool is_tested = false;
+  for (std::size_t corner = 0; corner < corners.size(); ++corner) {
+    auto cameras = exactSightings(lens, corners);
+    cameras.push_back(exactSightingsOf("middle", {1.25, -4.5, 3.5}, lens, corners));
+    cameras.back().corners[corner].reset();
+    for (const double step : {0.25, -0.25}) {
+      CorrectionOptions options;
+      options.ray_model = geometry::RayModel::kImageCenter;
+      options.rounds = 1;
+      options.step = step;
+      const CorrectionResult usual = correctPrincipalPoints(paperSquare(), cameras, options);
+      if (usual.rig.cameras.size() < 3 || usual.lost)
+        continue;
+      square::CameraSightings corrected = cameras.back();
+      corrected.intrinsics = usual.rig.cameras.back().camera.intrinsics;
+      const double before = clarityOf(cameras.back(), options.uncertainty);
+      const double after = clarityOf(corrected, options.uncertainty);
+      if (!std::isfinite(before) || !(after < before - 0.1))
+        continue;
+      is_tested = true;
+      options.branch_odds = std::exp(0.25 * (before + after));
+      const CorrectionResult result = correctPrincipalPoints(paperSquare(), cameras, options);
+      EXPECT_TRUE(result.lost);
+      EXPECT_EQ(result.trace.rounds.size(), 1U);
+      EXPECT_EQ(result.rig.cameras.size(), 3U);
+    }
+  }
+  EXPECT_TRUE(is_tested);
 }
 
 TEST(PrincipalPoint, WhatCannotBeDoneIsRefused) {

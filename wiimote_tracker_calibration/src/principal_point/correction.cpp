@@ -186,7 +186,10 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
     }
     try {
       const square::Solution next = solve(layout, sightings, options);
-      round = evaluate(next.rig, sightings, ideal, options);
+      round.reset();
+      // One that saw three corners may be left out now.
+      if (next.rig.cameras.size() == sightings.size())
+        round = evaluate(next.rig, sightings, ideal, options);
       if (round)
         solution = next;
     } catch (const square::SquareError&) {

@@ -64,7 +64,7 @@ struct CorrectionResult {
   geometry::Rig rig;
   bool z_up = true;
   Trace trace;
-  bool lost = false;                  ///< The last step led to no usable rig.
+  bool lost = false;                  ///< The last step led to no usable rig of all cameras.
   std::vector<std::string> warnings;  ///< One sentence each; also in rig.verdict.
 };
 

@@ -212,8 +212,8 @@ Solution solveSquare(const SquareLayout& layout,
   if (options.method == Method::kJoint) {
     rig.method = "square";
     solution.joint_covariance = joint;
-    const Eigen::Index cameras = solution.joint_covariance.rows() - kCornerParameters;
-    rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
+    const Eigen::Index of_cameras = joint.rows() - kCornerParameters;
+    rig.covariance = joint.topLeftCorner(of_cameras, of_cameras);
   } else {
     std::vector<Eigen::Isometry3d> poses;
     for (std::size_t i = 0; i < branches.size(); ++i)

@@ -41,7 +41,7 @@ wave::WaveSolution solveRecording(const wave::Recording& recording,
                                   const SolveOptions& options,
                                   const wave::ProgressCallback& progress = nullptr);
 
-/// Solves samples with wave::solveWave() if they have a wave or a wand, else from their square with
+/// Solves samples with wave::solveWave() if they have images of a wave, else from their square with
 /// the method of the options. The same samples and options give the same solution, bit for bit.
 /// @throws Error as these solvers do, or: neither square nor wave; what `progress` throws.
 Solution solveSamples(const Samples& samples,

@@ -137,11 +137,7 @@ class Search {
         for (const double k1 : options_.distortions) {
           if (k1 != 0.0 && !bendsCorners(focal_length, k1))
             continue;
-          Reconstruction guess = few_;
-          for (geometry::Camera& camera : guess.cameras)
-            camera.intrinsics =
-                guessedLens(camera.intrinsics.width, camera.intrinsics.height, focal_length, k1);
-          const Attempt attempt = attemptPair(guess, pair, options_.bundle);
+          const Attempt attempt = attemptPair(guess(focal_length, k1), pair, options_.bundle);
           ++*starts;
           // Two cameras alone hardly determine their focal lengths: keep the best of each.
           if (attempt.cost < attempts_[i].cost)
@@ -151,6 +147,15 @@ class Search {
     }
     reason_ = "no two cameras agree on where they stand: move the light through all of the room";
     sort();
+  }
+
+  /// Some of the points, and all cameras with such a lens.
+  Reconstruction guess(double focal_length, double k1) const {
+    Reconstruction guessed = few_;
+    for (geometry::Camera& camera : guessed.cameras)
+      camera.intrinsics =
+          guessedLens(camera.intrinsics.width, camera.intrinsics.height, focal_length, k1);
+    return guessed;
   }
 
   /// Whether distortion matters so much that a start without may fail.

@@ -11,7 +11,7 @@ namespace wiimote_tracker::square {
 
 /// One pose that explains what a camera saw.
 struct Branch {
-  /// Least reprojection error at the starting intrinsics.
+  /// That of least reprojection error at the starting intrinsics.
   Eigen::Isometry3d world_from_camera = Eigen::Isometry3d::Identity();
   double reprojection_error = 0.0;  ///< sqrt(mean(du^2 + dv^2)) there [px].
   /// SquareModel::refineAll() of this camera alone, from here (-2 log likelihood).

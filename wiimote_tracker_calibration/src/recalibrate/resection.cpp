@@ -117,10 +117,10 @@ Eigen::Matrix2d whiteningOf(const geometry::Projection& expected,
   return Eigen::LLT<Eigen::Matrix2d>(covariance).matrixL().solve(Eigen::Matrix2d::Identity());
 }
 
-/// The best spot of an image within the gate: of `gate_px` [px] if that is above 0, else of kGate.
+/// The best spot of an image within a gate. @param gate_px [px]; nothing: kGate.
 std::optional<Match> matchOf(const capture::Image& image,
                              const PathPoint& point,
-                             double gate_px,
+                             std::optional<double> gate_px,
                              double wander,
                              const Fit& fit) {
   const auto expected = projectionOf(fit.camera, point);
@@ -132,7 +132,7 @@ std::optional<Match> matchOf(const capture::Image& image,
   for (const Eigen::Vector2d& spot : image.spots) {
     const Eigen::Vector2d residual = expected->pixel - spot;
     const double deviation = (whitening * residual).norm();
-    const bool near = gate_px > 0.0 ? residual.norm() < gate_px : deviation < kGate;
+    const bool near = gate_px ? residual.norm() < *gate_px : deviation < kGate;
     if (!near || deviation >= least)
       continue;
     least = deviation;
@@ -144,7 +144,7 @@ std::optional<Match> matchOf(const capture::Image& image,
 /// Associates with each image its best spot within the gate, as matchOf().
 void matchSpots(const SeenPath& path,
                 const std::vector<capture::Image>& images,
-                double gate_px,
+                std::optional<double> gate_px,
                 double wander,
                 Fit* fit) {
   fit->matches.clear();
@@ -260,7 +260,7 @@ Fit resect(const SeenPath& path,
   }
   for (int round = 0; round < kFinalRounds; ++round) {
     const double offset = fit.time_offset;
-    matchSpots(path, images, 0.0, options.wander, &fit);
+    matchSpots(path, images, std::nullopt, options.wander, &fit);
     ResectionProblem problem(fit, prior);
     problem.solve(&fit);
     const double ratio = problem.noiseRatio();

@@ -60,10 +60,14 @@ void addWave(const std::vector<wave::CameraCoverage>& waved, CalibrationCameraSt
     status->image_cells.push_back(found->filled[cell]);
 }
 
+bool isWithoutSquare(const workflow::Calibration& calibration) {
+  return !calibration.cameras().empty() && !calibration.layout();
+}
+
 /// Whether a camera may see so many spots: any while lamps are learned, both LEDs of a wand.
 bool isRight(std::size_t spots, const workflow::Calibration& calibration) {
-  const bool squareless = !calibration.cameras().empty() && calibration.sides().empty();
-  const bool has_wand = squareless || (calibration.wave() && calibration.wave()->wand());
+  const bool has_wand =
+      isWithoutSquare(calibration) || (calibration.wave() && calibration.wave()->wand());
   return calibration.step() == workflow::Step::kMasking || (has_wand && (spots == 1 || spots == 2));
 }
 
@@ -93,8 +97,7 @@ CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
   status.progress = calibration.progress();
   status.corners_captured = static_cast<std::uint32_t>(calibration.square().corners().size());
   status.square_sides = calibration.sides();
-  const bool squareless = !calibration.cameras().empty() && status.square_sides.empty();
-  status.corners_needed = squareless ? 0 : workflow::SquareRun::kCorners;
+  status.corners_needed = isWithoutSquare(calibration) ? 0 : workflow::SquareRun::kCorners;
   status.missing = calibration.missing();
   status.hands_free = calibration.isHandsFree();
   if (calibration.wave()) {

@@ -36,13 +36,14 @@ std::unique_ptr<SimulatedRig> makeRig(const ros::NodeHandle& nh,
                                       const std::string& directory) {
   const auto deadline = std::chrono::steady_clock::now() + kPatience;
   for (;;) {
-    mkdir(directory.c_str(), 0700);  // if this fails, the first socket reports why
+    // If this fails, the first socket reports why.
+    const bool there = mkdir(directory.c_str(), 0700) == 0 || errno == EEXIST;
     try {
       return std::make_unique<SimulatedRig>(nh, description, directory);
     } catch (const std::system_error& error) {
       // The simulation before removes its folder at its end.
       const bool in_use = error.code().value() == EADDRINUSE;
-      const bool passes = in_use || error.code().value() == ENOENT;
+      const bool passes = in_use || (there && error.code().value() == ENOENT);
       if (!passes || !ros::ok() || std::chrono::steady_clock::now() > deadline)
         throw;
       if (in_use)

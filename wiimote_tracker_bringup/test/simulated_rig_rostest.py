@@ -3,9 +3,11 @@
 
 import collections
 import os
+import subprocess
 import sys
 
 import numpy as np
+import roslib.packages
 import rospkg
 import rospy
 import rostest
@@ -25,9 +27,9 @@ class SimulatedRig(NodeTest):
     @classmethod
     def setUpClass(cls):
         rospy.init_node('simulated_rig_rostest')
-        path = os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'),
-                            'simulation/paper_rig.yaml')
-        cls.scene = scene.read_scene(path)
+        cls.path = os.path.join(rospkg.RosPack().get_path('wiimote_tracker_bringup'),
+                                'simulation/paper_rig.yaml')
+        cls.scene = scene.read_scene(cls.path)
         cls.images = collections.defaultdict(list)
         cls.imu = collections.defaultdict(list)
         cls.truth = []
@@ -77,6 +79,16 @@ class SimulatedRig(NodeTest):
         images = self.images_after(rospy.get_time(), 1)
         for number, camera in enumerate(self.scene.cameras, 1):
             self.assertEqual(images[camera.name][0].identity, f'00:1f:32:00:00:{number:02}')
+
+    def test_a_folder_that_cannot_be_made_is_told_at_once(self):
+        """It is not waited for, as for the end of another simulation (20 s)."""
+        node = roslib.packages.find_node('wiimote_tracker_bringup', 'simulated_rig')[0]
+        ended = subprocess.run(
+            [node, '__name:=homeless', '_description:=' + self.path,
+             '_socket_directory:=/nowhere/sockets'],
+            stderr=subprocess.PIPE, timeout=15.0, universal_newlines=True)
+        self.assertEqual(ended.returncode, 1)
+        self.assertIn("cannot listen at '/nowhere/sockets/", ended.stderr)
 
     def test_accelerometer_measures_gravity_as_mounted(self):
         names = [camera.name for camera in self.scene.cameras]

@@ -258,6 +258,9 @@ def test_mavros_gets_one_of_two_messages(load):
         assert node.args.split()[1::2] == topics
     with pytest.raises(roslaunch.core.RLException, match='odometry.*vision_pose'):
         load('mavros_vision.launch', 'message:=odom')
+    for rate in ('0', '-40', 'fast'):
+        with pytest.raises(roslaunch.core.RLException, match='rate must be above 0'):
+            load('mavros_vision.launch', 'rate:=' + rate)
 
 
 @pytest.mark.parametrize('nodelet', ['true', 'false'])

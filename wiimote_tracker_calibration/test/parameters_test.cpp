@@ -14,6 +14,7 @@
 #include <ros/ros.h>
 
 #include <cmath>
+#include <filesystem>
 #include <string>
 #include <utility>
 
@@ -97,6 +98,12 @@ TEST(Parameters, RelativeFilesLieBesideTheRigFileOrWhereTheyArePermitted) {
   parameters.file_folder = "/tmp/others/";
   EXPECT_EQ(rigPath("old.yaml", parameters), "/tmp/others/old.yaml");
   EXPECT_THROW(rigPath("/tmp/rigs/old.yaml", parameters), Refusal);
+}
+
+TEST(Parameters, AMissingRigFileIsNamedByItsFullPath) {
+  const std::string here = std::filesystem::current_path().string();
+  EXPECT_SAYS(describeMissingRig("no/rig.yaml"), "no file " + here + "/no/rig.yaml, so");
+  EXPECT_EQ(describeMissingRig(here), "");
 }
 
 TEST(Parameters, WhatThePaperDoesCanBeChosen) {

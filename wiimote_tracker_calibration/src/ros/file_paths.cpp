@@ -54,6 +54,15 @@ std::string rigPath(const std::string& requested, const Parameters& parameters) 
   return requested.empty() ? parameters.rig_file : permittedPath(requested, parameters);
 }
 
+std::string describeMissingRig(const std::string& rig_file) {
+  std::error_code error;
+  if (fs::exists(rig_file, error) || error)
+    return "";
+  return "There is no file " + fs::absolute(rig_file).string() +
+         ", so the start is without a rig: calibrate and save, which creates the file, or correct "
+         "the parameter rig_file";
+}
+
 std::string samplesPath(const std::string& requested, const Parameters& parameters) {
   if (!requested.empty())
     return permittedPath(requested, parameters);

@@ -17,6 +17,9 @@ std::string rigPath(const std::string& requested, const Parameters& parameters);
 /// Name of the rig's file where the parameter rig_file names none.
 inline constexpr char kRigFile[] = "rig.yaml";
 
+/// Why the start is without a rig, and what to do; empty if there is a file, readable or not.
+std::string describeMissingRig(const std::string& rig_file);
+
 /// Name of the samples' file where a request names none.
 inline constexpr char kSamplesFile[] = "samples.yaml";
 

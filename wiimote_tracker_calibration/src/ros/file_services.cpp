@@ -49,8 +49,10 @@ class FileServices {
       const Lock lock(context_.mutex());
       path = rigPath("", context_.parameters(lock));
     }
-    std::error_code error;
-    if (std::filesystem::exists(path, error) || error) {  // after an error loading says why
+    const std::string missing = describeMissingRig(path);
+    if (!missing.empty()) {
+      ROS_INFO_STREAM(missing);
+    } else {
       const Reply reply = context_.handle([&](Lock& lock) { return loadRig(path, &lock); });
       if (reply.success)
         ROS_INFO_STREAM(path << ": " << reply.message);

@@ -187,8 +187,10 @@ bool BodyTracker::start(std::size_t body, const Match& match, double time) {
 void BodyTracker::startAt(std::size_t body, const BodyPose& pose, double time, std::size_t spots) {
   const PoseFilter filter(options_.motion, time, pose.world_from_body, pose.covariance);
   Body started{BodyFilter(options_.motion, options_.inertial, filter), time, time, time, spots, {}};
-  if (state_.bodies[body])
+  if (state_.bodies[body]) {
     started.first_seen = state_.bodies[body]->first_seen;
+    started.filter.distrustAfter(state_.bodies[body]->filter, time);
+  }
   started.led_times.fill(-std::numeric_limits<double>::infinity());
   state_.bodies[body] = started;
 }

@@ -108,6 +108,12 @@ void InertialFilter::update(const LedPrediction& prediction, const Eigen::Vector
   setState();
 }
 
+bool InertialFilter::isPlausible() const {
+  constexpr double kSigmas = 5.0;
+  return gyro_bias_.lpNorm<Eigen::Infinity>() < kSigmas * options_->gyro_bias &&
+         accelerometer_bias_.lpNorm<Eigen::Infinity>() < kSigmas * options_->accelerometer_bias;
+}
+
 void InertialFilter::setState() {
   const Eigen::Matrix3d turn = rotation_.toRotationMatrix();
   const Eigen::Vector3d arm = turn * imu_;

@@ -215,8 +215,9 @@ void Triangulation::onTimer() {
     without_samples.push_back(body + " (" + imu_subscribers_[body].getTopic() + ")");
   if (!without_samples.empty())
     ROS_WARN_THROTTLE(10.0,
-                      "No samples of the IMU of %s fit the times of the images: check that it is "
-                      "published 25 times a second or more, and its clock_offset.",
+                      "The IMU of %s is not used, since its samples do not fit the images: check "
+                      "that they come 25 times a second or more, in m/s^2 with gravity and rad/s, "
+                      "and its clock_offset and mount.",
                       joined(without_samples).c_str());
   keepPlaces();
   diagnostics_.update();

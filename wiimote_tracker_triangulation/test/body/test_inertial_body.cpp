@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -81,21 +83,29 @@ class Imu {
   Vector3d gyro_bias_, force_bias_;
 };
 
+using Change = std::function<InertialSample(InertialSample)>;
+
 /// A carried body that is hidden now and then, image by image.
 class Carried {
  public:
   /// @param delay of the samples after the exposures [s]. @param end of the samples [s]
-  explicit Carried(unsigned seed, double delay = 0.0, double end = kNever)
+  /// @param change of each sample: what is wrong with the IMU
+  explicit Carried(
+      unsigned seed,
+      double delay = 0.0,
+      double end = kNever,
+      const Change& change = [](InertialSample sample) { return sample; })
       : scene_(tracking::test::paperRig(), test::pathsOf(withImu(), carried), options(), seed),
         tracker_(tracking::test::paperRig(), {withImu()}, trackerOptions()),
         imu_(seed),
+        change_(change),
         delay_(delay),
         end_(end) {}
 
   void step() {
     const tracking::test::SceneImage& image = scene_.next();
     while (imu_.time() + delay_ < image.image.arrival && imu_.time() < end_)
-      tracker_.addInertial(0, imu_.next());
+      tracker_.addInertial(0, change_(imu_.next()));
     tracker_.add(image.camera, image.image.stamp, image.image.stamp_stddev, test::pixelsOf(image));
   }
 
@@ -120,6 +130,7 @@ class Carried {
   tracking::test::Scene scene_;
   BodyTracker tracker_;
   Imu imu_;
+  Change change_;
   double delay_, end_;
 };
 
@@ -222,6 +233,57 @@ TEST(InertialBody, IsAnOrdinaryBodyOnceItsImuPauses) {
   EXPECT_LT(
       (body.estimate()->world_from_body.translation() - carried(body.time()).translation()).norm(),
       0.01);
+}
+
+TEST(InertialBody, IsAnOrdinaryBodyWhereItsImuContradictsTheImages) {
+  const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(M_PI / 2.0, Vector3d(1.0, 1.0, 1.0).normalized()).toRotationMatrix();
+  const std::pair<const char*, Change> wrong[] = {
+      {"in g",
+       [](InertialSample s) {
+         s.force /= 9.80665;
+         return s;
+       }},
+      {"degrees",
+       [](InertialSample s) {
+         s.rate *= 180.0 / M_PI;
+         return s;
+       }},
+      {"does not turn",
+       [](InertialSample s) {
+         s.rate.setZero();
+         return s;
+       }},
+      {"mounted otherwise",
+       [&](InertialSample s) {
+         return InertialSample{s.time, turn * s.rate, turn * s.force};
+       }},
+      {"another clock",
+       [](InertialSample s) {
+         s.time += 0.3;
+         return s;
+       }},
+  };
+  for (const auto& [what, change] : wrong) {
+    Carried body(4, 0.0, kNever, change);
+    double images = 0.0, inertial = 0.0, squares = 0.0, greatest = 0.0;
+    for (body.step(); body.time() < kStart + kLearning; body.step()) {
+      if (!body.estimate() || !body.estimate()->tracked)
+        continue;
+      const double error =
+          (body.estimate()->world_from_body.translation() - carried(body.time()).translation())
+              .norm();
+      images += 1.0;
+      inertial += body.estimate()->inertial ? 1.0 : 0.0;
+      squares += error * error;
+      greatest = std::max(greatest, error);
+    }
+    RecordProperty(what, std::to_string(greatest));
+    EXPECT_GT(images, 1500.0) << what;
+    EXPECT_LT(inertial, 0.1 * images) << what;
+    EXPECT_LT(std::sqrt(squares / images), 0.003) << what;
+    EXPECT_LT(greatest, 0.03) << what;
+  }
 }
 
 TEST(InertialBody, DoesNotDependOnWhenItsSamplesCome) {

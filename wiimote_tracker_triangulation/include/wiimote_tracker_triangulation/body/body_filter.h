@@ -4,12 +4,13 @@
 #include "wiimote_tracker_triangulation/body/inertial_filter.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 
+#include <limits>
 #include <variant>
 
 namespace wiimote_tracker::body {
 
 /// The filter of a body: an InertialFilter from when the body is seen while its IMU delivers, until
-/// the IMU pauses; else a PoseFilter. A value type; never allocates.
+/// the IMU pauses or is not plausible; else a PoseFilter. A value type; never allocates.
 class BodyFilter {
  public:
   /// @param motion, inertial not owned.
@@ -34,9 +35,21 @@ class BodyFilter {
               const Eigen::Vector2d& pixel,
               const InertialSamples& samples) {
     std::visit([&](auto& filter) { filter.update(prediction, pixel); }, filter_);
-    const auto* pose = std::get_if<PoseFilter>(&filter_);
-    if (pose && samples.cover(pose->time(), pose->time()))
-      filter_ = InertialFilter(*inertial_, pose->time(), pose->state(), samples);
+    if (const auto* inertial = std::get_if<InertialFilter>(&filter_)) {
+      if (inertial->isPlausible())
+        return;
+      distrusted_until_ = inertial->time() + kDistrust;
+      filter_ = PoseFilter(*motion_, inertial->time(), inertial->state());
+    } else if (const auto& pose = std::get<PoseFilter>(filter_);
+               pose.time() >= distrusted_until_ && samples.cover(pose.time(), pose.time())) {
+      filter_ = InertialFilter(*inertial_, pose.time(), pose.state(), samples);
+    }
+  }
+
+  /// Does without the IMU for a while if it predicted the filter before, whose body had to be found
+  /// anew [s].
+  void distrustAfter(const BodyFilter& before, double time) {
+    distrusted_until_ = before.isInertial() ? time + kDistrust : before.distrusted_until_;
   }
 
   const PoseState& state() const {
@@ -47,9 +60,12 @@ class BodyFilter {
   bool isInertial() const { return std::holds_alternative<InertialFilter>(filter_); }
 
  private:
+  static constexpr double kDistrust = 10.0;  // of an IMU that was not plausible [s]
+
   const PoseFilterOptions* motion_;
   const InertialOptions* inertial_;
   std::variant<PoseFilter, InertialFilter> filter_;
+  double distrusted_until_ = -std::numeric_limits<double>::infinity();  // the IMU [s]
 };
 
 }  // namespace wiimote_tracker::body

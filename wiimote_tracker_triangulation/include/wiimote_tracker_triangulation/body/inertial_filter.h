@@ -39,6 +39,10 @@ class InertialFilter {
   /// As PoseFilter::update.
   void update(const LedPrediction& prediction, const Eigen::Vector2d& pixel);
 
+  /// Whether its biases are within five of their initial standard deviations. They are not if the
+  /// samples contradict the images, as those in another unit, or of another mount or body do.
+  bool isPlausible() const;
+
   const PoseState& state() const { return state_; }
 
  private:

@@ -140,11 +140,10 @@ TEST(Parameters, TheSquareIsWhereTheSolverPutsIt) {
 }
 
 TEST(Parameters, BadValuesAreRefusedByName) {
-  const std::pair<std::string, std::string> cases[] = {{"short", "intrinsics/distortion must"},
-                                                       {"word", "method is 'best'"},
-                                                       {"period", "diagnostic_period is 0"},
-                                                       {"mounted", "button_remote is wiimote_2"},
-                                                       {"fisheye", "intrinsics/distortion must"}};
+  const std::pair<std::string, std::string> cases[] = {
+      {"short", "intrinsics/distortion must"},   {"word", "method is 'best'"},
+      {"period", "diagnostic_period is 0"},      {"slash", "world_frame is /world, but"},
+      {"mounted", "button_remote is wiimote_2"}, {"fisheye", "intrinsics/distortion must"}};
   for (const auto& [key, what] : cases) {
     try {
       readParameters(ParameterReader(ros::NodeHandle("~" + key)));

@@ -249,6 +249,19 @@ TEST_F(Rooms, OfAnotherFileAreNotLoadedAtTheNextStart) {
   EXPECT_EQ(std::remove((folder_ + "/rig.yaml").c_str()), 0);
 }
 
+TEST_F(Rooms, HaveTheWorldFrameOfTheirFile) {
+  geometry::Rig rig = room({0, 1}, Eigen::Isometry3d::Identity());
+  rig.world_frame = "map";
+  use(rig);
+  LoadRig::Request load;
+  load.path = "second.yaml";
+  EXPECT_SAYS(call<LoadRig>("calibration/load", load).message,
+              "its world frame is map: calibrate again to have world,");
+  rig.world_frame = "world";
+  use(rig);
+  EXPECT_EQ(call<LoadRig>("calibration/load", load).message.find("world frame"), std::string::npos);
+}
+
 TEST_F(Rooms, AreJoinedOverTheCamerasThatTheyShare) {
   use(room({2, 3}, secondWorld()));
   geometry::writeRigFile(room({0, 1, 2}, Eigen::Isometry3d::Identity()), folder_ + "/first.yaml");

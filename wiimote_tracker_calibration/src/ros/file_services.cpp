@@ -145,8 +145,12 @@ class FileServices {
 
   Reply loadRig(const std::string& path, Lock* lock) {
     const geometry::Rig rig = context_.compute(lock, [&] { return geometry::readRigFile(path); });
-    const Reply reply = context_.calibration(*lock).load(rig);
+    Reply reply = context_.calibration(*lock).load(rig);
     if (reply.success) {
+      const std::string frame = context_.parameters(*lock).calibration.world_frame;
+      if (rig.world_frame != frame)
+        reply.message += "; its world frame is " + rig.world_frame + ": calibrate again to have " +
+                         frame + ", as world_frame says";
       useMasks(rig, &context_.inputs());
       context_.publishRig(samples::verdictOf(rig), *lock);
     }

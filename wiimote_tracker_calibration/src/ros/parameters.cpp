@@ -153,6 +153,9 @@ Parameters readParameters(ParameterReader* reader) {
   reader->read("world_frame", &calibration.world_frame);
   if (calibration.world_frame.empty())
     throw ParameterError(reader->nameOf("world_frame") + " is empty: give the frame a name");
+  if (calibration.world_frame.front() == '/')
+    throw ParameterError(reader->nameOf("world_frame") + " is " + calibration.world_frame +
+                         ", but tf2 refuses frames that begin with /: leave that out");
   reader->read("origin_x", &calibration.layout.origin.x(), -1000.0, 1000.0);
   reader->read("origin_y", &calibration.layout.origin.y(), -1000.0, 1000.0);
   reader->read("yaw", &calibration.layout.yaw, -2.0 * M_PI, 2.0 * M_PI);

@@ -24,25 +24,32 @@ constexpr double kGreetingTimeout = 1.0;
 // What it says instead when somebody else has it; a process id follows.
 const std::string kTaken = "taken by process ";
 
+std::string nameOfVirtual(const Remote& remote) {
+  return "the virtual Wii Remote at " + remote.description;
+}
+
+[[noreturn]] void throwSilent(const Remote& remote) {
+  throw TransportError(nameOfVirtual(remote) + " does not answer: start it again");
+}
+
 class SocketTransport : public Transport {
  public:
-  SocketTransport(FileDescriptor fd, const std::string& path)
-      : fd_(std::move(fd)), remote_{"", "virtual:" + path} {}
+  SocketTransport(FileDescriptor fd, Remote remote)
+      : fd_(std::move(fd)), remote_(std::move(remote)) {}
 
   /// The first packet says who the remote is, or who has it. @throws DeviceTaken,
   /// TransportError.
   void receiveIdentity() {
-    const std::string name = "the virtual Wii Remote at " + remote_.description;
     if (!waitReadable(kGreetingTimeout))
-      throw TransportError(name + " does not answer: start it again");
+      throwSilent(remote_);
     char text[64];
     const ssize_t size = ::recv(fd_.get(), text, sizeof(text), 0);
     if (size <= 0)
-      throwTaken(name, std::nullopt);
+      throwTaken(nameOfVirtual(remote_), std::nullopt);
     remote_.identity.assign(text, static_cast<std::size_t>(size));
     if (remote_.identity.compare(0, kTaken.size(), kTaken) == 0) {
       const auto user = static_cast<pid_t>(std::atoi(remote_.identity.c_str() + kTaken.size()));
-      throwTaken(name, user > 0 ? std::make_optional(user) : std::nullopt);
+      throwTaken(nameOfVirtual(remote_), user > 0 ? std::make_optional(user) : std::nullopt);
     }
   }
 
@@ -62,8 +69,7 @@ class SocketTransport : public Transport {
     if (::send(fd_.get(), report.bytes.data(), report.size, MSG_NOSIGNAL | MSG_DONTWAIT) >= 0)
       return;
     if (errno == EAGAIN || errno == EWOULDBLOCK)
-      throw Disconnected("the virtual Wii Remote at " + remote_.description +
-                         " reads no reports any more: start it again");
+      throw Disconnected(nameOfVirtual(remote_) + " reads no reports any more: start it again");
     throwDisconnected();
   }
 
@@ -78,7 +84,7 @@ class SocketTransport : public Transport {
   }
 
   [[noreturn]] void throwDisconnected() const {
-    throw Disconnected("the virtual Wii Remote at " + remote_.description + " has gone away");
+    throw Disconnected(nameOfVirtual(remote_) + " has gone away");
   }
 
   FileDescriptor fd_;
@@ -94,10 +100,14 @@ std::unique_ptr<Transport> openSocket(const std::string& path) {
     throw BadDeviceName("the socket path " + path + " is too long");
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
 
-  FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
-  if (fd.get() < 0)
+  const Remote remote{"", "virtual:" + path};
+  // One that hangs accepts nobody, and a blocking connect() would wait for it.
+  FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
+  if (!fd.open())
     throw TransportError(std::string("cannot make a socket: ") + std::strerror(errno));
   if (::connect(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    if (errno == EAGAIN)
+      throwSilent(remote);
     if (errno == EACCES)
       throw PermissionDenied("permission denied on " + path +
                              ": run as the user who started the virtual Wii Remote");
@@ -109,7 +119,7 @@ std::unique_ptr<Transport> openSocket(const std::string& path) {
     throw NoSuchDevice("no virtual Wii Remote listens at " + path + where +
                        ": start it (virtual_wiimote --socket) or correct the path");
   }
-  auto transport = std::make_unique<SocketTransport>(std::move(fd), path);
+  auto transport = std::make_unique<SocketTransport>(std::move(fd), remote);
   transport->receiveIdentity();
   return transport;
 }

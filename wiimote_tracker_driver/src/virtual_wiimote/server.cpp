@@ -44,7 +44,7 @@ void removeStale(const std::string& path, const sockaddr_un& address) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 || !S_ISSOCK(info.st_mode))
     return;
-  const FileDescriptor probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0));
+  const FileDescriptor probe(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   const int result =
       ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address));
   if (result != 0 && errno == ECONNREFUSED)

@@ -4,6 +4,7 @@
 #include "temporary_folder.h"
 #include "tools/list_wiimotes/camera_list.h"
 #include "tools/list_wiimotes/host.h"
+#include "tools/list_wiimotes/listing.h"
 #include "tools/list_wiimotes/remote_check.h"
 #include "tools/list_wiimotes/replacement.h"
 #include "waiting.h"
@@ -326,6 +327,20 @@ TEST_F(Replacing, AListThatCannotBeWrittenKeepsTheCalibration) {
   EXPECT_TRUE(
       contains(refusalOf([&] { replace("door", "00:1f:32:aa:bb:cc"); }), "cannot be written"));
   EXPECT_EQ("of the old lens", folder_.read("camera_info/door.yaml"));
+}
+
+TEST(Listing, ARemoteIsFoundByItsAddressOrPath) {
+  Row bluetooth;
+  bluetooth.device = {transport::DeviceName::Kind::kPath, "/dev/hidraw1"};
+  bluetooth.text = "00:1f:32:00:00:05";
+  Row converter;  // has no address
+  converter.device = {transport::DeviceName::Kind::kPath, "/dev/hidraw3"};
+  const CameraList list("cameras:\n  door: \"00:1F:32:00:00:05\"\n  wall: /dev/hidraw3\n");
+  EXPECT_EQ("door", cameraOf(bluetooth, list));
+  EXPECT_EQ("wall", cameraOf(converter, list));
+  EXPECT_TRUE(absentOf(list, {bluetooth, converter}).empty());
+  ASSERT_EQ(1u, absentOf(list, {converter}).size());
+  EXPECT_EQ("door", absentOf(list, {converter})[0].name);
 }
 
 class RemoteTest : public testing::Test {

@@ -9,7 +9,6 @@
 
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/ros_home.h>
-#include <wiimote_tracker_msgs/text.h>
 
 #include <time.h>
 
@@ -126,8 +125,7 @@ void check(const CameraList& list, Row* row) {
         row->problems.push_back(others);
     }
   }
-  if (!row->text.empty())
-    row->camera = list.nameOf(row->text);
+  row->camera = cameraOf(*row, list);
 }
 
 void identify(const std::vector<Row>& rows) {
@@ -158,10 +156,12 @@ std::string write(const std::string& path, CameraList list, std::vector<Row>* ro
   std::string done = "\n";
   for (std::size_t i = 0; i < rows->size(); ++i) {
     Row& row = (*rows)[i];
+    if (!row.camera.empty())
+      continue;
     const std::string remote = "Remote " + std::to_string(i + 1);
     if (row.text.empty() || row.address.empty()) {
       done += remote + " is not written because its address is unknown.\n";
-    } else if (row.camera.empty()) {
+    } else {
       row.camera = list.add(row.text);
       done += remote + " (" + row.address + ") is camera " + row.camera + ".\n";
       changed = true;
@@ -172,19 +172,6 @@ std::string write(const std::string& path, CameraList list, std::vector<Row>* ro
   return done + (changed                  ? "Written to " + path + ".\n"
                  : list.cameras().empty() ? "Nothing was written to " + path + ".\n"
                                           : path + " needed no change.\n");
-}
-
-/// The cameras whose remotes are not connected.
-std::vector<CameraList::Camera> absentOf(const CameraList& list, const std::vector<Row>& rows) {
-  std::vector<CameraList::Camera> absent;
-  for (const CameraList::Camera& camera : list.cameras()) {
-    const bool connected = std::any_of(rows.begin(), rows.end(), [&](const Row& row) {
-      return lowerCase(row.text) == lowerCase(camera.device);
-    });
-    if (!connected)
-      absent.push_back(camera);
-  }
-  return absent;
 }
 
 CameraList listOf(const Arguments& arguments) {

@@ -6,10 +6,16 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 
 namespace wiimote_tracker::list_wiimotes {
 namespace {
+
+/// Whether this device of a cameras.yaml is the remote: its address, path or socket.
+bool isRemote(const Row& row, const std::string& device) {
+  return lowerCase(row.text) == lowerCase(device) || row.device.value == device;
+}
 
 /// Empty without a hidraw node.
 std::string whereOf(const Row& row) {
@@ -72,6 +78,23 @@ std::string jsonCamera(const CameraList::Camera& camera) {
 
 bool isUsable(const Row& row) {
   return row.can_be_opened && row.check.state != RemoteCheck::State::kFailed;
+}
+
+std::string cameraOf(const Row& row, const CameraList& list) {
+  const auto& all = list.cameras();
+  const auto camera = std::find_if(
+      all.begin(), all.end(), [&](const auto& camera) { return isRemote(row, camera.device); });
+  return camera == all.end() ? "" : camera->name;
+}
+
+std::vector<CameraList::Camera> absentOf(const CameraList& list, const std::vector<Row>& rows) {
+  std::vector<CameraList::Camera> absent;
+  for (const CameraList::Camera& camera : list.cameras()) {
+    if (std::none_of(rows.begin(), rows.end(),
+                     [&](const Row& row) { return isRemote(row, camera.device); }))
+      absent.push_back(camera);
+  }
+  return absent;
 }
 
 void print(int number, const Row& row) {

@@ -35,6 +35,12 @@ struct Listing {
 /// Whether the remote is free or in use by a driver.
 bool isUsable(const Row& row);
 
+/// The name of the remote in the list, which may have its address, path or socket; or empty.
+std::string cameraOf(const Row& row, const CameraList& list);
+
+/// The cameras of the list that are none of these remotes.
+std::vector<CameraList::Camera> absentOf(const CameraList& list, const std::vector<Row>& rows);
+
 /// Prints a remote under its number, for people.
 void print(int number, const Row& row);
 

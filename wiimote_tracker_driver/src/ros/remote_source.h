@@ -21,7 +21,7 @@ class RemoteSource {
   /// recording cannot be played.
   RemoteSource(const DriverParameters& parameters, const std::string& device_parameter);
 
-  /// As wiimote::Wiimote::Open.
+  /// As transport::Opener.
   std::unique_ptr<transport::Transport> open(bool delivered) {
     return replay_ ? replay_->open() : open_(delivered);
   }

@@ -15,7 +15,7 @@ constexpr std::uint8_t kErrorBusy = 4;
 // Of a request, after which the remote is given up.
 constexpr int kAttempts = 5;
 // Pause before a read is repeated that the remote refused as busy [s]; doubles each time.
-constexpr double kBusyPause = 0.02;
+constexpr double kFirstBusyPause = 0.04;
 // Implausible images pass for this long after a check has found the camera as configured [s]: some
 // remote may always send such images.
 constexpr double kImplausibleAccepted = 10.0;
@@ -116,14 +116,17 @@ void Session::enter(const State& state, double now) {
   state_ = state;
   attempts_ = 0;
   mode_seen_ = false;
-  if (!in<Streaming>()) {
+  if (in<Streaming>())
+    beginStreaming(now);
+  else
     send(now);
-    return;
-  }
+}
+
+void Session::beginStreaming(double now) {
   if (!streaming_)
     watch_.start(now);
   streaming_ = true;
-  withhold_ = watch_.checkDue();
+  withhold_ = watch_.doubted();
   const bool readable = registers_ != Registers::kUnreadable;
   if (std::exchange(implausible_, false))
     implausible_accepted_until_ = now + (readable ? kImplausibleAccepted : kForever);
@@ -154,11 +157,11 @@ void Session::unanswered(double now) {
     acknowledges_ = false;
     answered(now);
   } else {
-    retry("does not answer", now);
+    retryOrGiveUp("does not answer", now);
   }
 }
 
-void Session::retry(const std::string& why, double now) {
+void Session::retryOrGiveUp(const std::string& why, double now) {
   if (attempts_ < kAttempts) {
     send(now);
   } else if (in<ReadCamera>()) {
@@ -191,7 +194,6 @@ void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledge
   if (acknowledgement.report_id == protocol::kReportModeId)
     duplicates_.modeAcknowledged(now);
   const std::uint8_t id = request().id();
-  const bool other_answer = id == protocol::kStatusRequestId || id == protocol::kReadMemoryId;
   const std::uint8_t error = acknowledgement.error;
   if (in<Streaming>() || acknowledgement.report_id != id) {
     // Another program has switched the camera, or has written registers; where these are rewritten
@@ -202,15 +204,18 @@ void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledge
       doubtCamera(now);
     return;
   }
-  if (error == kErrorBusy && id == protocol::kReadMemoryId)
-    answer_due_ = std::min(answer_due_, now + kBusyPause * (1 << std::min(attempts_, 5)));
-  else if (error == 0 && !other_answer)
+  // The answer to these is a report of its own.
+  const bool only_errors = id == protocol::kStatusRequestId || id == protocol::kReadMemoryId;
+  if (error == 0 && !only_errors)
     answered(now);
+  else if (error == kErrorBusy && id == protocol::kReadMemoryId)
+    answer_due_ = std::min(answer_due_, now + kFirstBusyPause * (1 << (attempts_ - 1)));
   else if (error != 0 && id == protocol::kWriteMemoryId)
     setUpCamera(now);  // the camera is off, or another program's write was refused
   else if (error != 0)
-    retry("answers 'error " + std::to_string(error) + ", " + protocol::errorName(error) + "' to",
-          now);
+    retryOrGiveUp(
+        "answers 'error " + std::to_string(error) + ", " + protocol::errorName(error) + "' to",
+        now);
 }
 
 void Session::handleMemory(const protocol::MemoryPacket& packet, double now) {

@@ -144,6 +144,7 @@ class Session {
 
   protocol::Report request() const;
   void enter(const State& state, double now);
+  void beginStreaming(double now);
   void answered(double now);
   void statusAnswered(AskStatus state, double now);
   void cameraWritten(WriteCamera state, double now);
@@ -151,7 +152,7 @@ class Session {
 
   void send(double now);
   void unanswered(double now);
-  void retry(const std::string& why, double now);
+  void retryOrGiveUp(const std::string& why, double now);
   void transmit(protocol::Report report);
   void sendReportMode() { transmit(protocol::setReportMode(assembler_.reportMode(), true)); }
 
@@ -188,18 +189,18 @@ class Session {
   int attempts_ = 0;         ///< Of the state's request.
   double answer_due_ = 0.0;  ///< [s]
 
-  bool streaming_ = false;  ///< Since Streaming; until the camera is set up again.
+  bool streaming_ = false;  ///< From Streaming on, until the camera is set up again.
   Registers registers_ = Registers::kUnknown;
   int set_ups_ = 0;           ///< Of the camera, in a row without success.
   int silences_ = 0;          ///< In a row, without an image between them.
   int next_check_ = 0;        ///< Block that the next periodic check reads.
   bool restarted_ = false;    ///< Until it is taken.
-  bool acknowledges_ = true;  ///< Commands without another answer; false once one was not.
+  bool acknowledges_ = true;  ///< The remote acknowledges LEDs, clock and logic, as far as known.
   bool mode_seen_ = false;    ///< A data report of our mode has come since SetMode.
 
-  bool withhold_ = false;                    ///< Images, until the camera has been checked.
+  bool withhold_ = false;                    ///< No images until the camera has been checked.
   bool implausible_ = false;                 ///< The check is due to an implausible image.
-  double implausible_accepted_until_ = 0.0;  ///< [s] A check has found nothing.
+  double implausible_accepted_until_ = 0.0;  ///< [s] After a check that found nothing.
 
   const char* fault_ = nullptr;     ///< What is being restored; null when nothing.
   const char* restored_ = nullptr;  ///< Until it is taken.

@@ -15,8 +15,8 @@ class StreamWatch {
     kRestart,          ///< No image for silence_timeout.
     kSetModeAndCheck,  ///< No image for 0.1 s: the report mode may be lost, or the camera off.
     kSetMode,          ///< A status came: the kernel's driver may have reset the report mode.
-    kCheckInDark,      ///< No light for 0.5 s: the camera may be off. Without checks again
-                       ///< after pauses that double up to a minute.
+    kCheckInDark,      ///< No light for 0.5 s: the camera may be off. After disableChecks()
+                       ///< repeated in pauses that double up to a minute.
     kCheckControl,     ///< After doubt().
     kCheckNext,        ///< The next periodic check of the camera's registers is due.
     kAskStatus,        ///< The next request for the battery level is due.
@@ -36,8 +36,8 @@ class StreamWatch {
   /// The camera is being set up: no doubt is left.
   void settle() { control_due_ = kNever; }
 
-  /// Whether kCheckControl is due.
-  bool checkDue() const { return control_due_ != kNever; }
+  /// Whether a doubt has not led to kCheckControl yet.
+  bool doubted() const { return control_due_ != kNever; }
 
   /// Counts the silence from `now` [s] on.
   void expectImage(double now) { last_image_ = now; }
@@ -86,8 +86,8 @@ class StreamWatch {
   double last_status_ = -kNever;
   double mode_due_ = kNever;
 
-  double dark_pause_ = 0.0;       ///< [s] Before the next check in darkness,
-  double dark_check_from_ = 0.0;  ///< which is due with the first dark image from then on.
+  double dark_pause_ = 0.0;       ///< [s] Without a light, until the next kCheckInDark.
+  double dark_check_from_ = 0.0;  ///< From then on a dark image makes it due.
   double dark_check_due_ = kNever;
   bool dark_checked_ = false;  ///< Since the last light.
   double last_dark_check_ = -kNever;

@@ -16,7 +16,7 @@ constexpr double kShortestPause = 0.25;
 constexpr double kLongestPause = 0.5;
 }  // namespace
 
-Wiimote::Wiimote(const Options& options, Open open, Clock clock)
+Wiimote::Wiimote(const Options& options, transport::Opener open, Clock clock)
     : options_(options),
       open_(std::move(open)),
       clock_(std::move(clock)),

@@ -37,20 +37,17 @@ struct Link {
 /// the thread that calls step() calls everything else.
 class Wiimote {
  public:
-  /// Opens the transport or throws TransportError.
-  using Open = transport::Opener;
   /// Any clock that never goes back [s].
   using Clock = std::function<double()>;
 
-  Wiimote(const Options& options, Open open, Clock clock);
+  Wiimote(const Options& options, transport::Opener open, Clock clock);
   ~Wiimote();
 
   /// Opens the remote if that is due, else waits up to `max_wait` [s] for one report and handles
-  /// it.
-  /// @returns the report when it is an image. After the caller has not read for 0.6 s, images that
-  /// waited are dropped: the kernel keeps the oldest 63 reports, so these are of an unknown time
-  /// before those that were lost. Never throws: an exception of transport or session
-  /// ends the connection, and link() has its text.
+  /// it. Never throws: an exception of transport or session ends the connection, and link() has its
+  /// text. @returns the image, if the report completes one. After a stall of more than 0.6 s in
+  /// which the caller did not read, images that waited are dropped: the kernel keeps the oldest 63
+  /// reports, so these are of an unknown time before those that were lost.
   std::optional<protocol::DataReport> step(double max_wait);
 
   /// Time until step() will have something to do [s]; 0 while connected.
@@ -90,7 +87,7 @@ class Wiimote {
   void updateLink(bool image);
 
   Options options_;
-  const Open open_;
+  const transport::Opener open_;
   const Clock clock_;
 
   std::unique_ptr<transport::Transport> transport_;

@@ -63,11 +63,11 @@ class HidrawTransport : public Transport {
 
 std::unique_ptr<Transport> openRemote(const KernelRemote& kernel_remote) {
   const Remote remote{kernel_remote.address, kernel_remote.path, kernel_remote.kernel_driver};
-  // The lock goes with an own descriptor, since hidapi does not show its own; it also tells why
-  // opening fails, which hidapi does not.
+  // A descriptor of our own, since hidapi does not show its own: to lock the node, and to know why
+  // it cannot be opened.
   const std::string& path = remote.description;
   FileDescriptor lock(::open(path.c_str(), O_RDWR | O_CLOEXEC));
-  if (lock.get() < 0)
+  if (!lock.open())
     throwOpenError(errno, path);
   lockDevice(lock.get(), nameOf(remote));
   hid_device* device = nullptr;

@@ -33,8 +33,8 @@ bool FaultyDevice::chance(double probability) {
   return probability > 0.0 && random_() < probability * 4294967296.0;
 }
 
-/// A host sends a report to the device.
-void FaultyDevice::say(const Bytes& report) {
+/// A host's report reaches the device, which answers.
+void FaultyDevice::deliver(const Bytes& report) {
   for (const Bytes& answer : device_.handleOutput(report))
     send(answer);
 }
@@ -65,8 +65,8 @@ void FaultyDevice::arrive(const Bytes& report) {
   arrived_.push_back(report);
   if (!second_master_)
     return;
-  for (const Bytes& said : second_master_->hear(report))
-    say(said);
+  for (const Bytes& request : second_master_->receive(report))
+    deliver(request);
 }
 
 void FaultyDevice::releaseHeldBack() {
@@ -119,7 +119,7 @@ void FaultyDevice::powerCycle() {
 
 std::vector<Bytes> FaultyDevice::handleOutput(const Bytes& report) {
   if (!away_)
-    say(report);
+    deliver(report);
   return std::exchange(arrived_, {});
 }
 
@@ -135,8 +135,8 @@ std::vector<Bytes> FaultyDevice::sample(const Senses& senses) {
   }
   releaseLate();
   if (second_master_) {
-    for (const Bytes& said : second_master_->tick())
-      say(said);
+    for (const Bytes& request : second_master_->tick())
+      deliver(request);
   }
   if (chance(faults_.garbage))
     arrive(garbage());

@@ -52,7 +52,7 @@ class FaultyDevice {
   bool chance(double probability);
   std::size_t below(std::size_t limit) { return random_() % limit; }
   bool stalled() const { return samples_ < stall_end_; }
-  void say(const Bytes& report);
+  void deliver(const Bytes& report);
   void send(Bytes report);
   void arrive(const Bytes& report);
   void releaseHeldBack();

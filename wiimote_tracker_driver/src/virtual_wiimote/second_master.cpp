@@ -69,28 +69,28 @@ std::vector<Bytes> closeCamera() {
 
 std::vector<Bytes> SecondMaster::tick() {
   ++samples_;
-  std::vector<Bytes> said;
+  std::vector<Bytes> reports;
   if (samples_ == 1)
-    append(said, setUp());
+    append(reports, setUp());
   if (samples_ % kMotionPlusInterval == 0)
-    append(said, {kReadExtensionId, write(0xa6, 0xf0, {0x55}), kReadMotionPlusId});
+    append(reports, {kReadExtensionId, write(0xa6, 0xf0, {0x55}), kReadMotionPlusId});
   if (samples_ % kBatteryInterval == 0)
-    said.push_back(kStatus);
+    reports.push_back(kStatus);
   const std::uint64_t desktop = samples_ % kDesktopInterval;
   if (desktop == kLedsSet)
-    said.push_back(kLed1);
+    reports.push_back(kLed1);
   if (desktop == kCameraOpened) {
     mode_ = kWithCamera;
-    append(said, openCamera());
+    append(reports, openCamera());
   }
   if (desktop == kCameraClosed) {
     mode_ = kOnlyButtons;
-    append(said, closeCamera());
+    append(reports, closeCamera());
   }
-  return said;
+  return reports;
 }
 
-std::vector<Bytes> SecondMaster::hear(const Bytes& report) const {
+std::vector<Bytes> SecondMaster::receive(const Bytes& report) const {
   if (report[0] != 0x20)
     return {};
   return {setMode(mode_)};

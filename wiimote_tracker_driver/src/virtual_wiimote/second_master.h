@@ -16,8 +16,8 @@ class SecondMaster {
   /// One sample has passed. @returns reports to the remote.
   std::vector<Bytes> tick();
 
-  /// Receives a report of the remote. @returns reports in reply.
-  std::vector<Bytes> hear(const Bytes& report) const;
+  /// The remote has sent a report. @returns reports in reply.
+  std::vector<Bytes> receive(const Bytes& report) const;
 
  private:
   std::uint64_t samples_ = 0;

@@ -23,18 +23,22 @@
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
-[[noreturn]] void fail(const std::string& what) {
-  throw std::system_error(errno, std::generic_category(), what);
+[[noreturn]] void fail(int error, const std::string& what) {
+  throw std::system_error(error, std::generic_category(), what);
+}
+
+[[noreturn]] void failToListen(int error, const std::string& path) {
+  fail(error, "a virtual Wii Remote cannot listen at '" + path +
+                  "': choose a path in a directory that exists, where no other one listens");
 }
 
 sockaddr_un addressOf(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  if (path.empty() || path.size() >= sizeof(address.sun_path)) {
-    errno = path.empty() ? EINVAL : ENAMETOOLONG;
-    fail("a virtual Wii Remote cannot listen at '" + path +
-         "': choose a path in a directory that exists, where no other one listens");
-  }
+  if (path.empty())
+    failToListen(EINVAL, path);
+  if (path.size() >= sizeof(address.sun_path))
+    failToListen(ENAMETOOLONG, path);
   std::memcpy(address.sun_path, path.c_str(), path.size() + 1);
   return address;
 }
@@ -51,18 +55,17 @@ void removeStale(const std::string& path, const sockaddr_un& address) {
     ::unlink(path.c_str());
 }
 
-int listenAt(const std::string& path) {
+FileDescriptor listenAt(const std::string& path) {
   const sockaddr_un address = addressOf(path);
   removeStale(path, address);
   FileDescriptor fd(::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK, 0));
   if (!fd.open())
-    fail("socket");
+    fail(errno, "socket");
   // Only the owner may connect; nobody can before listen().
   if (::bind(fd.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0 ||
       ::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(fd.get(), 4) != 0)
-    fail("a virtual Wii Remote cannot listen at '" + path +
-         "': choose a path in a directory that exists, where no other one listens");
-  return fd.release();
+    failToListen(errno, path);
+  return fd;
 }
 
 }  // namespace
@@ -74,8 +77,8 @@ struct Server::State {
         identity(std::move(device_identity)),
         wake(::eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
     if (!wake.open())
-      fail("eventfd");
-    listener.reset(listenAt(path));
+      fail(errno, "eventfd");
+    listener = listenAt(path);
   }
 
   Server& server;
@@ -112,7 +115,7 @@ struct Server::State {
       refuse(fd.get());
       return;
     }
-    host.reset(fd.release());
+    host = std::move(fd);
     send(Bytes(identity.begin(), identity.end()));
   }
 
@@ -189,7 +192,7 @@ void Server::setReachable(bool reachable) {
   if (reachable == state_->listener.open())
     return;
   if (reachable) {
-    state_->listener.reset(listenAt(state_->path));
+    state_->listener = listenAt(state_->path);
   } else {
     ::unlink(state_->path.c_str());
     state_->listener.reset();

@@ -29,8 +29,8 @@ struct Light {
 /// Input of the device's sensors at one time.
 struct Senses {
   std::vector<Light> lights;  ///< Any number; the device reports the four brightest.
-  std::array<double, 3> acceleration{0.0, 0.0,
-                                     1.0};  ///< Specific force [g]: +x left, +y rear, +z up.
+  /// Specific force [g]: +x left, +y rear, +z up.
+  std::array<double, 3> acceleration{0.0, 0.0, 1.0};
   std::uint16_t buttons = 0;  ///< First byte in bits 8..15, second in 0..7, as on the wire.
 };
 

@@ -55,12 +55,12 @@ class RecordedRemote {
 
   std::optional<protocol::Report> status_;  ///< The last one.
   Memory memory_;    ///< As the recorded host read it, and the present one wrote it.
-  Memory settings_;  ///< Last values written by the recorded host.
+  Memory settings_;  ///< As the recorded host wrote it last in the whole recording.
   std::array<std::uint64_t, 256> received_{};  ///< Per report id.
 
   protocol::Report recorded_read_;  ///< Last memory request of the recorded host.
   protocol::Report own_read_;       ///< Last memory request of the present host.
-  Memory recorded_values_;          ///< Written by the recorded host so far.
+  Memory recorded_values_;          ///< Written by the recorded host up to this time.
   Memory own_values_;               ///< Written by the present host.
 };
 

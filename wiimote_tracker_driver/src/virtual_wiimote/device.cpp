@@ -297,7 +297,7 @@ std::vector<Bytes> Device::handleOutput(const Bytes& report) {
 std::optional<Bytes> Device::sample(const Senses& senses) {
   State::Volatile& now = state_->now;
   now.senses = senses;
-  now.camera.look(senses.lights);
+  now.camera.takeImage(senses.lights);
   if (!now.memory_packets.empty()) {
     Bytes packet = now.memory_packets.front();
     now.memory_packets.pop_front();

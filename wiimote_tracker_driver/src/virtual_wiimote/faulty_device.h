@@ -66,12 +66,12 @@ class FaultyDevice {
   std::optional<SecondMaster> second_master_;
 
   std::uint64_t samples_ = 0;
-  std::uint64_t stall_end_ = 0;
+  std::uint64_t stall_end_ = 0;  // [samples]
   bool away_ = false;
-  std::uint64_t came_or_went_ = 0;
-  std::vector<DelayedReport> delayed_;
-  std::deque<Bytes> held_back_;
-  std::vector<Bytes> arrived_;  // not yet handed to the host
+  std::uint64_t came_or_went_ = 0;      // [samples]
+  std::vector<DelayedReport> delayed_;  // late answers
+  std::deque<Bytes> held_back_;         // by a stall
+  std::vector<Bytes> arrived_;          // not yet handed to the host
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote

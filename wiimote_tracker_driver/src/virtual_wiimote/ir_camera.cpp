@@ -43,7 +43,7 @@ std::array<std::uint8_t, 10> basicFormat(const FactoryPoints& points) {
 IrCamera::IrCamera(const std::optional<std::uint32_t>& slot_seed)
     : draws_slots_(slot_seed.has_value()), random_(slot_seed.value_or(0)) {}
 
-bool IrCamera::seeing() const {
+bool IrCamera::works() const {
   const std::uint8_t mode = registers_[kModeRegister];
   const bool has_mode = mode == kBasic || mode == kExtended || mode == kFull;
   // Without its sensitivity blocks the camera detects nothing.
@@ -52,13 +52,14 @@ bool IrCamera::seeing() const {
   return clock_ && logic_ && registers_[kControl] == kRunning && has_mode && sensitive;
 }
 
-void IrCamera::look(const std::vector<Light>& lights) {
-  if (!seeing()) {
+void IrCamera::takeImage(const std::vector<Light>& lights) {
+  if (!works()) {
     for (Slot& slot : slots_)
       slot.lit = false;
     return;
   }
-  follow(findBlobs(lights, brightnessThreshold(registers_[kGainLimit], registers_[kMinimumSize])));
+  assignSlots(
+      findBlobs(lights, brightnessThreshold(registers_[kGainLimit], registers_[kMinimumSize])));
 
   std::fill_n(registers_.begin() + kData, kDataSize, 0xff);
   if (registers_[kModeRegister] == kBasic)
@@ -69,8 +70,8 @@ void IrCamera::look(const std::vector<Light>& lights) {
     fillFull();
 }
 
-// Assigns the blobs to slots: nearest pairs first, then new blobs to free slots.
-void IrCamera::follow(const std::vector<Blob>& seen) {
+// Nearest pairs first, then new blobs to free slots.
+void IrCamera::assignSlots(const std::vector<Blob>& seen) {
   struct Pair {
     int squared_distance;
     std::size_t slot, blob;
@@ -165,7 +166,7 @@ void IrCamera::fillSlot(const Slot& slot, std::size_t size, std::uint8_t* out) {
 
 IrCamera::Data IrCamera::data() const {
   Data data;
-  if (seeing())
+  if (works())
     std::copy_n(registers_.begin() + kData, kDataSize, data.begin());
   else
     data.fill(0xff);

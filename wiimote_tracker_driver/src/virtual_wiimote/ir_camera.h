@@ -39,7 +39,7 @@ class IrCamera {
   std::uint8_t read(std::uint32_t address) const { return registers_[address & 0xff]; }
 
   /// Takes one image. A light keeps its slot while it is tracked from image to image.
-  void look(const std::vector<Light>& lights);
+  void takeImage(const std::vector<Light>& lights);
 
   /// The last image as in data reports, from the first byte; ff while the camera does not work.
   Data data() const;
@@ -51,8 +51,8 @@ class IrCamera {
     Blob blob;
   };
 
-  bool seeing() const;
-  void follow(const std::vector<Blob>& seen);
+  bool works() const;
+  void assignSlots(const std::vector<Blob>& seen);
   std::size_t chooseFree(const std::array<bool, 4>& taken);
   void fillBasic();
   void fillExtended();

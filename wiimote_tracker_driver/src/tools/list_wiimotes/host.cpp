@@ -18,8 +18,7 @@ using transport::KernelRemote;
 // A Bluetooth adapter has at most this many devices.
 constexpr std::size_t kRemotesPerAdapter = 7;
 
-/// Whether this is all that the file holds.
-bool says(const fs::path& path, const std::string& line) {
+bool holdsOnly(const fs::path& path, const std::string& line) {
   return linesOfFile(path) == std::vector<std::string>{line};
 }
 
@@ -33,11 +32,11 @@ std::vector<BluetoothAdapter> readAdapters(const fs::path& root) {
   }
   for (const fs::path& entry : entriesOf(root / "sys/class/rfkill")) {
     for (BluetoothAdapter& adapter : adapters) {
-      if (!says(entry / "name", adapter.name))
+      if (!holdsOnly(entry / "name", adapter.name))
         continue;
-      if (says(entry / "hard", "1"))
+      if (holdsOnly(entry / "hard", "1"))
         adapter.block = BluetoothAdapter::Block::kHard;
-      else if (says(entry / "soft", "1"))
+      else if (holdsOnly(entry / "soft", "1"))
         adapter.block = BluetoothAdapter::Block::kSoft;
     }
   }

@@ -13,7 +13,7 @@ namespace wiimote_tracker::list_wiimotes {
 /// A remote in the list.
 struct Row {
   transport::DeviceName device;  ///< How to open it.
-  std::string text;              ///< Device in a cameras.yaml; empty: impossible.
+  std::string text;              ///< Its address or virtual:PATH in a cameras.yaml; or empty.
   std::string address;
   std::string description;
   bool can_be_opened = true;

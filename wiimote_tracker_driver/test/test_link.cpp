@@ -86,6 +86,18 @@ TEST_F(WiimoteTest, RemoteThatIsNotThereYetIsLookedForWithGrowingPauses) {
     EXPECT_NEAR(pauses[i], attempts[i + 1] - attempts[i], 1e-9);
 }
 
+// Before the images that waited comes an answer.
+TEST_F(WiimoteTest, AStallIsNotTakenForStoppedImages) {
+  runToImage();
+  for (const double stall : {0.55, 2.0}) {
+    run(0.5);
+    remote_.say({0x22, 0, 0, 0x11, 0});
+    remote_.now += stall;
+    run(0.5);
+    EXPECT_EQ(0u, wiimote_.link().restorations) << wiimote_.link().last_restoration;
+  }
+}
+
 // The kernel keeps the oldest 63 reports of a stall.
 TEST_F(WiimoteTest, BacklogOfAStallThatTheBufferCannotHoldIsDropped) {
   runToImage();

@@ -78,7 +78,9 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
     image = session_->handle(report, now);
   if (backlog_)
     image.reset();
-  session_->tick(now);
+  // At the end of a stall what the session waits for may wait behind this report.
+  if (!received || wait > 0.0)
+    session_->tick(now);
   if (session_->takeRestart())
     beginEpoch();
   if (image) {

@@ -75,7 +75,9 @@ BodySnapshot BodyFollower::setBodies(const std::vector<Constellation>& constella
   return lost;
 }
 
-void BodyFollower::take(std::size_t camera, double clock_error, tracking::CameraImage* image) {
+void BodyFollower::take(std::size_t camera,
+                        const tracking::ClockError& clock,
+                        tracking::CameraImage* image) {
   if (constellations_.empty())
     return;
   const geometry::RigCamera& calibration = rig_.cameras[camera];
@@ -102,7 +104,8 @@ void BodyFollower::take(std::size_t camera, double clock_error, tracking::Camera
   const double stamp_stddev = std::isfinite(image->stamp_stddev) && image->stamp_stddev >= 0.0
                                   ? image->stamp_stddev
                                   : options_.stamp_stddev;
-  if (!tracker_->add(camera, times.exposure - clock_error, stamp_stddev, pixels_))
+  if (!tracker_->add(camera, times.exposure - clock.offset,
+                     std::hypot(stamp_stddev, std::sqrt(clock.variance)), pixels_))
     return;
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
   auto taken = tracker_->taken().begin();  // of each spot that is not masked

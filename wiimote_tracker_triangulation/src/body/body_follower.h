@@ -5,6 +5,7 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
 
 #include <cstddef>
 #include <limits>
@@ -42,8 +43,8 @@ class BodyFollower {
   const std::vector<Constellation>& constellations() const { return constellations_; }
 
   /// Tracks bodies in an image and removes their spots from it. Requires a rig.
-  /// @param clock_error by how much its stamp is too late, see Estimator::clockError() [s]
-  void take(std::size_t camera, double clock_error, tracking::CameraImage* image);
+  /// @param clock see Estimator::clockError().
+  void take(std::size_t camera, const tracking::ClockError& clock, tracking::CameraImage* image);
 
   /// See BodyTracker.
   void addInertial(std::size_t body, const InertialSample& sample);

@@ -55,8 +55,10 @@ CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t another_epoch,
           {0.0, is_known_there ? 0.0 : squared(kUnknown)}};
 }
 
-double CameraClocks::errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
-  return clocks_[camera].in(epoch, is_known).correction().offset;
+ClockRegression::Estimate CameraClocks::errorIn(std::size_t camera,
+                                                std::uint32_t epoch,
+                                                bool is_known) const {
+  return clocks_[camera].in(epoch, is_known).correction();
 }
 
 double CameraClocks::errorOf(std::size_t camera) const {

@@ -30,8 +30,8 @@ class CameraClocks {
   /// @param is_known whether the rig's time offset holds in this epoch of the clock
   ClockRegression::Estimate correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
 
-  /// What correctionOf would subtract [s].
-  double errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const;
+  /// What correctionOf would return.
+  ClockRegression::Estimate errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const;
 
   /// By how much the times of a camera with a known offset are too late [s]; 0 if it is little.
   double errorOf(std::size_t camera) const;

@@ -277,10 +277,11 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
   return std::nullopt;
 }
 
-double Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
+ClockError Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
   const CameraState& state = cameras_.at(camera);
-  return groups_[state.group]->clocks().errorIn(state.member, clock_epoch,
-                                                !rig_.cameras[camera].hasNewClock(clock_epoch));
+  const ClockRegression::Estimate error = groups_[state.group]->clocks().errorIn(
+      state.member, clock_epoch, !rig_.cameras[camera].hasNewClock(clock_epoch));
+  return {error.offset, error.variance};
 }
 
 }  // namespace wiimote_tracker::tracking

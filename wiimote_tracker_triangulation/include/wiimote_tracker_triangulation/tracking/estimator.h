@@ -36,6 +36,12 @@ struct CameraFault {
   double clock_ahead;
 };
 
+/// What motion has shown of a camera's clock, beside the rig's time offset.
+struct ClockError {
+  double offset = 0.0;    ///< By how much its stamps are too late [s].
+  double variance = 0.0;  ///< [s^2]
+};
+
 /// Estimates LEDs from the images of a rig's cameras: per instant (fusion::InstantFuser, the
 /// paper's method) or as tracks in continuous time (tracking::Tracker). The result is a function of
 /// the rig, the options and the sequence of images; no clock is read. Does not allocate once warm.
@@ -61,10 +67,9 @@ class Estimator {
     return std::nullopt;
   }
 
-  /// By how much a camera's stamps in an epoch of its clock are too late, beside the rig's time
-  /// offset [s], as far as motion has shown it.
-  virtual double clockError(std::size_t /*camera*/, std::uint32_t /*clock_epoch*/) const {
-    return 0.0;
+  /// Of a camera's clock in one of its epochs.
+  virtual ClockError clockError(std::size_t /*camera*/, std::uint32_t /*clock_epoch*/) const {
+    return {};
   }
 
   /// Predicts all LEDs to a time [s] not before the newest image, for output at a fixed rate.

@@ -81,14 +81,16 @@ TEST(Host, RemoteWithoutKernelDriverIsFound) {
   EXPECT_EQ(1, count(problems(host.remotes[0]), "modprobe hid-wiimote"));
 }
 
+// On USB, HID_UNIQ is the serial number of the converter, the same for all of its remotes.
 TEST(Host, ConverterHidesTheAddress) {
   const TemporaryFolder root;
   root.write("sys/bus/hid/devices/0003:057E:0306.0001/uevent",
              "DRIVER=hid-generic\nHID_ID=0003:0000057E:00000306\nHID_NAME=Mayflash\n"
-             "HID_PHYS=usb-0000:00:14.0-2/input0\nHID_UNIQ=\n");
+             "HID_PHYS=usb-0000:00:14.0-2/input0\nHID_UNIQ=NJ_BAR_1\n");
   root.write("sys/bus/hid/devices/0003:057E:0306.0001/hidraw/hidraw1/dev", "");
   const Host host = readHost(root.path());
   ASSERT_EQ(1u, host.remotes.size());
+  EXPECT_EQ("", host.remotes[0].address);
   EXPECT_EQ("", host.remotes[0].adapter);
   EXPECT_EQ(1, count(problems(host.remotes[0]), "does not reveal its Bluetooth address"));
 }

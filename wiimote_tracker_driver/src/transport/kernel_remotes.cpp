@@ -43,8 +43,8 @@ std::vector<KernelRemote> kernelRemotes(const std::string& root) {
     const std::string& name = values["HID_NAME"];
     if (ends_with(name, "RVL-CNT-01-UC") || ends_with(name, "RVL-WBC-01"))
       continue;
-    remote.address = lowerCase(values["HID_UNIQ"]);
-    // For a Bluetooth device this is its adapter, for others a location.
+    // For a USB device these are its serial number and a location.
+    remote.address = bluetoothAddress(values["HID_UNIQ"]).value_or("");
     remote.adapter = bluetoothAddress(values["HID_PHYS"]).value_or("");
     remote.kernel_driver = values["DRIVER"];
     const std::vector<fs::path> nodes = entriesOf(device / "hidraw");

@@ -104,5 +104,34 @@ TEST(Continuous, AfterARestartOfTheDriversAReconnectIsNoticed) {
   EXPECT_EQ(proposal->rig.cameras[1].time_offset_epoch, 1U);
 }
 
+/// As when remote and driver were off for the night: the same epoch, but another link.
+TEST(Continuous, AClockThatChangedInTheSameEpochTurnsNoCamera) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  for (std::size_t index = 0; index < 4; ++index) {
+    for (const double change : {-0.003, 0.003}) {
+      WavedLed led(rig.cameras, 810 + index);
+      led.truth[index].time_offset += change;
+      ContinuousCalibration watch(rig, {});
+      std::optional<Proposal> proposal;
+      led.runUntil(60.0, [&](const capture::Image& image) {
+        if (!proposal)
+          proposal = watch.add(image);
+      });
+      ASSERT_TRUE(proposal) << index;
+      EXPECT_EQ(proposal->cause, Cause::kDrift);
+      EXPECT_EQ(joined(proposal->cameras), rig.cameras[index].camera.name) << proposal->message;
+      const std::string start = rig.cameras[index].camera.name + " has a clock that changed by ";
+      ASSERT_EQ(proposal->message.find(start), 0U) << proposal->message;
+      EXPECT_NEAR(std::stod(proposal->message.substr(start.size())), 1000.0 * change, 1.2);
+      EXPECT_EQ(proposal->rig.solved_at, rig.solved_at);
+      for (std::size_t i = 0; i < 4; ++i) {
+        const geometry::RigCamera& found = proposal->rig.cameras[i];
+        EXPECT_EQ(turnBetween(found, rig.cameras[i]), 0.0) << proposal->message;
+        EXPECT_NEAR(found.time_offset, led.truth[i].time_offset, 0.0012) << proposal->message;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::continuous

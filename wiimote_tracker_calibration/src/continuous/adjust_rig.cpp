@@ -7,6 +7,7 @@
 #include "adjust/moving_pixel.h"
 #include "continuous/keyframes.h"
 
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
@@ -59,6 +60,9 @@ constexpr double kLever = 0.1;               // [m]
 
 // Error of the stamps that changes slowly [s].
 constexpr double kOffsetStddev = 0.0001;
+// How far a known time offset may have changed against the others': clocks wander, and a driver
+// that was started again may use another link [s].
+constexpr double kWander = 0.001;
 // Prior of the time offset in a new epoch, around 0 [s]. As wide as the benchmark draws it: unlike
 // capture::kUnknownOffset it is estimated.
 constexpr double kNewOffsetStddev = 0.02;
@@ -79,13 +83,16 @@ geometry::Rig withTurns(geometry::Rig rig, double turn) {
 /// The rig with the drift since, and the clocks' latest epochs.
 geometry::Rig priorOf(const geometry::Rig& rig, const KeyframeSource& source, double time) {
   geometry::Rig prior = withDrift(rig, time);
+  std::vector<Eigen::Index> clocks;  // That are known.
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     geometry::RigCamera& camera = prior.cameras[i];
     const Eigen::Index first = firstParameter(i);
     const Eigen::Index clock = first + kTimeOffset;
     const auto epoch = source.epoch(i);
     const bool known = camera.timeOffsetIn(epoch.value_or(camera.time_offset_epoch)).has_value();
-    if (!known) {
+    if (known) {
+      clocks.push_back(clock);
+    } else {
       camera.time_offset = 0.0;
       camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
       camera.time_offset_epoch = epoch.value_or(0);
@@ -96,7 +103,31 @@ geometry::Rig priorOf(const geometry::Rig& rig, const KeyframeSource& source, do
     prior.covariance(clock, clock) += offset * offset;
     prior.covariance.diagonal().segment<kTimeOffset>(first).array() += kHeldVariance;
   }
+  // The images show none of what all clocks did together.
+  for (const Eigen::Index a : clocks) {
+    prior.covariance(a, a) += kWander * kWander;
+    for (const Eigen::Index b : clocks)
+      prior.covariance(a, b) -= kWander * kWander / static_cast<double>(clocks.size());
+  }
   return prior;
+}
+
+/// Shifts all time offsets so that those that were known have not changed, in the median.
+void keepTime(const geometry::Rig& before, const KeyframeSource& source, geometry::Rig* adjusted) {
+  std::vector<double> changes;
+  for (std::size_t i = 0; i < before.cameras.size(); ++i) {
+    const auto epoch = source.epoch(i);
+    const auto known = epoch ? before.cameras[i].timeOffsetIn(*epoch) : std::nullopt;
+    if (known)
+      changes.push_back(adjusted->cameras[i].time_offset - *known);
+  }
+  if (changes.empty())
+    return;
+  const double change = medianOf(&changes);
+  for (std::size_t i = 0; i < before.cameras.size(); ++i) {
+    if (source.epoch(i))
+      adjusted->cameras[i].time_offset -= change;
+  }
 }
 
 /// Sets to zero what the prior says of coefficients that a lens does not have: a rig must not.
@@ -275,6 +306,8 @@ std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
   const KeyframeSource source(rig, images);
   const geometry::Rig prior = priorOf(rig, source, images.back().stamp);
   auto adjusted = Adjustment(prior, source).solve();
+  if (adjusted)
+    keepTime(rig, source, &*adjusted);
   for (std::size_t i = 0; adjusted && i < rig.cameras.size(); ++i) {
     const Eigen::Index clock = firstParameter(i) + kTimeOffset;
     adjusted->covariance(clock, clock) += kOffsetStddev * kOffsetStddev;

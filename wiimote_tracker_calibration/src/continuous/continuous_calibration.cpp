@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -19,6 +20,8 @@ namespace {
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
 // Drift is proposed if it explains as much of the images' misfit, root mean square [px].
 constexpr double kGain = 0.1;
+// The clock of a camera that did not reconnect has changed if its time offset did by more [s].
+constexpr double kOtherOffset = 0.001;
 
 /// Whether a camera has no time offset: it was solved from a square only.
 bool lacksClock(const geometry::Rig& rig) {
@@ -59,10 +62,10 @@ bool clocksHold(const geometry::Rig& rig, const std::vector<capture::Image>& ima
   });
 }
 
-/// The rig before an adjustment with the new clocks that it found.
-geometry::Rig withNewClocks(geometry::Rig before, const geometry::Rig& adjusted) {
+/// The rig before an adjustment with the new clocks that it found, or with all clocks.
+geometry::Rig withClocks(geometry::Rig before, const geometry::Rig& adjusted, bool all) {
   for (std::size_t i = 0; i < before.cameras.size(); ++i) {
-    if (before.cameras[i].hasNewClock(adjusted.cameras[i].time_offset_epoch))
+    if (all || before.cameras[i].hasNewClock(adjusted.cameras[i].time_offset_epoch))
       copyClock(adjusted, i, &before);
   }
   return before;
@@ -78,16 +81,30 @@ bool newClocksAreJudged(const geometry::Rig& before,
   return true;
 }
 
-/// The first camera with a new clock; without one that which turned most.
+bool hasOtherOffset(const geometry::RigCamera& before, const geometry::RigCamera& now) {
+  return std::abs(now.time_offset - before.time_offset) > kOtherOffset;
+}
+
+/// The first camera with a new clock; without one that whose clock has changed, or which turned
+/// most.
 std::size_t mostChanged(const geometry::Rig& before, const geometry::Rig& now) {
+  const auto change = [&](std::size_t i) {
+    const geometry::RigCamera& was = before.cameras[i];
+    const geometry::RigCamera& camera = now.cameras[i];
+    return std::make_tuple(was.hasNewClock(camera.time_offset_epoch), hasOtherOffset(was, camera),
+                           turnOf(was, camera));
+  };
   std::size_t most = 0;
-  for (std::size_t i = 0; i < now.cameras.size(); ++i) {
-    if (before.cameras[i].hasNewClock(now.cameras[i].time_offset_epoch))
-      return i;
-    if (turnOf(before.cameras[i], now.cameras[i]) > turnOf(before.cameras[most], now.cameras[most]))
+  for (std::size_t i = 1; i < now.cameras.size(); ++i) {
+    if (change(i) > change(most))
       most = i;
   }
   return most;
+}
+
+/// How much of the squared misfit a rig explains [px^2].
+double gainOf(const Fit& before, const Fit& after) {
+  return before.misfit * before.misfit - after.misfit * after.misfit;
 }
 
 /// What an adjustment has changed: "camera_1 turned by 0.03 degrees, camera_2 ...".
@@ -101,6 +118,9 @@ std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
       own.push_back(format(" turned by %.2f degrees", turnOf(was, camera) * kDegrees));
     if (was.hasNewClock(camera.time_offset_epoch))
       own.push_back(format(" has a new clock, %.1f ms off", 1000.0 * camera.time_offset));
+    else if (hasOtherOffset(was, camera))
+      own.push_back(format(" has a clock that changed by %.1f ms",
+                           1000.0 * (camera.time_offset - was.time_offset)));
     if (!own.empty())
       changes.push_back(camera.camera.name + joined(own, " and"));
   }
@@ -182,17 +202,19 @@ std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImag
   // Another light carried along can fit, with all cameras turned farther than they drift.
   if (!rig || !clocksHold(*rig, images.to_check) || !isWithinDrift(rig_, *rig))
     return std::nullopt;
-  const geometry::Rig with_clocks = withNewClocks(rig_, *rig);
-  const auto before = fitOf(with_clocks, images.to_check);
+  const auto before = fitOf(withClocks(rig_, *rig, false), images.to_check);
+  const geometry::Rig with_clocks = withClocks(rig_, *rig, true);
+  const auto clocks_only = fitOf(with_clocks, images.to_check);
   auto after = fitOf(*rig, images.to_check);
-  if (!before || !after)
+  if (!before || !clocks_only || !after)
     return std::nullopt;
-  const double gain = before->misfit * before->misfit - after->misfit * after->misfit;
-  const bool keeps_poses = gain < kGain * kGain;
+  // Cameras turn if that explains what their clocks do not.
+  const bool keeps_poses = gainOf(*clocks_only, *after) < kGain * kGain;
   if (keeps_poses) {
     rig = with_clocks;
-    after = before;
+    after = clocks_only;
   }
+  const double gain = gainOf(*before, *after);
   const Drifts drifts = driftsOf(*rig, images.to_check);
   if (!allFit(drifts))
     return std::nullopt;
@@ -200,7 +222,9 @@ std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImag
     return std::nullopt;
   const std::size_t most = mostChanged(rig_, *rig);
   const bool reconnected = rig_.cameras[most].hasNewClock(rig->cameras[most].time_offset_epoch);
-  if (keeps_poses && !reconnected)
+  const bool has_drifted = gain >= kGain * kGain &&
+                           (!keeps_poses || hasOtherOffset(rig_.cameras[most], rig->cameras[most]));
+  if (!reconnected && !has_drifted)
     return std::nullopt;
   const std::string message = changesText(rig_, *rig) +
                               (reconnected ? "" : ": drift, or errors of the calibration") +
@@ -222,7 +246,7 @@ std::optional<Proposal> ContinuousCalibration::adjustedWithoutKnocked(
   const auto rig = adjustRig(rig_, images.to_solve);
   if (!rig)
     return std::nullopt;
-  const Drifts drifts = driftsOf(withNewClocks(rig_, *rig), images.to_check);
+  const Drifts drifts = driftsOf(withClocks(rig_, *rig, true), images.to_check);
   const auto isOff = [](const auto& drift) { return drift && drift->ratio >= 1.0; };
   if (std::count_if(drifts.begin(), drifts.end(), isOff) != 1)
     return std::nullopt;

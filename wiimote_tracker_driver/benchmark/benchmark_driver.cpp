@@ -20,7 +20,7 @@ constexpr char kLoad[] =
     "to the subscriber's callback; other programs on the machine lengthen it.";
 constexpr char kCost[] =
     "processor time of driver_node with one virtual remote, and of a node that only publishes the "
-    "same message, as in ROS's tutorials: both at 100 Hz at the same time, in turn without and "
+    "same message, as in ROS's tutorials: both at 100 Hz on one processor, in turn without and "
     "with a subscriber. Without one the driver makes no message, the other node makes all of them.";
 constexpr char kSoak[] =
     "reports through decoder, session (extended format) and stamper in simulated time. Each hour "

@@ -15,6 +15,7 @@ from wiimote_tracker_msgs.srv import (CheckPlace, RecalibrateCamera, SetLed, Set
                                       SolveCalibration, StartCalibration)
 
 POINTS = 100  # a quarter of a second
+WAVES = 3  # until one is solved
 
 
 def position(message):
@@ -22,6 +23,24 @@ def position(message):
 
 
 class SimulatedHand(NodeTest):
+    def solved_by_wand(self):
+        """The answer of calibration/solve. It may ask for another wave, since a camera's clock
+        jumps where a busy computer halts the simulation."""
+        for _ in range(WAVES):
+            statuses = []
+            subscriber = rospy.Subscriber('calibration/status', CalibrationStatus, statuses.append)
+            started = rospy.ServiceProxy('calibration/start', StartCalibration)(
+                without_square=True, wand_length=0.5)
+            self.assertTrue(started.success, started.message)
+            self.wait(lambda: statuses and statuses[-1].next_request == 'solve',
+                      'a wand that was laid down and waved')
+            subscriber.unregister()
+            solved = rospy.ServiceProxy('calibration/solve', SolveCalibration)()
+            if solved.success or 'wave again' not in solved.message:
+                break
+            self.assertTrue(rospy.ServiceProxy('calibration/cancel', Trigger)().success)
+        return solved
+
     def test_points_come_by_themselves_and_the_hand_follows_a_calibration(self):
         truths = []
         rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
@@ -63,14 +82,7 @@ class SimulatedHand(NodeTest):
         self.wait(lambda: places and np.linalg.norm(np.subtract(places[-1], places[0])) > 0.05,
                   'the body to move on')
 
-        statuses = []
-        rospy.Subscriber('calibration/status', CalibrationStatus, statuses.append)
-        started = rospy.ServiceProxy('calibration/start', StartCalibration)(
-            without_square=True, wand_length=0.5)
-        self.assertTrue(started.success, started.message)
-        self.wait(lambda: statuses and statuses[-1].next_request == 'solve',
-                  'a wand that was laid down and waved')
-        solved = rospy.ServiceProxy('calibration/solve', SolveCalibration)()
+        solved = self.solved_by_wand()
         self.assertTrue(solved.success, solved.message)
         self.assertEqual(solved.rig.method, 'floor+wand')
         self.assertEqual(len(solved.rig.cameras), 4)

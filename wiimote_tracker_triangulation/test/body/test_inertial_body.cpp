@@ -94,7 +94,7 @@ class Carried {
       unsigned seed,
       double delay = 0.0,
       double end = kNever,
-      const Change& change = [](InertialSample sample) { return sample; })
+      const Change& change = [](const InertialSample& sample) { return sample; })
       : scene_(tracking::test::paperRig(), test::pathsOf(withImu(), carried), options(), seed),
         tracker_(tracking::test::paperRig(), {withImu()}, trackerOptions()),
         imu_(seed),
@@ -255,7 +255,7 @@ TEST(InertialBody, IsAnOrdinaryBodyWhereItsImuContradictsTheImages) {
          return s;
        }},
       {"mounted otherwise",
-       [&](InertialSample s) {
+       [&](const InertialSample& s) {
          return InertialSample{s.time, turn * s.rate, turn * s.force};
        }},
       {"another clock",

@@ -1,6 +1,7 @@
 // Continuous calibration while several cameras have new clocks, as after a start.
 #include "waved_led.h"
 
+#include "continuous/adjust_rig.h"
 #include "continuous/continuous_calibration.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -131,6 +132,21 @@ TEST(Continuous, AClockThatChangedInTheSameEpochTurnsNoCamera) {
       }
     }
   }
+}
+
+/// No image shows it: half of the clocks went on by as much as the others went back.
+TEST(Continuous, ClocksThatChangeInOppositeDirectionsKeepTheTime) {
+  constexpr double kChange = 0.002;  // [s]
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed led(rig.cameras, 820);
+  for (std::size_t i = 0; i < 4; ++i)
+    led.truth[i].time_offset += i % 2 == 0 ? kChange : -kChange;
+  std::vector<capture::Image> images;
+  led.runUntil(30.0, [&](const capture::Image& image) { images.push_back(image); });
+  const auto adjusted = adjustRig(rig, images);
+  ASSERT_TRUE(adjusted);
+  for (std::size_t i = 0; i < 4; ++i)
+    EXPECT_NEAR(adjusted->cameras[i].time_offset, led.truth[i].time_offset, 0.6 * kChange);
 }
 
 }  // namespace

@@ -231,6 +231,24 @@ TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
   }
 }
 
+TEST(ImuOfABody, IsNotMissedIfZDoesNotPointUp) {
+  Studio studio(parametersOf(Mode::kTracks));
+  body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};
+  wand.imu = body::ImuMount{"/imu"};
+  studio.tracker.setBodies({wand});
+  for (geometry::RigCamera& camera : studio.rig.cameras)
+    camera.gravity =
+        camera.camera.world_from_camera.linear().transpose() * Vector3d(0.0, 0.0, -9.8);
+  studio.tracker.takeRig(toMessage(studio.rig));
+  Paths leds;
+  for (const Vector3d& led : wand.leds)
+    leds.push_back([led](double) { return led; });
+  studio.film(1.0, leds);
+  EXPECT_EQ(studio.heard.bodies.back().bodies.at(0).state,
+            wiimote_tracker_msgs::TrackedBody::TRACKED);
+  EXPECT_TRUE(studio.tracker.bodiesWithoutSamples().empty());
+}
+
 TEST(ImuOfABody, IsMissedOnlyUntilTheBodyIsLost) {
   Studio studio(parametersOf(Mode::kTracks));
   body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};

@@ -206,7 +206,7 @@ void MessageTracker::publishBodies() {
   for (std::size_t b = 0; b < snapshot->bodies.size(); ++b) {
     const body::Constellation& constellation = bodies_.constellations()[b];
     const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
-    if (!body || body->inertial)
+    if (!body || body->inertial || tilt_ > kMostTilt)  // see reportTilt()
       without_samples_.erase(constellation.name);
     else if (body->tracked && constellation.imu)
       without_samples_.insert(constellation.name);

@@ -103,7 +103,7 @@ class MessageTracker {
   /// axis does not point up.
   void takeInertial(const std::string& body, const sensor_msgs::Imu& message);
 
-  /// Tracked bodies whose IMU is not used: its samples are missing or do not fit the images.
+  /// Tracked bodies whose IMU is not used since its samples are missing or do not fit the images.
   const std::set<std::string>& bodiesWithoutSamples() const { return without_samples_; }
 
   /// Asks for the points at a trigger's time. They follow as soon as the images reach it; the

@@ -32,7 +32,8 @@ std::optional<Spotted> Spotter::add(const PathPoint& point, const Recognize& rec
                 }));
   if (point.time >= next_look_) {
     next_look_ = point.time + options_.interval;
-    look(recognize);
+    if (auto earlier = look(recognize))
+      found = std::move(earlier);
   }
   if (!found && best_ && point.time - best_->path.back().time >= 0.5 * durationOf(best_->path))
     found = report();
@@ -67,7 +68,9 @@ bool Spotter::isAfterRest(const PathPoint& beginning) const {
          });
 }
 
-void Spotter::look(const Recognize& recognize) {
+/// @returns the best match so far if a later one shares no motion with it.
+std::optional<Spotted> Spotter::look(const Recognize& recognize) {
+  std::optional<Spotted> earlier;
   const double now = motion_.back().time;
   for (double duration = options_.shortest; duration <= options_.longest * 1.0001;
        duration *= options_.step) {
@@ -81,9 +84,12 @@ void Spotter::look(const Recognize& recognize) {
       continue;
     if (straightness(path) > options_.straight && !isAfterRest(path.front()))
       continue;
+    if (best_ && path.front().time >= best_->path.back().time)
+      earlier = report();
     if (!best_ || recognition->score > best_->recognition.score)
       best_ = Spotted{std::move(path), *recognition};
   }
+  return earlier;
 }
 
 }  // namespace wiimote_tracker::gesture

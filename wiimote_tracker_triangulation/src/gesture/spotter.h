@@ -40,7 +40,7 @@ struct Spotted {
 
 /// Finds gestures in the continuous motion of one LED. Compares the latest motion with the
 /// gestures, over several durations. Of overlapping matches it reports the best, once none was
-/// better for half of its duration.
+/// better for half of its duration, or another gesture follows.
 class Spotter {
  public:
   explicit Spotter(const SpotterOptions& options) : options_(options) {}
@@ -57,7 +57,7 @@ class Spotter {
  private:
   std::optional<Spotted> report();
   bool isAfterRest(const PathPoint& beginning) const;
-  void look(const Recognize& recognize);
+  std::optional<Spotted> look(const Recognize& recognize);
 
   SpotterOptions options_;
   Path motion_;

@@ -8,6 +8,7 @@
 
 #include <cmath>
 #include <random>
+#include <string>
 #include <vector>
 
 namespace wiimote_tracker::gesture {
@@ -218,6 +219,26 @@ TEST(Spotter, FindsAGestureInContinuousMotion) {
   EXPECT_EQ(found[0].recognition.gesture, "zigzag");
   EXPECT_NEAR(found[0].path.front().time, 3.0, 0.3);
   EXPECT_NEAR(found[0].path.back().time, 4.6, 0.2);
+}
+
+TEST(Spotter, AGestureIsNotLostToTheNextOne) {
+  // The second one is drawn better, sooner than half of the first one's duration after it.
+  const Spotter::Recognize recognize = [](const Path& path) {
+    const auto score = [&](double begin, double end) {
+      return 1.0 - std::abs(path.front().time - begin) - std::abs(path.back().time - end);
+    };
+    const double first = 0.9 * score(1.0, 3.0);
+    const double second = score(3.1, 3.7);
+    return first > second ? Recognition{"first", first, ""} : Recognition{"second", second, ""};
+  };
+  Spotter spotter{SpotterOptions()};
+  std::vector<std::string> found;
+  for (double t = 0.0; t < 5.0; t += 0.01) {
+    const Eigen::Vector3d place(0.2 * std::cos(12.0 * t), 0.2 * std::sin(12.0 * t), 0.0);
+    if (const auto spotted = spotter.add({t, place}, recognize))
+      found.push_back(spotted->recognition.gesture);
+  }
+  EXPECT_EQ(found, (std::vector<std::string>{"first", "second"}));
 }
 
 TEST(Spotter, AStraightStrokeIsAGestureOnlyAfterARest) {

@@ -85,8 +85,7 @@ bool hasOtherOffset(const geometry::RigCamera& before, const geometry::RigCamera
   return std::abs(now.time_offset - before.time_offset) > kOtherOffset;
 }
 
-/// The first camera with a new clock; without one that whose clock has changed, or which turned
-/// most.
+/// The camera that changed most: by a new clock, else by another time offset, else by its turn.
 std::size_t mostChanged(const geometry::Rig& before, const geometry::Rig& now) {
   const auto change = [&](std::size_t i) {
     const geometry::RigCamera& was = before.cameras[i];

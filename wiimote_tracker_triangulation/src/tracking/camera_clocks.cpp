@@ -21,7 +21,7 @@ double squared(double x) {
   return x * x;
 }
 
-/// Of an even number the mean of the middle two; 0 of none. @param values are sorted
+/// Of an even number the mean of the middle two; 0 of none. @param values they are sorted here
 double medianOf(std::vector<double>* values) {
   if (values->empty())
     return 0.0;

@@ -46,8 +46,8 @@ class BodyFilter {
     }
   }
 
-  /// Does without the IMU for a while if it predicted the filter before, whose body had to be found
-  /// anew [s].
+  /// The body was found anew at `time` [s], where the filter before was wrong: does without the IMU
+  /// for a while if that had used it.
   void distrustAfter(const BodyFilter& before, double time) {
     distrusted_until_ = before.isInertial() ? time + kDistrust : before.distrusted_until_;
   }

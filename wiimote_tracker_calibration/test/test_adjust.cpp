@@ -16,8 +16,7 @@ namespace wiimote_tracker::adjust {
 namespace {
 
 TEST(PathPixel, DerivativesAreThoseOfFiniteDifferencesForEveryLens) {
-  for (const auto model :
-       {geometry::DistortionModel::kPlumbBob, geometry::DistortionModel::kEquidistant}) {
+  for (const auto model : geometry::kDistortionModels) {
     SCOPED_TRACE(geometry::nameOf(model));
     const Eigen::Isometry3d pose =
         geometry::lookAt({3.0, -2.0, 2.0}, {1.0, 1.0, 0.5}, Eigen::Vector3d::UnitZ());

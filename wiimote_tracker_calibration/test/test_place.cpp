@@ -46,27 +46,35 @@ std::string refusal(const geometry::Rig& rig, const capture::CapturedCorner& cor
   return refusalOf([&] { measurePlace(rig, corner, kPixel); });
 }
 
-TEST(CameraParameters, DerivativesAreThoseOfDisplacedCameras) {
+TEST(CameraParameters, DerivativesAreThoseOfDisplacedCamerasForEveryLens) {
   Random random(1);
   geometry::Rig rig = paperRigWith({});
   geometry::RigCamera camera = rig.cameras[1];
-  camera.camera.intrinsics.distortion = {-0.1, 0.02, 0.003, -0.002, 0.01};
-  for (int trial = 0; trial < 20; ++trial) {
-    const Eigen::Vector3d point = somewhere(random);
-    const auto projection = geometry::projectionOf(camera.camera, point);
-    ASSERT_TRUE(projection);
-    EXPECT_LT((projection->pixel - camera.camera.project(point).value()).norm(), 1e-9);
-    for (Eigen::Index k = 0; k < geometry::kTimeOffset; ++k) {
-      const double step = 1e-5;
-      const Eigen::VectorXd delta = step * Eigen::VectorXd::Unit(geometry::kParameters, k);
-      const Eigen::Vector2d difference = (displaced(camera, delta).camera.project(point).value() -
-                                          displaced(camera, -delta).camera.project(point).value()) /
-                                         (2.0 * step);
-      EXPECT_LT((difference - projection->by_parameters.col(k)).norm(),
-                1e-4 * std::max(1.0, difference.norm()))
-          << k;
+  geometry::Intrinsics& lens = camera.camera.intrinsics;
+  for (const auto model : geometry::kDistortionModels) {
+    SCOPED_TRACE(geometry::nameOf(model));
+    lens.distortion_model = model;
+    lens.distortion = {-0.1, 0.02, 0.003, -0.002, 0.01};
+    for (std::size_t k = geometry::coefficientCount(model); k < lens.distortion.size(); ++k)
+      lens.distortion[k] = 0.0;
+    for (int trial = 0; trial < 20; ++trial) {
+      const Eigen::Vector3d point = somewhere(random);
+      const auto projection = geometry::projectionOf(camera.camera, point);
+      ASSERT_TRUE(projection);
+      EXPECT_LT((projection->pixel - camera.camera.project(point).value()).norm(), 1e-9);
+      for (Eigen::Index k = 0; k < geometry::kTimeOffset; ++k) {
+        const double step = 1e-5;
+        const Eigen::VectorXd delta = step * Eigen::VectorXd::Unit(geometry::kParameters, k);
+        const Eigen::Vector2d difference =
+            (displaced(camera, delta).camera.project(point).value() -
+             displaced(camera, -delta).camera.project(point).value()) /
+            (2.0 * step);
+        EXPECT_LT((difference - projection->by_parameters.col(k)).norm(),
+                  1e-4 * std::max(1.0, difference.norm()))
+            << k;
+      }
+      EXPECT_EQ(projection->by_parameters.col(geometry::kTimeOffset).norm(), 0.0);
     }
-    EXPECT_EQ(projection->by_parameters.col(geometry::kTimeOffset).norm(), 0.0);
   }
 }
 

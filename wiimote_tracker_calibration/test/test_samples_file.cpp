@@ -373,6 +373,8 @@ TEST_F(SamplesFile, SaysWhatIsWrongWithIt) {
   for (const auto& [from, to, part] : std::vector<std::array<std::string, 3>>{
            {"version: 1", "version: 2", "version is 2, but only 1 is understood"},
            {"wiimote_tracker_samples", "wiimote_tracker_rig", "choose a file that save_samples"},
+           {"equidistant", "fisheye",
+            "plumb_bob (k1, k2, p1, p2, k3) or equidistant (k1, k2, k3, "},
            {"side_x: 2.5", "side_x: -2.5", "the side of the square from the first to the second"},
            {square_block, "square: ~\n", "there is no square, but wiimote_1 saw a corner of it"},
            {"frames: 2", "frames: 3", "line 61 is not an image"},

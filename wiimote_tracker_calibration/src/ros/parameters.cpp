@@ -102,10 +102,11 @@ geometry::Intrinsics readIntrinsics(ParameterReader* reader,
   reader->read(prefix + "fy", &lens.fy, 1.0, 1e6);
   reader->read(prefix + "cx", &lens.cx, -1e5, 1e5);
   reader->read(prefix + "cy", &lens.cy, -1e5, 1e5);
+  std::vector<std::string> models;
+  for (const geometry::DistortionModel known : geometry::kDistortionModels)
+    models.emplace_back(geometry::nameOf(known));
   const std::string model =
-      reader->choice(prefix + "distortion_model", geometry::nameOf(lens.distortion_model),
-                     {geometry::nameOf(geometry::DistortionModel::kPlumbBob),
-                      geometry::nameOf(geometry::DistortionModel::kEquidistant)});
+      reader->choice(prefix + "distortion_model", geometry::nameOf(lens.distortion_model), models);
   if (model != geometry::nameOf(lens.distortion_model))
     lens.distortion.fill(0.0);
   lens.distortion_model = *geometry::distortionModelFromName(model);
@@ -115,9 +116,8 @@ geometry::Intrinsics readIntrinsics(ParameterReader* reader,
   const bool finite = std::all_of(distortion.begin(), distortion.end(),
                                   [](double value) { return std::isfinite(value); });
   if (static_cast<std::ptrdiff_t>(distortion.size()) != count || !finite)
-    throw ParameterError(reader->nameOf(prefix + "distortion") +
-                         (count == 5 ? " must have five numbers: k1, k2, p1, p2, k3"
-                                     : " must have four numbers: k1, k2, k3, k4"));
+    throw ParameterError(reader->nameOf(prefix + "distortion") + " must have the numbers " +
+                         geometry::coefficientNames(lens.distortion_model));
   std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
   return lens;
 }

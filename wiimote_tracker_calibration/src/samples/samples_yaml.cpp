@@ -199,7 +199,7 @@ geometry::Intrinsics readLens(YamlMap map) {
   lens.cy = map.get<double>("cy");
   const auto model = geometry::distortionModelFromName(map.get<std::string>("distortion_model"));
   if (!model)
-    throw map.error("distortion_model", "is not known");
+    throw map.error("distortion_model", "must be " + geometry::describeDistortionModels());
   lens.distortion_model = *model;
   const std::vector<double> distortion =
       map.numbers("distortion", geometry::coefficientCount(*model));

@@ -19,28 +19,79 @@ void require(bool good, const std::string& what, double value) {
     throw InvalidRigError(what + " (is " + std::to_string(value) + "); calibrate again");
 }
 
+// No switch over the models has a default, so that the compiler finds where a new one is missing.
+
+Vector2 distort(const Intrinsics& lens, const Vector2& normalized, Matrix2* jacobian) {
+  switch (lens.distortion_model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return equidistant::distort(lens.distortion, normalized, jacobian);
+  }
+  return plumb_bob::distort(lens.distortion, normalized, jacobian);
+}
+
+/// @param jacobian d pixel / d normalized, there.
+bool isBeforeFold(const Intrinsics& lens, const Vector2& normalized, const Matrix2& jacobian) {
+  switch (lens.distortion_model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return equidistant::isBeforeFold(lens.distortion, normalized);
+  }
+  return plumb_bob::isBeforeFold(lens.distortion, normalized, jacobian);
+}
+
 }  // namespace
 
 const char* nameOf(DistortionModel model) {
-  return model == DistortionModel::kEquidistant ? "equidistant" : "plumb_bob";
+  switch (model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return "equidistant";
+  }
+  return "plumb_bob";
 }
 
 std::optional<DistortionModel> distortionModelFromName(const std::string& name) {
-  for (const DistortionModel model : {DistortionModel::kPlumbBob, DistortionModel::kEquidistant}) {
+  for (const DistortionModel model : kDistortionModels) {
     if (name == nameOf(model))
       return model;
   }
   return std::nullopt;
 }
 
+const char* coefficientNames(DistortionModel model) {
+  switch (model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return "k1, k2, k3, k4";
+  }
+  return "k1, k2, p1, p2, k3";
+}
+
 std::size_t coefficientCount(DistortionModel model) {
-  return model == DistortionModel::kEquidistant ? 4 : 5;
+  switch (model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return 4;
+  }
+  return 5;
+}
+
+std::string describeDistortionModels() {
+  std::string text;
+  for (const DistortionModel model : kDistortionModels)
+    text += std::string(text.empty() ? "" : " or ") + nameOf(model) + " (" +
+            coefficientNames(model) + ")";
+  return text;
 }
 
 Vector2 Intrinsics::pixelFromNormalized(const Vector2& normalized, Matrix2* jacobian) const {
-  const Vector2 distorted = distortion_model == DistortionModel::kEquidistant
-                                ? equidistant::distort(distortion, normalized, jacobian)
-                                : plumb_bob::distort(distortion, normalized, jacobian);
+  const Vector2 distorted = distort(*this, normalized, jacobian);
   if (jacobian) {
     jacobian->row(0) *= fx;
     jacobian->row(1) *= fy;
@@ -52,9 +103,13 @@ std::optional<Vector2> Intrinsics::normalizedFromPixel(const Vector2& pixel) con
   const Vector2 target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (!target.allFinite())
     return std::nullopt;
-  return distortion_model == DistortionModel::kEquidistant
-             ? equidistant::undistort(distortion, target)
-             : plumb_bob::undistort(distortion, target);
+  switch (distortion_model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return equidistant::undistort(distortion, target);
+  }
+  return plumb_bob::undistort(distortion, target);
 }
 
 bool Intrinsics::isInImage(const Vector2& pixel, double margin) const {
@@ -71,8 +126,11 @@ void Intrinsics::check() const {
   require(std::isfinite(cy), "cy must be finite", cy);
   for (const double k : distortion)
     require(std::isfinite(k), "every distortion coefficient must be finite", k);
-  if (distortion_model == DistortionModel::kEquidistant)
-    require(distortion[4] == 0.0, "an equidistant lens has no fifth coefficient", distortion[4]);
+  for (std::size_t k = coefficientCount(distortion_model); k < distortion.size(); ++k)
+    require(distortion[k] == 0.0,
+            std::string("lens model ") + nameOf(distortion_model) + " has the coefficients " +
+                coefficientNames(distortion_model) + ", and any after them must be 0",
+            distortion[k]);
 }
 
 std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,
@@ -86,11 +144,7 @@ std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,
     return std::nullopt;
   Matrix2 pixel_by_normalized;
   const Vector2 pixel = intrinsics.pixelFromNormalized(normalized, &pixel_by_normalized);
-  const bool is_before_fold =
-      intrinsics.distortion_model == DistortionModel::kEquidistant
-          ? equidistant::isBeforeFold(intrinsics.distortion, normalized)
-          : plumb_bob::isBeforeFold(intrinsics.distortion, normalized, pixel_by_normalized);
-  if (!is_before_fold)
+  if (!isBeforeFold(intrinsics, normalized, pixel_by_normalized))
     return std::nullopt;
   if (!jacobian)
     return pixel;

@@ -148,12 +148,13 @@ void Rig::check() const {
   require(covariance.size() == 0 || covariance.allFinite(), "the rig's covariance is not finite");
   for (std::size_t i = 0; covariance.size() > 0 && i < cameras.size(); ++i) {
     const Camera& camera = cameras[i].camera;
-    const Eigen::Index fifth = firstParameter(i) + kDistortion + 4;
-    if (camera.intrinsics.distortion_model == DistortionModel::kEquidistant)
-      require(covariance.row(fifth).isZero(0.0) && covariance.col(fifth).isZero(0.0),
-              "camera '" + camera.name +
-                  "': the rig's covariance must be zero for the fifth coefficient, which an "
-                  "equidistant lens does not have");
+    const DistortionModel model = camera.intrinsics.distortion_model;
+    const auto count = static_cast<Eigen::Index>(coefficientCount(model));
+    for (Eigen::Index k = firstParameter(i) + kDistortion + count;
+         k < firstParameter(i) + kTimeOffset; ++k)
+      require(covariance.row(k).isZero(0.0) && covariance.col(k).isZero(0.0),
+              "camera '" + camera.name + "': the rig's covariance must be zero after the " +
+                  std::to_string(count) + " coefficients of " + nameOf(model));
   }
   if (remap)
     remap->check();

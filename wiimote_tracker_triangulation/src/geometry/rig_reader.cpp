@@ -53,7 +53,7 @@ void readIntrinsics(YamlMap& map, std::string* camera_name, Intrinsics* intrinsi
 
   const auto model = distortionModelFromName(map.get<std::string>("distortion_model"));
   if (!model)
-    throw map.error("distortion_model", "is neither plumb_bob nor equidistant");
+    throw map.error("distortion_model", "must be " + describeDistortionModels());
   intrinsics->distortion_model = *model;
   const Eigen::MatrixXd D = readMatrix(map.map("distortion_coefficients"));
   const auto count = static_cast<Eigen::Index>(coefficientCount(*model));

@@ -87,8 +87,7 @@ geometry::RigCamera cameraFromMessage(const CameraCalibration& message) {
   if (!model || message.distortion.size() != geometry::coefficientCount(*model))
     throw geometry::InvalidRigError(who + "distortion model '" + message.distortion_model +
                                     "' with " + std::to_string(message.distortion.size()) +
-                                    " coefficients; use plumb_bob with five or equidistant with "
-                                    "four");
+                                    " coefficients; use " + geometry::describeDistortionModels());
   if (message.time_offset_rule > CameraCalibration::TIME_OFFSET_ONE_EPOCH)
     throw geometry::InvalidRigError(who + "unknown time_offset_rule; publish the rig again");
   if (!message.gravity.empty() && message.gravity.size() != 3)

@@ -127,6 +127,8 @@ TEST_F(RigFile, FaultsOfACorrectionAndAWideLensAreNamedByKey) {
   names("rig_id: \"", "rig_id: \"\"  # ", "has no rig id");
   names("distortion_model: equidistant", "distortion_model: plumb_bob",
         "camera_1/distortion_coefficients");
+  names("distortion_model: equidistant", "distortion_model: fisheye",
+        "must be plumb_bob (k1, k2, p1, p2, k3) or equidistant (k1, k2, k3, k4)");
 }
 
 TEST_F(RigFile, TheUnusedCoefficientOfAWideLensHasNoVariance) {

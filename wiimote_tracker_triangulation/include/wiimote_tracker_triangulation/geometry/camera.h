@@ -18,13 +18,23 @@ enum class DistortionModel {
                  ///< cv::fisheye); k1, k2, k3, k4.
 };
 
+/// All of them.
+constexpr std::array<DistortionModel, 2> kDistortionModels = {DistortionModel::kPlumbBob,
+                                                              DistortionModel::kEquidistant};
+
 const char* nameOf(DistortionModel model);
 
 /// Nothing for a name that is not known.
 std::optional<DistortionModel> distortionModelFromName(const std::string& name);
 
-/// Number of coefficients of a model: 5 or 4.
+/// Names of a model's coefficients, such as "k1, k2, k3, k4".
+const char* coefficientNames(DistortionModel model);
+
+/// Their number, at most 5.
 std::size_t coefficientCount(DistortionModel model);
+
+/// All models with their coefficients, for refusals: "plumb_bob (k1, ...) or equidistant (...)".
+std::string describeDistortionModels();
 
 /// Camera with a lens. Pixels: u right, v down, (0, 0) is the centre of the top left pixel.
 struct Intrinsics {

@@ -8,7 +8,8 @@
 #include <cmath>
 
 // The lens models, for any scalar: double, or a dual number such as ceres::Jet. They map a point on
-// the image plane of depth 1 from its undistorted to its distorted place.
+// the image plane of depth 1 from its undistorted to its distorted place, linearly in its
+// coefficients: geometry/camera_parameters.cpp takes the derivatives by differences.
 
 namespace wiimote_tracker::geometry {
 
@@ -54,7 +55,13 @@ Eigen::Matrix<T, 2, 1> distortEquidistant(const T* k, const Eigen::Matrix<T, 2, 
 /// `k`: the model's coefficients, as in Intrinsics::distortion.
 template <typename T>
 Eigen::Matrix<T, 2, 1> distort(DistortionModel model, const T* k, const Eigen::Matrix<T, 2, 1>& n) {
-  return model == DistortionModel::kEquidistant ? distortEquidistant(k, n) : distortPlumbBob(k, n);
+  switch (model) {
+    case DistortionModel::kPlumbBob:
+      break;
+    case DistortionModel::kEquidistant:
+      return distortEquidistant(k, n);
+  }
+  return distortPlumbBob(k, n);
 }
 
 /// Pixel of a point on the normalised image plane; `lens`: fx, fy, cx, cy [px], then the

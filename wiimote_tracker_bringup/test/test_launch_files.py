@@ -133,6 +133,17 @@ def test_a_replay_keeps_the_recorded_results_apart(load):
     assert parameters['/triangulation/label_places'] == ''
 
 
+def test_what_is_recorded_is_an_input_or_kept_apart_in_a_replay(load):
+    """But for topics below the name of a body, which a launch file cannot list."""
+    recorded = shlex.split(next(iter(load('record.launch')[0].values())).args)[-1]
+    names = set(re.split(r'\|(?![^(]*\))', re.match(r'\(\.\*\)/\((.*)\)\|/tf\|', recorded)[1]))
+    inputs = {'ir_blobs', 'camera_info', 'imu/data_raw', 'battery', 'joy', 'trigger',
+              'calibration/(rig|square|verdict)'}
+    assert inputs < names
+    apart = {name for name, _ in load('replay.launch', 'bag:=x')[0]['play'].remap_args}
+    assert names - inputs - {'pose', 'twist', 'odometry'} <= apart
+
+
 @pytest.mark.parametrize('namespace', ['', 'first', '/second'])
 def test_each_namespace_has_its_own_label_places(load, monkeypatch, namespace):
     """A file in this folder, also where the namespace is that of a group."""

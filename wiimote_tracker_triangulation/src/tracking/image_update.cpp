@@ -179,7 +179,7 @@ std::optional<Eigen::Vector2d> ImageUpdate::residualOf(const Candidate& candidat
 }
 
 /// Costs are negative log likelihoods. The density of a spot is that of its track's prediction, or
-/// uniform over the image for a false detection.
+/// uniform over the image for a false detection. A track takes only spots in its gate.
 void ImageUpdate::assign() {
   constexpr double kUncertainTrackCost = 3.0;  // tentative, or seen by this camera only
   const double detection_cost = -std::log(options_.detection_probability);

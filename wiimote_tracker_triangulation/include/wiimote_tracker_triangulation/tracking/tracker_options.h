@@ -21,7 +21,7 @@ struct TrackerOptions {
   double ghost_rate = 0.5;             ///< Mean number of false detections per image [0.001..16].
   double merging_distance = 24.0;      ///< Closer LEDs may merge into one spot [px, 0..100].
   double maximum_range = 20.0;         ///< Of an LED from a camera [m, 0.1..1000].
-  double gate = 25.0;                  ///< Squared Mahalanobis distance [1, 4..100].
+  double gate = 25.0;                  ///< Squared Mahalanobis distance of a spot [1, 4..100].
 
   // Tracks.
   double birth_window = 0.03;         ///< Time within which images start a track [s, 0.001..0.2].

@@ -284,5 +284,23 @@ TEST(ExtensiveAccuracy, JointIsMoreAccurateThanPerCameraAndBothStateTheirError) 
   }
 }
 
+TEST(SquareModel, DegreesOfFreedomAreWhatIsMeasuredLessThePoses) {
+  Random random(1);
+  SquareLayout layout = paperSquare();
+  const std::vector<Eigen::Isometry3d> poses = paperRig();
+  const SimulatedSquare simulated = simulateSquare(poses, layout, true, noErrors(), true, random);
+  const auto freedom = [&](const Uncertainty& stated) {
+    const SquareModel model(simulated.sightings, layout, true, stated);
+    return model.degreesOfFreedom(model.start(poses));
+  };
+  Uncertainty stated;
+  const int least = static_cast<int>(poses.size()) * (4 * 2 + 2 - 6);  // with gravity
+  EXPECT_EQ(freedom(stated), least);
+  layout.lengths.push_back({0, 2, 3.5});
+  EXPECT_EQ(freedom(stated), least + 1);
+  stated.unknown_corner = 0;
+  EXPECT_EQ(freedom(stated), least + 1 - 2);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::square

@@ -19,7 +19,7 @@ namespace wiimote_tracker::adjust {
 // with ceres::Problem::SetParameterBlockConstant(): the higher distortion but in self_calibrate.
 constexpr int kRotationSize = 3;  ///< w [rad]: R = exp([w]x) R_start, about the world's axes.
 constexpr int kPositionSize = 3;  ///< Optical centre in the world [m].
-constexpr int kLensSize = 5;      ///< fx, fy, cx, cy [px], k1 [1].
+constexpr int kLensSize = 5;  ///< fx, fy, cx, cy [px], the lens model's first coefficient k1 [1].
 constexpr int kHigherDistortionSize = 4;  ///< The coefficients after k1 [1].
 
 struct CameraBlocks {

@@ -119,7 +119,7 @@ void checkGravity(const SquareModel& model,
 
 /// Warns about, or refuses, residuals that the uncertainties do not explain.
 void checkMisfit(const SquareModel& model, const BranchChoice& choice, Solution* solution) {
-  const int freedom = model.degreesOfFreedom();
+  const int freedom = model.degreesOfFreedom(choice.state);
   solution->misfit = std::sqrt(choice.cost / std::max(1, freedom));
   const bool implausible = isImplausible(model, choice.state);
   // By chance it is in fewer than one of 1000 calibrations.

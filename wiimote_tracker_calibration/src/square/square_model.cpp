@@ -35,6 +35,8 @@ class SquareModel::Problem {
               &cameras_, &square_, &problem_);
     for (std::size_t i = 0; i < cameras_.size(); ++i)
       addCamera(i);
+    if (model.uncertainty_.unknown_corner)
+      surplus_ += 2;  // its prior tells nothing
   }
 
   /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
@@ -63,6 +65,18 @@ class SquareModel::Problem {
     return 2.0 * summary.final_cost;
   }
 
+  /// As SquareModel::degreesOfFreedom().
+  int degreesOfFreedom() const {
+    int result = problem_.NumResiduals() - surplus_;
+    std::vector<double*> blocks;
+    problem_.GetParameterBlocks(&blocks);
+    for (double* const block : blocks) {
+      if (!problem_.IsParameterBlockConstant(block))
+        result -= problem_.ParameterBlockSize(block);
+    }
+    return result;
+  }
+
   /// As SquareModel::covarianceOfAll().
   Eigen::MatrixXd covariance() {
     std::vector<double*> blocks = adjust::blocksOf(&cameras_);
@@ -87,12 +101,14 @@ class SquareModel::Problem {
     problem_.SetParameterBlockConstant(&blocks.time_offset);
     addLensPriorGivenOffset(sightings.intrinsics, uncertainty, blocks.lens.data(),
                             shared_offset_.data(), &problem_);
-    if (sightings.gravity)
+    if (sightings.gravity) {
       problem_.AddResidualBlock(
           adjust::GravityError{sightings.gravity->normalized(), model_.up(),
                                camera.world_from_camera.linear(), uncertainty.gravity}
               .cost(),
           nullptr, blocks.rotation.data());
+      ++surplus_;  // two directions differ by two angles, in three residuals
+    }
   }
 
   const SquareModel& model_;
@@ -101,7 +117,8 @@ class SquareModel::Problem {
   std::vector<adjust::CameraBlocks> cameras_;
   std::array<double, 2> shared_offset_{};   // of the principal points [px]
   std::array<Eigen::Vector2d, 4> corners_;  // displacements [m]
-  SquareBlocks square_{&corners_, {}};
+  SquareBlocks square_{&corners_};
+  int surplus_ = 0;  // residuals that measure nothing
 };
 
 SquareModel::SquareModel(std::vector<CameraSightings> sightings,
@@ -130,13 +147,8 @@ std::optional<double> SquareModel::refineAll(RigState* state, Precision precisio
   return Problem(*this, *state).solve(state, precision);
 }
 
-int SquareModel::degreesOfFreedom() const {
-  int result = static_cast<int>(layout_.lengths.size()) - (uncertainty_.unknown_corner ? 2 : 0);
-  // Pixel coordinates, and six parameters of the pose; every other parameter has its prior.
-  for (const CameraSightings& sightings : sightings_)
-    result += 2 * static_cast<int>(sightings.cornersSeen() + sightings.placesSeen()) - 6 +
-              (sightings.gravity ? 2 : 0);
-  return result;
+int SquareModel::degreesOfFreedom(const RigState& state) const {
+  return Problem(*this, state).degreesOfFreedom();
 }
 
 Eigen::MatrixXd SquareModel::covarianceOfAll(const RigState& state) const {

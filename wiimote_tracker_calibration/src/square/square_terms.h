@@ -19,8 +19,8 @@ namespace wiimote_tracker::square {
 
 /// Where the LED was; must outlive the problem.
 struct SquareBlocks {
-  std::array<Eigen::Vector2d, 4>* corners;  ///< Displacements from the layout [m].
-  std::vector<Eigen::Vector3d> places;      ///< Known places [m].
+  std::array<Eigen::Vector2d, 4>* corners;   ///< Displacements from the layout [m].
+  std::vector<Eigen::Vector3d> places = {};  ///< Known places [m].
 };
 
 /// Adds a square to a problem: where cameras saw its corners and known places, how exactly the LED

@@ -72,7 +72,7 @@ class WaveProblem {
       : recording_(task.recording),
         options_(task.options),
         state_(*state),
-        square_{&state->corner_offsets, {}} {
+        square_{&state->corner_offsets} {
     for (std::size_t i = 0; i < state->cameras.size(); ++i)
       cameras_.emplace_back(state->cameras[i], state->offsets[i]);
     addMatches(matches, loss_scale);

@@ -40,7 +40,8 @@ struct TapedLength {
   }
 };
 
-/// A place that the LED was put on, known in the world by other means.
+/// A place that the LED was put on, known in the world by other means, to solve with (service
+/// measure_place). The services known_places/... measure remap::KnownPoint with a solved rig.
 struct KnownPlace {
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< World [m].
   double stddev = 0.001;                               ///< Per axis [m, > 0].

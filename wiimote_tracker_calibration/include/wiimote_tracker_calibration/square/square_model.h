@@ -72,8 +72,9 @@ class SquareModel {
   /// start: a corner lies behind a camera.
   std::optional<double> refineAll(RigState* state, Precision precision = Precision::kFine) const;
 
-  /// Residuals minus parameters of refineAll(): the mean of its cost if the model is right.
-  int degreesOfFreedom() const;
+  /// Residuals minus parameters of refineAll(): the mean of its cost if the model is right. The
+  /// same for any state.
+  int degreesOfFreedom(const RigState& state) const;
 
   /// Covariance of refineAll(): of the cameras, order and units as in RigCalibration.msg, then of
   /// the corners' horizontal displacements (2 each) [m].

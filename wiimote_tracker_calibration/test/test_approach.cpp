@@ -4,7 +4,6 @@
 #include "waved_led.h"
 
 #include "continuous/approach.h"
-#include "continuous/continuous_calibration.h"
 
 #include <gtest/gtest.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
@@ -136,28 +135,6 @@ TEST(Approach, OnlyAKnockedCameraIsChangedAtOnce) {
     rig = next;
   }
   EXPECT_EQ(rig.id(), other.id());
-}
-
-TEST(Approach, KeepsTheMasksThatAreLearnedMeanwhile) {
-  Random random(4);
-  geometry::Rig rig = paperRigWith(wellCalibrated());
-  const geometry::Rig goal = changed(rig, 0.001, random);
-  rig.remap.emplace();
-  rig.cameras[2].masks = {{{100.0, 50.0}, 9.0}};
-  rig.remap->rig_id = rig.id();
-  const geometry::Rig applied = appliedRig(goal, rig);
-  ASSERT_EQ(applied.cameras[2].masks.size(), 1U);
-  EXPECT_EQ(applied.cameras[2].masks[0].radius, 9.0);
-  EXPECT_EQ(applied.remap->rig_id, applied.id());
-  EXPECT_NE(applied.id(), goal.id());
-  EXPECT_EQ(idWithoutMasks(applied), idWithoutMasks(goal));
-  EXPECT_NE(idWithoutMasks(applied), idWithoutMasks(rig));
-
-  // Undone, the correction of the volume is that of the rig, whose masks were cleared meanwhile.
-  const geometry::Rig undone = withMasksOf(goal, rig);
-  EXPECT_TRUE(undone.cameras[2].masks.empty());
-  EXPECT_EQ(undone.remap->rig_id, undone.id());
-  EXPECT_EQ(idWithoutMasks(undone), idWithoutMasks(rig));
 }
 
 }  // namespace

@@ -257,30 +257,4 @@ std::optional<Proposal> ContinuousCalibration::adjustedWithoutKnocked(
       {without(rig_, knocked, images.to_solve), without(rig_, knocked, images.to_check)});
 }
 
-std::string idWithoutMasks(geometry::Rig rig) {
-  for (geometry::RigCamera& camera : rig.cameras)
-    camera.masks.clear();
-  return rig.id();
-}
-
-geometry::Rig withMasksOf(const geometry::Rig& other, geometry::Rig rig) {
-  const std::string id = rig.id();
-  for (geometry::RigCamera& camera : rig.cameras) {
-    if (const geometry::RigCamera* const same = other.find(camera.camera.name))
-      camera.masks = same->masks;
-  }
-  if (rig.remap && rig.remap->rig_id == id)
-    rig.remap->rig_id = rig.id();
-  return rig;
-}
-
-geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& before) {
-  geometry::Rig rig = withMasksOf(before, proposed);
-  rig.zones = before.zones;
-  rig.remap = before.remap;
-  if (rig.remap && rig.remap->rig_id == before.id())
-    rig.remap->rig_id = rig.id();
-  return rig;
-}
-
 }  // namespace wiimote_tracker::continuous

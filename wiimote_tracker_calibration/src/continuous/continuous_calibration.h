@@ -90,18 +90,6 @@ class ContinuousCalibration {
   bool has_drifted_ = false;  // The latest adjustment was proposed.
 };
 
-/// Hash over what continuous calibration changes: the rig's id (geometry::Rig::id()) without masks,
-/// which move no point.
-std::string idWithoutMasks(geometry::Rig rig);
-
-/// A rig with the masks of another one with the same cameras. A correction of the volume stays
-/// valid.
-geometry::Rig withMasksOf(const geometry::Rig& other, geometry::Rig rig);
-
-/// The proposed rig with zones, masks and correction of the volume of the rig before, which may
-/// have changed meanwhile. The correction belongs to the world, which the other cameras hold.
-geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& before);
-
 }  // namespace wiimote_tracker::continuous
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_CONTINUOUS_CALIBRATION_H

@@ -2,8 +2,8 @@
 #include "rig_storage.h"
 #include "units.h"
 
-#include "continuous/approach.h"
 #include "continuous/continuous_calibration.h"
+#include "continuous/rig_changes.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -16,14 +16,12 @@
 namespace wiimote_tracker {
 
 using continuous::Cause;
-using continuous::idWithoutMasks;
 using workflow::Reply;
 using workflow::Step;
 
 namespace {
 
-constexpr double kUpdatePeriod = 0.5;      // [s]
-constexpr std::size_t kMostChanges = 100;  // that can be reverted
+constexpr double kUpdatePeriod = 0.5;  // [s]
 const char kApply[] = "; call calibration/continuous/apply to use it";
 const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
                                   1000.0 * continuous::Approach::kLongestStep,
@@ -48,12 +46,6 @@ class ContinuousServices {
   }
 
  private:
-  /// A rig that was changed: its idWithoutMasks() now, and as it was.
-  struct Change {
-    std::string id;
-    geometry::Rig before;
-  };
-
   /// Whether a rig is in use and no calibration is going on.
   bool isCalibrated(const Lock& lock) const {
     const Step step = context_.calibration(lock).step();
@@ -65,10 +57,10 @@ class ContinuousServices {
   void update() {
     Lock lock(context_.mutex());
     const std::vector<Input> inputs = inputs_->take(lock);
-    useRig(lock);
+    watchRig(lock);
     if (!continuous_ || inputs.empty())
       return;
-    if (approach_ && isCalibrated(lock))
+    if (isCalibrated(lock))
       stepTowardsGoal(inputs, lock);
     const auto proposal = NodeContext::unlocked(&lock, [&] { return newestProposal(inputs); });
     new_clocks_ = continuous_->newClocks();
@@ -76,9 +68,10 @@ class ContinuousServices {
       forgetProposal(lock);
     sayContradiction();
     // Meanwhile the rig may have been replaced, or what was proposed before applied.
-    if (!proposal || idInUse(lock) != in_use_ || idToWatch() != watched_ || !isCalibrated(lock))
+    if (!proposal || !changes_.isInUse(context_.rig(lock)) || idToWatch(lock) != watched_ ||
+        !isCalibrated(lock))
       return;
-    const bool applies = in_use_ != reverted_to_ && appliesItself(proposal->cause);
+    const bool applies = !changes_.isReverted() && appliesItself(proposal->cause);
     if (!applies && proposal->cause == Cause::kDrift && proposal->gain < continuous::kWorthAsking) {
       if (proposal_ && proposal_->cause == Cause::kDrift)
         forgetProposal(lock);
@@ -109,28 +102,24 @@ class ContinuousServices {
            (policy_ == ContinuousPolicy::kKnocked && cause != Cause::kDrift);
   }
 
-  /// idWithoutMasks() of the rig in use. Empty: there is none.
-  std::string idInUse(const Lock& lock) const {
+  /// idWithoutMasks() of the rig in use, or of the one that it approaches. Empty: there is none.
+  std::string idToWatch(const Lock& lock) const {
     const auto& rig = context_.rig(lock);
-    return rig ? idWithoutMasks(*rig) : "";
+    return rig ? continuous::idWithoutMasks(changes_.goal(*rig)) : "";
   }
 
-  /// idWithoutMasks() of the rig in use, or of the one that it approaches.
-  std::string idToWatch() const { return approach_ ? idWithoutMasks(approach_->goal()) : in_use_; }
-
   /// Watches the rig in use from now on, or the one that it approaches.
-  void useRig(const Lock& lock) {
-    if (idInUse(lock) != in_use_)
-      approach_.reset();  // Someone has replaced it.
-    in_use_ = idInUse(lock);
-    if (idToWatch() == watched_)
+  void watchRig(const Lock& lock) {
+    const auto& rig = context_.rig(lock);
+    changes_.follow(rig);
+    if (idToWatch(lock) == watched_)
       return;
-    watched_ = idToWatch();
+    watched_ = idToWatch(lock);
     continuous_.reset();
     new_clocks_.clear();
     forgetProposal(lock);
-    if (const auto& rig = context_.rig(lock))
-      continuous_.emplace(approach_ ? approach_->goal() : *rig, options_);
+    if (rig)
+      continuous_.emplace(changes_.goal(*rig), options_);
   }
 
   void stepTowardsGoal(const std::vector<Input>& inputs, const Lock& lock) {
@@ -142,18 +131,14 @@ class ContinuousServices {
     if (newest == 0.0)
       return;
     const geometry::Rig before = *context_.rig(lock);
-    const auto next = approach_->step(before, newest);
-    if (!next)
+    const auto rig = changes_.step(before, newest);
+    if (!rig)
       return;
-    const geometry::Rig rig = continuous::appliedRig(*next, before);
-    in_use_ = changes_.back().id = idWithoutMasks(rig);
-    context_.knownPlaces(lock).renameRig(before.id(), rig.id());
-    const bool is_reached = approach_->isReached();
-    if (is_reached)
-      approach_.reset();
-    context_.setRig(
-        rig, is_reached ? "the adjusted rig is in use" : "the adjusted rig is approached " + kSteps,
-        lock);
+    context_.knownPlaces(lock).renameRig(before.id(), rig->id());
+    context_.setRig(*rig,
+                    changes_.isApproaching() ? "the adjusted rig is approached " + kSteps
+                                             : "the adjusted rig is in use",
+                    lock);
   }
 
   void forgetProposal(const Lock& lock) {
@@ -194,36 +179,18 @@ class ContinuousServices {
     if (!proposal_)
       throw Refusal("nothing is proposed: " + whatIsNeeded());
     const geometry::Rig before = context_.existingRig("to change", lock);
-    if (idWithoutMasks(before) != in_use_)
+    if (!changes_.isInUse(before))
       throw Refusal(NodeContext::kReplaced);
     const continuous::Proposal proposal = *proposal_;
-    const geometry::Rig rig = continuous::appliedRig(proposal.rig, before);
     forgetProposal(lock);
-    const bool at_once = proposal.places.empty();
-    changes_.push_back({in_use_, before});
-    if (changes_.size() > kMostChanges)
-      changes_.erase(changes_.begin());
-    if (at_once)
-      useAtOnce(rig, before, proposal, lock);
-    else
-      approach_.emplace(rig, proposal.places);
-    return {true, (at_once ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
-                      keepVersion(rig, &lock) +
+    const auto rig = changes_.apply(proposal, before);
+    if (rig)
+      context_.setRig(*rig, proposal.message, lock);
+    const geometry::Rig goal = changes_.goal(*context_.rig(lock));
+    return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
+                      keepVersion(goal, &lock) +
                       "; calibration/continuous/revert goes back, and save keeps it" +
-                      (at_once ? "" : " once it is reached")};
-  }
-
-  /// A rig with cameras that were knocked. Of a rig that is approached only those are used.
-  void useAtOnce(const geometry::Rig& rig,
-                 const geometry::Rig& before,
-                 const continuous::Proposal& proposal,
-                 const Lock& lock) {
-    const geometry::Rig used =
-        approach_
-            ? continuous::appliedRig(approach_->changeGoal(rig, proposal.cameras, before), before)
-            : rig;
-    in_use_ = changes_.back().id = idWithoutMasks(used);
-    context_.setRig(used, proposal.message, lock);
+                      (rig ? "" : " once it is reached")};
   }
 
   /// Writes a rig beside the rig file. @returns where, or why not.
@@ -240,19 +207,15 @@ class ContinuousServices {
 
   Reply revert(Lock& lock) {
     requireCalibrated(lock);
-    const geometry::Rig& in_use = context_.existingRig("to change", lock);
-    if (changes_.empty() || idWithoutMasks(in_use) != changes_.back().id)
+    const auto before = changes_.revert(context_.existingRig("to change", lock));
+    if (!before)
       throw Refusal(
           "the rig in use is not one that continuous calibration has made: load the one that "
           "you want");
-    const geometry::Rig before = continuous::withMasksOf(in_use, changes_.back().before);
-    changes_.pop_back();
-    approach_.reset();  // Perhaps before its first step.
-    reverted_to_ = idWithoutMasks(before);
-    const std::string message = "rig " + before.id() +
+    const std::string message = "rig " + before->id() +
                                 " from before the last change is in use again; until there is "
                                 "another one, changes are only proposed";
-    context_.setRig(before, message, lock);
+    context_.setRig(*before, message, lock);
     return {true, message};
   }
 
@@ -265,16 +228,13 @@ class ContinuousServices {
   NodeContext& context_;
   ContinuousPolicy policy_;
   continuous::Options options_;
-  std::optional<InputQueue> inputs_;              // Nothing when the policy is off.
-  std::string in_use_;                            // idInUse() at the last update.
-  std::optional<continuous::Approach> approach_;  // From the rig in use to another.
-  std::string watched_;                           // idWithoutMasks() of the rig that is watched.
+  std::optional<InputQueue> inputs_;  // Nothing when the policy is off.
+  continuous::RigChanges changes_;
+  std::string watched_;                                          // idToWatch() of the last update.
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
   std::vector<std::string> new_clocks_;                          // Of the rig that is watched.
   std::optional<continuous::Proposal> proposal_;                 // The same.
   std::string contradiction_;                                    // That was logged.
-  std::vector<Change> changes_;
-  std::string reverted_to_;  // idWithoutMasks() of a rig that is not changed without being asked.
   std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
 };

@@ -3,6 +3,7 @@
 #include "capture/image_order.h"
 #include "capture/masks.h"
 #include "continuous/continuous_calibration.h"
+#include "continuous/rig_changes.h"
 #include "ros/camera_inputs.h"
 
 #include <rosbag/bag.h>

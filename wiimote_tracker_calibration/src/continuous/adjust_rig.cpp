@@ -274,9 +274,13 @@ class Adjustment {
 
 }  // namespace
 
+double driftUntil(double time, const geometry::Rig& rig) {
+  return std::min(kLeastTurn + kTurnRate * std::abs(time - rig.solved_at), kMostTurn);
+}
+
 geometry::Rig withDrift(geometry::Rig rig, double time) {
-  const double age = std::abs(time - rig.solved_at);
-  return withTurns(std::move(rig), std::min(kLeastTurn + kTurnRate * age, kMostTurn));
+  const double turn = driftUntil(time, rig);
+  return withTurns(std::move(rig), turn);
 }
 
 bool isWithinDrift(const geometry::Rig& rig, const geometry::Rig& adjusted) {

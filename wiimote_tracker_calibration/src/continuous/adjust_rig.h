@@ -13,6 +13,9 @@
 
 namespace wiimote_tracker::continuous {
 
+/// How far cameras turn by drift from solved_at to a time [s], standard deviation per axis [rad].
+double driftUntil(double time, const geometry::Rig& rig);
+
 /// The rig with its covariance widened by what cameras may have done from solved_at to a time [s].
 geometry::Rig withDrift(geometry::Rig rig, double time);
 

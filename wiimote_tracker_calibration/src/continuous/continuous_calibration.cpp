@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -22,6 +23,8 @@ constexpr double kDegrees = 180.0 / M_PI;  // in one radian
 // not applied is forgotten: the higher this is, the more of the world is lost with each knock. The
 // lower, the more errors of lenses look like drift.
 constexpr double kGain = 0.05;
+// A camera was knocked if it turned by so many standard deviations of its drift.
+constexpr double kKnocked = 10.0;
 // The clock of a camera that did not reconnect has changed if its time offset did by more [s].
 constexpr double kOtherOffset = 0.001;
 
@@ -54,6 +57,21 @@ double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b) {
   return Eigen::AngleAxisd(a.camera.world_from_camera.linear().transpose() *
                            b.camera.world_from_camera.linear())
       .angle();
+}
+
+/// The one camera that turned by more than a limit [rad], and twice as far as any other.
+std::optional<std::size_t> turnedAlone(const geometry::Rig& before,
+                                       const geometry::Rig& now,
+                                       double limit) {
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < now.cameras.size(); ++i)
+    turns.push_back(turnOf(before.cameras[i], now.cameras[i]));
+  const auto most = std::max_element(turns.begin(), turns.end());
+  const bool is_alone = std::count_if(turns.begin(), turns.end(),
+                                      [&](double turn) { return 2.0 * turn > *most; }) == 1;
+  if (!is_alone || *most < limit)
+    return std::nullopt;
+  return static_cast<std::size_t>(most - turns.begin());
 }
 
 /// Whether no camera has reconnected since the rig was solved.
@@ -161,6 +179,10 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
     if (!proposal && !newClocks().empty())
       proposal = adjustedWithoutKnocked(motion_.images());
     has_drifted_ = proposal.has_value();
+    if (proposal && proposal->cause == Cause::kDrift) {
+      if (auto knock = knockFoundBy(*proposal, motion_.images()))
+        proposal = std::move(knock);
+    }
   }
   return proposal;
 }
@@ -192,6 +214,20 @@ std::optional<Proposal> ContinuousCalibration::solvedAgainstOthers(const Evidenc
     names.push_back(rig_.cameras[camera].camera.name);
   return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, names, rig_,
                     solved->rig, solved->message, evidence.images.to_check);
+}
+
+std::optional<Proposal> ContinuousCalibration::knockFoundBy(const Proposal& drift,
+                                                            const MotionImages& images) {
+  const double limit = kKnocked * driftUntil(images.to_check.back().stamp, rig_);
+  const auto camera = turnedAlone(rig_, drift.rig, limit);
+  if (!camera)
+    return std::nullopt;
+  Evidence evidence;
+  evidence.camera = camera;
+  evidence.has_turned = true;
+  evidence.images = images;
+  evidence.gravity.resize(rig_.cameras.size());
+  return solvedAgainstOthers(evidence);
 }
 
 std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImages& images) const {

@@ -59,7 +59,7 @@ class ContinuousCalibration {
 
   /// Whether the latest images still speak for a proposal.
   bool isCurrent(const Proposal& proposal) const {
-    return knock_.areSuspect(proposal.cameras) || (proposal.cause != Cause::kKnock && has_drifted_);
+    return knock_.areSuspect(proposal.cameras) || has_drifted_;
   }
 
   /// Names of the cameras whose time offset is unknown, since they reconnected. While there are
@@ -76,6 +76,9 @@ class ContinuousCalibration {
  private:
   /// One or two cameras solved against the others.
   std::optional<Proposal> solvedAgainstOthers(const Evidence& evidence);
+  /// The camera solved against the others that alone has turned farther than cameras drift, if
+  /// there is one. A roll is found so: it leaves the median of the residuals where it was.
+  std::optional<Proposal> knockFoundBy(const Proposal& drift, const MotionImages& images);
   /// All cameras adjusted together.
   std::optional<Proposal> adjustedTogether(const MotionImages& images) const;
   /// All cameras adjusted together but the one that contradicts the others. So these get their new

@@ -120,7 +120,8 @@ std::optional<SolvedCameras> solveAgainstOthers(const geometry::Rig& rig,
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const std::size_t camera = cameras[i];
     before.push_back(driftsOf(rig, without(rig, othersOf(camera, cameras), check))[camera]);
-    const bool was_off = evidence.new_clock || (before[i] && before[i]->ratio >= 1.0);
+    const bool was_off =
+        evidence.new_clock || evidence.has_turned || (before[i] && before[i]->ratio >= 1.0);
     if (results[i].moved > kFarthest || !was_off || !after[camera])
       return std::nullopt;
   }

@@ -28,7 +28,7 @@ struct SolvedCameras {
 };
 
 /// Solves each of these cameras against those that are not named, which hold the world. All must
-/// have contradicted these, and later images must fit all cameras.
+/// have contradicted these, unless they reconnected or turned; later images must fit all cameras.
 /// @returns nothing when more motion is needed, or what a camera sees is another light.
 std::optional<SolvedCameras> solveAgainstOthers(const geometry::Rig& rig,
                                                 const Cameras& cameras,

@@ -29,6 +29,7 @@ struct SuspectOptions {
 struct Evidence {
   std::optional<std::size_t> camera;  ///< As the rig counts them; nothing: several are off.
   bool new_clock = false;             ///< Its time offset is unknown since it reconnected.
+  bool has_turned = false;            ///< Farther than it drifts, perhaps about its optical axis.
   MotionImages images;
   /// Of each camera of the rig at rest, optical frame [m/s^2].
   std::vector<std::optional<Eigen::Vector3d>> gravity;

@@ -85,6 +85,17 @@ TEST_F(RigChangesTest, ApproachesARigUntilItIsReached) {
   EXPECT_EQ(changes_.goal(*rig_).id(), rig_->id());
 }
 
+TEST_F(RigChangesTest, UsesAClockAtOnce) {
+  Proposal proposal = drifted();
+  EXPECT_FALSE(changes_.apply(proposal, *rig_));
+  use(changes_.step(*rig_, 0.0));
+  proposal.rig = *rig_;
+  proposal.rig.cameras[0].time_offset += 0.003;
+  use(changes_.apply(proposal, *rig_));
+  EXPECT_EQ(rig_->id(), proposal.rig.id());
+  EXPECT_FALSE(changes_.isApproaching());
+}
+
 TEST_F(RigChangesTest, GoesBackFromTheMiddleOfAnApproach) {
   const std::string first = rig_->id();
   EXPECT_FALSE(changes_.apply(drifted(), *rig_));

@@ -51,10 +51,12 @@ std::optional<geometry::Rig> RigChanges::apply(const Proposal& proposal,
   if (changes_.size() > kMostChanges)
     changes_.erase(changes_.begin());
   const geometry::Rig rig = appliedRig(proposal.rig, in_use);
-  if (!proposal.places.empty()) {
+  if (movementOf(in_use, rig, proposal.places) > Approach::kLongestStep) {
     approach_.emplace(rig, proposal.places);
     return std::nullopt;
   }
+  if (!proposal.places.empty())
+    approach_.reset();  // The way to this rig is a single step.
   if (!approach_)
     return useChanged(rig);
   // On the way to another rig, only the cameras that were knocked change at once.

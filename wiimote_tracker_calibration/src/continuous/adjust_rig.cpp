@@ -7,6 +7,7 @@
 #include "adjust/moving_pixel.h"
 #include "continuous/keyframes.h"
 
+#include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
@@ -111,9 +112,7 @@ geometry::Rig priorOf(const geometry::Rig& rig, const KeyframeSource& source, do
   return prior;
 }
 
-/// Shifts all time offsets so that those that were known have not changed, in the median. Of an
-/// even number that is the mean of the middle two: the upper one would set all clocks back, a
-/// little with each change.
+/// Shifts all time offsets so that those that were known have not changed, in the median.
 void keepTime(const geometry::Rig& before, const KeyframeSource& source, geometry::Rig* adjusted) {
   std::vector<double> changes;
   for (std::size_t i = 0; i < before.cameras.size(); ++i) {
@@ -124,8 +123,7 @@ void keepTime(const geometry::Rig& before, const KeyframeSource& source, geometr
   }
   if (changes.empty())
     return;
-  std::sort(changes.begin(), changes.end());
-  const double change = 0.5 * (changes[(changes.size() - 1) / 2] + changes[changes.size() / 2]);
+  const double change = medianOf(&changes);
   for (std::size_t i = 0; i < before.cameras.size(); ++i) {
     if (source.epoch(i))
       adjusted->cameras[i].time_offset -= change;

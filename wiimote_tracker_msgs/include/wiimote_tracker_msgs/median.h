@@ -7,11 +7,13 @@
 
 namespace wiimote_tracker {
 
-/// The median, of an even count the upper one. @param values not empty; they are reordered
+/// Of an even number of values the mean of the middle two. @param values not empty; reordered
 inline double medianOf(std::vector<double>* values) {
   const auto middle = values->begin() + static_cast<std::ptrdiff_t>(values->size() / 2);
   std::nth_element(values->begin(), middle, values->end());
-  return *middle;
+  if (values->size() % 2 == 1)
+    return *middle;
+  return 0.5 * (*std::max_element(values->begin(), middle) + *middle);
 }
 
 }  // namespace wiimote_tracker

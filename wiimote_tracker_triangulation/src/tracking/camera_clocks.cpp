@@ -1,5 +1,7 @@
 #include "camera_clocks.h"
 
+#include <wiimote_tracker_msgs/median.h>
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -19,14 +21,6 @@ constexpr double kSpots = 250.0;  // of a camera between two updates: 2.5 s of o
 
 double squared(double x) {
   return x * x;
-}
-
-/// Of an even number the mean of the middle two; 0 of none. @param values they are sorted here
-double medianOf(std::vector<double>* values) {
-  if (values->empty())
-    return 0.0;
-  std::sort(values->begin(), values->end());
-  return 0.5 * ((*values)[(values->size() - 1) / 2] + (*values)[values->size() / 2]);
 }
 
 }  // namespace
@@ -82,8 +76,9 @@ ClockRegression::Estimate CameraClocks::commonRemainder() {
     offsets_.push_back(remainders_[i]->offset);
     variances += remainders_[i]->variance + remainders_[i]->bias;
   }
-  const auto count = static_cast<double>(offsets_.size());
-  return {medianOf(&offsets_), count > 0.0 ? variances / squared(count) : 0.0};
+  if (offsets_.empty())
+    return {0.0, 0.0};
+  return {medianOf(&offsets_), variances / squared(static_cast<double>(offsets_.size()))};
 }
 
 void CameraClocks::update(const std::vector<CameraFit>& fits,

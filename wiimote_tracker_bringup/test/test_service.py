@@ -24,6 +24,8 @@ def test_systemd_understands_the_unit(tmp_path):
     shutil.copy(UNIT, instance)
     done = subprocess.run(['systemd-analyze', 'verify', str(instance)], stdout=subprocess.PIPE,
                           stderr=subprocess.STDOUT, text=True)
+    if 'Failed to initialize manager' in done.stdout:
+        pytest.skip('this systemd checks no unit here, as in a chroot of Debian 11')
     said = [line for line in done.stdout.splitlines() if 'wiimote-tracker' in line]
     assert (done.returncode, said) == (0, [])
 

@@ -7,19 +7,19 @@ import pytest
 
 TOP = pathlib.Path(__file__).resolve().parents[2]
 DOCUMENTS = sorted(TOP.glob('*.md')) + sorted(TOP.glob('wiimote_tracker_*/**/*.md'))
-LINK = re.compile(r'\[[^]]*\]\(([^)\s]*)\)')
+LINK = re.compile(r'\[([^]]*)\]\(([^)\s]*)\)')  # text, target
 
 
 def anchors_of(document):
     """As GitHub makes them of the headings."""
     headings = re.findall(r'^#+ (.*)$', document.read_text(encoding='utf-8'), re.MULTILINE)
-    return [re.sub(r'[^\w\- ]', '', LINK.sub(r'', heading)).lower().replace(' ', '-')
+    return [re.sub(r'[^\w\- ]', '', LINK.sub(r'\1', heading)).lower().replace(' ', '-')
             for heading in headings]
 
 
 @pytest.mark.parametrize('document', DOCUMENTS, ids=lambda path: str(path.relative_to(TOP)))
 def test_links_lead_somewhere(document):
-    links = [link for link in LINK.findall(document.read_text(encoding='utf-8'))
+    links = [link for _, link in LINK.findall(document.read_text(encoding='utf-8'))
              if not link.startswith(('http:', 'https:', 'mailto:'))]
     for link in links:
         path, _, anchor = link.partition('#')

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <system_error>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -49,7 +50,8 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
       parameters_(GestureParameters::read(ParameterReader(private_nh))),
       guard_(parameters_.file),
       recognizer_(parameters_.recognizer) {
-  if (std::filesystem::exists(parameters_.file)) {
+  std::error_code unknown;  // whether it exists; reading it says why
+  if (std::filesystem::exists(parameters_.file, unknown) || unknown) {
     for (const gesture::Example& example : gesture::readExamples(parameters_.file))
       recognizer_.add(example);
     ROS_INFO("%zu examples of gestures from %s.", recognizer_.examples().size(),

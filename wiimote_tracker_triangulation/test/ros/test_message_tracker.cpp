@@ -50,6 +50,15 @@ TEST_P(InBothModes, SeveralLedsHaveTheirLabelsAndPlaces) {
   EXPECT_EQ(1u, studio.heard.arrays.back()->late_frames);
 }
 
+TEST_P(InBothModes, ARangeThatExcludesTheRoomIsReported) {
+  TrackingParameters parameters = parametersOf(GetParam());
+  parameters.estimator.tracks.maximum_range = parameters.estimator.instant.maximum_range = 0.2;
+  Studio studio(parameters);
+  EXPECT_EQ(1, studio.heard.problemsWith("/maximum_range, 0.2 m, so no LED is tracked"));
+  studio.film(1.0, {onCircle});
+  EXPECT_TRUE(studio.heard.arrays.back()->points.empty());
+}
+
 TEST_P(InBothModes, ALostLedIsReportedOnceAndItsLabelReused) {
   Studio studio(parametersOf(GetParam()));
   studio.film(0.5, {onCircle});

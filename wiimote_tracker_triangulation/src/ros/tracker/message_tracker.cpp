@@ -105,8 +105,10 @@ MessageTracker::RigChange MessageTracker::takeRig(
     useCameras(rig);
     reported_faults_.useRig(rig_, rig, *estimator_);
     statistics_.setRig(rig);
-    const std::string sentence = rig.describeFarCamera();
-    if (!std::exchange(far_reported_, !sentence.empty()) && far_reported_)
+    std::string sentence = rig.describeFarCamera();
+    if (sentence.empty())
+      sentence = describeRange(rig, parameters_.estimator);
+    if (!std::exchange(alone_reported_, !sentence.empty()) && alone_reported_)
       sink_->onProblem(sentence);
   }
   rig_ = rig;

@@ -146,7 +146,7 @@ class MessageTracker {
   std::set<std::string> without_samples_;
   double tilt_ = 0.0;  // of the world's z axis [rad]
   bool tilt_reported_ = false;
-  bool far_reported_ = false;  // a camera far from the others
+  bool alone_reported_ = false;  // a camera that can see no LED with another
   VolumeCorrection correction_;
   std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
   identity::SnapshotSightings sightings_;

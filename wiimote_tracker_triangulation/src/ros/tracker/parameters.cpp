@@ -1,5 +1,6 @@
 #include "parameters.h"
 
+#include "association/shared_views.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
@@ -201,6 +202,23 @@ std::string describeIdentity(const TrackingParameters& parameters) {
       "tracks/prediction_time %g s and tracks/detection_probability %g",
       codes.codes.size(), codes.longestDark(), tracks.prediction_time,
       tracks.detection_probability);
+}
+
+std::string describeRange(const geometry::Rig& rig, const estimators::EstimatorOptions& options) {
+  const bool tracks = options.mode == estimators::Mode::kTracks;
+  const double range = tracks ? options.tracks.maximum_range : options.instant.maximum_range;
+  if (range >= geometry::kFarthestLed)
+    return "";
+  const auto shared = association::sharedViews(rig, range);
+  const auto visible = association::sharedViews(rig, geometry::kFarthestLed);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    if (shared[i].empty() && !visible[i].empty())
+      return format(
+          "the view of %s meets that of no other camera within %s/maximum_range, %g m, so no LED "
+          "is tracked with it: set that parameter higher",
+          rig.cameras[i].camera.name.c_str(), tracks ? "tracks" : "instant", range);
+  }
+  return "";
 }
 
 TrackingParameters TrackingParameters::read(ParameterReader* reader) {

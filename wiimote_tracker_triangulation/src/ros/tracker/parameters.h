@@ -64,6 +64,9 @@ struct TrackingParameters {
 /// With blink codes: the tracker's parameters that they change, in a sentence; else empty.
 std::string describeIdentity(const TrackingParameters& parameters);
 
+/// Names a camera that maximum_range excludes from tracking: what to do; else empty.
+std::string describeRange(const geometry::Rig& rig, const estimators::EstimatorOptions& options);
+
 /// "track", or the triangulation method.
 std::string methodWord(const estimators::EstimatorOptions& options);
 

@@ -277,5 +277,11 @@ TEST_F(Recording, DeletedFileIsNoticed) {
   EXPECT_TRUE(eventually([&] { return contains(recorder.error(), "deleted"); }));
 }
 
+TEST_F(Recording, FinishTellsThatTheLastWriteFailed) {
+  Recorder recorder(path_, 0.0, 0.0);
+  ::unlink(path_.c_str());
+  EXPECT_TRUE(contains(recorder.finish(), "deleted"));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::recording

@@ -59,13 +59,15 @@ Recorder::Recorder(const std::string& path, double now, double wall_time)
   thread_ = std::thread([this] { run(); });
 }
 
-Recorder::~Recorder() {
+std::string Recorder::finish() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     stop_ = true;
   }
   wake_.notify_one();
-  thread_.join();
+  if (thread_.joinable())
+    thread_.join();
+  return error();
 }
 
 std::string Recorder::error() const {

@@ -26,8 +26,8 @@ class Recorder {
   /// Creates the file. If "name.wiirec" exists, the new file is "name_2.wiirec" and so on.
   /// `wall_time` [s since 1970] corresponds to `now`. @throws BadRecording if it cannot be created.
   Recorder(const std::string& path, double now, double wall_time);
-  /// Writes the rest.
-  ~Recorder();
+  /// As finish().
+  ~Recorder() { finish(); }
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
@@ -50,6 +50,9 @@ class Recorder {
 
   /// Why the recording ended early, one sentence; empty while it is written.
   std::string error() const;
+
+  /// Writes the rest. Nothing can be added any more. @returns error()
+  std::string finish();
 
  private:
   void add(Record record);

@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <limits>
 #include <utility>
@@ -135,6 +136,11 @@ Driver::~Driver() {
   diagnostics_timer_.stop();
   stop_ = true;
   reader_.join();
+  if (!recorder_)
+    return;
+  const std::string error = recorder_->finish();
+  if (error != recording_error_)  // at the end of a node ROS logs nothing any more
+    std::fprintf(stderr, "%s: %s\n", parameters_.camera_name.c_str(), error.c_str());
 }
 
 void Driver::run() {

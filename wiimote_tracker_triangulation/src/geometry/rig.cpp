@@ -91,9 +91,11 @@ std::vector<Camera> Rig::rayCameras() const {
 }
 
 std::vector<std::string> Rig::frames() const {
-  std::vector<std::string> frames{world_frame};
-  for (const RigCamera& camera : cameras)
+  std::vector<std::string> frames{world_frame, world_frame + "_square"};
+  for (const RigCamera& camera : cameras) {
     frames.push_back(opticalFrame(camera.camera.name));
+    frames.push_back(withoutSlashes(camera.camera.name) + "_imu_frame");
+  }
   return frames;
 }
 

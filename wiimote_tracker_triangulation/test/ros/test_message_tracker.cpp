@@ -161,17 +161,14 @@ TEST_P(InBothModes, ABadRigIsRefusedAndTheOneBeforeStays) {
   bad.cameras[1].fx = -1.0;
   EXPECT_THROW(studio.tracker.takeRig(bad), geometry::Error);
   // A transform from a frame to itself would break TF for all nodes.
-  for (const std::string& frame : {std::string("led"), std::string("camera_9_optical_frame")}) {
+  RigCalibration other = toMessage(studio.rig);
+  other.header.frame_id = "lab";
+  other.cameras[1].name = "camera_9";
+  EXPECT_NO_THROW(Studio(parametersOf(GetParam())).tracker.takeRig(other));
+  for (const char* frame : {"lab", "lab_square", "camera_9_optical_frame", "camera_9_imu_frame"}) {
     TrackingParameters parameters = parametersOf(GetParam());
-    parameters.labels = {"led", "camera_9_optical_frame"};
-    Heard heard;
-    MessageTracker tracker(parameters, &heard);
-    RigCalibration conflict = toMessage(studio.rig);
-    if (frame == "led")
-      conflict.header.frame_id = frame;
-    else
-      conflict.cameras[1].name = "camera_9";
-    EXPECT_THROW(tracker.takeRig(conflict), geometry::Error) << frame;
+    parameters.labels = {"led", frame};
+    EXPECT_THROW(Studio(parameters).tracker.takeRig(other), geometry::Error) << frame;
   }
   for (const std::string& frame : studio.rig.frames()) {
     Heard heard;

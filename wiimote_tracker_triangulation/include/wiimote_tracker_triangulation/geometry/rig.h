@@ -98,7 +98,8 @@ struct Rig {
   /// Nothing when there is no camera of that name.
   const RigCamera* find(const std::string& name) const;
 
-  /// Names of its frames in TF: world_frame, then the cameras' optical frames.
+  /// Names of its frames in TF: world_frame, that of the calibration square, then those of the
+  /// cameras and of their accelerometers.
   std::vector<std::string> frames() const;
 
   /// Names a camera too far from all others to see an LED with one of them, as where millimetres

@@ -64,6 +64,9 @@ void simulate(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
   const auto directory = parameters.optional<std::string>(
       "socket_directory",
       std::string("/tmp/wiimote_tracker_simulation_") + (user != nullptr ? user : ""));
+  if (directory.empty())
+    throw wiimote_tracker::ParameterError(parameters.nameOf("socket_directory") +
+                                          " is empty: name a folder for the sockets");
   parameters.refuseUnknown();
   const auto description = wiimote_tracker::simulation::readDescription(path);
 

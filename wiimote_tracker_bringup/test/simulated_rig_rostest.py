@@ -83,12 +83,14 @@ class SimulatedRig(NodeTest):
     def test_a_folder_that_cannot_be_made_is_told_at_once(self):
         """It is not waited for, as for the end of another simulation (20 s)."""
         node = roslib.packages.find_node('wiimote_tracker_bringup', 'simulated_rig')[0]
-        ended = subprocess.run(
-            [node, '__name:=homeless', '_description:=' + self.path,
-             '_socket_directory:=/nowhere/sockets'],
-            stderr=subprocess.PIPE, timeout=15.0, universal_newlines=True)
-        self.assertEqual(ended.returncode, 1)
-        self.assertIn("cannot listen at '/nowhere/sockets/", ended.stderr)
+        for folder, problem in (('/nowhere/sockets', "cannot listen at '/nowhere/sockets/"),
+                                ('', '/homeless/socket_directory is empty: name a folder')):
+            ended = subprocess.run(
+                [node, '__name:=homeless', '_description:=' + self.path,
+                 '_socket_directory:=' + folder],
+                stderr=subprocess.PIPE, timeout=15.0, universal_newlines=True)
+            self.assertEqual(ended.returncode, 1)
+            self.assertIn(problem, ended.stderr)
 
     def test_accelerometer_measures_gravity_as_mounted(self):
         names = [camera.name for camera in self.scene.cameras]

@@ -208,6 +208,12 @@ def test_a_recording_may_be_of_the_newest_gigabytes(load, given, split):
             if word.startswith(('--duration', '--size', '--max-splits'))] == split
 
 
+@pytest.mark.parametrize('gigabytes', ['-1', 'nan'])
+def test_less_than_no_gigabytes_are_refused(load, gigabytes):
+    with pytest.raises(roslaunch.core.RLException, match='gigabytes must be 0 or more'):
+        load('record.launch', 'gigabytes:=' + gigabytes)
+
+
 def test_rviz_beside_a_service_has_the_coverage(load):
     started = load('rviz.launch')[0]
     assert set(started) == {'coverage', 'rviz'}

@@ -1,6 +1,8 @@
 """Misspelt arguments of roslaunch, which says nothing of them."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 from wiimote_tracker_bringup import launcher
@@ -25,3 +27,21 @@ OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
     (OURS + ['mine.launch', 'cemeras:=4'], []), ([], [])])
 def test_arguments_that_nobody_takes_are_told(words, said):
     assert list(launcher.without_effect(words)) == said
+
+
+@pytest.mark.parametrize('file, given, meant', [
+    ('mavros_vision', 'massage', 'message'), ('plan', 'plain', 'plan'),
+    ('record', 'outptu', 'output'), ('replay', 'rat', 'rate'),
+    ('robot_localization', 'odometri', 'odometry')])
+def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, meant):
+    folder = os.path.dirname(TRACKER)
+    with open(os.path.join(folder, file + '.launch'), encoding='utf-8') as text:
+        assert 'type="check_arguments"' in text.read()
+    stand_in = tmp_path / 'roslaunch'
+    stand_in.write_text('import subprocess, sys; subprocess.call([sys.executable, sys.argv[1]])')
+    done = subprocess.run(
+        [sys.executable, str(stand_in), os.path.join(folder, 'check_arguments'),
+         'wiimote_tracker_bringup', file + '.launch', given + ':=1'],
+        capture_output=True, text=True, timeout=60)
+    assert done.stderr == (f'[WARN] {file}.launch has no argument {given}, so {given}:= has no '
+                           f'effect: write {meant}:=.\n')

@@ -132,7 +132,8 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
                    "no images: check its driver, and the network if that runs on another computer");
   for (const std::string& problem :
        {statistics.problem, describeLights(statistics, cameras_[camera]),
-        lenses_.problemOf(cameras_[camera]), clockProblem(camera)}) {
+        lenses_.problemOf(cameras_[camera]), clockProblem(camera),
+        reported_.describeClock(camera, cameras_[camera])}) {
     if (!problem.empty())
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }

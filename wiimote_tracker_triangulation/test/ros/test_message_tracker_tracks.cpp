@@ -285,6 +285,37 @@ TEST(Bodies, ThatAreNoLongerWantedAreReportedLostOnce) {
   EXPECT_EQ(heard.size(), 1u);
 }
 
+/// Spots of bodies do not show it.
+TEST(Bodies, AskForALedThatShowsTheClockOfACameraThatHasReconnected) {
+  Studio studio(parametersOf(Mode::kTracks));
+  for (geometry::RigCamera& camera : studio.rig.cameras) {
+    camera.time_offset = 0.0;
+    camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  }
+  studio.tracker.takeRig(toMessage(studio.rig));
+  const body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};
+  studio.tracker.setBodies({wand});
+  studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
+    image->clock_epoch = camera == 2 ? 1 : 0;
+  };
+  Paths leds;
+  for (const Vector3d& led : wand.leds)
+    leds.push_back([led](double) { return led; });
+  const auto asked = [&](std::size_t camera) {
+    return studio.tracker.statistics().describeClock(camera, "cam");
+  };
+  EXPECT_EQ(asked(2), "") << "no image";
+  studio.film(5.0, leds);
+  EXPECT_EQ(
+      asked(2),
+      "cam has a new clock since it was calibrated, known to +- 5 ms only: move one LED alone "
+      "for 10 s where it and two other cameras see it");
+  EXPECT_EQ(asked(0), "");
+  leds.emplace_back(onCircle);
+  studio.film(10.0, leds);
+  EXPECT_EQ(asked(2), "");
+}
+
 /// Free LEDs show the offset of a camera that has reconnected; the body is in no view.
 TEST(Bodies, AreAtTheTimesThatMotionHasCorrected) {
   constexpr double kLate = 0.002;  // stamps of camera 2, which exposes at 6 ms of each period [s]

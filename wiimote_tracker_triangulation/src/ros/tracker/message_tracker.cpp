@@ -147,7 +147,9 @@ void MessageTracker::takeImage(const std::string& camera,
     return;
   statistics_.addImage(index, image_, message.frame);
 
-  bodies_.take(index, estimator_->clockError(index, image_.clock_epoch), &image_);
+  const tracking::ClockError clock = estimator_->clockError(index, image_.clock_epoch);
+  statistics_.setClock(index, clock);
+  bodies_.take(index, clock, &image_);
   publishBodies();
   if (clocksOutputs(index, image_.arrival))
     publishTicksUntil(image_.arrival);

@@ -58,6 +58,18 @@ std::string Statistics::describe() const {
   return sees_any ? "no LED is tracked" : "no LED is seen";
 }
 
+std::string Statistics::describeClock(std::size_t camera, const std::string& name) const {
+  constexpr double kLarge = 0.002;    // [s]
+  constexpr std::size_t kFewest = 3;  // cameras that show an error of a clock
+  const double stddev = cameras_[camera].clock_stddev;
+  if (bodies_ == 0 || !(stddev > kLarge) || cameras_.size() < kFewest)
+    return "";
+  return format(
+      "%s has a new clock since it was calibrated, known to +- %.0f ms only: move one LED alone "
+      "for 10 s where it and two other cameras see it",
+      name.c_str(), 1e3 * stddev);
+}
+
 void Statistics::clear() {
   cameras_.assign(for_rays_.size(), CameraStatistics());
   snapshots_ = 0;
@@ -73,6 +85,10 @@ void Statistics::addImage(std::size_t camera,
   last = frame;
   ++cameras_[camera].images;
   cameras_[camera].delay_sum += image.arrival - image.stamp;
+}
+
+void Statistics::setClock(std::size_t camera, const tracking::ClockError& error) {
+  cameras_[camera].clock_stddev = std::sqrt(error.variance);
 }
 
 void Statistics::addProblem(std::size_t camera, const std::string& problem) {

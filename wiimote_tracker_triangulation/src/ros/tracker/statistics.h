@@ -3,6 +3,7 @@
 
 #include "image_message.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <array>
@@ -17,14 +18,15 @@ namespace wiimote_tracker {
 /// What one camera contributed since the last clear(). Quotients are NaN where nothing was counted.
 struct CameraStatistics {
   std::size_t images = 0;
-  std::uint64_t lost = 0;    ///< Images that the camera counted but that never came.
-  std::size_t views = 0;     ///< Images whose spots are counted.
-  std::size_t spots = 0;     ///< In these, without masked ones.
-  std::size_t masked = 0;    ///< Spots.
-  std::size_t assigned = 0;  ///< Spots that belong to an LED.
-  double delay_sum = 0.0;    ///< From exposure to arrival [s].
-  double squares_sum = 0.0;  ///< Of the distances of assigned spots from their LEDs [px^2].
-  std::string problem;       ///< The last fault of an image in words; empty without one.
+  std::uint64_t lost = 0;     ///< Images that the camera counted but that never came.
+  std::size_t views = 0;      ///< Images whose spots are counted.
+  std::size_t spots = 0;      ///< In these, without masked ones.
+  std::size_t masked = 0;     ///< Spots.
+  std::size_t assigned = 0;   ///< Spots that belong to an LED.
+  double delay_sum = 0.0;     ///< From exposure to arrival [s].
+  double squares_sum = 0.0;   ///< Of the distances of assigned spots from their LEDs [px^2].
+  double clock_stddev = 0.0;  ///< Of its clock at its newest image [s].
+  std::string problem;        ///< The last fault of an image in words; empty without one.
 
   double inlierRatio() const;  ///< [0..1]
   double meanDelay() const;    ///< [s]
@@ -42,6 +44,7 @@ class Statistics {
 
   /// `frame`: the camera's count of its images, from IrBlobArray.
   void addImage(std::size_t camera, const tracking::CameraImage& image, std::uint64_t frame);
+  void setClock(std::size_t camera, const tracking::ClockError& error);
   void addProblem(std::size_t camera, const std::string& problem);
   void addSnapshot(const tracking::Snapshot& snapshot);
   void setBodies(std::size_t tracked) { bodies_ = tracked; }
@@ -56,6 +59,9 @@ class Statistics {
 
   /// What is tracked, or seen, in words.
   std::string describe() const;
+
+  /// How to make a camera's clock known, where only bodies move, which do not show it; else empty.
+  std::string describeClock(std::size_t camera, const std::string& name) const;
 
   /// Quantile of the latency [s], q in [0..1]; NaN without outputs.
   double latency(double q) const;

@@ -200,6 +200,24 @@ TEST(ExtensiveDriftWatch, NamesTheCameraThatWasTurned) {
   EXPECT_GE(alone, kTrials * 8 / 10);
 }
 
+TEST(ExtensiveDriftWatch, OfFourCamerasNamesTwoThatWereTurnedWithDoubt) {
+  Random random(99);
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
+  for (std::size_t trial = 0; trial < 12; ++trial) {
+    auto truth = drawTruth(rig, random);
+    for (const std::size_t moved : {trial % 4, (trial + 1 + trial / 4) % 4}) {
+      const Eigen::Vector3d axis(normal(random, 1.0), normal(random, 1.0), 0.0);
+      truth[moved] = turned(truth[moved], kDegree * axis.normalized());
+    }
+    WavedLed scene(truth, 800 + trial);
+    DriftWatch watch(rig, {});
+    scene.runUntil(62.0, [&](const capture::Image& image) { watch.add(image); });
+    EXPECT_GE(drifted(rig, watch).size(), 2u) << "trial " << trial;
+    for (const auto& drift : watch.drifts())
+      EXPECT_TRUE(!drift || drift->ratio < 1.0 || drift->or_others || !drift->or_camera.empty());
+  }
+}
+
 TEST(ExtensiveDriftWatch, TwoCamerasAreNamedBoth) {
   Random random(24);
   const geometry::Rig rig = paperRigWith(calibratedByWave(), 2);

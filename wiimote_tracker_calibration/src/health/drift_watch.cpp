@@ -170,9 +170,16 @@ std::vector<bool> DriftWatch::judgeAgainstOthers() {
       }
     }
     if (!culprit)
-      return active;
+      break;
     active[*culprit] = false;
   }
+  // Where several are removed, two that remain may agree by chance.
+  const auto rest = static_cast<std::size_t>(std::count(active.begin(), active.end(), true));
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (!active[i])
+      drifts_[i]->or_others = rest < 3 && rest + 1 < active.size();
+  }
+  return active;
 }
 
 /// Judges cameras that share their view with one other camera only.

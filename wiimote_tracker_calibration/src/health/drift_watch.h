@@ -41,6 +41,7 @@ struct Drift {
   double stddev = 0.0;    ///< Of the bias, from noise and from the calibration: root of trace [px].
   double ratio = 0.0;     ///< Of the bias to the tolerance; 1 or more: drifted [1].
   std::string or_camera;  ///< The other camera, if one of both drifted and it is unknown which.
+  bool or_others = false;  ///< Several drifted, perhaps not this one.
 };
 
 /// Watches the median of a rig's residuals while one LED is tracked. Images of several spots take

@@ -30,8 +30,11 @@ std::string driftText(const Drift& drift, bool advise) {
     return "drifted, or " + drift.or_camera + " did: their rays miss each other by " + size +
            " on average" +
            (advise ? "; see which of both was moved, put it back or recalibrate it" : "");
-  return "drifted: its images are " + size + " on average off what the other cameras see" +
-         (advise ? kAdvice : "");
+  const std::string off = "its images are " + size + " on average off what the other cameras see";
+  if (drift.or_others)
+    return "drifted, or others did: " + off +
+           (advise ? "; see which cameras were moved, put them back or recalibrate them" : "");
+  return "drifted: " + off + (advise ? kAdvice : "");
 }
 
 /// Whether what was found of a camera holds with another calibration of it, too.

@@ -2,6 +2,7 @@
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 #include <wiimote_tracker_msgs/run_node.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <sys/stat.h>
 #include <unistd.h>
@@ -72,8 +73,9 @@ void simulate(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh) {
 
   {
     const std::unique_ptr<SimulatedRig> rig = makeRig(nh, description, directory);
-    ROS_INFO_STREAM("Simulating " << description.cameras.size() << " virtual Wii Remotes in "
-                                  << directory);
+    ROS_INFO_STREAM(
+        "Simulating " << wiimote_tracker::counted(description.cameras.size(), "virtual Wii Remote")
+                      << " in " << directory);
     ros::AsyncSpinner spinner(1);
     spinner.start();
     rig->run();

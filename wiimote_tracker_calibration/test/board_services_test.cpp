@@ -193,7 +193,7 @@ TEST(Board, ViewsAreCapturedAutomatically) {
 
   const auto early = g_bench->solve(SolveBoard::Request::AUTOMATIC);
   EXPECT_FALSE(early.success);
-  EXPECT_SAYS(early.message, "1 views of the board, at least 12");
+  EXPECT_SAYS(early.message, "1 view of the board, at least 12");
   EXPECT_SAYS(g_bench->trigger("commit").message, "solve it first");
   EXPECT_TRUE(g_bench->trigger("undo").success);
   EXPECT_FALSE(g_bench->trigger("undo").success);

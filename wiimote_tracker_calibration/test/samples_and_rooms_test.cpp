@@ -317,13 +317,12 @@ TEST_F(Rooms, WithoutASharedCameraAreJoinedOverKnownPlaces) {
   // apart, and the cameras stand 5 m away.
   expectTruth(joined.rig, 0.005);
   EXPECT_SAYS(call<Trigger>("calibration/known_places/undo").message,
-              "4 places that were measured with another calibration were dropped");
+              "dropped 4 places measured with another calibration");
   // A join that lacks them says so, too.
   use(room({2, 3}, secondWorld()));
   ASSERT_TRUE(call<AddKnownPlace>("calibration/known_places/add").success);
   use(room({2, 3}, Eigen::Isometry3d::Identity()));
-  EXPECT_SAYS(join("first.yaml").message,
-              "1 places that were measured with another calibration were dropped");
+  EXPECT_SAYS(join("first.yaml").message, "dropped 1 place measured with another calibration");
 }
 
 }  // namespace

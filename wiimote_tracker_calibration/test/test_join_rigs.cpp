@@ -306,7 +306,7 @@ TEST_F(JoinRigs, PlacesThatTellTooLittleOrContradictAreRefused) {
   common[2].measured = worldFromSecond().inverse() * Eigen::Vector3d(5.0, 1.0, 8.0);
   EXPECT_SAYS(refusal(), "look at place 3");
   common.resize(2);
-  EXPECT_SAYS(refusal(), "2 common places do not determine");
+  EXPECT_SAYS(refusal(), "2 common places cannot determine");
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ TEST(WandOnFloor, ACameraThatSeesOneEndOnlyDoesNotCount) {
   hideFrom(2);
   EXPECT_NEAR(stood(scene, wave).cameras[3].center().z(), 2.0, 0.02);
   hideFrom(1);
-  EXPECT_SAYS(refusal(scene, wave), "only 1 cameras saw both LEDs of the wand");
+  EXPECT_SAYS(refusal(scene, wave), "only 1 camera saw both LEDs of the wand");
 }
 
 TEST(WandOnFloor, AWandThatMovesHasNotBeenLaidDown) {

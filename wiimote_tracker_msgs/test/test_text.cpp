@@ -20,6 +20,12 @@ TEST(UtcDate, IsOfThePatternAndEmptyWithoutADate) {
   EXPECT_EQ("", utcDate(9e18));
 }
 
+TEST(Counted, HasAPluralButForOne) {
+  EXPECT_EQ(counted(0, "LED"), "0 LEDs");
+  EXPECT_EQ(counted(1, "LED"), "1 LED");
+  EXPECT_EQ(counted(2, "LED"), "2 LEDs");
+}
+
 TEST(ValidUtf8, KeepsEveryCharacter) {
   for (const std::string text :
        {"", "a\n~", "\xC2\x80\xDF\xBF", "\xE0\xA0\x80\xED\x9F\xBF\xEE\x80\x80\xEF\xBF\xBF",

@@ -16,10 +16,6 @@ constexpr double kRateWindow = 2.0;  // [s]
 constexpr double kSmoothing = 0.2;   // share of a new image in the delay
 constexpr double kOtherClock = 5.0;  // a longer delay is a wrong clock or a recording [s]
 
-std::string plural(std::size_t count, const std::string& thing) {
-  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
-}
-
 }  // namespace
 
 void CameraView::onImage(const IrBlobArray& message, double delay, double now) {
@@ -66,11 +62,11 @@ std::string CameraView::words(double now, bool others_see) const {
         return "its stamps are not of now: a recording, or a clock that is wrong";
       return format("images come %.0f ms late", 1e3 * delay_);
     case CameraState::kNotCalibrated:
-      return "not calibrated, sees " + plural(visible().size(), "spot");
+      return "not calibrated, sees " + counted(visible().size(), "spot");
     case CameraState::kBlind:
       return format("sees no spot for %.0f s, others do", now - lit_at_);
     case CameraState::kFine:
-      return "fine, sees " + plural(visible().size(), "spot");
+      return "fine, sees " + counted(visible().size(), "spot");
   }
   return "unknown";
 }

@@ -2,6 +2,8 @@
 
 #include "capture/camera_monitor.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 
 namespace wiimote_tracker::capture {
@@ -61,8 +63,8 @@ LearnedMasks MaskLearner::learned(const Camera& camera) const {
   LearnedMasks result;
   if (camera.images < kFewestImages) {
     result.problem = camera.images == 0 ? kSendsNoImages
-                                        : "sent " + std::to_string(camera.images) +
-                                              " images only: look for a longer time";
+                                        : "sent " + counted(camera.images, "image") +
+                                              " only: look for a longer time";
     return result;
   }
   const double needed = std::max(options_.share * static_cast<double>(camera.images),

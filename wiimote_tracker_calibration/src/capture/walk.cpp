@@ -67,7 +67,7 @@ std::string Walk::sentence() const {
   } else if (pairs.size() > kMostPairs) {
     const std::size_t more = pairs.size() - kMostPairs;
     pairs.resize(kMostPairs);
-    pairs.push_back(std::to_string(more) + " other pairs");
+    pairs.push_back(counted(more, "other pair"));
   }
   return "share of the image in which the LED was seen: " + joined(shares) +
          (pairs.empty() ? "" : "; seen together: " + joined(pairs)) +

@@ -1,5 +1,7 @@
 #include "wiimote_tracker_calibration/import/number_table.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -15,10 +17,6 @@ std::ifstream open(const std::string& path) {
   if (!file || (file.peek(), file.bad()))
     throw ImportError(path + " is missing or cannot be read");
   return file;
-}
-
-std::string size(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
 }
 
 }  // namespace
@@ -46,18 +44,18 @@ NumberTable readNumberTable(const std::string& path, std::size_t rows, std::size
     if (row.empty())
       continue;
     if (!table.empty() && row.size() != table.front().size())
-      throw ImportError(in_line + " has " + size(row.size(), "column") + ", but the first has " +
+      throw ImportError(in_line + " has " + counted(row.size(), "column") + ", but the first has " +
                         std::to_string(table.front().size()));
     table.push_back(row);
   }
   if (table.empty())
     throw ImportError(path + " is empty");
   if (rows != 0 && table.size() != rows)
-    throw ImportError(path + " has " + size(table.size(), "row") + ", but must have " +
+    throw ImportError(path + " has " + counted(table.size(), "row") + ", but must have " +
                       std::to_string(rows));
   if (columns != 0 && table.front().size() != columns)
-    throw ImportError(path + " has " + size(table.front().size(), "column") + ", but must have " +
-                      std::to_string(columns));
+    throw ImportError(path + " has " + counted(table.front().size(), "column") +
+                      ", but must have " + std::to_string(columns));
   return table;
 }
 

@@ -171,8 +171,8 @@ std::string nameOf(LensModel model) {
 
 IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options) {
   if (samples.views.size() < static_cast<std::size_t>(options.minimum_views))
-    throw Error(format("%zu views of the board, at least %d are needed: show it from more sides",
-                       samples.views.size(), options.minimum_views));
+    throw Error(format("%s of the board, at least %d are needed: show it from more sides",
+                       counted(samples.views.size(), "view").c_str(), options.minimum_views));
   checkTravel(samples);
   const Points points(samples);
   IntrinsicsSolution solution;

@@ -4,6 +4,7 @@
 #include "view_geometry.h"
 
 #include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cmath>
@@ -87,14 +88,15 @@ void ViewCollector::undo() {
     samples_.views.pop_back();
     parameters_.pop_back();
   }
-  message_ = std::to_string(samples_.views.size()) + " views are left";
+  message_ = "views left: " + std::to_string(samples_.views.size());
 }
 
 Coverage ViewCollector::coverage() const {
   Coverage result;
   const int missing_views = minimum_views_ - static_cast<int>(samples_.views.size());
   if (missing_views > 0)
-    result.missing.push_back(std::to_string(missing_views) + " more views of the board");
+    result.missing.push_back(counted(static_cast<std::size_t>(missing_views), "more view") +
+                             " of the board");
   // A small board or one without tilt is not required.
   Parameters low(1.0, 1.0, 0.0, 0.0);
   Parameters high = Parameters::Zero();

@@ -44,8 +44,8 @@ void checkSpread(const std::vector<Eigen::Vector3d>& points, const std::string& 
 /// @throws Error when no model at all can be fitted to the points.
 void checkPoints(const std::vector<KnownPoint>& points) {
   if (points.size() < kFewest)
-    throw Error(std::to_string(points.size()) +
-                " known points are too few for any correction of the volume: measure at least "
+    throw Error("only " + counted(points.size(), "known point") +
+                ", too few for any correction of the volume: measure at least "
                 "6, better the 8 corners of the volume and some inside");
   if (points.size() > kMost)
     throw Error(std::to_string(points.size()) +

@@ -63,8 +63,8 @@ Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
 /// @throws Error: too few places, or all on one line.
 void checkPlaces(const std::vector<remap::KnownPoint>& places) {
   if (places.size() < 3)
-    throw Error(std::to_string(places.size()) +
-                " common places do not determine the pose between the rigs: measure three or "
+    throw Error(counted(places.size(), "common place") +
+                " cannot determine the pose between the rigs: measure three or "
                 "more, not on one line");
   std::vector<Eigen::Vector3d> points;
   points.reserve(places.size());

@@ -4,6 +4,7 @@
 
 #include "verdict_messages.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <algorithm>
@@ -148,9 +149,9 @@ const geometry::Rig& NodeContext::existingRig(const std::string& purpose, const 
 std::string NodeContext::dropPlacesOfOtherRigs(const Lock&) {
   const std::size_t dropped =
       known_places_.useRig(calibration_.rig() ? calibration_.rig()->id() : "");
-  return dropped == 0 ? ""
-                      : "; " + std::to_string(dropped) +
-                            " places that were measured with another calibration were dropped";
+  return dropped == 0
+             ? ""
+             : "; dropped " + counted(dropped, "place") + " measured with another calibration";
 }
 
 void NodeContext::requireSameRig(const std::string& id, const Lock&) const {

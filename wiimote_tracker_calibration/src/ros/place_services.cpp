@@ -152,8 +152,8 @@ class PlaceServices {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     remap::MeasuredPoints& places = context_.knownPlaces(lock);
     const bool success = places.undo();
-    return {success, (success ? "the latest place was dropped, " +
-                                    std::to_string(places.points().size()) + " are left"
+    return {success, (success ? "the latest place was dropped; left: " +
+                                    std::to_string(places.points().size())
                               : "there is no known place to drop") +
                          dropped};
   }

@@ -3,6 +3,7 @@
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/median.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <Eigen/SparseCholesky>
@@ -229,9 +230,9 @@ void keepLabels(std::vector<Instant>* instants) {
 void refuseFew(std::size_t places) {
   if (places < kLeastPlaces)
     throw WaveContradiction(
-        "the LED was found in " + std::to_string(places) +
-        " places only that two cameras agree on: check that it is bright and that "
-        "nobody moved a camera, and wave it where two cameras see it");
+        "the LED was found in only " + counted(places, "place") +
+        " that two cameras agree on: check that it is bright and that nobody moved a "
+        "camera, and wave it where two cameras see it");
 }
 
 /// Scales cameras and LEDs by the wand. Leaves out instants at which its length is another.

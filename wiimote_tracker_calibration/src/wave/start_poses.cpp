@@ -8,6 +8,8 @@
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -233,10 +235,9 @@ void moveOnSquare(const Recording& recording,
     to.push_back(nominal[c]);
   }
   if (from.size() < 3)
-    throw WaveError(
-        "only " + std::to_string(from.size()) +
-        " corners of the square were seen by two cameras that agree on them, but three tell "
-        "where the world is: capture the corners where two cameras see them");
+    throw WaveError("two cameras agree on only " + counted(from.size(), "corner") +
+                    " of the square, but three tell where the world is: capture the corners where "
+                    "two cameras see them");
   Eigen::Affine3d similarity = bundle::fitSimilarity(from, to);
   double side = 0.0;
   double error = 0.0;

@@ -206,8 +206,8 @@ FloorSpots takeFloor(Recording* recording) {
   }
   const auto seen = std::count_if(spots.begin(), spots.end(), [](const auto& s) { return !!s; });
   if (seen < 2)
-    throw WaveError("only " + std::to_string(seen) +
-                    " cameras saw both LEDs of the wand, and no other light, at rest for 2 s: lay "
+    throw WaveError("only " + counted(static_cast<std::size_t>(seen), "camera") +
+                    " saw both LEDs of the wand, and no other light, at rest for 2 s: lay "
                     "it on the floor where two cameras see both" +
                     kAgain);
   if (!has_gravity)

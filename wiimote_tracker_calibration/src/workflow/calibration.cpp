@@ -266,8 +266,8 @@ Reply Calibration::restore(const samples::Samples& samples) {
   updateStep();
   for (const wave::CameraRecording& camera : samples.recording.cameras)
     preparation_.lights_learned |= !camera.masks.empty();
-  return {true, "samples of " + std::to_string(captured_.cameras.size()) + " cameras with " +
-                    std::to_string(captured_.square.corners().size()) + " corners" +
+  return {true, "samples of " + counted(captured_.cameras.size(), "camera") + " with " +
+                    counted(captured_.square.corners().size(), "corner") +
                     (captured_.wave ? " and a wave" : "") + " are loaded: " +
                     (step_ == Step::kComplete ? "solve" : captured_.square.next())};
 }
@@ -281,8 +281,8 @@ Reply Calibration::load(const geometry::Rig& rig) {
   if (captured_.cameras.empty() || step_ == Step::kSolved)
     step_ = Step::kSaved;
   const std::string far_camera = rig.describeFarCamera();
-  return {true, "rig " + rig.id() + " with " + std::to_string(rig.cameras.size()) +
-                    " cameras is in use" + (far_camera.empty() ? "" : "; but " + far_camera)};
+  return {true, "rig " + rig.id() + " with " + counted(rig.cameras.size(), "camera") +
+                    " is in use" + (far_camera.empty() ? "" : "; but " + far_camera)};
 }
 
 void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {

@@ -109,6 +109,11 @@ inline bool isWord(const std::string& text) {
   });
 }
 
+/// "1 LED", "2 LEDs".
+inline std::string counted(std::size_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
+}
+
 /// The words of a list as "a, b, c".
 template <typename Words>
 std::string joined(const Words& words, const char* separator = ", ") {

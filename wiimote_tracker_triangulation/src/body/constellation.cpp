@@ -82,7 +82,7 @@ void Constellation::check() const {
                 "digits and underscores");
   const std::string who = "body '" + name + "'";
   if (leds.size() < 3 || leds.size() > kMaximumLeds)
-    throw Error(who + " has " + std::to_string(leds.size()) + " LEDs, but must have 3 to " +
+    throw Error(who + " has " + counted(leds.size(), "LED") + ", but must have 3 to " +
                 std::to_string(kMaximumLeds));
   double breadth = 0.0;  // greatest height of a triangle above its longest side [m]
   for (std::size_t i = 0; i < leds.size(); ++i) {

@@ -38,8 +38,8 @@ class Learning {
     for (const LedsInstant& instant : instants_)
       identify(instant);
     if (seen_.size() < kParts * kFewest)
-      throw Error("body '" + name_ + "' was seen in " + std::to_string(seen_.size()) +
-                  " instants only; hold it for longer where cameras see all of its LEDs");
+      throw Error("body '" + name_ + "' was seen in " + counted(seen_.size(), "instant") +
+                  " only; hold it for longer where cameras see all of its LEDs");
     for (int round = 0; round < kRounds; ++round)
       takeMean();
     LearnedConstellation learned;
@@ -67,9 +67,8 @@ class Learning {
     for (const auto& [count, instants] : instants_of_count)
       leds = instants >= enough ? count : leds;
     if (leds < 3 || leds > kMaximumLeds)
-      throw Error(std::to_string(leds) +
-                  " LEDs were seen at once, those of known bodies left out, but a body has 3 "
-                  "to " +
+      throw Error("the cameras saw " + counted(leds, "LED") +
+                  " at once, those of known bodies left out, but a body has 3 to " +
                   std::to_string(kMaximumLeds) +
                   "; bring all of them in view of two cameras, and no others");
     const auto first =

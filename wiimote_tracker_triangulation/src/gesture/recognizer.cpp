@@ -2,6 +2,8 @@
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -39,8 +41,8 @@ void Recognizer::add(const Example& example) {
   const std::optional<Shape> shape = shapeOf(example.path, any_length);
   if (!shape)
     throw Error("the example of '" + example.gesture + "' with " +
-                std::to_string(example.path.size()) +
-                " points is too short to be a gesture; draw it again, larger");
+                counted(example.path.size(), "point") +
+                " is too short to be a gesture; draw it again, larger");
   std::vector<Known>& others = gestures_[example.gesture];
   Known known{example, *shape, kInfinity};
   for (Known& other : others) {

@@ -81,8 +81,8 @@ void Triangulation::takeRig(const RigCalibration& message) {
     learning_.setRig(tracker_.rig());
     diagnostics_.setRig();
     subscribeToCameras();
-    ROS_INFO("Rig %s with %zu cameras is in use.", tracker_.rigId().c_str(),
-             tracker_.rig().cameras.size());
+    ROS_INFO("Rig %s with %s is in use.", tracker_.rigId().c_str(),
+             counted(tracker_.rig().cameras.size(), "camera").c_str());
   }
   const VolumeCorrection& correction = tracker_.correction();
   if (change.correction && correction.problem().empty())
@@ -143,7 +143,7 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
       ROS_WARN("%s.", sentence.c_str());
   }
   if (!bodies.empty())
-    ROS_INFO("%zu rigid bodies are tracked.", bodies.size());
+    ROS_INFO("Rigid bodies to track: %zu.", bodies.size());
 }
 
 /// The same for an IMU whose body and topic stay.

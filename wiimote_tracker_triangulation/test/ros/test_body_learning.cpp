@@ -84,7 +84,7 @@ TEST(BodyLearning, NamesLabelsThatNoLedHas) {
   EXPECT_EQ(0u, none.find("no LED with the label x, y, z was seen, but led_0, led_1, led_2: "))
       << none;
   const std::string two = learnInLoopsOf(80, {"led_0", "x", "led_2"}).message;
-  EXPECT_NE(std::string::npos, two.find("2 LEDs were seen at once")) << two;
+  EXPECT_NE(std::string::npos, two.find("saw 2 LEDs at once")) << two;
   EXPECT_NE(std::string::npos, two.find("no LED with the label x was seen")) << two;
   const LearnBody::Response one_too_many = learnInLoopsOf(80, {"led_0", "led_1", "led_2", "x"});
   EXPECT_TRUE(one_too_many.success) << one_too_many.message;

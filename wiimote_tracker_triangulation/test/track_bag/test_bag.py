@@ -146,7 +146,7 @@ def test_images_before_the_first_rig_are_counted(bag, tmp_path):
     write(tmp_path / 'in.bag', sorted(entries, key=lambda e: e[2]))
     early = sum(t.endswith('ir_blobs') and s < 0.805 for t, _, s in recorded())
     output = track(tmp_path / 'in.bag', tmp_path / 'out.bag')
-    assert output.startswith('%d images (' % (len(entries) - 2))  # without rig and stranger
+    assert output.startswith('Images: %d (' % (len(entries) - 2))  # without rig and stranger
     assert ('Images before the first rig, without points: %d; name a rig with --rig' % early
             in output)
     assert 'before the first rig' not in track(bag, tmp_path / 'whole.bag')

@@ -16,7 +16,7 @@ def test_one_led_is_found_where_it_was(bag, tmp_path):
     out = tmp_path / 'out.bag'
     output = track(bag, out)
     count = len(images(DURATION))
-    assert '%d images' % count in output and ' 1 LEDs' in output
+    assert 'Images: %d (' % count in output and ' LEDs: 1,' in output
     points = arrays(out)
     assert len(points) > 0.9 * count
     tracked = 0
@@ -162,7 +162,7 @@ def test_an_impossible_trigger_is_named(tmp_path):
     write(tmp_path / 'in.bag', recorded() + [('/trigger', trigger(-50), 1.0)])
     status, output, errors = run(tmp_path / 'in.bag', tmp_path / 'out.bag')
     assert status == 0
-    assert '0 triggers answered' in output
+    assert 'triggers answered: 0' in output
     assert 'older than the stored snapshots' in errors
 
 

@@ -54,7 +54,7 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
   if (std::filesystem::exists(parameters_.file, unknown) || unknown) {
     for (const gesture::Example& example : gesture::readExamples(parameters_.file))
       recognizer_.add(example);
-    ROS_INFO("%zu examples of gestures from %s.", recognizer_.examples().size(),
+    ROS_INFO("%s of gestures from %s.", counted(recognizer_.examples().size(), "example").c_str(),
              parameters_.file.c_str());
   } else {
     ROS_INFO("There are no gestures yet: record some with the service %s.",
@@ -174,9 +174,9 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
 void Gestures::onJoy(const sensor_msgs::Joy& message) {
   const auto index = static_cast<std::size_t>(parameters_.button);
   if (index >= message.buttons.size()) {
-    ROS_ERROR_THROTTLE(10.0, "%s has %zu buttons and none with index %d; set ~button.",
-                       joy_subscriber_.getTopic().c_str(), message.buttons.size(),
-                       parameters_.button);
+    ROS_ERROR_THROTTLE(10.0, "%s has %s and none with index %d; set ~button.",
+                       joy_subscriber_.getTopic().c_str(),
+                       counted(message.buttons.size(), "button").c_str(), parameters_.button);
     return;
   }
   const bool pressed = message.buttons[index] != 0;
@@ -336,7 +336,7 @@ bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
   }
   recognizer_ = without;
   response.success = true;
-  response.message = std::to_string(removed) + " examples of '" + request.gesture + "' are removed";
+  response.message = "removed " + counted(removed, "example") + " of '" + request.gesture + "'";
   return true;
 }
 

@@ -198,7 +198,7 @@ std::string describeIdentity(const TrackingParameters& parameters) {
   const identity::BlinkCodes& codes = *parameters.identity.codes;
   const tracking::TrackerOptions& tracks = parameters.estimator.tracks;
   return format(
-      "%zu LEDs are identified by blink codes. They are off for up to %g s, so the tracker uses "
+      "LEDs with blink codes: %zu. They are off for up to %g s, so the tracker uses "
       "tracks/prediction_time %g s and tracks/detection_probability %g",
       codes.codes.size(), codes.longestDark(), tracks.prediction_time,
       tracks.detection_probability);

@@ -211,8 +211,8 @@ void printSummary(const Output& output, const Player& player, double seconds) {
   const auto count = [](std::uint64_t n) { return static_cast<unsigned long long>(n); };
   const auto images = static_cast<double>(player.images());
   std::printf(
-      "%zu images (%.0f per second), %llu outputs, %llu LEDs, %llu triggers answered, "
-      "%llu zone events.\n",
+      "Images: %zu (%.0f per second), outputs: %llu, LEDs: %llu, triggers answered: %llu, "
+      "zone events: %llu.\n",
       player.images(), images / seconds, count(output.points()), count(output.leds()),
       count(output.triggersAnswered()), count(output.zoneEvents()));
   std::printf("Images that were late: %llu, too late to be used: %llu, repeated: %llu.\n",

@@ -6,20 +6,59 @@
 
 namespace wiimote_tracker::body {
 
+namespace {
+
+/// Writes the LEDs of a body whose pose is estimated.
+void estimateLeds(const BodySetup& setup,
+                  const BodyState& state,
+                  std::size_t body,
+                  double time,
+                  BodyEstimate* estimate) {
+  const Constellation& constellation = setup.bodies[body].constellation;
+  estimate->leds.resize(constellation.leds.size());
+  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
+    LedEstimate& led = estimate->leds[i];
+    led.position = estimate->world_from_body * constellation.leds[i];
+    led.last_observed = state.bodies[body]->led_times[i];
+    led.cameras.clear();
+    led.residual = led.deviation = std::numeric_limits<double>::quiet_NaN();
+  }
+  for (std::size_t c = 0; c < state.images.size(); ++c) {
+    const LastImage& image = state.images[c];
+    if (time - image.time > setup.options.tracked_time)
+      continue;
+    for (const BodySpot& spot : image.taken) {
+      if (spot.body != body)
+        continue;
+      LedEstimate& led = estimate->leds[spot.led];
+      if (image.time > led.last_observed)
+        continue;
+      led.cameras.push_back(c);
+      if (image.time == led.last_observed) {
+        led.residual = spot.residual;
+        led.deviation = spot.deviation;
+      }
+    }
+  }
+}
+
+}  // namespace
+
 void BodyTracker::estimate() {
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (!state_.bodies[b]) {
       estimates_[b].reset();
       continue;
     }
-    const Body& body = *state_.bodies[b];
+    const KnownBody& body = *state_.bodies[b];
+    const BodyModel& model = setup_.bodies[b];
     BodyFilter filter = body.filter;
-    filter.predict(time_, inertial_[b]);
+    filter.predict(time_, model.inertial);
     const PoseState& now = filter.state();
     if (!estimates_[b])
       estimates_[b].emplace();
     BodyEstimate& estimate = *estimates_[b];
-    estimate.tracked = time_ - body.last_observed <= options_.tracked_time;
+    estimate.tracked = time_ - body.last_observed <= setup_.options.tracked_time;
     estimate.inertial = filter.isInertial();
     estimate.world_from_body = now.worldFromBody();
     estimate.covariance = now.covariance;
@@ -27,37 +66,9 @@ void BodyTracker::estimate() {
     estimate.angular_velocity = now.angular_velocity;
     estimate.first_seen = body.first_seen;
     estimate.last_observed = body.last_observed;
-    estimateLeds(b, &estimate);
-    if (const auto calibration = calibrationCovariance(rig_, constellations_[b], estimate))
+    estimateLeds(setup_, state_, b, time_, &estimate);
+    if (const auto calibration = calibrationCovariance(setup_.rig, model.constellation, estimate))
       estimate.covariance.topLeftCorner<6, 6>() += *calibration;
-  }
-}
-
-void BodyTracker::estimateLeds(std::size_t body, BodyEstimate* estimate) const {
-  const Constellation& constellation = constellations_[body];
-  estimate->leds.resize(constellation.leds.size());
-  for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
-    LedEstimate& led = estimate->leds[i];
-    led.position = estimate->world_from_body * constellation.leds[i];
-    led.last_observed = state_.bodies[body]->led_times[i];
-    led.cameras.clear();
-    led.residual = led.deviation = std::numeric_limits<double>::quiet_NaN();
-  }
-  for (std::size_t c = 0; c < state_.images.size(); ++c) {
-    if (time_ - state_.images[c].time > options_.tracked_time)
-      continue;
-    for (const BodySpot& spot : state_.images[c].taken) {
-      if (spot.body != body)
-        continue;
-      LedEstimate& led = estimate->leds[spot.led];
-      if (state_.images[c].time > led.last_observed)
-        continue;
-      led.cameras.push_back(c);
-      if (state_.images[c].time == led.last_observed) {
-        led.residual = spot.residual;
-        led.deviation = spot.deviation;
-      }
-    }
   }
 }
 

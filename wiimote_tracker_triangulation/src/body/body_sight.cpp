@@ -1,5 +1,5 @@
-// Whether BodyTracker sees a body, or other lights near its place.
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+// Whether BodyUpdate sees a body, or other lights near its place.
+#include "wiimote_tracker_triangulation/body/body_update.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <algorithm>
@@ -24,13 +24,14 @@ bool areOfOneLight(const std::vector<geometry::Sight>& sights, double greatest_m
 /// shows fewer than three of their LEDs: those could be of any lights near the prediction, and
 /// would pull the body to them. Such a body must be found by its shape, if that tells its pose,
 /// unless an IMU does.
-void BodyTracker::leaveToSearch(double time) {
+void BodyUpdate::leaveToSearch(double time) {
   constexpr auto kShape = 3;  // LEDs
-  const double longest = options_.tracked_time + options_.window;
+  const double longest = setup_.options.tracked_time + setup_.options.window;
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const std::optional<KnownBody>& body = state_.bodies[b];
     const auto isItsSpot = [b](const std::optional<SpotLed>& led) { return led && led->body == b; };
-    if (state_.bodies[b] && has_clear_shape_[b] && !state_.bodies[b]->filter.isInertial() &&
-        time - state_.bodies[b]->last_observed > longest &&
+    if (body && setup_.bodies[b].has_clear_shape && !body->filter.isInertial() &&
+        time - body->last_observed > longest &&
         std::count_if(led_of_spot_.begin(), led_of_spot_.end(), isItsSpot) < kShape)
       std::replace_if(led_of_spot_.begin(), led_of_spot_.end(), isItsSpot, std::nullopt);
   }
@@ -39,10 +40,11 @@ void BodyTracker::leaveToSearch(double time) {
 /// Whether an image shows the body. The newest images of all cameras must fit its prediction: other
 /// lights have another shape. One spot alone could be any light, unless those images show three of
 /// the body's LEDs, with rays that do not all meet in one light (moved with the body to now).
-bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
+bool BodyUpdate::isSeen(std::size_t body, const LastImage& image) {
   constexpr double kGreatestMiss = 0.02;   // of a light's rays [m]
   constexpr double kGreatestShare = 0.25;  // of the distance to the nearest LED
   constexpr double kGreatestMisfit = 2.5;  // mean over the coordinates; 1 in the mean for a body
+  const std::vector<Eigen::Vector3d>& leds = setup_.bodies[body].constellation.leds;
   const auto isItsSpot = [body](const BodySpot& spot) {
     return spot.body == body && !spot.is_further;
   };
@@ -51,11 +53,12 @@ bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
   double misfit = 0.0;
   double coordinates = 0.0;
   double greatest_miss = kGreatestMiss;
-  body_sights_.clear();
+  sights_.clear();
   for (std::size_t c = 0; c < state_.images.size(); ++c) {
-    if (image.time - state_.images[c].time > options_.tracked_time)
+    const LastImage& other = state_.images[c];
+    if (image.time - other.time > setup_.options.tracked_time)
       continue;
-    for (const BodySpot& spot : state_.images[c].taken) {
+    for (const BodySpot& spot : other.taken) {
       if (!isItsSpot(spot))
         continue;
       seen[spot.led] = true;
@@ -63,19 +66,17 @@ bool BodyTracker::isSeen(std::size_t body, const LastImage& image) {
       coordinates += 2.0;
       if (spots > 1)
         continue;
-      greatest_miss = std::min(
-          greatest_miss, kGreatestShare * distanceToNearest(constellations_[body].leds, spot.led));
-      if (auto sight = geometry::sightFromPixel(cameras_[c], spot.pixel)) {
-        sight->origin +=
-            (image.time - state_.images[c].time) * state_.bodies[body]->filter.state().velocity;
-        body_sights_.push_back(*sight);
+      greatest_miss = std::min(greatest_miss, kGreatestShare * distanceToNearest(leds, spot.led));
+      if (auto sight = geometry::sightFromPixel(setup_.cameras[c], spot.pixel)) {
+        sight->origin += (image.time - other.time) * state_.bodies[body]->filter.state().velocity;
+        sights_.push_back(*sight);
       }
     }
   }
   if (spots == 0 || misfit > kGreatestMisfit * coordinates)
     return false;
-  return spots > 1 || (std::count(seen.begin(), seen.end(), true) > 2 &&
-                       !areOfOneLight(body_sights_, greatest_miss));
+  return spots > 1 ||
+         (std::count(seen.begin(), seen.end(), true) > 2 && !areOfOneLight(sights_, greatest_miss));
 }
 
 }  // namespace wiimote_tracker::body

@@ -58,12 +58,13 @@ void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
   auto& images = history_.images();
   if (images.empty())
     return;
-  Image& newest = images.at(images.end() - 1);
+  BodyImage& newest = images.at(images.end() - 1);
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    if (state_.bodies[b] || constellations_[b].labels.empty())
+    const Constellation& constellation = setup_.bodies[b].constellation;
+    if (state_.bodies[b] || constellation.labels.empty())
       continue;
-    if (const auto pose = poseFromLabels(constellations_[b], points)) {
-      startAt(b, *pose, newest.time, 0);
+    if (const auto pose = poseFromLabels(constellation, points)) {
+      state_.bodies[b].emplace(setup_.options, newest.time, *pose, 0);
       newest.starts.push_back({b, *pose});  // for when a late image undoes this one
     }
   }

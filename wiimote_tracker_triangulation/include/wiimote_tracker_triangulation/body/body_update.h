@@ -1,0 +1,71 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_UPDATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_UPDATE_H
+
+#include "wiimote_tracker_triangulation/body/body_setup.h"
+#include "wiimote_tracker_triangulation/body/body_state.h"
+#include "wiimote_tracker_triangulation/body/pose_state.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
+
+#include <Eigen/Core>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::body {
+
+struct LedGroup;
+class LedGroups;
+
+/// A spot that a search gives to an LED of a body.
+struct MatchedSpot {
+  std::size_t led;
+  std::size_t camera;
+  Eigen::Vector2d pixel;
+};
+
+/// Updates known bodies with the spots of an image.
+class BodyUpdate {
+ public:
+  /// @param setup, state not owned.
+  BodyUpdate(const BodySetup& setup, BodyState* state) : setup_(setup), state_(*state) {}
+
+  /// Predicts the bodies to the time of the image, and updates each with its spots.
+  void follow(const BodyImage& image);
+
+  /// A search after follow() finds a body where it is predicted: updates it with spots of this
+  /// image that it did not take because the prediction is too uncertain to tell its LEDs apart.
+  /// @returns whether it is seen.
+  bool followMatch(std::size_t body, const std::vector<MatchedSpot>& spots, const BodyImage& image);
+
+  /// For each spot of the image: whether a body took it.
+  const std::vector<bool>& taken() const { return taken_; }
+
+ private:
+  void assign(const BodyImage& image);
+  void leaveToSearch(double time);
+  bool take(std::size_t spot, const BodyImage& image);
+  std::array<bool, kMaximumLeds> ledsWithSpot(std::size_t body) const;
+  bool hasMerged(const LedGroups& groups,
+                 const BodyImage& image,
+                 std::size_t spot,
+                 const std::array<bool, kMaximumLeds>& has_spot) const;
+  void update(std::size_t body,
+              const LedGroup& group,
+              const Eigen::Vector2d& pixel,
+              const BodyImage& image);
+  bool isSeen(std::size_t body, const LastImage& image);
+  LedGroups groupsOf(std::size_t body, const BodyImage& image, double spots) const;
+  SpotNoise noiseOf(const BodyImage& image, double spots) const;
+
+  const BodySetup& setup_;
+  BodyState& state_;
+  std::vector<std::optional<SpotLed>> led_of_spot_;  // nothing: free
+  std::vector<bool> taken_;
+  std::vector<geometry::Sight> sights_;  // of isSeen(), reused
+};
+
+}  // namespace wiimote_tracker::body
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_UPDATE_H

@@ -1,7 +1,6 @@
 """body_to_base on simulated motions: errors against the Cramer-Rao bound of the same motions."""
 
 import dataclasses
-import os
 import re
 
 import numpy as np
@@ -35,16 +34,13 @@ def with_imu(random, duration=15.0, interval=0.02, **motion):
 
 
 def check(solve, scene, bound, runs):
-    """RMS of errors over the bound, the errors, and their mean square by the stated covariance.
-    The environment's RUNS replaces runs; then the numbers of doc/consumers.md are printed."""
+    """RMS of errors over the bound, the errors, and their mean square by the stated covariance."""
     errors, normalised = [], []
-    for _ in range(int(os.environ.get('RUNS', runs))):
+    for _ in range(runs):
         found = solve(*scene())
         errors.append(error_of(found))
         normalised.append(errors[-1] @ np.linalg.solve(found.covariance, errors[-1]) / 7.0)
     ratio = np.sqrt(np.mean((np.array(errors) / bound) ** 2))
-    if 'RUNS' in os.environ:
-        print(ratio, np.mean(normalised), np.sqrt(np.mean(np.square(errors), axis=0)))
     return ratio, np.array(errors), np.mean(normalised)
 
 

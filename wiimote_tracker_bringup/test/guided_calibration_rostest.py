@@ -120,6 +120,16 @@ class Screen:
         return self._process.wait(DEADLINE)
 
 
+def ask(program, line, answer):
+    """Repeats a refused command, as the refusal advises: on a slow computer the LED may still be
+    moving in the images, or a driver late. @return the number of refusals."""
+    for refused in range(ATTEMPTS):
+        program.type(line)
+        if 'refused' not in program.expect(f'^({answer}|refused)'):
+            return refused
+    raise AssertionError('\n'.join(program.heard))
+
+
 def triangulated(cameras, pixels):
     """The point with the least reprojection error [m]. cameras: CameraCalibration."""
     def residuals(place):
@@ -129,6 +139,8 @@ def triangulated(cameras, pixels):
 
 
 class GuidedCalibration(unittest.TestCase):
+    """The rig is calibrated and saved once; each case begins and ends with a saved rig."""
+
     @classmethod
     def setUpClass(cls):
         rospy.init_node('guided_calibration_rostest')
@@ -137,70 +149,72 @@ class GuidedCalibration(unittest.TestCase):
             rospkg.RosPack().get_path('wiimote_tracker_bringup'), 'simulation/paper_rig.yaml'))
         rospy.wait_for_service('simulation/set_led', DEADLINE)
         cls.set_led = staticmethod(rospy.ServiceProxy('simulation/set_led', SetLed))
+        cls.wait_for_cameras()
+        cls.calibrate()
+        cls.rig = rospy.wait_for_message('calibration/rig', RigCalibration, DEADLINE)
+        cls.verdict = rospy.wait_for_message('calibration/verdict', CalibrationVerdict, DEADLINE)
 
     @classmethod
     def tearDownClass(cls):
         shutil.rmtree(os.path.dirname(cls.rig_file), ignore_errors=True)
 
-    def led(self, led='led', on=True, target=None, motion=SetLedRequest.HOLD, **more):
+    @classmethod
+    def led(cls, led='led', on=True, target=None, motion=SetLedRequest.HOLD, **more):
         """Switches or moves an LED; returns when it has arrived."""
         request = SetLedRequest(led=led, on=on, motion=motion, **more)
         if target is not None:
             request.target.x, request.target.y, request.target.z = target
-        response = self.set_led(request)
-        self.assertTrue(response.success, response.message)
+        response = cls.set_led(request)
+        assert response.success, response.message
         while rospy.get_time() < response.arrival.to_sec() + 0.1:
             rospy.sleep(0.01)
 
-    def carry(self, target):
-        self.led(target=target, motion=SetLedRequest.LINE, speed=CARRY_SPEED)
+    @classmethod
+    def carry(cls, target):
+        cls.led(target=target, motion=SetLedRequest.LINE, speed=CARRY_SPEED)
 
-    def wait_for_cameras(self, program):
-        """Waits until all drivers deliver; before that, calibrate asks to wait. It does not print a
-        refusal again that is its last line, so the images are waited for first."""
-        for camera in self.scene.cameras:
+    @classmethod
+    def wave(cls, path):
+        cls.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
+                box=Vector3(*WAVE_BOX), path=path)
+
+    @classmethod
+    def wait_for_cameras(cls):
+        """Waits until all drivers deliver, with a program of its own, which may fail: before that,
+        calibrate asks to wait. It does not print a refusal again that is its last line, so the
+        images are waited for first."""
+        cls.carry(experiment.CORNERS[0])
+        program = Program()
+        program.expect('Switch the LED off.*The word connection goes on without')
+        for camera in cls.scene.cameras:
             rospy.wait_for_message(camera.name + '/ir_blobs', IrBlobArray, DEADLINE)
         end = time.monotonic() + DEADLINE
-        while True:
+        program.type('connection')
+        while 'all 4 cameras' not in program.expect('see exactly one spot|refused: '):
+            assert time.monotonic() < end, program.heard
             program.type('connection')
-            if 'all 4 cameras' in program.expect('see exactly one spot|refused: '):
-                return
-            self.assertLess(time.monotonic(), end, program.heard)
+        program.end()
 
-    def ask(self, program, line, answer):
-        """Repeats a refused command, as the refusal advises: on a slow computer the LED may still
-        be moving in the images, or a driver late. @return the number of refusals."""
-        for refused in range(ATTEMPTS):
-            program.type(line)
-            if 'refused' not in program.expect(f'^({answer}|refused)'):
-                return refused
-        self.fail('\n'.join(program.heard))
-
-    def test_square_wave_solve_save(self):
-        # Waits for the drivers with a separate program, which may fail.
-        self.carry(experiment.CORNERS[0])
-        starting = Program()
-        starting.expect('Switch the LED off.*The word connection goes on without')
-        self.wait_for_cameras(starting)
-        starting.end()
-
-        self.led('lamp', on=True)  # a lamp that was left on
-        self.led(on=False)
+    @classmethod
+    def calibrate(cls):
+        """From the lamps to the saved rig. Leaves the number of refusals, what the program said, and
+        its exit status."""
+        cls.led('lamp', on=True)  # a lamp that was left on
+        cls.led(on=False)
         program = Program('--side', f'{experiment.SIDE:g}')
         program.expect('The word next: start with 2.5 m')
         program.type('masks')
         program.expect('Switch the LED on')
-        self.led(on=True)
-        refused = self.ask(program, 'next', 'all 4 cameras see exactly one spot')
+        cls.led(on=True)
+        cls.refused = ask(program, 'next', 'all 4 cameras see exactly one spot')
         program.expect('next: .*The word next: start with 2.5 m')
         program.type('next')
         for number, place in enumerate(experiment.placed_corners(1), 1):
             program.expect(f'Put the LED on corner {number}')
-            self.carry(place)
-            refused += self.ask(program, 'next', f'corner {number} captured by 4')
+            cls.carry(place)
+            cls.refused += ask(program, 'next', f'corner {number} captured by 4')
         program.expect('The word next: begin the wave')
-        self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
-                 box=Vector3(*WAVE_BOX), path=1)
+        cls.wave(path=1)
         program.type('next')
         program.expect('Wave through the whole volume')
         program.type(f'wait {DEADLINE:g}')
@@ -211,27 +225,22 @@ class GuidedCalibration(unittest.TestCase):
         program.type('next')
         program.expect('The rig is calibrated')
         program.type('quit')
-        took = program.expect('Calibrated and saved in')
-        print(took)
-        self.assertEqual(program.end(), 1 if refused else 0, program.heard)
+        print(program.expect('Calibrated and saved in'))
+        cls.heard, cls.exit_status = program.heard, program.end()
+
+    def test_saves_the_waved_rig(self):
+        self.assertEqual(self.exit_status, 1 if self.refused else 0, self.heard)
         self.assertTrue(os.path.exists(self.rig_file))
+        self.assertEqual(self.verdict.rig_id, self.rig.id)
+        self.assertIn('wave', self.rig.method)
+        self.assertEqual([len(camera.masks) for camera in self.rig.cameras], [1] * 4)
 
-        rig = rospy.wait_for_message('calibration/rig', RigCalibration, DEADLINE)
-        verdict = rospy.wait_for_message('calibration/verdict', CalibrationVerdict, DEADLINE)
-        self.assertEqual(verdict.rig_id, rig.id)
-        self.assertIn('wave', rig.method)
-        self.assertEqual([len(camera.masks) for camera in rig.cameras], [1] * 4)
-        self.compare_with_truth(rig, verdict)
-        self.check_on_the_screen()
-        self.correct_the_volume_and_recalibrate()
-        self.lens_by_the_board_on_the_screen()
-
-    def compare_with_truth(self, rig, verdict):
-        by_name = {camera.name.strip('/'): camera for camera in rig.cameras}
+    def test_errors_are_as_foretold(self):
+        by_name = {camera.name.strip('/'): camera for camera in self.rig.cameras}
         self.assertEqual(set(by_name), {camera.name for camera in self.scene.cameras})
-        self.assertEqual(len(verdict.predicted_at), 8)
+        self.assertEqual(len(self.verdict.predicted_at), 8)
         ratios = []
-        for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev):
+        for at, sigma in zip(self.verdict.predicted_at, self.verdict.predicted_stddev):
             place = np.array([at.x, at.y, at.z])
             pixels = [camera.project(place)[0] for camera in self.scene.cameras]
             measured = triangulated([by_name[camera.name] for camera in self.scene.cameras], pixels)
@@ -243,8 +252,8 @@ class GuidedCalibration(unittest.TestCase):
         self.assertLess(rms, LARGEST)
         self.assertGreater(rms, SMALLEST)
 
-    def check_on_the_screen(self):
-        """The check of a saved rig, with keys."""
+    def test_checks_a_place_on_the_screen(self):
+        """With keys."""
         self.carry((1.25, 1.25, 1.0))
         screen = Screen()
         screen.expect('wiimote_4')
@@ -256,28 +265,35 @@ class GuidedCalibration(unittest.TestCase):
         screen.type('q')
         self.assertEqual(screen.end(), 0)
 
-    def correct_the_volume_and_recalibrate(self):
-        """The other commands of a solved rig, as words."""
+    def test_corrects_the_volume(self):
         program = Program()
         program.expect('The rig is calibrated')
         program.type('fit')
         program.expect('^refused: ')
         for number, place in enumerate(KNOWN_PLACES, 1):
             self.carry(place)
-            self.ask(program, 'place %g %g %g' % place, f'place {number} measured at')
-        self.ask(program, 'fit affine', r'the volume is corrected \(affine\)')
+            ask(program, 'place %g %g %g' % place, f'place {number} measured at')
+        ask(program, 'fit affine', r'the volume is corrected \(affine\)')
         self.carry((1.25, 1.25, 1.0))
-        self.ask(program, 'check 1.25 1.25 1.0', 'measured')
-        self.led(target=WAVE_MIDDLE, motion=SetLedRequest.WAVE, speed=WAVE_SPEED,
-                 box=Vector3(*WAVE_BOX), path=2)
-        self.ask(program, 'recalibrate wiimote_2 8', 'wiimote_2')
+        ask(program, 'check 1.25 1.25 1.0', 'measured')
+        self.save(program)
+
+    def test_recalibrates_a_camera(self):
+        program = Program()
+        program.expect('The rig is calibrated')
+        self.wave(path=2)
+        ask(program, 'recalibrate wiimote_2 8', 'wiimote_2')
         program.type(f'join {self.rig_file}')
         program.expect('^refused: all cameras of the second rig are in the first')
-        program.type('quit')
-        program.expect('Nothing was calibrated and saved')
+        self.save(program)
+
+    def save(self, program):
+        """As the other cases expect."""
+        program.type('save')
+        program.expect('The rig is calibrated')
         program.end()
 
-    def lens_by_the_board_on_the_screen(self):
+    def test_solves_a_lens_by_the_board_on_the_screen(self):
         """calibrate --board, from the first view to the driver's new lens."""
         self.led(on=False)
         views = []

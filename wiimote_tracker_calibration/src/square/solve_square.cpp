@@ -3,6 +3,7 @@
 #include "adjust/chi_squared.h"
 #include "square/error.h"
 #include "square/expected_error.h"
+#include "square/limits.h"
 #include "wiimote_tracker_calibration/square/branches.h"
 
 #include "usable_cameras.h"
@@ -17,13 +18,6 @@ namespace wiimote_tracker::square {
 
 namespace {
 
-// Residuals this many times larger than expected are refused.
-constexpr double kRefuseRatio = 4.0;
-// A solution whose lens is farther than this from its starting value is implausible [standard
-// deviations].
-constexpr double kLensLimit = 5.0;
-// Gravity farther from the floor's normal than this is a contradiction [standard deviations].
-constexpr double kGravityLimit = 5.0;
 // A calibration that puts points off by more than this share of the square's side is reported.
 constexpr double kErrorLimit = 0.03;
 

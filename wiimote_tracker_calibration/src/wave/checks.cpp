@@ -2,6 +2,7 @@
 
 #include "capture/moving_spots.h"
 #include "square/lens_priors.h"
+#include "square/limits.h"
 #include "square/usable_cameras.h"
 #include "wave/error.h"
 
@@ -21,13 +22,9 @@ using capture::kThinnestPath;
 // Longer recordings are not better, and probably contain a jump of a clock [s].
 constexpr double kLongest = 900.0;
 constexpr double kShortest = 2.0;
-// Residuals this many times larger than stated are refused.
-constexpr double kRefuseRatio = 4.0;
 // Deviations from stated values that are reported, and refused [standard deviations].
 constexpr double kWarnDeviation = 4.0;
 constexpr double kRefuseDeviation = 10.0;
-constexpr double kLensLimit = 5.0;
-constexpr double kGravityLimit = 5.0;
 
 bool isOnFloor(const Recording& recording) {
   return recording.wand && recording.wand->led_height;
@@ -143,7 +140,7 @@ void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution
 
 /// @throws WaveContradiction: a lens is far from its starting intrinsics.
 void checkLenses(const Task& task, const geometry::Rig& rig) {
-  double worst = kLensLimit;
+  double worst = square::kLensLimit;
   std::string worst_camera;
   for (std::size_t i = 0; i < task.recording.cameras.size(); ++i) {
     const square::CameraSightings& start = task.recording.cameras[i].sightings;
@@ -172,7 +169,7 @@ void checkGravityAndClock(const Task& task, const WaveSolution& solution, std::s
       recording.cameras[i].sightings.tilt(camera.camera.world_from_camera, solution.z_up);
   const bool is_level =
       recording.square || isOnFloor(recording) || recording.cameras.front().sightings.gravity;
-  if (is_level && tilt && *tilt > kGravityLimit * options.uncertainty.gravity)
+  if (is_level && tilt && *tilt > square::kGravityLimit * options.uncertainty.gravity)
     throw WaveContradiction("the world as " + name + " sees it is tilted by " +
                             format("%.0f degrees", *tilt * 180.0 / M_PI) +
                             " against its accelerometer: its image is mirrored or turned, it was "
@@ -188,7 +185,7 @@ void checkGravityAndClock(const Task& task, const WaveSolution& solution, std::s
 }  // namespace
 
 void checkNoise(const WaveOptions& options, double pixel_stddev) {
-  if (pixel_stddev > kRefuseRatio * options.pixel)
+  if (pixel_stddev > square::kRefuseRatio * options.pixel)
     throw WaveContradiction(
         "the cameras disagree by " + format("%.1f px", pixel_stddev) +
         ", far more than the stated " + format("%.1f px", options.pixel) +

@@ -18,9 +18,11 @@ namespace {
 TEST(PathPixel, DerivativesAreThoseOfFiniteDifferencesForEveryLens) {
   for (const auto model : geometry::kDistortionModels) {
     SCOPED_TRACE(geometry::nameOf(model));
-    const Eigen::Isometry3d pose =
+    geometry::Camera camera;
+    camera.world_from_camera =
         geometry::lookAt({3.0, -2.0, 2.0}, {1.0, 1.0, 0.5}, Eigen::Vector3d::UnitZ());
-    const PixelError pixel{{400.0, 300.0}, Eigen::Matrix2d::Identity() / 0.4, pose.linear(), model};
+    camera.intrinsics.distortion_model = model;
+    const PixelError pixel(CameraBlocks(camera), {400.0, 300.0}, 0.4);
     // The time offset moves the exposure beyond the knot interval.
     const PathPixelError error(pixel, 0.045, 0.05);
     std::vector<std::vector<double>> blocks = {{0.02, -0.01, 0.03},

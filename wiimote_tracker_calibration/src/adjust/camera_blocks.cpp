@@ -7,7 +7,10 @@
 namespace wiimote_tracker::adjust {
 
 CameraBlocks::CameraBlocks(const geometry::Camera& camera, double offset)
-    : world_from_start(camera.world_from_camera.linear()), rotation{}, time_offset(offset) {
+    : world_from_start(camera.world_from_camera.linear()),
+      distortion_model(camera.intrinsics.distortion_model),
+      rotation{},
+      time_offset(offset) {
   const Eigen::Vector3d center = camera.center();
   position = {center.x(), center.y(), center.z()};
   const geometry::Intrinsics& in = camera.intrinsics;

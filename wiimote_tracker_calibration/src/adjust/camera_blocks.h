@@ -44,7 +44,8 @@ struct CameraBlocks {
                                      higher_distortion.data(), others...);
   }
 
-  Eigen::Matrix3d world_from_start;  ///< Rotation that `rotation` starts from; not estimated.
+  Eigen::Matrix3d world_from_start;            ///< Where `rotation` starts from; not estimated.
+  geometry::DistortionModel distortion_model;  ///< Not estimated.
   std::array<double, kRotationSize> rotation;
   std::array<double, kPositionSize> position;
   std::array<double, kLensSize> lens;

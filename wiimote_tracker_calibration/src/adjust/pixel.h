@@ -50,13 +50,17 @@ struct PixelError {
   Eigen::Matrix3d world_from_start;
   geometry::DistortionModel model;
 
+  PixelError(const CameraBlocks& camera,
+             const Eigen::Vector2d& observed,
+             const Eigen::Matrix2d& inverse_root)
+      : pixel(observed),
+        whitening(inverse_root),
+        world_from_start(camera.world_from_start),
+        model(camera.distortion_model) {}
+
   /// Both axes with the same standard deviation [px].
-  static PixelError of(const geometry::Camera& camera,
-                       const Eigen::Vector2d& pixel,
-                       double stddev) {
-    return {pixel, Eigen::Matrix2d::Identity() / stddev, camera.world_from_camera.linear(),
-            camera.intrinsics.distortion_model};
-  }
+  PixelError(const CameraBlocks& camera, const Eigen::Vector2d& observed, double stddev)
+      : PixelError(camera, observed, Eigen::Matrix2d::Identity() / stddev) {}
 
   ceres::CostFunction* cost() const { return pixelCostOf<3>(*this); }
 

@@ -57,8 +57,7 @@ class BundleProblem {
       adjust::CameraBlocks& camera = cameras_[observation.camera];
       adjust::CameraBlocks& lens = lensOf(observation.camera);
       double* const point = reconstruction_.points[observation.point]->data();
-      const auto error = adjust::PixelError::of(reconstruction_.cameras[observation.camera],
-                                                observation.pixel, 1.0);
+      const adjust::PixelError error(camera, observation.pixel, 1.0);
       problem_.AddResidualBlock(error.cost(), new ceres::HuberLoss(options_.loss_scale),
                                 camera.rotation.data(), camera.position.data(), lens.lens.data(),
                                 lens.higher_distortion.data(), point);

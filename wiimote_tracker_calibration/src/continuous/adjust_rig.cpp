@@ -163,9 +163,9 @@ class RigProblem {
     for (Keyframe& keyframe : keyframes_) {
       for (const View& view : keyframe.views) {
         CameraBlocks& camera = (*cameras)[view.camera];
-        const auto pixel =
-            adjust::PixelError::of(prior.cameras[view.camera].camera, view.pixel, pixel_stddev);
-        const adjust::InterpolatedPixelError error{pixel, view.velocity, camera.time_offset};
+        const adjust::InterpolatedPixelError error{
+            adjust::PixelError(camera, view.pixel, pixel_stddev), view.velocity,
+            camera.time_offset};
         camera.addTo(&problem_, error.cost(), adjust::lossOf(loss_scale), &camera.time_offset,
                      keyframe.point.data());
       }

@@ -181,11 +181,10 @@ class ResectionProblem {
  public:
   ResectionProblem(const Fit& fit, const Prior& prior) : blocks_(fit.camera, fit.time_offset) {
     for (const Match& match : fit.matches) {
-      adjust::PixelError pixel = adjust::PixelError::of(fit.camera, match.pixel, 1.0);
-      pixel.whitening = match.whitening;
       // Until the next association the LED moves with constant velocity.
-      const adjust::MovingPixelError error{pixel, match.point.position, match.point.velocity,
-                                           fit.time_offset};
+      const adjust::MovingPixelError error{
+          adjust::PixelError(blocks_, match.pixel, match.whitening), match.point.position,
+          match.point.velocity, fit.time_offset};
       matches_.push_back(blocks_.addTo(&problem_, error.cost(), nullptr, &blocks_.time_offset));
     }
     problem_.SetParameterBlockConstant(blocks_.higher_distortion.data());

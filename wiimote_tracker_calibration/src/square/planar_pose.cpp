@@ -97,7 +97,7 @@ std::optional<PlanarPose> refined(geometry::Camera camera, const SeenCorners& se
   std::vector<Eigen::Vector3d> places = seen.places;
   ceres::Problem problem;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    blocks.addTo(&problem, adjust::PixelError::of(camera, seen.pixels[i], 1.0).cost(), nullptr,
+    blocks.addTo(&problem, adjust::PixelError(blocks, seen.pixels[i], 1.0).cost(), nullptr,
                  places[i].data());
     problem.SetParameterBlockConstant(places[i].data());
   }

@@ -35,9 +35,7 @@ inline std::vector<ceres::ResidualBlockId> addSquare(const SquareLayout& layout,
                                                      ceres::Problem* problem) {
   std::vector<ceres::ResidualBlockId> residuals;
   const auto pixelError = [&](std::size_t camera, const Eigen::Vector2d& pixel) {
-    return adjust::PixelError{pixel, Eigen::Matrix2d::Identity() / stated.pixel,
-                              (*cameras)[camera].world_from_start,
-                              sightings[camera].intrinsics.distortion_model};
+    return adjust::PixelError((*cameras)[camera], pixel, stated.pixel);
   };
   for (std::size_t c = 0; c < nominal.size(); ++c) {
     double* const corner = (*blocks->corners)[c].data();

@@ -149,8 +149,7 @@ class WaveProblem {
     Trajectory& path = state_.trajectory;
     for (const Match& match : matches) {
       adjust::CameraBlocks& camera = cameras_[match.camera];
-      const adjust::PixelError pixel{match.pixel, match.whitening, camera.world_from_start,
-                                     state_.cameras[match.camera].intrinsics.distortion_model};
+      const adjust::PixelError pixel(camera, match.pixel, match.whitening);
       matches_.push_back(camera.addTo(
           &problem_,
           new adjust::PathPixelError(pixel, match.stamp - path.timeOf(match.interval),
@@ -230,12 +229,11 @@ class WaveProblem {
                                                  nullptr, floor.leds[led].data()));
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
         if (floor.spots[i])
-          known_.push_back(
-              cameras_[i].addTo(&problem_,
-                                adjust::PixelError::of(state_.cameras[i], (*floor.spots[i])[led],
-                                                       options_.uncertainty.pixel)
-                                    .cost(),
-                                nullptr, floor.leds[led].data()));
+          known_.push_back(cameras_[i].addTo(
+              &problem_,
+              adjust::PixelError(cameras_[i], (*floor.spots[i])[led], options_.uncertainty.pixel)
+                  .cost(),
+              nullptr, floor.leds[led].data()));
       }
     }
     for (std::size_t i = 0; i < cameras_.size(); ++i) {

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/body_search.h"
+#include "body/body_search.h"
 
 #include "association/shared_views.h"
 

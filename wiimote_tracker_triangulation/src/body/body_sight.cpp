@@ -1,5 +1,5 @@
 // Whether BodyUpdate sees a body, or other lights near its place.
-#include "wiimote_tracker_triangulation/body/body_update.h"
+#include "body/body_update.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <algorithm>

@@ -1,6 +1,12 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
+#include "body/body_search.h"
+#include "body/body_setup.h"
+#include "body/body_state.h"
+#include "body/body_update.h"
+
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 namespace wiimote_tracker::body {
@@ -13,27 +19,34 @@ constexpr std::size_t kRepeats = 16;
 
 BodyTracker::BodyTracker(const geometry::Rig& rig,
                          const std::vector<Constellation>& constellations,
-                         const BodyTrackerOptions& options) {
-  setup_.options = options;
+                         const BodyTrackerOptions& options)
+    : setup_(std::make_unique<BodySetup>()),
+      state_(std::make_unique<BodyState>()),
+      history_(std::make_unique<BodyHistory>()),
+      update_(std::make_unique<BodyUpdate>(*setup_, state_.get())),
+      image_(std::make_unique<BodyImage>()) {
+  setup_->options = options;
   rig.check();
   useRig(rig);
   setBodies(constellations);
 }
 
+BodyTracker::~BodyTracker() = default;
+
 void BodyTracker::useRig(const geometry::Rig& rig) {
-  setup_.rig = rig;
-  setup_.cameras = rig.rayCameras();
-  search_.emplace(setup_, &state_, &update_);
-  state_.images.assign(rig.cameras.size(), {});
+  setup_->rig = rig;
+  setup_->cameras = rig.rayCameras();
+  search_ = std::make_unique<BodySearch>(*setup_, state_.get(), update_.get());
+  state_->images.assign(rig.cameras.size(), {});
 }
 
 void BodyTracker::setRig(const geometry::Rig& rig) {
   rig.check();
-  auto images = history_.images();
+  auto images = history_->images();
   if (!images.empty())
-    history_.rollBack(images.begin(), &state_);
-  history_.clear();
-  const std::vector<geometry::RigCamera> before = setup_.rig.cameras;
+    history_->rollBack(images.begin(), state_.get());
+  history_->clear();
+  const std::vector<geometry::RigCamera> before = setup_->rig.cameras;
   useRig(rig);
   for (std::uint64_t i = images.begin(); i < images.end(); ++i) {
     BodyImage& image = images.at(i);
@@ -43,11 +56,11 @@ void BodyTracker::setRig(const geometry::Rig& rig) {
     if (same == rig.cameras.end())
       continue;
     image.camera = same - rig.cameras.begin();
-    history_.insert(history_.images().end(), image);
-    step(history_.images().end() - 1);
+    history_->insert(history_->images().end(), image);
+    step(history_->images().end() - 1);
   }
-  for (std::optional<KnownBody>& body : state_.bodies) {
-    if (body && time_ - body->last_observed > setup_.options.tracked_time)
+  for (std::optional<KnownBody>& body : state_->bodies) {
+    if (body && time_ - body->last_observed > setup_->options.tracked_time)
       body.reset();
   }
   estimate();
@@ -56,24 +69,24 @@ void BodyTracker::setRig(const geometry::Rig& rig) {
 void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
   for (const Constellation& constellation : constellations)
     constellation.check();
-  const auto before = std::exchange(setup_.bodies, {});
+  const auto before = std::exchange(setup_->bodies, {});
   std::vector<std::size_t> former;  // index of each body, or the number of bodies if it is new
   for (const Constellation& constellation : constellations) {
     const auto same = std::find_if(before.begin(), before.end(), [&](const BodyModel& body) {
       return body.constellation == constellation;
     });
     former.push_back(same - before.begin());
-    setup_.bodies.push_back(same != before.end() ? *same : BodyModel(constellation));
+    setup_->bodies.push_back(same != before.end() ? *same : BodyModel(constellation));
   }
   const auto carryOver = [&](BodyState* state) {
     const auto bodies = std::exchange(state->bodies, {});
     for (const std::size_t body : former)
       state->bodies.push_back(body < bodies.size() ? bodies[body] : std::nullopt);
-    state->images.assign(setup_.cameras.size(), {});  // their spots name bodies by index
+    state->images.assign(setup_->cameras.size(), {});  // their spots name bodies by index
   };
-  carryOver(&state_);
-  history_.changeStates(carryOver);
-  auto& images = history_.images();
+  carryOver(state_.get());
+  history_->changeStates(carryOver);
+  auto& images = history_->images();
   for (std::uint64_t i = images.begin(); i < images.end(); ++i) {
     for (const BodyImage::LabelStart& start : std::exchange(images.at(i).starts, {})) {
       const auto now = std::find(former.begin(), former.end(), start.body);
@@ -81,19 +94,19 @@ void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
         images.at(i).starts.push_back({static_cast<std::size_t>(now - former.begin()), start.pose});
     }
   }
-  estimates_.assign(setup_.bodies.size(), std::nullopt);
+  estimates_.assign(setup_->bodies.size(), std::nullopt);
   estimate();
 }
 
 void BodyTracker::reset() {
-  state_.bodies.assign(setup_.bodies.size(), std::nullopt);
-  state_.images.assign(setup_.cameras.size(), {});
-  history_.clear();
-  for (BodyModel& body : setup_.bodies)
+  state_->bodies.assign(setup_->bodies.size(), std::nullopt);
+  state_->images.assign(setup_->cameras.size(), {});
+  history_->clear();
+  for (BodyModel& body : setup_->bodies)
     body.inertial.clear();
   inertial_change_ = std::numeric_limits<double>::infinity();
   time_ = -std::numeric_limits<double>::infinity();
-  estimates_.assign(setup_.bodies.size(), std::nullopt);
+  estimates_.assign(setup_->bodies.size(), std::nullopt);
 }
 
 bool BodyTracker::add(std::size_t camera,
@@ -101,25 +114,25 @@ bool BodyTracker::add(std::size_t camera,
                       double stamp_stddev,
                       const std::vector<Eigen::Vector2d>& pixels) {
   taken_.assign(pixels.size(), false);
-  image_.camera = camera;
-  image_.time = time;
-  image_.stamp_stddev = stamp_stddev;
-  image_.pixels = pixels;
-  const auto place = history_.placeOf(image_);
-  if (!place || time < time_ - setup_.options.history)
+  image_->camera = camera;
+  image_->time = time;
+  image_->stamp_stddev = stamp_stddev;
+  image_->pixels = pixels;
+  const auto place = history_->placeOf(*image_);
+  if (!place || time < time_ - setup_->options.history)
     return false;
-  const auto& images = std::as_const(history_).images();
+  const auto& images = std::as_const(*history_).images();
   std::uint64_t next = firstOutdated(*place);
   if (next < images.end())
-    next = history_.rollBack(next, &state_);
-  history_.insert(*place, image_);
+    next = history_->rollBack(next, state_.get());
+  history_->insert(*place, *image_);
   for (; next < images.end(); ++next) {
     step(next);
     if (next == *place)
-      taken_ = update_.taken();
+      taken_ = update_->taken();
   }
   time_ = std::max(time_, time);
-  history_.forgetBefore(time_ - setup_.options.history);
+  history_->forgetBefore(time_ - setup_->options.history);
   estimate();
   return true;
 }
@@ -127,7 +140,7 @@ bool BodyTracker::add(std::size_t camera,
 /// The first image before `place` for which a sample of an IMU came too late, or `place`. If they
 /// are many, waits for more new images.
 std::uint64_t BodyTracker::firstOutdated(std::uint64_t place) {
-  const auto& images = history_.images();
+  const auto& images = history_->images();
   std::uint64_t first = place;
   while (first > images.begin() && images.at(first - 1).time > inertial_change_)
     --first;
@@ -140,24 +153,24 @@ std::uint64_t BodyTracker::firstOutdated(std::uint64_t place) {
 }
 
 void BodyTracker::addInertial(std::size_t body, const InertialSample& sample) {
-  inertial_change_ = std::min(inertial_change_, setup_.bodies[body].inertial.add(sample));
+  inertial_change_ = std::min(inertial_change_, setup_->bodies[body].inertial.add(sample));
 }
 
 void BodyTracker::step(std::uint64_t place) {
-  history_.keep(place, state_);
-  const BodyImage& image = history_.images().at(place);
-  update_.follow(image);
+  history_->keep(place, *state_);
+  const BodyImage& image = history_->images().at(place);
+  update_->follow(image);
   dropLost(image.time);
   search_->find(image);
   for (const BodyImage::LabelStart& start : image.starts) {
-    if (!state_.bodies[start.body])
-      state_.bodies[start.body].emplace(setup_.options, image.time, start.pose, 0);
+    if (!state_->bodies[start.body])
+      state_->bodies[start.body].emplace(setup_->options, image.time, start.pose, 0);
   }
 }
 
 void BodyTracker::dropLost(double time) {
-  for (std::optional<KnownBody>& body : state_.bodies) {
-    if (body && (time - body->last_observed > setup_.options.prediction_time ||
+  for (std::optional<KnownBody>& body : state_->bodies) {
+    if (body && (time - body->last_observed > setup_->options.prediction_time ||
                  !body->filter.state().poseCovariance().allFinite()))
       body.reset();
   }

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/body_update.h"
+#include "body/body_update.h"
 
 #include "association/assign_spots.h"
 #include "led_groups.h"

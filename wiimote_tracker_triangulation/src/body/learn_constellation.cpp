@@ -1,7 +1,7 @@
 #include "body/learn_constellation.h"
 
 #include "body/align.h"
-#include "wiimote_tracker_triangulation/body/match_points.h"
+#include "body/match_points.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <wiimote_tracker_msgs/text.h>

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/match_points.h"
+#include "body/match_points.h"
 
 #include "body/align.h"
 

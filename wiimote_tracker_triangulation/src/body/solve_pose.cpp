@@ -1,6 +1,6 @@
 // Levenberg-Marquardt for six parameters, written out because it runs for every image and must not
 // allocate, unlike the solvers of Eigen and Ceres.
-#include "wiimote_tracker_triangulation/body/solve_pose.h"
+#include "body/solve_pose.h"
 
 #include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"

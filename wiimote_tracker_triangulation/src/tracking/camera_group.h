@@ -10,8 +10,8 @@
 #include "stored_image.h"
 #include "track.h"
 #include "track_initiation.h"
+#include "tracking/history.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/tracking/history.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // From points and pixels to one pose.
 #include "body/align.h"
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/match_points.h"
-#include "wiimote_tracker_triangulation/body/solve_pose.h"
+#include "body/match_points.h"
+#include "body/solve_pose.h"
 
 #include <gtest/gtest.h>
 

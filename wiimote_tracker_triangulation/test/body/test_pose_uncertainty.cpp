@@ -1,8 +1,8 @@
 // The covariance of a body's pose holds the errors of the calibration.
 #include "body/body_scene.h"
 #include "body/pose_uncertainty.h"
+#include "body/solve_pose.h"
 #include "geometry/uncertain_rigs.h"
-#include "wiimote_tracker_triangulation/body/solve_pose.h"
 
 #include <gtest/gtest.h>
 #include <Eigen/Cholesky>

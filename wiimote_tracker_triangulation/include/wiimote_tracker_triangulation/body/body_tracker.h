@@ -2,24 +2,29 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_H
 
 #include "wiimote_tracker_triangulation/body/body_estimate.h"
-#include "wiimote_tracker_triangulation/body/body_search.h"
-#include "wiimote_tracker_triangulation/body/body_setup.h"
-#include "wiimote_tracker_triangulation/body/body_state.h"
-#include "wiimote_tracker_triangulation/body/body_update.h"
+#include "wiimote_tracker_triangulation/body/body_tracker_options.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/tracking/history.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::body {
+
+class BodyHistory;
+struct BodyImage;
+class BodySearch;
+struct BodySetup;
+struct BodyState;
+class BodyUpdate;
 
 /// An LED identified by its blink code.
 struct LabelledPoint {
@@ -41,6 +46,7 @@ class BodyTracker {
   BodyTracker(const geometry::Rig& rig,
               const std::vector<Constellation>& constellations,
               const BodyTrackerOptions& options);
+  ~BodyTracker();
   BodyTracker(const BodyTracker&) = delete;
   BodyTracker& operator=(const BodyTracker&) = delete;
 
@@ -87,11 +93,11 @@ class BodyTracker {
   void dropLost(double time);
   void estimate();
 
-  BodySetup setup_;
-  BodyState state_;
-  tracking::History<BodyImage, BodyState> history_;
-  BodyUpdate update_{setup_, &state_};
-  std::optional<BodySearch> search_;  // always
+  std::unique_ptr<BodySetup> setup_;
+  std::unique_ptr<BodyState> state_;
+  std::unique_ptr<BodyHistory> history_;
+  std::unique_ptr<BodyUpdate> update_;
+  std::unique_ptr<BodySearch> search_;
 
   double inertial_change_ =
       std::numeric_limits<double>::infinity();  // images after it are outdated
@@ -99,8 +105,8 @@ class BodyTracker {
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
-  std::vector<bool> taken_;  // see taken()
-  BodyImage image_;          // of add(), reused
+  std::vector<bool> taken_;           // see taken()
+  std::unique_ptr<BodyImage> image_;  // of add(), reused
 };
 
 }  // namespace wiimote_tracker::body

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 
-#include "wiimote_tracker_triangulation/body/body_setup.h"
+#include "wiimote_tracker_triangulation/body/body_tracker_options.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 

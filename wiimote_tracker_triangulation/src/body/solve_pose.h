@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H
 
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
@@ -40,4 +40,4 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
 
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_SOLVE_POSE_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H

@@ -1,8 +1,8 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_UPDATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_UPDATE_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
 
-#include "wiimote_tracker_triangulation/body/body_setup.h"
-#include "wiimote_tracker_triangulation/body/body_state.h"
+#include "body/body_setup.h"
+#include "body/body_state.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 
@@ -68,4 +68,4 @@ class BodyUpdate {
 
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_UPDATE_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H

@@ -1,10 +1,11 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_STATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_STATE_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_STATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_STATE_H
 
-#include "wiimote_tracker_triangulation/body/body_filter.h"
-#include "wiimote_tracker_triangulation/body/body_setup.h"
+#include "body/body_filter.h"
+#include "body/body_setup.h"
+#include "body/solve_pose.h"
+#include "tracking/history.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
-#include "wiimote_tracker_triangulation/body/solve_pose.h"
 
 #include <Eigen/Core>
 
@@ -90,6 +91,9 @@ struct BodyImage {
   }
 };
 
+/// The images that late ones may precede, each with the state before it.
+class BodyHistory : public tracking::History<BodyImage, BodyState> {};
+
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_STATE_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_STATE_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FILTER_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H
 
 #include "wiimote_tracker_triangulation/body/inertial_filter.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
@@ -70,4 +70,4 @@ class BodyFilter {
 
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_FILTER_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H

@@ -1,14 +1,8 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_SETUP_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_SETUP_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_OPTIONS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_OPTIONS_H
 
-#include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/body/inertial_filter.h"
-#include "wiimote_tracker_triangulation/body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
-#include "wiimote_tracker_triangulation/geometry/camera.h"
-#include "wiimote_tracker_triangulation/geometry/rig.h"
-
-#include <vector>
 
 namespace wiimote_tracker::body {
 
@@ -37,26 +31,6 @@ struct BodyTrackerOptions {
   double maximum_range = 20.0;  ///< Greatest range of a camera [m, > 0].
 };
 
-/// A body to track.
-struct BodyModel {
-  explicit BodyModel(const Constellation& leds)
-      : constellation(leds),
-        has_clear_shape(nearestSymmetry(leds).residual >= kSymmetric),
-        inertial(leds.imu.value_or(ImuMount()).body_from_imu.translation()) {}
-
-  Constellation constellation;
-  bool has_clear_shape;      ///< Not symmetric.
-  InertialSamples inertial;  ///< Empty without IMU.
-};
-
-/// What BodyTracker tracks, and with what. No image changes it.
-struct BodySetup {
-  BodyTrackerOptions options;
-  geometry::Rig rig;
-  std::vector<geometry::Camera> cameras;  ///< As Rig::rayCamera.
-  std::vector<BodyModel> bodies;
-};
-
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_SETUP_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_OPTIONS_H

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_MATCH_POINTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_MATCH_POINTS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H
 
 #include "wiimote_tracker_triangulation/body/constellation.h"
 
@@ -44,4 +44,4 @@ bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
 
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_MATCH_POINTS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H

@@ -3,6 +3,7 @@
 
 #include "camera_clocks.h"
 #include "camera_fit.h"
+#include "crowd.h"
 #include "group_camera.h"
 #include "ids.h"
 #include "image_update.h"
@@ -53,6 +54,11 @@ class CameraGroup {
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
+
+  /// @param views see Crowd; must outlive it.
+  Crowd crowd(const std::vector<CameraView>& views, double time) const {
+    return {cameras_, members_, state_.tracks, options_, views, time};
+  }
 
   CameraClocks& clocks() { return clocks_; }
   const CameraClocks& clocks() const { return clocks_; }

@@ -21,6 +21,11 @@ bool arrivesLater(const SceneImage& a, const SceneImage& b) {
   return std::make_pair(a.image.arrival, a.camera) > std::make_pair(b.image.arrival, b.camera);
 }
 
+/// Whether several LEDs made a spot: more than one bit is set.
+bool isMerged(std::uint64_t leds) {
+  return (leds & (leds - 1)) != 0;
+}
+
 bool inImage(const geometry::Intrinsics& lens, const Eigen::Vector2d& pixel) {
   return pixel.x() >= 0.0 && pixel.x() <= lens.width - 1 && pixel.y() >= 0.0 &&
          pixel.y() <= lens.height - 1;
@@ -111,8 +116,9 @@ void Scene::expose(std::size_t camera) {
   clock.last_arrival = result.image.arrival;
   collectLights(camera, result.true_time);
   merge();
-  std::stable_sort(lights_.begin(), lights_.end(),
-                   [](auto& a, auto& b) { return a.distance < b.distance; });
+  std::stable_sort(lights_.begin(), lights_.end(), [&](auto& a, auto& b) {
+    return options_.equally_bright ? isMerged(a.leds) > isMerged(b.leds) : a.distance < b.distance;
+  });
   lights_.resize(std::min(lights_.size(), options_.maximum_spots));
   keepSlots(camera, &result);
   if (random_.uniform(0.0, 1.0) < options_.lost_images)

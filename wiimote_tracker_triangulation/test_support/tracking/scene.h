@@ -35,6 +35,7 @@ struct SceneOptions {
   double ghosts = 0.0;          ///< Probability of a ghost in each image, anywhere in it.
   double merging_distance = 0.0;  ///< Spots closer than this become one, in the middle [px].
   std::size_t maximum_spots = 4;  ///< The nearest LEDs win.
+  bool equally_bright = false;    ///< At any distance: merged spots win, then the first LEDs.
   double range = 20.0;            ///< Walls: a camera sees no further [m].
   double stamp_noise = 0.0;       ///< Error of the stamp, standard deviation [s].
   double delay = 0.01;            ///< From exposure to arrival [s].

@@ -3,11 +3,11 @@
 
 #include "expect_says.h"
 #include "misled_trial.h"
+#include "pixel_distance.h"
 #include "waved_led.h"
 
 #include "continuous/adjust_rig.h"
 #include "continuous/continuous_calibration.h"
-#include "continuous/keyframes.h"
 #include "continuous/motion_window.h"
 
 #include <gtest/gtest.h>
@@ -28,23 +28,6 @@ using square::Random;
 using square::uniform;
 
 constexpr double kDegree = M_PI / 180.0;
-
-/// RMS distance of two cameras' pixels of points in the volume [px].
-double pixelDistance(const geometry::Camera& a, const geometry::Camera& b) {
-  double sum = 0.0;
-  int count = 0;
-  for (int i = 0; i < 27; ++i) {
-    const Eigen::Vector3d point = Eigen::Vector3d::Constant(0.5) +
-                                  0.75 * Eigen::Vector3i(i % 3, i / 3 % 3, i / 9).cast<double>();
-    const auto pixel_a = a.project(point);
-    const auto pixel_b = b.project(point);
-    if (!pixel_a || !pixel_b)
-      continue;
-    sum += (*pixel_a - *pixel_b).squaredNorm();
-    ++count;
-  }
-  return std::sqrt(sum / count);
-}
 
 /// The first proposal until a time [s].
 std::optional<Proposal> proposalUntil(double time, WavedLed* led, ContinuousCalibration* watch) {
@@ -378,40 +361,6 @@ TEST(Continuous, ASlowLedTakesLittleMemory) {
   ASSERT_TRUE(is_enough);
   const MotionImages images = window.images();
   EXPECT_NEAR(static_cast<double>(images.to_solve.size()), 20 * 3 * 20, 60.0);
-}
-
-TEST(Continuous, KeyframesSkipPauses) {
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
-  const auto keyframes = [&](double pause) {
-    WavedLed led(rig.cameras, 1100);
-    std::vector<capture::Image> images;
-    led.runUntil(4.0, [&](capture::Image image) {
-      if (image.stamp > WavedLed::kClock + 2.0)
-        image.stamp += pause;
-      images.push_back(image);
-    });
-    return KeyframeSource(rig, images).keyframes(rig, 5.0).size();
-  };
-  EXPECT_GT(keyframes(0.0), 40U);
-  // Steps of 0.05 s through ten years would take an hour.
-  EXPECT_NEAR(static_cast<double>(keyframes(3e8)), static_cast<double>(keyframes(0.0)), 4.0);
-}
-
-TEST(Continuous, KeyframesFollowCurves) {
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
-  WavedLed led(rig.cameras, 1300, 30.0);
-  std::vector<capture::Image> images;
-  led.runUntil(10.0, [&](capture::Image image) {
-    const geometry::RigCamera& camera = *rig.find(image.camera);
-    const double time = image.stamp - WavedLed::kClock + camera.time_offset;
-    image.spots.clear();
-    if (const auto pixel = camera.camera.project(led.path.position(time, 0)))
-      image.spots.push_back(*pixel);
-    images.push_back(image);
-  });
-  const auto keyframes = KeyframeSource(rig, images).keyframes(rig, 5.0);
-  EXPECT_GT(keyframes.size(), 100U);
-  EXPECT_LT(rmsResidual(keyframes), 0.005);  // Along chords 0.023.
 }
 
 }  // namespace

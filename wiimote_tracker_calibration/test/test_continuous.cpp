@@ -226,31 +226,6 @@ TEST(Continuous, TheMisfitOfASquareAloneIsNotTakenForDrift) {
   }
 }
 
-TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
-  Random random(7);
-  const geometry::Rig rig = paperRigWith(wellCalibrated());
-  WavedLed led(drawTruth(rig, random), 700);
-  led.epoch = 8;
-  for (geometry::RigCamera& camera : led.truth) {
-    camera = turned(camera, 0.05 * kDegree, random);
-    camera.time_offset = uniform(random, -0.01, 0.01);
-  }
-  ContinuousCalibration watch(rig, {});
-  const auto proposal = proposalUntil(60.0, &led, &watch);
-  ASSERT_TRUE(proposal);
-  EXPECT_EQ(proposal->cause, Cause::kReconnect);
-  EXPECT_SAYS(proposal->message, "camera_3 turned by 0.0");
-  const auto clock = [](const geometry::RigCamera& camera) { return camera.time_offset; };
-  for (std::size_t i = 0; i < 4; ++i) {
-    const geometry::RigCamera& found = proposal->rig.cameras[i];
-    EXPECT_LT(pixelDistance(found.camera, led.truth[i].camera),
-              0.7 * pixelDistance(rig.cameras[i].camera, led.truth[i].camera));
-    // All clocks together may be off.
-    EXPECT_NEAR(clock(found) - clock(proposal->rig.cameras[0]),
-                clock(led.truth[i]) - clock(led.truth[0]), 0.0002);
-  }
-}
-
 TEST(Continuous, ASolvedCameraIsAsUncertainAsTheDriftOfTheOthers) {
   // Standard deviation of a knocked camera's rotation, hours after the rig was solved [rad].
   const auto rotation = [](double hours) {

@@ -130,6 +130,22 @@ void keepTime(const geometry::Rig& before, const KeyframeSource& source, geometr
   }
 }
 
+/// The same covariance with that of the clocks against their mean. What all clocks do together
+/// moves no point, and no image shows it; only errors of the views' velocities seem to. Where
+/// correlations are left out, as in copyClock(), it would count as an error of each clock. Of all
+/// references the mean gives the clocks the least variances (S-transformation, Baarda 1973).
+Eigen::MatrixXd withoutCommonClock(const KeyframeSource& source,
+                                   const Eigen::MatrixXd& covariance) {
+  Eigen::VectorXd common = Eigen::VectorXd::Zero(covariance.rows());
+  for (Eigen::Index i = 0; i < covariance.rows() / kParameters; ++i) {
+    if (source.epoch(static_cast<std::size_t>(i)))
+      common[kParameters * i + kTimeOffset] = 1.0;
+  }
+  const Eigen::MatrixXd others = Eigen::MatrixXd::Identity(common.size(), common.size()) -
+                                 common * common.transpose() / common.sum();
+  return geometry::propagated(others, covariance);
+}
+
 /// Sets to zero what the prior says of coefficients that a lens does not have: a rig must not.
 Eigen::MatrixXd ofExistingCoefficients(const geometry::Rig& rig, Eigen::MatrixXd covariance) {
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
@@ -310,9 +326,11 @@ std::optional<geometry::Rig> adjustRig(const geometry::Rig& rig,
   const KeyframeSource source(rig, images);
   const geometry::Rig prior = priorOf(rig, source, images.back().stamp);
   auto adjusted = Adjustment(prior, source).solve();
-  if (adjusted)
-    keepTime(rig, source, &*adjusted);
-  for (std::size_t i = 0; adjusted && i < rig.cameras.size(); ++i) {
+  if (!adjusted)
+    return std::nullopt;
+  keepTime(rig, source, &*adjusted);
+  adjusted->covariance = withoutCommonClock(source, adjusted->covariance);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const Eigen::Index clock = firstParameter(i) + kTimeOffset;
     adjusted->covariance(clock, clock) += kOffsetStddev * kOffsetStddev;
     if (rig.cameras[i].time_offset_rule == geometry::TimeOffsetRule::kNone)

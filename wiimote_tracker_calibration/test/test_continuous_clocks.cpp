@@ -9,8 +9,10 @@
 #include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <gtest/gtest.h>
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 
 #include <array>
@@ -32,6 +34,21 @@ double turnBetween(const geometry::RigCamera& a, const geometry::RigCamera& b) {
       .angle();
 }
 
+/// Errors of the clocks against the first one, in standard deviations: their squares' sum, which
+/// has a mean of three.
+double clockNees(const geometry::Rig& rig, const std::vector<geometry::RigCamera>& truth) {
+  Eigen::MatrixXd against_first = Eigen::MatrixXd::Zero(3, rig.covariance.rows());
+  against_first.col(geometry::kTimeOffset).setConstant(-1.0);
+  Eigen::Vector3d errors;
+  for (std::size_t i = 1; i < 4; ++i) {
+    const auto row = static_cast<Eigen::Index>(i - 1);
+    against_first(row, geometry::firstParameter(i) + geometry::kTimeOffset) = 1.0;
+    errors[row] = rig.cameras[i].time_offset - rig.cameras[0].time_offset -
+                  (truth[i].time_offset - truth[0].time_offset);
+  }
+  return geometry::squaredMahalanobis(errors, geometry::propagated(against_first, rig.covariance));
+}
+
 // The limits of the following two tests are for all runs together, since what one run finds varies.
 // Sets of as many runs, drawn from 100 others, exceed each limit one time in 1,000.
 
@@ -40,6 +57,7 @@ TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
   std::array<std::vector<double>, 4> left;  // Of each camera's error, share.
   std::vector<double> all_left;
   double pose_nees = 0.0;
+  double clock_nees = 0.0;
   for (std::uint64_t seed = 700; seed < 700 + kRuns; ++seed) {
     square::Random random(seed);
     const geometry::Rig rig = paperRigWith(wellCalibrated());
@@ -58,6 +76,7 @@ TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
     ASSERT_TRUE(proposal) << seed;
     EXPECT_EQ(proposal->cause, Cause::kReconnect);
     EXPECT_SAYS(proposal->message, " turned by 0.0");
+    clock_nees += clockNees(proposal->rig, led.truth) / (3.0 * kRuns);
     for (std::size_t i = 0; i < 4; ++i) {
       const geometry::RigCamera& found = proposal->rig.cameras[i];
       const geometry::Camera& truth = led.truth[i].camera;
@@ -74,6 +93,7 @@ TEST(Continuous, AdjustsAllCamerasAndTheirNewClocks) {
   for (std::vector<double>& of_camera : left)
     EXPECT_LT(medianOf(&of_camera), 0.65);
   EXPECT_LT(pose_nees, 1.3);
+  EXPECT_LT(clock_nees, 1.0);  // It is 0.5: stamps have no errors here, but are granted some.
 }
 
 /// A camera that was turned while the computer was off.

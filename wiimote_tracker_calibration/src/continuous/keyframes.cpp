@@ -120,6 +120,9 @@ std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) con
                                    (before->pixel - first.pixel) / (before->time - first.time);
       view.pixel +=
           bend / (last.time + after->time - before->time - first.time) * time * (time - gap);
+      // Not from before and after: with the pixel's errors the clock would be off. First and last
+      // enter the pixel alike, but the velocity with opposite signs.
+      view.velocity = (last.pixel - first.pixel) / (last.time - first.time);
     }
   }
   return view;

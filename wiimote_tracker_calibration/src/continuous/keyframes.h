@@ -19,7 +19,7 @@ namespace wiimote_tracker::continuous {
 struct View {
   std::size_t camera;        ///< As the rig counts them.
   Eigen::Vector2d pixel;     ///< [px]
-  Eigen::Vector2d velocity;  ///< [px/s]
+  Eigen::Vector2d velocity;  ///< [px/s]; its error is independent of the pixel's, but beside a gap.
 };
 
 /// The LED at one instant, as three cameras or more see it.

@@ -210,15 +210,6 @@ void Triangulation::onTimer() {
   }
   if (const auto bodies = learning_.change())  // while no image comes
     useBodies(*bodies);
-  std::vector<std::string> without_samples;
-  for (const std::string& body : tracker_.bodiesWithoutSamples())
-    without_samples.push_back(body + " (" + imu_subscribers_[body].getTopic() + ")");
-  if (!without_samples.empty())
-    ROS_WARN_THROTTLE(10.0,
-                      "The IMU of %s is not used, since its samples do not fit the images: check "
-                      "that they come 25 times a second or more, in m/s^2 with gravity and rad/s, "
-                      "and its clock_offset and mount.",
-                      joined(without_samples).c_str());
   keepPlaces();
   diagnostics_.update();
   body_diagnostics_.update();

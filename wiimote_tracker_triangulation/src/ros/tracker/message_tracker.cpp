@@ -174,7 +174,6 @@ void MessageTracker::setBodies(const std::vector<body::Constellation>& bodies) {
   if (!message.bodies.empty())
     sink_->onBodies(message, std::vector<bool>(message.bodies.size(), false));
   statistics_.setBodies(0);  // until the next image
-  without_samples_.clear();
 }
 
 void MessageTracker::takeInertial(const std::string& body, const sensor_msgs::Imu& message) {
@@ -210,13 +209,14 @@ void MessageTracker::publishBodies() {
   for (std::size_t b = 0; b < snapshot->bodies.size(); ++b) {
     const body::Constellation& constellation = bodies_.constellations()[b];
     const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
-    if (!body || body->inertial || tilt_ > kMostTilt)  // see reportTilt()
-      without_samples_.erase(constellation.name);
-    else if (body->tracked && constellation.imu)
-      without_samples_.insert(constellation.name);
     if (!body)
       continue;
-    tracked += body->tracked ? 1 : 0;
+    if (body->tracked) {
+      ++tracked;
+      const bool misses_imu = constellation.imu && !body->inertial && tilt_ <= kMostTilt;
+      if (const auto sentence = imu_reports_.add(constellation, misses_imu, snapshot->time))
+        sink_->onProblem(*sentence);
+    }
     bridged_.push_back(body->inertial && !body->tracked);
   }
   statistics_.setBodies(tracked);

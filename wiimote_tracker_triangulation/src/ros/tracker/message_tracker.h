@@ -8,6 +8,7 @@
 #include "fault_reports.h"
 #include "identity/led_labels.h"
 #include "image_message.h"
+#include "imu_reports.h"
 #include "parameters.h"
 #include "point_message.h"
 #include "statistics.h"
@@ -29,7 +30,6 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -103,9 +103,6 @@ class MessageTracker {
   /// axis does not point up.
   void takeInertial(const std::string& body, const sensor_msgs::Imu& message);
 
-  /// Tracked bodies whose IMU is not used since its samples are missing or do not fit the images.
-  const std::set<std::string>& bodiesWithoutSamples() const { return without_samples_; }
-
   /// Asks for the points at a trigger's time. They follow as soon as the images reach it; the
   /// arrival of the trigger does not matter.
   void takeTrigger(const std_msgs::Header& trigger);
@@ -143,7 +140,7 @@ class MessageTracker {
   std::map<std::string, std::size_t> camera_index_;
   std::unique_ptr<tracking::Estimator> estimator_;  // null before the first rig
   body::BodyFollower bodies_;
-  std::set<std::string> without_samples_;
+  ImuReports imu_reports_;
   double tilt_ = 0.0;  // of the world's z axis [rad]
   bool tilt_reported_ = false;
   bool alone_reported_ = false;  // a camera that can see no LED with another

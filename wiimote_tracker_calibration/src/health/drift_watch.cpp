@@ -174,10 +174,13 @@ std::vector<bool> DriftWatch::judgeAgainstOthers() {
     active[*culprit] = false;
   }
   // Where several are removed, two that remain may agree by chance.
-  const auto rest = static_cast<std::size_t>(std::count(active.begin(), active.end(), true));
+  const auto removed = std::count(active.begin(), active.end(), false);
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < active.size(); ++i)
+    judged += active[i] && drifts_[i] ? 1 : 0;
   for (std::size_t i = 0; i < active.size(); ++i) {
     if (!active[i])
-      drifts_[i]->or_others = rest < 3 && rest + 1 < active.size();
+      drifts_[i]->or_others = removed > 1 && judged < 3;
   }
   return active;
 }

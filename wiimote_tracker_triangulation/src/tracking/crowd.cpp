@@ -26,7 +26,7 @@ bool Crowd::isFull(std::size_t member) const {
   return view.full && view.time && *view.time >= time_ - kOldest;
 }
 
-/// Not within tracked_time of its last spot: a false detection hides an LED in one image only.
+/// No spot of it now, nor within tracked_time: a false detection hides an LED in one image only.
 bool Crowd::isHiddenIn(std::size_t member, const TrackedLed& led) const {
   const auto& spots = viewOf(member).spots;
   return !isShownBy(members_[member], led) &&

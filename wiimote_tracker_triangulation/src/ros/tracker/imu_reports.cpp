@@ -1,5 +1,7 @@
 #include "imu_reports.h"
 
+#include <cmath>
+
 namespace wiimote_tracker {
 
 namespace {
@@ -7,20 +9,30 @@ namespace {
 constexpr double kPatience = 1.0;  // [s]
 constexpr double kPause = 10.0;    // [s]
 
+/// Times may go back.
+bool isWithin(double seconds, const std::optional<double>& last, double time) {
+  return last && std::abs(time - *last) < seconds;
+}
+
 }  // namespace
 
-std::optional<std::string> ImuReports::add(const body::Constellation& body,
-                                           bool is_unused,
+std::optional<std::string> ImuReports::add(const body::Constellation& constellation,
+                                           const body::BodyEstimate& body,
                                            double time) {
-  if (!is_unused) {
-    due_.erase(body.name);
+  const bool is_hidden = !body.tracked && !body.inertial && !body.lost;
+  if (!constellation.imu || is_hidden)
+    return std::nullopt;
+  Body& known = bodies_[constellation.name];
+  if (body.inertial || body.lost) {
+    known.unused_since.reset();
     return std::nullopt;
   }
-  double& due = due_.emplace(body.name, time + kPatience).first->second;
-  if (time < due && time >= due - kPause)  // else time jumped back
+  if (!known.unused_since)
+    known.unused_since = time;
+  if (isWithin(kPatience, known.unused_since, time) || isWithin(kPause, known.reported, time))
     return std::nullopt;
-  due = time + kPause;
-  return "the IMU of " + body.name + " (" + body.imu->topic +
+  known.reported = time;
+  return "the IMU of " + constellation.name + " (" + constellation.imu->topic +
          ") is not used, since its samples do not fit the images: check that they come 25 times a "
          "second or more, in m/s^2 with gravity and rad/s, and its clock_offset and mount";
 }

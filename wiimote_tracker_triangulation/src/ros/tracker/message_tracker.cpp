@@ -211,10 +211,9 @@ void MessageTracker::publishBodies() {
     const std::optional<body::BodyEstimate>& body = snapshot->bodies[b];
     if (!body)
       continue;
-    if (body->tracked) {
-      ++tracked;
-      const bool misses_imu = constellation.imu && !body->inertial && tilt_ <= kMostTilt;
-      if (const auto sentence = imu_reports_.add(constellation, misses_imu, snapshot->time))
+    tracked += body->tracked ? 1 : 0;
+    if (tilt_ <= kMostTilt) {
+      if (const auto sentence = imu_reports_.add(constellation, *body, snapshot->time))
         sink_->onProblem(*sentence);
     }
     bridged_.push_back(body->inertial && !body->tracked);

@@ -23,8 +23,10 @@ constexpr double kDegrees = 180.0 / M_PI;  // in one radian
 // not applied is forgotten: the higher this is, the more of the world is lost with each knock. The
 // lower, the more errors of lenses look like drift.
 constexpr double kGain = 0.05;
-// A camera was knocked if it turned by so many standard deviations of its drift.
+// A camera was knocked if it turned by so many standard deviations of its drift, or by more than a
+// camera drifts in days [rad].
 constexpr double kKnocked = 10.0;
+constexpr double kMostDrift = 0.007;
 // The clock of a camera that did not reconnect has changed if its time offset did by more [s].
 constexpr double kOtherOffset = 0.001;
 
@@ -179,9 +181,12 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
     if (!proposal && !newClocks().empty())
       proposal = adjustedWithoutKnocked(motion_.images());
     has_drifted_ = proposal.has_value();
+    turned_.clear();
     if (proposal && proposal->cause == Cause::kDrift) {
-      if (auto knock = knockFoundBy(*proposal, motion_.images()))
+      if (auto knock = knockFoundBy(*proposal, motion_.images())) {
+        turned_ = knock->cameras;
         proposal = std::move(knock);
+      }
     }
   }
   return proposal;
@@ -218,7 +223,8 @@ std::optional<Proposal> ContinuousCalibration::solvedAgainstOthers(const Evidenc
 
 std::optional<Proposal> ContinuousCalibration::knockFoundBy(const Proposal& drift,
                                                             const MotionImages& images) {
-  const double limit = kKnocked * driftUntil(images.to_check.back().stamp, rig_);
+  const double limit =
+      std::min(kKnocked * driftUntil(images.to_check.back().stamp, rig_), kMostDrift);
   const auto camera = turnedAlone(rig_, drift.rig, limit);
   if (!camera)
     return std::nullopt;

@@ -59,7 +59,8 @@ class ContinuousCalibration {
 
   /// Whether the latest images still speak for a proposal.
   bool isCurrent(const Proposal& proposal) const {
-    return knock_.areSuspect(proposal.cameras) || has_drifted_;
+    return knock_.areSuspect(proposal.cameras) ||
+           (proposal.cause == Cause::kKnock ? proposal.cameras == turned_ : has_drifted_);
   }
 
   /// Names of the cameras whose time offset is unknown, since they reconnected. While there are
@@ -90,7 +91,8 @@ class ContinuousCalibration {
   SuspectWatch knock_;
   MotionWindow motion_;
   std::string contradiction_;
-  bool has_drifted_ = false;  // The latest adjustment was proposed.
+  bool has_drifted_ = false;         // The latest adjustment was proposed.
+  std::vector<std::string> turned_;  // The camera that knockFoundBy() then found.
 };
 
 }  // namespace wiimote_tracker::continuous

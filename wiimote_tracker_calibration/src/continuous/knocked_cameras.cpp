@@ -133,9 +133,12 @@ std::optional<SolvedCameras> solveAgainstOthers(const geometry::Rig& rig,
   unchecked.maximum_offset_stddev = std::numeric_limits<double>::infinity();
   results = recalibrated(withDrift(rig, check.back().stamp), cameras, evidence, unchecked);
   std::vector<std::string> sentences;
-  for (std::size_t i = 0; i < cameras.size(); ++i)
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    if (evidence.has_turned)
+      before[i].reset();  // The median hardly changes with a roll.
     sentences.push_back(sentenceOf(rig.cameras[cameras[i]].camera.name, evidence.new_clock,
                                    results[i], before[i], *after[cameras[i]]));
+  }
   return SolvedCameras{results.back().rig, joined(sentences, "; ")};
 }
 

@@ -28,7 +28,8 @@ geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& bef
 /// in use, too, or learn its masks.
 class RigChanges {
  public:
-  /// To be called with the rig in use before the other functions.
+  /// To be called with the rig in use at the start, and after anybody has replaced it, as after
+  /// revert().
   void follow(const std::optional<geometry::Rig>& in_use);
 
   /// Whether that rig is still in use.

@@ -184,8 +184,11 @@ class ContinuousServices {
     const continuous::Proposal proposal = *proposal_;
     forgetProposal(lock);
     const auto rig = changes_.apply(proposal, before);
-    if (rig)
+    if (rig) {
+      if (proposal.cause == Cause::kDrift)  // too little for what was measured to change
+        context_.knownPlaces(lock).renameRig(before.id(), rig->id());
       context_.setRig(*rig, proposal.message, lock);
+    }
     const geometry::Rig goal = changes_.goal(*context_.rig(lock));
     return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
                       keepVersion(goal, &lock) +

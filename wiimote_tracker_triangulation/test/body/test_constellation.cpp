@@ -203,7 +203,7 @@ TEST(LearnConstellation, SaysWhatIsWrong) {
   std::vector<LedsInstant> two = good;
   for (LedsInstant& instant : two)
     instant.leds.resize(2);
-  EXPECT_NE(messageFor(two).find("2 LEDs were seen"), std::string::npos);
+  EXPECT_NE(messageFor(two).find("saw 2 LEDs at once"), std::string::npos);
   std::vector<LedsInstant> hidden = good;
   for (std::size_t i = 60; i < hidden.size(); ++i)
     hidden[i].leds.pop_back();

@@ -197,8 +197,8 @@ class GuidedCalibration(unittest.TestCase):
 
     @classmethod
     def calibrate(cls):
-        """From the lamps to the saved rig. Leaves the number of refusals, what the program said, and
-        its exit status."""
+        """From the lamps to the saved rig. Leaves the number of refusals, what the program said,
+        and its exit status."""
         cls.led('lamp', on=True)  # a lamp that was left on
         cls.led(on=False)
         program = Program('--side', f'{experiment.SIDE:g}')

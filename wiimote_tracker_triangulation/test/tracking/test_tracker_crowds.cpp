@@ -68,9 +68,11 @@ TEST(TrackerCrowds, TheCovarianceAllowsForUnknownLedsThatMerge) {
   for (unsigned seed = 1; seed <= 8; ++seed) {
     Situation situation;
     situation.leds = movingLeds(3, seed);
-    for (int i = 0; i < 13; ++i)
+    for (int i = 0; i < 13; ++i) {
+      const int row = i / 4;
       situation.leds.push_back(
-          still({0.3 + 0.6 * (i % 4), 0.3 + 0.6 * (i / 4), 0.5 + 0.1 * (5 * i % 13)}));
+          still({0.3 + 0.6 * (i % 4), 0.3 + 0.6 * row, 0.5 + 0.1 * (5 * i % 13)}));
+    }
     situation.scene.equally_bright = true;
     situation.scene.hidden = [](std::size_t, std::size_t led, double time) {
       return led >= 3 && time < 1001.0 + 0.005 * static_cast<double>(led);

@@ -201,16 +201,18 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
 @pytest.mark.parametrize('given, split', [
     ([], ['--duration=10m']), (['split_minutes:=600'], ['--duration=600m']),
     (['gigabytes:=20'], ['--size=2048', '--max-splits=9']),
-    (['gigabytes:=0.5'], ['--size=51', '--max-splits=9'])])
+    (['gigabytes:=0.5'], ['--size=51', '--max-splits=9']),
+    (['gigabytes:=0.01'], ['--size=1', '--max-splits=9'])])
 def test_a_recording_may_be_of_the_newest_gigabytes(load, given, split):
     nodes, _ = load('record.launch', *given)
     assert [word for word in shlex.split(next(iter(nodes.values())).args)
             if word.startswith(('--duration', '--size', '--max-splits'))] == split
 
 
-@pytest.mark.parametrize('gigabytes', ['-1', 'nan'])
-def test_less_than_no_gigabytes_are_refused(load, gigabytes):
-    with pytest.raises(roslaunch.core.RLException, match='gigabytes must be 0 or more'):
+# rosbag takes --size=0, of bags of whole MB, as no limit.
+@pytest.mark.parametrize('gigabytes', ['-1', 'nan', '0.005'])
+def test_gigabytes_too_few_are_refused(load, gigabytes):
+    with pytest.raises(roslaunch.core.RLException, match='gigabytes must be 0, or 0.01 or more'):
         load('record.launch', 'gigabytes:=' + gigabytes)
 
 

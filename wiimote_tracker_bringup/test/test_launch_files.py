@@ -115,6 +115,14 @@ def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):
     assert parameters['/drivers/parameters_file'] == str(tmp_path / 'my lab.yaml')
 
 
+@pytest.mark.parametrize('name', ['tracker.launch', 'several_machines.launch',
+                                  'calibrate.launch', 'triangulation.launch rviz:=true',
+                                  'replay.launch bag:=x'])
+def test_misspelt_arguments_are_named_once(load, name):
+    types = [node.type for node in load(*name.split())[0].values()]
+    assert types.count('master_watch') + types.count('check_arguments') == 1
+
+
 @pytest.mark.parametrize('given, found', [
     ('rec 1.bag', '/home/my lab/rec 1.bag'), ('/data/rec.bag', '/data/rec.bag'),
     ('5', '/home/my lab/5')])

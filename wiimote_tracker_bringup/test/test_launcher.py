@@ -32,7 +32,8 @@ def test_arguments_that_nobody_takes_are_told(words, said):
 @pytest.mark.parametrize('file, given, meant', [
     ('mavros_vision', 'massage', 'message'), ('plan', 'plain', 'plan'),
     ('record', 'outptu', 'output'), ('replay', 'rat', 'rate'),
-    ('robot_localization', 'odometri', 'odometry')])
+    ('robot_localization', 'odometri', 'odometry'), ('calibrate', 'cemeras', 'cameras'),
+    ('triangulation', 'labbels', 'labels')])
 def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, meant):
     folder = os.path.dirname(TRACKER)
     with open(os.path.join(folder, file + '.launch'), encoding='utf-8') as text:

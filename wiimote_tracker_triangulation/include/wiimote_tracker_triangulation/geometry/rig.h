@@ -86,7 +86,7 @@ struct Rig {
   std::vector<RigCamera> cameras;
 
   /// Order as in RigCalibration.msg, but 16 per camera whatever its lens: an equidistant one has
-  /// zeros for a fifth coefficient. 0x0: unknown.
+  /// k1 to k4, then zeros. 0x0: unknown.
   Eigen::MatrixXd covariance;
 
   /// Correction of the volume. It may belong to another calibration (remap::Remap::rig_id is not

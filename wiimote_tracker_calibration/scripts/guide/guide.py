@@ -185,7 +185,10 @@ class Guide:
             kept = status.corners_captured if status and status.step != status.SAVED else 0
             corners = 'one corner: calibrate goes on with it' if kept == 1 else \
                 f'{kept} corners: calibrate goes on with them'
-            return f'Nothing was calibrated and saved; this took {spoken(now - self.began)}.' + (
+            # Saved without a start: a camera was recalibrated, for example.
+            done = 'Nothing was calibrated and saved' if self._saved_at is None else \
+                'The rig was saved'
+            return f'{done}; this took {spoken(now - self.began)}.' + (
                 f' The node keeps {corners}.' if kept else '')
         text = f'Calibrated and saved in {spoken(self._saved_at - self._started_at)}'
         if self._square_at is not None:

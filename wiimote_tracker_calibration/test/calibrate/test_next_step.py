@@ -101,6 +101,16 @@ def test_it_says_how_long_it_took():
     assert guide.took(999.0) == 'Calibrated and saved in 1 min 10 s, 40 s of it for the square.'
 
 
+def test_a_recalibrated_camera_that_was_saved_is_told():
+    guide = guide_at(status(CalibrationStatus.SAVED))
+    guide.on_answer('recalibrate', True, '', 20.0)
+    guide.on_status(status(CalibrationStatus.SOLVED), 21.0)
+    assert guide.took(22.0).startswith('Nothing was calibrated and saved')
+    guide.on_answer('save', True, '', 30.0)
+    guide.on_status(status(CalibrationStatus.SAVED), 31.0)
+    assert guide.took(60.0).startswith('The rig was saved; this took ')
+
+
 def test_at_the_end_it_says_what_the_node_goes_on_with():
     guide = guide_at(status(CalibrationStatus.MEASURING))
     guide.on_request('recalibrate')

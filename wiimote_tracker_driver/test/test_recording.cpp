@@ -283,5 +283,23 @@ TEST_F(Recording, FinishTellsThatTheLastWriteFailed) {
   EXPECT_TRUE(contains(recorder.finish(), "deleted"));
 }
 
+/// This process's descriptor of an open file.
+int descriptorOf(const std::string& path) {
+  for (const auto& entry : std::filesystem::directory_iterator("/proc/self/fd")) {
+    std::error_code ignored;
+    if (std::filesystem::read_symlink(entry.path(), ignored) == path)
+      return std::stoi(entry.path().filename());
+  }
+  return -1;
+}
+
+TEST_F(Recording, FinishTellsThatTheFileCannotBeClosed) {
+  Recorder recorder(path_, 0.0, 0.0);
+  ASSERT_TRUE(eventually([&] { return std::filesystem::file_size(path_) > 0; }));
+  // In place of a network drive that finds its disk full: close() fails for what is closed.
+  ASSERT_EQ(0, ::close(descriptorOf(std::filesystem::canonical(path_))));
+  EXPECT_TRUE(contains(recorder.finish(), "cannot be written (Bad file"));
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::recording

@@ -25,6 +25,11 @@ std::string numbered(const std::filesystem::path& path, int n) {
   return path.parent_path() / (path.stem().string() + suffix + path.extension().string());
 }
 
+std::string cannotWrite(int error) {
+  return std::string("because it cannot be written (") + std::strerror(error) +
+         "): make room on the disk or record to another one";
+}
+
 /// Creates a file with the first free name. @returns its descriptor; sets `path` to its name.
 int create(std::string& path) {
   const std::string wanted = path;
@@ -107,7 +112,9 @@ void Recorder::run() {
       last = stop_;
       filling_.swap(writing_);
     }
-    const std::string why = write();
+    std::string why = write();
+    if (last && why.empty())
+      why = close();
     writing_.clear();
     if (!why.empty()) {
       const std::lock_guard<std::mutex> lock(mutex_);
@@ -126,12 +133,16 @@ std::string Recorder::write() const {
   while (done < writing_.size()) {
     const ssize_t size = ::write(fd_.get(), writing_.data() + done, writing_.size() - done);
     if (size < 0 && errno != EINTR)
-      return std::string("because it cannot be written (") + std::strerror(errno) +
-             "): make room on the disk or record to another one";
+      return cannotWrite(errno);
     if (size > 0)
       done += static_cast<std::size_t>(size);
   }
   return "";
+}
+
+/// Some file systems, such as NFS, write only now. @returns as write().
+std::string Recorder::close() {
+  return ::close(fd_.release()) == 0 ? "" : cannotWrite(errno);
 }
 
 }  // namespace wiimote_tracker::recording

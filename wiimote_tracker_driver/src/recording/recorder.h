@@ -58,11 +58,11 @@ class Recorder {
   void add(Record record);
   void run();
   std::string write() const;
+  std::string close();
   void fail(const std::string& why);
 
   std::string path_;
   const double begin_;  ///< [s]
-  const FileDescriptor fd_;
 
   mutable std::mutex mutex_;  ///< Guards filling_, error_ and stop_.
   std::condition_variable wake_;
@@ -70,7 +70,10 @@ class Recorder {
   std::string error_;
   bool stop_ = false;
 
-  std::vector<std::uint8_t> writing_;  ///< Used only by the thread.
+  // Used only by the thread:
+  std::vector<std::uint8_t> writing_;
+  FileDescriptor fd_;
+
   std::thread thread_;
 };
 

@@ -27,9 +27,15 @@ geometry::Intrinsics readIntrinsics(YamlMap section) {
   intrinsics.fy = section.get<double>("fy");
   intrinsics.cx = section.get<double>("cx");
   intrinsics.cy = section.get<double>("cy");
+  const auto model = geometry::distortionModelFromName(
+      section.get<std::string>("distortion_model", geometry::nameOf(intrinsics.distortion_model)));
+  if (!model)
+    throw section.error("distortion_model", "must be " + geometry::describeDistortionModels());
+  intrinsics.distortion_model = *model;
   const auto distortion = section.get<std::vector<double>>("distortion");
-  if (distortion.size() != intrinsics.distortion.size())
-    throw section.error("distortion", "must have five numbers: k1, k2, p1, p2, k3");
+  if (distortion.size() != geometry::coefficientCount(*model))
+    throw section.error("distortion",
+                        std::string("must have the numbers ") + geometry::coefficientNames(*model));
   std::copy(distortion.begin(), distortion.end(), intrinsics.distortion.begin());
   section.refuseUnknown();
   return intrinsics;

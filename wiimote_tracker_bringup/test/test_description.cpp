@@ -124,6 +124,14 @@ TEST_F(DescriptionFile, keeps_all_entries_in_the_order_of_the_file) {
   EXPECT_FALSE(d.leds[0].lit);
 }
 
+TEST_F(DescriptionFile, a_lens_may_be_equidistant) {
+  const Description d = read(with("distortion: [0.1, 0, 0, 0, 0]",
+                                  "distortion_model: equidistant, distortion: [0.1, 0, 0, 0.2]"));
+  const geometry::Intrinsics& lens = d.cameras[0].camera.intrinsics;
+  EXPECT_EQ(lens.distortion_model, geometry::DistortionModel::kEquidistant);
+  EXPECT_EQ(lens.distortion, (std::array<double, 5>{0.1, 0, 0, 0.2, 0}));
+}
+
 TEST_F(DescriptionFile, an_led_without_size_is_dimmed_by_distance) {
   const Description d = read(with("size: 5", "brightness: 0"));
   EXPECT_FALSE(d.leds[0].size);
@@ -321,7 +329,12 @@ TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
                 "leds/led/position must have three numbers");
   expectRefused("fx: 600", "fx: -600", "cameras/second/intrinsics cannot be used");
   expectRefused("[0.1, 0, 0, 0, 0]", "[0.1, 0]",
-                "cameras/second/intrinsics/distortion must have five");
+                "cameras/second/intrinsics/distortion must have the numbers k1, k2, p1, p2, k3");
+  expectRefused("distortion: [0.1, 0, 0, 0, 0]",
+                "distortion_model: equidistant, distortion: [0.1, 0, 0, 0, 0]",
+                "cameras/second/intrinsics/distortion must have the numbers k1, k2, k3, k4");
+  expectRefused("distortion: [0.1", "distortion_model: fisheye, distortion: [0.1",
+                "cameras/second/intrinsics/distortion_model must be plumb_bob");
   expectRefused("look_at: [1, 7, 3]", "look_at: [1, 2, 9]",
                 "cameras/second/look_at cannot be used");  // straight up
   expectRefused("leds:", "leds: {}\nlets:", "leds is empty");

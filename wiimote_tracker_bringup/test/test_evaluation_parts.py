@@ -181,6 +181,18 @@ def test_the_scaled_rig_sees_its_space_about_the_origin(tmp_path):
     assert not any(scene.read_scene(path).missed(corners))
 
 
+@pytest.mark.parametrize('lens', [
+    {'distortion': [0.1, 0.2, 0.0, 0.0, 0.0]},
+    {'distortion_model': 'equidistant', 'distortion': [0.1, 0.0, 0.0, 0.0]}])
+def test_the_scene_of_a_lens_with_more_than_k1_is_refused(tmp_path, lens):
+    description = files.read_yaml(PAPER_RIG)
+    description['cameras']['wiimote_2']['intrinsics'].update(lens)
+    path = str(tmp_path / 'rig.yaml')
+    files.write_yaml(path, description)
+    with pytest.raises(Refusal, match='wiimote_2 has distortion other than k1 of plumb_bob'):
+        scene.read_scene(path)
+
+
 # --- Programs and load
 
 def test_earlier_results_are_removed_but_not_what_they_link_to(tmp_path):

@@ -80,14 +80,14 @@ class Scene:
 
 
 def read_scene(path: str) -> Scene:
-    """Scene of a rig description. Refusal if a lens has distortion other than k1."""
+    """Scene of a rig description. Refusal if a lens has more than k1 of plumb_bob."""
     description = read_yaml(path)
     cameras = []
     for name, entry in description['cameras'].items():
         lens = entry['intrinsics']
-        if any(lens['distortion'][1:]):
-            raise Refusal(f'{path}: {name} has distortion other than k1, which scoring '
-                          'does not know')
+        if lens.get('distortion_model', 'plumb_bob') != 'plumb_bob' or any(lens['distortion'][1:]):
+            raise Refusal(f'{path}: {name} has distortion other than k1 of plumb_bob, which this '
+                          'program does not know')
         position = np.asarray(entry['position'], dtype=float)
         cameras.append(Camera(
             name, [lens['fx'], lens['fy'], lens['cx'], lens['cy'], lens['distortion'][0]],

@@ -123,6 +123,39 @@ def test_misspelt_arguments_are_named_once(load, name):
     assert types.count('master_watch') + types.count('check_arguments') == 1
 
 
+OTHERS = '../../wiimote_tracker_'
+
+
+@pytest.mark.parametrize('name, argument, parameter', [
+    ('calibrate.launch', 'rig_file', '/calibration/rig_file'),
+    ('calibrate.launch', 'socket_directory', '/drivers/socket_directory'),
+    ('calibrate.launch', 'camera_info_directory', '/drivers/camera_info_directory'),
+    ('simulated_rig.launch', 'socket_directory', '/simulated_rig/socket_directory'),
+    ('simulated_rig.launch', 'socket_directory', '/drivers/socket_directory'),
+    ('triangulation.launch', 'label_places', '/triangulation/label_places'),
+    ('several_machines.launch', 'bodies', '/triangulation/bodies/file'),
+    ('replay.launch bag:=x', 'blink_codes', '/triangulation/identity/codes'),
+    (OTHERS + 'calibration/launch/calibration.launch', 'rig_file', '/calibration/rig_file'),
+    (OTHERS + 'driver/launch/driver.launch', 'record', '/wiimote_1/driver/record'),
+    (OTHERS + 'triangulation/launch/gestures.launch', 'file', '/gestures/file'),
+    (OTHERS + 'triangulation/launch/record_points.launch', 'csv', '/record_points/csv'),
+    (OTHERS + 'triangulation/launch/record_points.launch', 'tum', '/record_points/tum')])
+def test_relative_paths_begin_where_the_user_is(load, name, argument, parameter):
+    usual = load(*name.split())[1].get(parameter)
+    assert not usual or usual.startswith('/') and 'my lab' not in usual
+    for given, found in (('my file', '/home/my lab/my file'), ('5', '/home/my lab/5'),
+                         ('places/', '/home/my lab/places/'), ('/etc/a.yaml', '/etc/a.yaml')):
+        assert load(*name.split(), argument + ':=' + given)[1][parameter] == found
+
+
+@pytest.mark.parametrize('given, found', [
+    ('replay:a.wiirec', 'replay:/home/my lab/a.wiirec'), ('replay:/a.wiirec', 'replay:/a.wiirec'),
+    ('virtual:/tmp/x', 'virtual:/tmp/x'), ('00:1f:32:00:00:01', '00:1f:32:00:00:01')])
+def test_a_recording_of_a_driver_is_where_the_user_says(load, given, found):
+    parameters = load(OTHERS + 'driver/launch/driver.launch', 'device:=' + given)[1]
+    assert parameters['/wiimote_1/driver/device'] == found
+
+
 @pytest.mark.parametrize('given, found', [
     ('rec 1.bag', '/home/my lab/rec 1.bag'), ('/data/rec.bag', '/data/rec.bag'),
     ('5', '/home/my lab/5')])
@@ -250,8 +283,8 @@ def test_the_hand_is_started_again(load):
 
 def test_a_replay_knows_bodies_and_codes(load):
     parameters = load('replay.launch', 'bag:=x', 'bodies:=b.yaml', 'blink_codes:=c.yaml')[1]
-    assert parameters['/triangulation/bodies/file'] == 'b.yaml'
-    assert parameters['/triangulation/identity/codes'] == 'c.yaml'
+    assert parameters['/triangulation/bodies/file'] == '/home/my lab/b.yaml'
+    assert parameters['/triangulation/identity/codes'] == '/home/my lab/c.yaml'
 
 
 @pytest.mark.parametrize('arguments', [[], ['one_manager:=true'], ['rviz:=true']])

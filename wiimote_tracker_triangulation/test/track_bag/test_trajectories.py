@@ -120,7 +120,7 @@ def test_tum_of_a_body(tmp_path):
     assert not (tmp_path / 'poses').exists()
     assert 'no file other.yaml' in track('--bodies', 'other.yaml').stderr
     (tmp_path / 'p.yaml').write_text(yaml.safe_dump({'bodies': {'file': 'misspelt.yaml'}}))
-    assert 'There is no file misspelt.yaml, so' in track('--params', 'p.yaml').stderr
+    assert f'There is no file {tmp_path}/misspelt.yaml, so' in track('--params', 'p.yaml').stderr
     assert track('--bodies', 'bodies.yaml').stderr == ''
     rows = np.loadtxt(tmp_path / 'poses' / 'wand.tum')[20:]
     times = rows[:, 0] - recording.START

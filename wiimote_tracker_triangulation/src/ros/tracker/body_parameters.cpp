@@ -71,7 +71,7 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
 std::string describeMissingFile(const std::string& file) {
   if (file.empty() || std::filesystem::exists(file))
     return "";
-  return "There is no file " + file +
+  return "There is no file " + std::filesystem::absolute(file).string() +
          ", so tracking starts without bodies: learn one with the service learn_body, which "
          "creates the file, or correct the parameter bodies/file";
 }

@@ -22,7 +22,7 @@ using wiimote_tracker_msgs::TrackedPointArray;
 constexpr char kPurpose[] =
     "Writes points and triggered_points to tables, and bodies to files, until it is ended.\n"
     "\n"
-    "  roslaunch wiimote_tracker_triangulation record_points.launch csv:=$PWD/FILE\n"
+    "  roslaunch wiimote_tracker_triangulation record_points.launch csv:=FILE\n"
     "\n"
     "Private parameters; one file at least is needed:\n"
     "  csv, matlab    of all points, as CSV or for MATLAB\n"

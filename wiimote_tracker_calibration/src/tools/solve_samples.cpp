@@ -20,24 +20,7 @@ struct Arguments {
   std::string samples;
   std::string params;
   std::string rig;
-  std::string method;
-  std::string ray_model;
-  bool without_gravity = false;
-  bool correct_principal_points = false;
 };
-
-samples::SolveOptions optionsOf(const Arguments& arguments) {
-  ParameterTree tree = readParameterTree(arguments.params);
-  if (!arguments.method.empty())
-    tree.set("method", arguments.method);
-  if (!arguments.ray_model.empty())
-    tree.set("ray_model", arguments.ray_model);
-  samples::SolveOptions options = readParameters(ParameterReader(tree)).solve;
-  options.use_gravity = options.use_gravity && !arguments.without_gravity;
-  options.correct_principal_points =
-      options.correct_principal_points || arguments.correct_principal_points;
-  return options;
-}
 
 void print(const samples::Solution& solution) {
   const samples::Verdict& verdict = solution.verdict;
@@ -75,18 +58,13 @@ int main(int argc, char** argv) {
   parser.positional("FILE", &arguments.samples);
   parser.option("--params FILE", &arguments.params,
                 "parameters of the node, a file like config/calibration.yaml (default: their "
-                "defaults); the options below override it");
+                "defaults)");
   parser.option("--rig FILE", &arguments.rig, "write the rig to this file");
-  parser.option("--method NAME", &arguments.method, {"joint", "per_camera"},
-                "how to solve a square without a wave");
-  parser.option("--ray-model NAME", &arguments.ray_model, {"calibrated", "image_center"},
-                "camera model of the rays");
-  parser.flag("--without-gravity", &arguments.without_gravity, "do not use the accelerometers");
-  parser.flag("--correct-principal-points", &arguments.correct_principal_points,
-              "correct the principal points as the paper does");
   return parser.run(argc, argv, [&] {
+    const ParameterTree parameters = readParameterTree(arguments.params);
     samples::Solution solution =
-        samples::solveSamples(samples::readSamplesFile(arguments.samples), optionsOf(arguments));
+        samples::solveSamples(samples::readSamplesFile(arguments.samples),
+                              readParameters(ParameterReader(parameters)).solve);
     print(solution);
     if (!arguments.rig.empty()) {
       solution.rig.solved_at = static_cast<double>(std::time(nullptr));

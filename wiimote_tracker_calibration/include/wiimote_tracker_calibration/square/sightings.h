@@ -24,9 +24,11 @@ struct CameraSightings {
   std::vector<std::optional<Eigen::Vector2d>> places;     ///< The same of SquareLayout::places.
   std::optional<Eigen::Vector3d> gravity;  ///< Specific force at rest, optical frame [m/s^2].
 
-  /// How many of the corners, and of the known places, it saw.
-  std::size_t cornersSeen() const { return seen(corners); }
-  std::size_t placesSeen() const { return seen(places); }
+  /// How many of the corners it saw.
+  std::size_t cornersSeen() const {
+    return static_cast<std::size_t>(
+        std::count_if(corners.begin(), corners.end(), [](const auto& p) { return p.has_value(); }));
+  }
 
   /// The camera with its starting values at some pose.
   geometry::Camera camera(
@@ -42,13 +44,6 @@ struct CameraSightings {
     const Eigen::Vector3d up(0.0, 0.0, z_up ? 1.0 : -1.0);
     const Eigen::Vector3d measured = world_from_camera.linear() * gravity->normalized();
     return std::atan2(up.cross(measured).norm(), up.dot(measured));
-  }
-
- private:
-  template <typename Pixels>
-  static std::size_t seen(const Pixels& pixels) {
-    return static_cast<std::size_t>(
-        std::count_if(pixels.begin(), pixels.end(), [](const auto& p) { return p.has_value(); }));
   }
 };
 

@@ -6,7 +6,6 @@
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
 #include <array>
 #include <random>

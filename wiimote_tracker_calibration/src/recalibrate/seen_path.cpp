@@ -2,7 +2,6 @@
 
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
-#include <algorithm>
 #include <utility>
 
 namespace wiimote_tracker::recalibrate {

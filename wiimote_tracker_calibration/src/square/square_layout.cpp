@@ -3,8 +3,6 @@
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 #include "square/error.h"
 
-#include <Eigen/Geometry>
-
 #include <cmath>
 #include <string>
 

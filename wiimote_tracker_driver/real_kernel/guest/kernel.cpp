@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 #include <stdexcept>
-#include <system_error>
 
 namespace wiimote_tracker::real_kernel {
 namespace {

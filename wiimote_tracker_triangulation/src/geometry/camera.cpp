@@ -3,8 +3,6 @@
 #include "distortion.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
-#include <Eigen/LU>
-
 #include <cmath>
 #include <string>
 

@@ -26,11 +26,6 @@ bool isMerged(std::uint64_t leds) {
   return (leds & (leds - 1)) != 0;
 }
 
-bool inImage(const geometry::Intrinsics& lens, const Eigen::Vector2d& pixel) {
-  return pixel.x() >= 0.0 && pixel.x() <= lens.width - 1 && pixel.y() >= 0.0 &&
-         pixel.y() <= lens.height - 1;
-}
-
 }  // namespace
 
 geometry::Rig paperRig() {
@@ -134,7 +129,7 @@ void Scene::collectLights(std::size_t camera_index, double time) {
     pixel += options_.pixel_noise * Eigen::Vector2d(random_.gaussian(), random_.gaussian());
     if (options_.integer_pixels)
       pixel = pixel.array().round();
-    if (inImage(camera.intrinsics, pixel))
+    if (camera.intrinsics.isInImage(pixel))
       lights_.push_back({pixel, distance, leds});
   };
   for (std::size_t led = 0; led < leds_.size(); ++led) {

@@ -21,7 +21,12 @@ OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
     (['wiimote_tracker_bringup', 'simulated_rig.launch', 'hand:=true', 'mod:=instant'], [
         'simulated_rig.launch has no argument mod, so mod:= has no effect: write mode:=']),
     # What it passes on to calibrate.launch and triangulation.launch.
-    (OURS + ['cameras:=a:=b', 'drivers:=false', 'label_places:=', '__name:=x'], []),
+    (OURS + ['cameras:=a:=b', 'drivers:=false', 'label_places:=a', '__name:=x'], []),
+    (OURS + ['label_places:='], [
+        'label_places:= has no effect, since roslaunch ignores an empty value: set the parameter '
+        'in a file, parameters:=FILE']),
+    (['wiimote_tracker_bringup', 'record.launch', 'output:='], [
+        'output:= has no effect, since roslaunch ignores an empty value: leave it out']),
     # Whose arguments are unknown.
     (['my_package', 'tracker.launch', 'cemeras:=4'], []), (['mine.launch', 'cemeras:=4'], []),
     (OURS + ['mine.launch', 'cemeras:=4'], []), ([], [])])

@@ -22,11 +22,19 @@ def command_line() -> Optional[List[str]]:
 
 
 def without_effect(words: List[str]) -> Iterator[str]:
-    """A sentence for each argument that no launch file takes, of which roslaunch says nothing."""
+    """A sentence for each argument that no launch file takes, and for each empty one, of which
+    roslaunch says nothing."""
     paths = own_files(words)
     known = set().union(*map(arguments_of, paths))
-    for name in (word.split(':=')[0] for word in words if re.match(r'[A-Za-z]\w*:=', word)):
-        if paths and name not in known:
+    for word in words if paths else []:
+        name, given, value = word.partition(':=')
+        if not given or not re.fullmatch(r'[A-Za-z]\w*', name):
+            continue
+        if name in known and not value:
+            yield f'{name}:= has no effect, since roslaunch ignores an empty value: ' + (
+                'set the parameter in a file, parameters:=FILE' if 'parameters' in known else
+                'leave it out')
+        elif name not in known:
             file, meant = os.path.basename(paths[0]), difflib.get_close_matches(name, known, 1)
             yield f'{file} has no argument {name}, so {name}:= has no effect: ' + (
                 f'write {meant[0]}:=' if meant else

@@ -266,7 +266,7 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   const auto saved = call<SaveRig>("calibration/save");
   ASSERT_TRUE(saved.success) << saved.message;
   EXPECT_EQ(saved.path, folder_ + "/rig.yaml");
-  EXPECT_SAYS(saved.message, "camera_4 offers no set_camera_info");
+  EXPECT_SAYS(saved.message, "nothing offers set_camera_info of camera_4:");
   EXPECT_EQ(saved.message.find("camera_1"), std::string::npos) << saved.message;
   EXPECT_EQ(geometry::readRigFile(saved.path).id(), solved.rig.id);
   for (const geometry::Camera& camera : cameras_->truth)

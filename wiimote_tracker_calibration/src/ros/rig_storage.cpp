@@ -64,6 +64,8 @@ std::vector<std::string> describeLost(const geometry::Rig& rig, const std::strin
   return sentences;
 }
 
+constexpr char kNoService[] = "there is no such service";
+
 /// @returns why the driver does not know its lens now; empty when it does.
 std::string callDriver(const std::string& name,
                        const std::string& service,
@@ -71,9 +73,7 @@ std::string callDriver(const std::string& name,
   sensor_msgs::SetCameraInfo call;
   call.request.camera_info = info;
   if (!ros::service::exists(service, false))
-    return name +
-           " offers no set_camera_info, so its driver does not know its lens: if it does not run, "
-           "start it, then save again";
+    return kNoService;
   if (!ros::service::call(service, call))
     return "calling " + service +
            " failed, so the driver does not know its lens: see its log, then save again";
@@ -147,6 +147,7 @@ std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cam
     std::thread(std::move(call)).detach();
   }
   std::vector<std::string> warnings;
+  std::vector<std::string> without_service;
   for (std::size_t i = 0; i < answers.size(); ++i) {
     std::string warning = cameras[i].name +
                           " does not answer set_camera_info in time: restart its driver, then "
@@ -157,9 +158,15 @@ std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cam
     } catch (const std::exception& error) {
       warning = "set_camera_info of " + cameras[i].name + " failed: " + error.what();
     }
-    if (!warning.empty())
+    if (warning == kNoService)
+      without_service.push_back(cameras[i].name);
+    else if (!warning.empty())
       warnings.push_back(warning);
   }
+  if (!without_service.empty())
+    warnings.push_back("nothing offers set_camera_info of " + joined(without_service) +
+                       ": if a driver does not run, start it, then save again, so that it knows "
+                       "its lens");
   return warnings;
 }
 

@@ -149,7 +149,7 @@ Parameters readParameters(ParameterReader* reader) {
   if (parameters.rig_file.empty())
     parameters.rig_file = rosHome() + "/wiimote_tracker/" + kRigFile;
   parameters.file_folder = reader->optional<std::string>("file_folder", "");
-  reader->read("led_height", &calibration.layout.led_height, 0.0, 1000.0);
+  reader->read("led_height", &calibration.layout.led_height, 0.0, 2.0);
   reader->read("world_frame", &calibration.world_frame);
   if (calibration.world_frame.empty())
     throw ParameterError(reader->nameOf("world_frame") + " is empty: give the frame a name");

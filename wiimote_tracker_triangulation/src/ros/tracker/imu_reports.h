@@ -3,6 +3,7 @@
 
 #include "wiimote_tracker_triangulation/body/body_estimate.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <map>
 #include <optional>
@@ -10,11 +11,20 @@
 
 namespace wiimote_tracker {
 
-/// Says that the IMU of a tracked body is not used, since its samples are missing or do not fit the
-/// images: after a second, then every ten.
+/// Says why IMUs of bodies are not used: because the world's z axis does not point up, once; or
+/// because the samples of a tracked body are missing or do not fit the images, after a second, then
+/// every ten. Each function returns one sentence, if one is due.
 class ImuReports {
  public:
-  /// @param body at a time [s]. @returns one sentence, if one is due.
+  void setRig(const geometry::Rig& rig);
+
+  /// Whether the world's z axis points up by the cameras' accelerometers, or none tells.
+  bool isLevel() const;
+
+  /// When a sample comes and the world is not level.
+  std::optional<std::string> addSample();
+
+  /// @param body at a time [s].
   std::optional<std::string> add(const body::Constellation& constellation,
                                  const body::BodyEstimate& body,
                                  double time);
@@ -24,6 +34,8 @@ class ImuReports {
     std::optional<double> unused_since;  // [s]
     std::optional<double> reported;      // [s]
   };
+  double tilt_ = 0.0;  // of the world's z axis [rad]
+  bool tilt_reported_ = false;
   std::map<std::string, Body> bodies_;
 };
 

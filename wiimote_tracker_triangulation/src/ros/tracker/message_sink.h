@@ -1,0 +1,52 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_SINK_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_SINK_H
+
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
+
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
+#include <wiimote_tracker_msgs/TrackedPointArray.h>
+#include <wiimote_tracker_msgs/ZoneEvent.h>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker {
+
+/// Receives the results of MessageTracker; those whose function it does not override are ignored.
+class MessageSink {
+ public:
+  virtual ~MessageSink() = default;
+
+  /// The rig of all that follows.
+  virtual void onRig(const geometry::Rig& /*rig*/) {}
+
+  /// What the tracker found, before anything is made of it but labels. @returns the snapshot to use
+  /// instead, with the same LEDs; valid until the next call
+  virtual const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) {
+    return snapshot;
+  }
+
+  /// The LEDs at one time; times increase strictly until time jumps back. `views`: what the cameras
+  /// saw. The message must not be changed.
+  virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& /*points*/,
+                        const std::vector<tracking::CameraView>& /*views*/) {}
+
+  /// The rigid bodies at the time of an image, before the points of that image. Times increase
+  /// strictly too. Only while bodies are tracked. `bridged`: for each body of the message,
+  /// whether its IMU predicts it, so that its pose is as that of a tracked one.
+  virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/,
+                        const std::vector<bool>& /*bridged*/) {}
+
+  virtual void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& /*event*/) {}
+
+  /// The LEDs at the time of a trigger.
+  virtual void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& /*points*/) {}
+
+  /// A problem: one sentence that says what to do. Faults of cameras: see FaultReports.
+  virtual void onProblem(const std::string& /*sentence*/) {}
+};
+
+}  // namespace wiimote_tracker
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_SINK_H

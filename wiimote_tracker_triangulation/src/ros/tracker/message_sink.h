@@ -18,15 +18,6 @@ class MessageSink {
  public:
   virtual ~MessageSink() = default;
 
-  /// The rig of all that follows.
-  virtual void onRig(const geometry::Rig& /*rig*/) {}
-
-  /// What the tracker found, before anything is made of it but labels. @returns the snapshot to use
-  /// instead, with the same LEDs; valid until the next call
-  virtual const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) {
-    return snapshot;
-  }
-
   /// The LEDs at one time; times increase strictly until time jumps back. `views`: what the cameras
   /// saw. The message must not be changed.
   virtual void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& /*points*/,
@@ -45,6 +36,18 @@ class MessageSink {
 
   /// A problem: one sentence that says what to do. Faults of cameras: see FaultReports.
   virtual void onProblem(const std::string& /*sentence*/) {}
+};
+
+/// Changes snapshots before results are made of them, as a smoother does.
+class SnapshotFilter {
+ public:
+  virtual ~SnapshotFilter() = default;
+
+  /// The rig of all that follows.
+  virtual void setRig(const geometry::Rig& rig) = 0;
+
+  /// @returns the snapshot to use instead, with the same LEDs; valid until the next call.
+  virtual const tracking::Snapshot& apply(const tracking::Snapshot& snapshot) = 0;
 };
 
 }  // namespace wiimote_tracker

@@ -36,9 +36,12 @@ void checkFrames(const geometry::Rig& rig,
 
 }  // namespace
 
-MessageTracker::MessageTracker(const TrackingParameters& parameters, MessageSink* sink)
+MessageTracker::MessageTracker(const TrackingParameters& parameters,
+                               MessageSink* sink,
+                               SnapshotFilter* filter)
     : parameters_(parameters),
       sink_(sink),
+      filter_(filter),
       sightings_({parameters.identity.exposure, parameters.estimator.tracks.merging_distance}),
       labels_(parameters.labels),
       bodies_(parameters.bodies.options),
@@ -71,7 +74,8 @@ MessageTracker::RigChange MessageTracker::takeRig(
   rig_ = rig;
   imu_reports_.setRig(rig);
   change.correction = points_.setRig(rig, rig_id_, estimator_.get());
-  sink_->onRig(rig_);
+  if (filter_)
+    filter_->setRig(rig);
   return change;
 }
 
@@ -192,7 +196,7 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   reportDoubtfulLabels();
   if (identifier_)
     startBodies(tracked);
-  points_.takeSnapshot(sink_->onSnapshot(tracked));
+  points_.takeSnapshot(filter_ ? filter_->apply(tracked) : tracked);
 }
 
 void MessageTracker::reportDoubtfulLabels() {

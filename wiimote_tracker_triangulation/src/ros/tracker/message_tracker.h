@@ -27,7 +27,10 @@ namespace wiimote_tracker {
 /// order; no clock is read.
 class MessageTracker {
  public:
-  MessageTracker(const TrackingParameters& parameters, MessageSink* sink);
+  /// @param sink, filter must live longer; the filter may be null.
+  MessageTracker(const TrackingParameters& parameters,
+                 MessageSink* sink,
+                 SnapshotFilter* filter = nullptr);
   MessageTracker(const MessageTracker&) = delete;
   MessageTracker& operator=(const MessageTracker&) = delete;
 
@@ -80,6 +83,7 @@ class MessageTracker {
 
   TrackingParameters parameters_;
   MessageSink* sink_;
+  SnapshotFilter* filter_;
 
   geometry::Rig rig_;
   std::string rig_id_;

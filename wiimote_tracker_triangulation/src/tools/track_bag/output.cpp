@@ -61,14 +61,10 @@ void LockedPart::lock(const std::string& path) {
   }
 }
 
-Output::Output(const OutputFiles& files,
-               const Topics& topics,
-               const OutputOptions& options,
-               SmoothedTracks* smoothed)
+Output::Output(const OutputFiles& files, const Topics& topics, const OutputOptions& options)
     : path_(files.bag),
       topics_(topics),
       options_(options),
-      smoothed_(smoothed),
       part_(path_),
       bag_(std::make_unique<rosbag::Bag>()),
       tables_(measurements::makeWriters(files.tables)),
@@ -133,15 +129,6 @@ void Output::writeRig(const RigCalibration& rig, const ros::Time& time) {
   (*header)["latching"] = "1";
   (*header)["callerid"] = "/track_bag";
   write(topics_("calibration/rig"), time, rig, header);
-}
-
-void Output::onRig(const geometry::Rig& rig) {
-  if (smoothed_)
-    smoothed_->onRig(rig);
-}
-
-const tracking::Snapshot& Output::onSnapshot(const tracking::Snapshot& snapshot) {
-  return smoothed_ ? smoothed_->apply(snapshot) : snapshot;
 }
 
 void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,

@@ -5,7 +5,6 @@
 #include "ros/measurements/trajectory_files.h"
 #include "ros/measurements/writer.h"
 #include "ros/tracker/message_tracker.h"
-#include "smoothed_tracks.h"
 
 #include <rosbag/bag.h>
 
@@ -49,11 +48,7 @@ class LockedPart {
 class Output : public MessageSink {
  public:
   /// @param options which topics of single LEDs and bodies to write.
-  /// @param smoothed of the same recording, or null; not owned
-  Output(const OutputFiles& files,
-         const Topics& topics,
-         const OutputOptions& options,
-         SmoothedTracks* smoothed);
+  Output(const OutputFiles& files, const Topics& topics, const OutputOptions& options);
   ~Output() override;
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -78,8 +73,6 @@ class Output : public MessageSink {
   std::uint64_t triggersAnswered() const { return triggers_answered_; }
   std::uint64_t zoneEvents() const { return zone_events_; }
 
-  void onRig(const geometry::Rig& rig) override;
-  const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) override;
   void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points,
                 const std::vector<tracking::CameraView>& views) override;
   void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
@@ -100,7 +93,6 @@ class Output : public MessageSink {
   std::string path_;
   Topics topics_;
   OutputOptions options_;
-  SmoothedTracks* smoothed_;  // null: points are not smoothed
   LockedPart part_;
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> tables_;

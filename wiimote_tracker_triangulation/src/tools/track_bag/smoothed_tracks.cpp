@@ -12,7 +12,7 @@ using tracking::SpotUse;
 using tracking::TrackedLed;
 using tracking::TrackState;
 
-void SmoothedTracks::onRig(const geometry::Rig& rig) {
+void SmoothedTracks::setRig(const geometry::Rig& rig) {
   cameras_.push_back(rig.rayCameras());
   noises_.clear();
   for (const geometry::RigCamera& camera : rig.cameras)
@@ -21,26 +21,25 @@ void SmoothedTracks::onRig(const geometry::Rig& rig) {
   newest_.resize(rig.cameras.size(), -std::numeric_limits<double>::infinity());
 }
 
-const Snapshot& SmoothedTracks::onSnapshot(const Snapshot& snapshot) {
+void SmoothedTracks::collect(const Snapshot& snapshot) {
   for (std::size_t camera = 0; camera < snapshot.views.size(); ++camera) {
     const std::optional<double>& time = snapshot.views[camera].time;
     if (!time)
       continue;
-    collect(camera, SpotUse::kStart, snapshot);
+    collectSpots(camera, SpotUse::kStart, snapshot);
     if (*time != newest_[camera])
-      collect(camera, SpotUse::kAssigned, snapshot);
+      collectSpots(camera, SpotUse::kAssigned, snapshot);
     newest_[camera] = *time;
   }
   for (const TrackedLed& led : snapshot.leds) {
     if (led.state != TrackState::kLost)
       tracks_[led.id].places.push_back({snapshot.time, led.position});
   }
-  return snapshot;
 }
 
 /// Adds the spots of a camera's newest image that are used so to their LEDs. Those that began a
 /// track may be of an older image, and are added before the track has its first place.
-void SmoothedTracks::collect(std::size_t camera, SpotUse use, const Snapshot& snapshot) {
+void SmoothedTracks::collectSpots(std::size_t camera, SpotUse use, const Snapshot& snapshot) {
   const tracking::CameraView& view = snapshot.views[camera];
   for (const tracking::SeenSpot& spot : view.spots) {
     if (spot.use != use || mayBeMerged(spot, camera, snapshot))
@@ -70,6 +69,7 @@ bool SmoothedTracks::mayBeMerged(const tracking::SeenSpot& spot,
 }
 
 void SmoothedTracks::smooth() {
+  is_smoothed_ = true;
   for (auto& [id, track] : tracks_) {
     throwIfInterrupted();
     std::stable_sort(track.observations.begin(), track.observations.end(),
@@ -80,6 +80,10 @@ void SmoothedTracks::smooth() {
 }
 
 const Snapshot& SmoothedTracks::apply(const Snapshot& snapshot) {
+  if (!is_smoothed_) {
+    collect(snapshot);
+    return snapshot;
+  }
   smoothed_ = snapshot;
   for (TrackedLed& led : smoothed_.leds) {
     Track& track = tracks_.at(led.id);

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H
 
 #include "motion/smoother.h"
-#include "ros/tracker/message_tracker.h"
+#include "ros/tracker/message_sink.h"
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
@@ -16,20 +16,18 @@ namespace wiimote_tracker {
 
 /// Collects the spots of each LED while a recording is tracked, then smooths each LED's motion. The
 /// same recording, tracked again, gets the smoothed states.
-class SmoothedTracks : public MessageSink {
+class SmoothedTracks : public SnapshotFilter {
  public:
   explicit SmoothedTracks(const tracking::TrackerOptions& options) : options_(options) {}
 
-  // The first time; onRig() both times.
-  void onRig(const geometry::Rig& rig) override;
-  const tracking::Snapshot& onSnapshot(const tracking::Snapshot& snapshot) override;
+  void setRig(const geometry::Rig& rig) override;
 
-  /// Between the two.
+  /// Before smooth(): the same snapshot. Then that with smoothed positions, velocities and their
+  /// covariances; all else stays.
+  const tracking::Snapshot& apply(const tracking::Snapshot& snapshot) override;
+
+  /// Call it when the recording was tracked once.
   void smooth();
-
-  /// The snapshot with smoothed positions, velocities and their covariances; all else stays. Valid
-  /// until the next call. Needs smooth().
-  const tracking::Snapshot& apply(const tracking::Snapshot& snapshot);
 
  private:
   struct Track {
@@ -39,7 +37,8 @@ class SmoothedTracks : public MessageSink {
     tracking::TrackedLed last;                   // that was smoothed
   };
 
-  void collect(std::size_t camera, tracking::SpotUse use, const tracking::Snapshot& snapshot);
+  void collect(const tracking::Snapshot& snapshot);
+  void collectSpots(std::size_t camera, tracking::SpotUse use, const tracking::Snapshot& snapshot);
   bool mayBeMerged(const tracking::SeenSpot& spot,
                    std::size_t camera,
                    const tracking::Snapshot& snapshot) const;
@@ -50,6 +49,7 @@ class SmoothedTracks : public MessageSink {
   std::vector<double> newest_;             // image of each camera that was collected [s]
   std::map<std::uint32_t, Track> tracks_;  // by id
   std::optional<geometry::CalibrationUncertainty> uncertainty_;
+  bool is_smoothed_ = false;
   tracking::Snapshot smoothed_;
 };
 

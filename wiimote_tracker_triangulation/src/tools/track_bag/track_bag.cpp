@@ -45,8 +45,11 @@ struct Arguments {
 /// Feeds recorded rigs, triggers, images and samples of IMUs to the tracker.
 class Player {
  public:
-  Player(const TrackingParameters& parameters, const Topics& topics, MessageSink* sink)
-      : tracker_(parameters, sink), topics_(topics), sink_(sink) {
+  Player(const TrackingParameters& parameters,
+         const Topics& topics,
+         MessageSink* sink,
+         SnapshotFilter* filter)
+      : tracker_(parameters, sink, filter), topics_(topics), sink_(sink) {
     for (const body::Constellation& body : parameters.bodies.known) {
       if (body.imu)
         imus_.emplace(topics_(body.imu->topic), body.name);
@@ -256,11 +259,12 @@ void run(const Arguments& arguments) {
 
   deferInterruption();  // so that no parts of files are left
   SmoothedTracks smoothed(parameters.estimator.tracks);
-  Output output(arguments.output, topics, parameters.output,
-                arguments.smooth ? &smoothed : nullptr);
+  SnapshotFilter* const filter = arguments.smooth ? &smoothed : nullptr;
+  Output output(arguments.output, topics, parameters.output);
   dropRecordedResults(recording, topics, parameters, &output);
   if (arguments.smooth) {
-    Player(parameters, topics, &smoothed).play(recording, own_rig, [](const auto&) {});
+    MessageSink ignored;
+    Player(parameters, topics, &ignored, filter).play(recording, own_rig, [](const auto&) {});
     smoothed.smooth();
   }
   if (own_rig) {
@@ -272,7 +276,7 @@ void run(const Arguments& arguments) {
       output.copy(message);
     output.setTime(message.getTime());
   };
-  Player player(parameters, topics, &output);
+  Player player(parameters, topics, &output, filter);
   player.play(recording, own_rig, copy);
   output.finish();
   const std::chrono::duration<double> duration = std::chrono::steady_clock::now() - start;

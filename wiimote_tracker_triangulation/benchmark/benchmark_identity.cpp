@@ -3,8 +3,7 @@
 
 int main(int argc, char** argv) {
   using namespace wiimote_tracker;
-  return runBenchmark(
-      "benchmark_identity",
-      {paperSection(), someInViewSection(), periodsSection(), cyclicSection(), movingSection()},
-      argc, argv);
+  return runBenchmark("benchmark_identity",
+                      {paperSection(), periodsSection(), cyclicSection(), movingSection()}, argc,
+                      argv);
 }

@@ -103,16 +103,14 @@ Score simulate(const BlinkingOptions& options,
   return score;
 }
 
-BlinkingOptions paperOptions(const BlinkCodes& codes,
-                             double period,
-                             double periods,
-                             std::size_t cameras) {
+/// Two periods of the paper's scheme.
+BlinkingOptions paperOptions(const BlinkCodes& codes, double period, std::size_t cameras) {
   BlinkingOptions options;
   options.codes = codes;
   options.leds = {0, 1, 2, 3};
   options.cameras = cameras;
   options.period = period;
-  options.duration = periods * period;
+  options.duration = 2.0 * period;
   options.drop = 0.05;
   options.flip = 0.01;
   return options;
@@ -128,7 +126,7 @@ void runPaper(const BenchmarkSettings& settings, const RowCallback& row) {
   const Hypotheses hypotheses(codes, {}, IdentifierOptions().memory);
   for (const std::size_t cameras : {1, 4}) {
     for (const double period : {0.11, 0.15, 0.2, 0.3, 0.5}) {
-      const BlinkingOptions options = paperOptions(codes, period, 2.0, cameras);
+      const BlinkingOptions options = paperOptions(codes, period, cameras);
       const int runs = kRunsPerRun * settings.runs;
       BenchmarkRow result =
           simulate(options, hypotheses, runs, settings.seed).row(camerasAndPeriod(cameras, period));
@@ -145,30 +143,12 @@ void runPaper(const BenchmarkSettings& settings, const RowCallback& row) {
   }
 }
 
-void runSomeInView(const BenchmarkSettings& settings, const RowCallback& row) {
-  const BlinkCodes codes = paperCodes(0.11, 0.5);
-  const Hypotheses hypotheses(codes, {}, IdentifierOptions().memory);
-  const std::vector<std::vector<std::size_t>> subsets = {{0, 1, 2}, {1, 2, 3}, {0, 3}, {1, 2},
-                                                         {0},       {1},       {2},    {3}};
-  for (const double periods : {2.0, 4.0}) {
-    for (const std::vector<std::size_t>& leds : subsets) {
-      BlinkingOptions options = paperOptions(codes, 0.15, periods, 1);
-      options.leds = leds;
-      std::string name =
-          camerasAndPeriod(1, 0.15) + ", " + std::to_string(std::lround(periods)) + " periods, LED";
-      for (const std::size_t led : leds)
-        name += " " + std::to_string(led + 1);
-      row(simulate(options, hypotheses, kRunsPerRun * settings.runs, settings.seed).row(name));
-    }
-  }
-}
-
 void runPeriods(const BenchmarkSettings& settings, const RowCallback& row) {
   const BlinkCodes codes = paperCodes(0.04, 0.25);
   const Hypotheses hypotheses(codes, {}, IdentifierOptions().memory);
   for (const std::size_t cameras : {1, 4}) {
     for (int ms = 40; ms <= 200; ms += ms < 120 ? 5 : 20) {
-      const Score score = simulate(paperOptions(codes, 1e-3 * ms, 2.0, cameras), hypotheses,
+      const Score score = simulate(paperOptions(codes, 1e-3 * ms, cameras), hypotheses,
                                    kRunsPerRun * settings.runs, settings.seed);
       row(score.row(camerasAndPeriod(cameras, 1e-3 * ms)));
     }
@@ -238,11 +218,6 @@ BenchmarkSection paperSection() {
           " counting %: wrong by the share of images that show an LED. period known, all blink: "
           "none yet % when these are told beforehand.",
       runPaper};
-}
-
-BenchmarkSection someInViewSection() {
-  return {"some_in_view", std::string("The same with only some LEDs in view.") + kColumns,
-          runSomeInView};
 }
 
 BenchmarkSection periodsSection() {

@@ -16,7 +16,6 @@ BenchmarkSection scaleSection();
 
 // Of benchmark_identity.
 BenchmarkSection paperSection();
-BenchmarkSection someInViewSection();
 BenchmarkSection periodsSection();
 BenchmarkSection cyclicSection();
 BenchmarkSection movingSection();

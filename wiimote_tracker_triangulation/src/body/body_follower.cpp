@@ -29,12 +29,6 @@ void lose(BodyEstimate* body) {
     led.cameras.clear();
 }
 
-bool haveSameCameras(const geometry::Rig& before, const geometry::Rig& now) {
-  return std::equal(
-      before.cameras.begin(), before.cameras.end(), now.cameras.begin(), now.cameras.end(),
-      [](const auto& one, const auto& other) { return one.camera.name == other.camera.name; });
-}
-
 }  // namespace
 
 void BodyFollower::setRig(const geometry::Rig& rig) {

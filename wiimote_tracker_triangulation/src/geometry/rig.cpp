@@ -170,6 +170,12 @@ void Rig::check() const {
   }
 }
 
+bool haveSameCameras(const Rig& a, const Rig& b) {
+  return std::equal(
+      a.cameras.begin(), a.cameras.end(), b.cameras.begin(), b.cameras.end(),
+      [](const auto& one, const auto& other) { return one.camera.name == other.camera.name; });
+}
+
 std::string withoutSlashes(const std::string& camera_name) {
   std::string name = camera_name.substr(camera_name.compare(0, 1, "/") == 0 ? 1 : 0);
   std::replace(name.begin(), name.end(), '/', '_');

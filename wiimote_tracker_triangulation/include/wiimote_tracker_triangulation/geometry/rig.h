@@ -127,6 +127,9 @@ struct Rig {
   void check() const;
 };
 
+/// Whether both have cameras of the same names, in the same order.
+bool haveSameCameras(const Rig& a, const Rig& b);
+
 /// Optical frame of a camera: its name without a leading slash, other slashes as underscores,
 /// + "_optical_frame".
 std::string opticalFrame(const std::string& camera_name);

@@ -49,10 +49,7 @@ PointOutput::PointOutput(const TrackingParameters& parameters,
 bool PointOutput::setRig(const geometry::Rig& rig,
                          const std::string& rig_id,
                          tracking::Estimator* estimator) {
-  const bool has_same_cameras =
-      std::equal(rig.cameras.begin(), rig.cameras.end(), rig_.cameras.begin(), rig_.cameras.end(),
-                 [](const auto& a, const auto& b) { return a.camera.name == b.camera.name; });
-  if (!has_same_cameras) {
+  if (!haveSameCameras(rig, rig_)) {
     // Snapshots name cameras by their places in the rig: those from before would name others.
     newest_.time = kNever;
     trigger_.forget();

@@ -95,9 +95,8 @@ void BodyFollower::take(std::size_t camera,
     if (!isMasked(spot))
       pixels_.push_back(spot.pixel);
   }
-  const double stamp_stddev = std::isfinite(image->stamp_stddev) && image->stamp_stddev >= 0.0
-                                  ? image->stamp_stddev
-                                  : options_.stamp_stddev;
+  const double stamp_stddev =
+      std::isnan(image->stamp_stddev) ? options_.stamp_stddev : image->stamp_stddev;
   if (!tracker_->add(camera, times.exposure - clock.offset,
                      std::hypot(stamp_stddev, std::sqrt(clock.variance)), pixels_))
     return;

@@ -157,13 +157,13 @@ StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double
   CameraGroup& group = *groups_[state.group];
   const ClockRegression::Estimate clock = group.clocks().correctionOf(
       state.member, image.clock_epoch, !rig_.cameras[camera].hasNewClock(image.clock_epoch));
-  const bool is_stddev_known = std::isfinite(image.stamp_stddev) && image.stamp_stddev >= 0.0;
+  const double stamp_stddev =
+      std::isnan(image.stamp_stddev) ? options_.stamp_stddev : image.stamp_stddev;
   StoredImage result;
   result.camera = state.member;
   result.time = exposure - clock.offset;
   result.arrival = image.arrival;
-  result.stamp_stddev = std::hypot(is_stddev_known ? image.stamp_stddev : options_.stamp_stddev,
-                                   std::sqrt(clock.variance));
+  result.stamp_stddev = std::hypot(stamp_stddev, std::sqrt(clock.variance));
   result.clocks = group.clocks().version();
   result.number = images_++;
   result.full = image.spots.size() >= image.maximum_spots;

@@ -20,7 +20,7 @@ struct Spot {
 struct CameraImage {
   double stamp = 0.0;    ///< Middle of the exposure, without the rig's time offset [s].
   double arrival = 0.0;  ///< When it reached the computer [s].
-  double stamp_stddev = std::numeric_limits<double>::quiet_NaN();  ///< [s]; NaN: unknown.
+  double stamp_stddev = std::numeric_limits<double>::quiet_NaN();  ///< [s, >= 0]; NaN: unknown.
   std::uint32_t clock_epoch = 0;
   std::size_t maximum_spots = 4;  ///< With so many spots, more LEDs may be visible.
   std::vector<Spot> spots;

@@ -123,14 +123,14 @@ std::string camerasAndPeriod(std::size_t cameras, double period) {
 
 void runPaper(const BenchmarkSettings& settings, const RowCallback& row) {
   const BlinkCodes codes = paperCodes(0.11, 0.5);
-  const Hypotheses hypotheses(codes, {}, IdentifierOptions().memory);
+  const Hypotheses hypotheses(codes);
   for (const std::size_t cameras : {1, 4}) {
     for (const double period : {0.11, 0.15, 0.2, 0.3, 0.5}) {
       const BlinkingOptions options = paperOptions(codes, period, cameras);
       const int runs = kRunsPerRun * settings.runs;
       BenchmarkRow result =
           simulate(options, hypotheses, runs, settings.seed).row(camerasAndPeriod(cameras, period));
-      const Hypotheses known(paperCodes(period, period), {}, IdentifierOptions().memory);
+      const Hypotheses known(paperCodes(period, period));
       const Score known_period = simulate(options, known, runs, settings.seed);
       result.figures.push_back(
           {"period known: none yet %", known_period.percent(known_period.none_yet)});
@@ -145,7 +145,7 @@ void runPaper(const BenchmarkSettings& settings, const RowCallback& row) {
 
 void runPeriods(const BenchmarkSettings& settings, const RowCallback& row) {
   const BlinkCodes codes = paperCodes(0.04, 0.25);
-  const Hypotheses hypotheses(codes, {}, IdentifierOptions().memory);
+  const Hypotheses hypotheses(codes);
   for (const std::size_t cameras : {1, 4}) {
     for (int ms = 40; ms <= 200; ms += ms < 120 ? 5 : 20) {
       const Score score = simulate(paperOptions(codes, 1e-3 * ms, cameras), hypotheses,
@@ -187,7 +187,7 @@ void runWords(const std::vector<std::string>& words,
   options.codes = wordCodes(words, 0.001);
   options.period = 0.023 * static_cast<double>(words[0].size());
   options.flip = 0.01;
-  const Hypotheses hypotheses(options.codes, {}, IdentifierOptions().memory);
+  const Hypotheses hypotheses(options.codes);
   for (const std::size_t cameras : {1, 4}) {
     options.cameras = cameras;
     row(cyclicRow(format("%zu words of %zu%s, cameras: %zu", words.size(), words[0].size(),

@@ -57,7 +57,7 @@ void Evidence::accumulate(const Sighting& sighting, double weight, LogLikelihood
 
 /// Adds the log likelihoods of a dark interval, none below that of an occlusion.
 void Evidence::addLimited(const Darkness& darkness, LogLikelihoods* sum) const {
-  const auto least = static_cast<float>(darkness.weight * std::log(hypotheses_->seeing().hidden));
+  const auto least = static_cast<float>(darkness.weight * std::log(kOccluded));
   sum->cells += darkness.sum.cells.max(least);
   sum->steady += std::max(darkness.sum.steady, static_cast<double>(least));
 }

@@ -41,9 +41,8 @@ const BlinkCodes& checked(const BlinkCodes& codes) {
 
 }  // namespace
 
-Hypotheses::Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, double memory)
+Hypotheses::Hypotheses(const BlinkCodes& codes, double memory)
     : codes_(checked(codes)),
-      seeing_(seeing),
       memory_(std::max(memory, 3.0 * codes.longest_period)),
       phases_(phasesFor(codes)),
       frequencies_(frequenciesOf(codes, memory_)) {
@@ -77,12 +76,10 @@ void Hypotheses::fillRow(std::size_t blur, bool seen, std::size_t step, std::siz
       const double phase = middle + phase_blur_ * ((k + 0.5) / kSamples - 0.5);
       light += litShare(codes_.codes[label].waveform, phase - 0.5 * exposure, exposure) / kSamples;
     }
-    const double probability =
-        seeing_.seen_when_off + (seeing_.seen_when_on - seeing_.seen_when_off) * light;
+    const double probability = kSeenWhenOff + (kSeenWhenOn - kSeenWhenOff) * light;
     // Not seen: relative to an LED that is hidden, as Evidence::addLimited needs it.
-    row[i] =
-        static_cast<float>(seen ? std::log(probability)
-                                : std::log((1.0 - probability) / (1.0 - seeing_.seen_when_off)));
+    row[i] = static_cast<float>(seen ? std::log(probability)
+                                     : std::log((1.0 - probability) / (1.0 - kSeenWhenOff)));
   }
 }
 
@@ -99,8 +96,7 @@ const float* Hypotheses::rowsOf(const Sighting& sighting, double frequency, doub
 }
 
 double Hypotheses::steady(bool seen) const {
-  return seen ? std::log(seeing_.seen_when_on)
-              : std::log((1.0 - seeing_.seen_when_on) / (1.0 - seeing_.seen_when_off));
+  return seen ? std::log(kSeenWhenOn) : std::log((1.0 - kSeenWhenOn) / (1.0 - kSeenWhenOff));
 }
 
 }  // namespace wiimote_tracker::identity

@@ -3,9 +3,7 @@
 namespace wiimote_tracker::identity {
 
 Identifier::Identifier(const BlinkCodes& codes, const IdentifierOptions& options)
-    : options_(options),
-      hypotheses_(codes, options.seeing, options.memory),
-      posterior_(hypotheses_, options.steady) {}
+    : options_(options), hypotheses_(codes), posterior_(hypotheses_, options.steady) {}
 
 Identifier::Led* Identifier::find(std::uint32_t id) const {
   for (const auto& led : leds_) {

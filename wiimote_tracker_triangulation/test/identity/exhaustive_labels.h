@@ -18,7 +18,6 @@ namespace wiimote_tracker::identity::test {
 /// assignment of labels, with every sighting for each.
 struct ExhaustiveLabels {
   BlinkCodes codes;
-  SeeingModel seeing;
   double steady = 0.01;
   double memory = 1.0;
   std::vector<double> periods;  ///< All candidates [s].
@@ -97,13 +96,12 @@ struct ExhaustiveLabels {
       double of_blinking = 0.0, weight = 0.0;
     };
     std::map<std::size_t, Darkness> dark;  // by camera, while it lasts
-    const double hidden = std::log(seeing.hidden);
+    const double hidden = std::log(kOccluded);
     for (const LedSighting& s : sightings) {
       if (s.led != led)
         continue;
       const double weight = std::exp((s.sighting.time - now) / memory);
-      const double p = seeing.seen_when_off +
-                       (seeing.seen_when_on - seeing.seen_when_off) * light_at(s.sighting.time);
+      const double p = kSeenWhenOff + (kSeenWhenOn - kSeenWhenOff) * light_at(s.sighting.time);
       Darkness& darkness = dark[s.sighting.camera];
       if (s.sighting.seen) {
         sum += std::max(darkness.of_blinking, darkness.weight * hidden) + weight * std::log(p);
@@ -111,7 +109,7 @@ struct ExhaustiveLabels {
       } else {
         if (darkness.weight == 0.0)
           darkness.weight = weight;
-        darkness.of_blinking += weight * std::log((1.0 - p) / (1.0 - seeing.seen_when_off));
+        darkness.of_blinking += weight * std::log((1.0 - p) / (1.0 - kSeenWhenOff));
       }
     }
     for (const auto& [camera, darkness] : dark)

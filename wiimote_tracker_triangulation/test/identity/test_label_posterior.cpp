@@ -36,7 +36,7 @@ Eigen::MatrixXd posteriorOf(const Hypotheses& hypotheses,
 /// Largest difference from the exhaustive probabilities in some runs. @param raster step to which
 /// the times of sightings are rounded [s]; 0: not rounded.
 double errorAgainstExhaustive(const BlinkingOptions& options, int runs, double raster) {
-  const Hypotheses hypotheses(options.codes, {}, 1.0);
+  const Hypotheses hypotheses(options.codes);
   test::ExhaustiveLabels exhaustive;
   exhaustive.codes = options.codes;
   exhaustive.memory = hypotheses.memory();
@@ -77,7 +77,7 @@ TEST(LabelPosterior, AsynchronousMatchesTheExhaustiveComputation) {
   // Phases are rounded to a quarter of the grid's step, 32 of them here, and exposures to a 32nd of
   // the period. These need no rounding.
   const double raster = options.period / (4 * 32);
-  ASSERT_EQ(32u, Hypotheses(options.codes, {}, 1.0).phases());
+  ASSERT_EQ(32u, Hypotheses(options.codes).phases());
   double error = 0.0;
   for (const double duration : {0.06, 0.12, 0.2}) {
     options.duration = duration;
@@ -114,7 +114,7 @@ TEST(LabelPosterior, IsThePriorWhereTwoLedsHaveShownOneCodeForLong) {
   options.cameras = 8;
   options.start = 0.0;
   options.duration = 20.0;
-  const Hypotheses hypotheses(options.codes, {}, 60.0);
+  const Hypotheses hypotheses(options.codes, 60.0);
   Random random(1);
   const Eigen::MatrixXd posterior =
       posteriorOf(hypotheses, test::simulateBlinking(options, &random), 2, options.start);
@@ -161,7 +161,7 @@ TEST(LabelPosterior, ThePapersSchemeIsReadWithinTwoPeriods) {
   options.leds = {0, 1, 2, 3};
   options.drop = 0.05;
   options.flip = 0.01;
-  const Hypotheses hypotheses(options.codes, {}, 1.0);
+  const Hypotheses hypotheses(options.codes);
   constexpr int kRuns = 40;
   int wrong = 0, runs = 0;
   for (const std::size_t cameras : {1, 3}) {
@@ -181,7 +181,7 @@ TEST(LabelPosterior, CyclicCodesAreReadIn200And400Milliseconds) {
   options.codes = fourWords();
   options.period = 0.184;
   options.flip = 0.01;
-  const Hypotheses hypotheses(options.codes, {}, 1.0);
+  const Hypotheses hypotheses(options.codes);
   constexpr int kRuns = 500;
   int wrong_200 = 0, wrong_400 = 0;
   for (std::size_t led = 0; led < 4; ++led) {
@@ -200,13 +200,12 @@ BlinkCodes oneWord() {
 }
 
 TEST(Hypotheses, RememberThreePeriodsAtLeast) {
-  EXPECT_DOUBLE_EQ(Hypotheses(oneWord(), {}, 0.15).memory(), 0.3);
-  EXPECT_DOUBLE_EQ(Hypotheses(oneWord(), {}, 1.0).memory(), 1.0);
+  EXPECT_DOUBLE_EQ(Hypotheses(oneWord(), 0.15).memory(), 0.3);
+  EXPECT_DOUBLE_EQ(Hypotheses(oneWord()).memory(), 1.0);
 }
 
 TEST(Evidence, DarknessIsNeverLessLikelyThanOcclusion) {
-  const SeeingModel seeing;
-  const Hypotheses hypotheses(oneWord(), seeing, 1.0);
+  const Hypotheses hypotheses(oneWord());
   Evidence evidence(hypotheses);
   evidence.reset(0.0);
   LogLikelihoods now;
@@ -216,14 +215,14 @@ TEST(Evidence, DarknessIsNeverLessLikelyThanOcclusion) {
     const double time = 0.01 * i;
     evidence.add({0, time, 0.001, false});
     evidence.read(&now);
-    const double least = 1.001 * std::log(seeing.hidden) * std::exp(-time);
+    const double least = 1.001 * std::log(kOccluded) * std::exp(-time);
     ASSERT_GE(now.cells.minCoeff(), least) << time;
     ASSERT_GE(now.steady, least) << time;
   }
   // Seen again: the faded darkness, and the light.
   evidence.add({0, 20.0, 0.001, true});
   evidence.read(&now);
-  EXPECT_NEAR(now.steady, std::log(seeing.seen_when_on), 1e-6);
+  EXPECT_NEAR(now.steady, std::log(kSeenWhenOn), 1e-6);
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ struct LogLikelihoods {
 /// (Hypotheses::memory).
 ///
 /// A dark interval of a camera is kept apart until that camera sees the LED again. Its log
-/// likelihood is limited from below to that of an occlusion (SeeingModel::hidden).
+/// likelihood is limited from below to that of an occlusion (kOccluded).
 class Evidence {
  public:
   explicit Evidence(const Hypotheses& hypotheses);

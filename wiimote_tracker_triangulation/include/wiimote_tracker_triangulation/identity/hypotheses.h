@@ -18,15 +18,12 @@ struct Sighting {
   bool seen = false;
 };
 
-/// Detection model of all cameras.
-struct SeeingModel {
-  double seen_when_on = 0.94;   ///< Detection probability of an LED that is on [0.5..0.999].
-  double seen_when_off = 0.01;  ///< Probability of a false detection [0.0001..0.2].
+constexpr double kSeenWhenOn = 0.94;   ///< Detection probability of an LED that is on.
+constexpr double kSeenWhenOff = 0.01;  ///< Probability of a false detection.
 
-  /// Probability that a dark interval is an occlusion [1e-6..0.1]. It limits the evidence of one
-  /// camera's dark interval against an LED.
-  double hidden = 0.002;
-};
+/// Probability that a dark interval is an occlusion. It limits the evidence of one camera's dark
+/// interval against an LED.
+constexpr double kOccluded = 0.002;
 
 /// Hypotheses about an LED: a grid of periods and phases for each label, with the likelihood of a
 /// sighting under each. Shared by the evidence of all LEDs.
@@ -34,10 +31,9 @@ class Hypotheses {
  public:
   /// @param memory time constant of forgetting [s, > 0]; at least three of the longest periods.
   /// @throws Error (see BlinkCodes::check).
-  Hypotheses(const BlinkCodes& codes, const SeeingModel& seeing, double memory);
+  explicit Hypotheses(const BlinkCodes& codes, double memory = 1.0);
 
   const BlinkCodes& codes() const { return codes_; }
-  const SeeingModel& seeing() const { return seeing_; }
   double memory() const { return memory_; }
 
   std::size_t labels() const { return codes_.codes.size(); }
@@ -62,7 +58,6 @@ class Hypotheses {
   std::size_t rowStart(std::size_t blur, bool seen, std::size_t step) const;
 
   BlinkCodes codes_;
-  SeeingModel seeing_;
   double memory_;
   std::size_t phases_;
   std::vector<double> frequencies_;

@@ -12,16 +12,11 @@ namespace wiimote_tracker::identity {
 
 /// The ranges are not checked here.
 struct IdentifierOptions {
-  SeeingModel seeing;
-
   /// Prior probability that a light does not blink [1e-9..0.5].
   double steady = 0.01;
 
   /// Probability at which a label is assigned or changed [0.6..0.999999].
   double decide_at = 0.999;
-
-  /// Time constant of forgetting [s, 0.1..60]; at least three of the longest periods.
-  double memory = 1.0;
 
   /// Shortest time between two decisions [s, 0..1].
   double interval = 0.02;

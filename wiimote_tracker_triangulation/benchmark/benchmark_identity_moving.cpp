@@ -55,11 +55,11 @@ struct Result {
   std::size_t tracks = 0;
 };
 
-void look(const tracking::Snapshot& snapshot,
-          const std::vector<Path>& leds,
-          const Identifier& identifier,
-          std::map<std::uint32_t, double>* decided,
-          Result* result) {
+void score(const tracking::Snapshot& snapshot,
+           const std::vector<Path>& leds,
+           const Identifier& identifier,
+           std::map<std::uint32_t, double>* decided,
+           Result* result) {
   for (std::size_t led = 0; led < leds.size(); ++led) {
     const Eigen::Vector3d truth = leds[led](snapshot.time);
     ++result->led_time;
@@ -124,7 +124,7 @@ Result simulate(const Kind& kind, double speed, const BenchmarkSettings& setting
     tracker.add(image.camera, image.image);
     while (const tracking::Snapshot* snapshot = tracker.next()) {
       sightings.add(rig, *snapshot, &identifier);
-      look(*snapshot, leds, identifier, &decided, &result);
+      score(*snapshot, leds, identifier, &decided, &result);
       for (const tracking::TrackedLed& led : snapshot->leds) {
         if (led.state == tracking::TrackState::kTracked)
           highest = std::max(highest, led.id + 1);

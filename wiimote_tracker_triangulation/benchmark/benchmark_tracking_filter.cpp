@@ -162,7 +162,7 @@ struct Sample {
   int speed_class;
 };
 
-std::vector<Sample> watch(
+std::vector<Sample> simulate(
     const Path& path,
     double duration,
     unsigned seed,
@@ -187,18 +187,18 @@ std::vector<Sample> watch(
 template <typename Filter>
 void follow(const std::vector<Sample>& samples,
             Filter* filter,
-            const std::function<void(const Sample&)>& look) {
+            const std::function<void(const Sample&)>& score) {
   for (const Sample& sample : samples) {
     takeIn(filter, sample.time, cameraOf(sample.camera), sample.pixel);
     if (sample.time > kSettled)
-      look(sample);
+      score(sample);
   }
 }
 
 /// Figures per speed class, each compared with the constant-noise filter that suits it best.
-void besideHindsight(const std::vector<std::vector<Sample>>& recordings,
-                     const std::vector<std::string>& classes,
-                     const RowCallback& row) {
+void compareWithBestFilter(const std::vector<std::vector<Sample>>& recordings,
+                           const std::vector<std::string>& classes,
+                           const RowCallback& row) {
   std::vector<Figures> figures(classes.size());
   std::vector<double> best(classes.size(), std::numeric_limits<double>::infinity());
   const MotionOptions options;
@@ -245,10 +245,10 @@ void circles(const BenchmarkSettings& settings, const RowCallback& row) {
     for (int run = 0; run < settings.runs; ++run) {
       const Path path =
           tracking::test::circle({1.25, 1.25, 1.2}, 0.75, speed, 2.0 * M_PI * run / settings.runs);
-      recordings.push_back(watch(path, 3.0, settings.seed + run));
+      recordings.push_back(simulate(path, 3.0, settings.seed + run));
     }
     const std::string name = format("(c) circle of 0.75 m at %.1f m/s", speed);
-    besideHindsight(recordings, {name}, row);
+    compareWithBestFilter(recordings, {name}, row);
   }
 }
 
@@ -287,18 +287,18 @@ void recorded(const BenchmarkSettings& settings, const RowCallback& row) {
         ++i;
       return i;
     };
-    recordings.push_back(watch(path, duration, settings.seed + 100 + marker, speed_class));
+    recordings.push_back(simulate(path, duration, settings.seed + 100 + marker, speed_class));
   }
-  besideHindsight(recordings,
-                  {"(c) recorded, below 0.1 m/s", "(c) recorded, 0.1 to 0.5 m/s",
-                   "(c) recorded, 0.5 to 1.5 m/s", "(c) recorded, above 1.5 m/s"},
-                  row);
+  compareWithBestFilter(recordings,
+                        {"(c) recorded, below 0.1 m/s", "(c) recorded, 0.1 to 0.5 m/s",
+                         "(c) recorded, 0.5 to 1.5 m/s", "(c) recorded, above 1.5 m/s"},
+                        row);
 }
 
 /// Time of an image's prediction, innovation and update.
 void speed(const BenchmarkSettings& settings, const RowCallback& row) {
   const std::vector<Sample> samples =
-      watch(tracking::test::circle({1.25, 1.25, 1.2}, 0.75, 1.0), 10.0, settings.seed);
+      simulate(tracking::test::circle({1.25, 1.25, 1.2}, 0.75, 1.0), 10.0, settings.seed);
   const MotionOptions options;
   double best = std::numeric_limits<double>::infinity();
   for (int run = 0; run < settings.runs; ++run) {

@@ -40,7 +40,7 @@ BenchmarkRow timeRow(const std::string& name,
     while (const Snapshot* snapshot = tracker.next()) {
       const std::uint64_t before = check.uncovered;
       if (i >= kWarmUp)
-        check.look(*snapshot);
+        check.add(*snapshot);
       uncovered_at_end = check.uncovered - before;
     }
   }

@@ -25,14 +25,14 @@ std::optional<Spotted> Spotter::add(const PathPoint& point, const Recognize& rec
     return std::nullopt;
   std::optional<Spotted> found = advance(point.time);
   if (motion_.empty())
-    next_look_ = point.time + options_.shortest;
+    next_comparison_ = point.time + options_.shortest;
   motion_.push_back(point);
   motion_.erase(motion_.begin(), std::find_if(motion_.begin(), motion_.end(), [&](const auto& p) {
                   return p.time >= point.time - options_.longest;
                 }));
-  if (point.time >= next_look_) {
-    next_look_ = point.time + options_.interval;
-    if (auto earlier = look(recognize))
+  if (point.time >= next_comparison_) {
+    next_comparison_ = point.time + options_.interval;
+    if (auto earlier = compare(recognize))
       found = std::move(earlier);
   }
   if (!found && best_ && point.time - best_->path.back().time >= 0.5 * durationOf(best_->path))
@@ -41,7 +41,7 @@ std::optional<Spotted> Spotter::add(const PathPoint& point, const Recognize& rec
 }
 
 std::optional<Spotted> Spotter::advance(double time) {
-  if (motion_.empty() || time - motion_.back().time <= options_.longest_hole)
+  if (motion_.empty() || time - motion_.back().time <= options_.longest_gap)
     return std::nullopt;
   std::optional<Spotted> found = report();
   motion_.clear();
@@ -69,7 +69,7 @@ bool Spotter::isAfterRest(const PathPoint& beginning) const {
 }
 
 /// @returns the best match so far if a later one shares no motion with it.
-std::optional<Spotted> Spotter::look(const Recognize& recognize) {
+std::optional<Spotted> Spotter::compare(const Recognize& recognize) {
   std::optional<Spotted> earlier;
   const double now = motion_.back().time;
   for (double duration = options_.shortest; duration <= options_.longest * 1.0001;

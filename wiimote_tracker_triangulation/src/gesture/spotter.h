@@ -29,7 +29,7 @@ struct SpotterOptions {
   double rest_radius = 0.015;
 
   /// A gap of this length ends the motion [s, > 0].
-  double longest_hole = 0.15;
+  double longest_gap = 0.15;
 };
 
 /// A gesture found in continuous motion.
@@ -57,11 +57,11 @@ class Spotter {
  private:
   std::optional<Spotted> report();
   bool isAfterRest(const PathPoint& beginning) const;
-  std::optional<Spotted> look(const Recognize& recognize);
+  std::optional<Spotted> compare(const Recognize& recognize);
 
   SpotterOptions options_;
   Path motion_;
-  double next_look_ = 0.0;
+  double next_comparison_ = 0.0;
   std::optional<Spotted> best_;  // best of the overlapping matches, not yet reported
 };
 

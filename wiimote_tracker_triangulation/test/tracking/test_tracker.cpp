@@ -30,7 +30,7 @@ TEST(Tracker, FourLedsAreFoundAndKept) {
   IdentityCheck check(leds);
   for (const Snapshot& snapshot : track(&tracker, imagesOf(paperRig(), leds, options, 4000))) {
     if (snapshot.time > options.start + 0.5)
-      check.look(snapshot);
+      check.add(snapshot);
   }
   EXPECT_EQ(0u, check.switches);
   EXPECT_EQ(0u, check.renamed);
@@ -107,7 +107,7 @@ TEST(Tracker, MoreLightsThanACameraReports) {
   IdentityCheck check(leds);
   for (const Snapshot& snapshot : track(&tracker, imagesOf(paperRig(), leds, options, 1200))) {
     if (snapshot.time > 1000.5)
-      check.look(snapshot);
+      check.add(snapshot);
   }
   EXPECT_EQ(0u, check.uncovered);
   EXPECT_EQ(0u, check.renamed);
@@ -125,7 +125,7 @@ TEST(Tracker, FortyCamerasInOneRoom) {
   for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, leds, options, 4000))) {
     if (snapshot.time < 1000.3)
       continue;
-    check.look(snapshot);
+    check.add(snapshot);
     for (const TrackedLed& led : snapshot.leds)
       cameras = std::min(cameras, led.cameras.size());
   }
@@ -157,7 +157,7 @@ TEST(Tracker, ANewRigTakesOverTheTracks) {
       continue;
     tracker.add(place[images[i].camera], images[i].image);
     while (const Snapshot* snapshot = tracker.next()) {
-      check.look(*snapshot);
+      check.add(*snapshot);
       std::set<std::uint32_t> ids = idsIn(*snapshot, TrackState::kTracked);
       if (i < 604)  // not all cameras of the new rig had an image yet
         ids.merge(idsIn(*snapshot, TrackState::kPredicted));

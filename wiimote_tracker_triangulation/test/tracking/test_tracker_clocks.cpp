@@ -57,7 +57,7 @@ Rows rowsWith(const geometry::Rig& rig, double speed, const Clock& clock) {
       if (snapshot->time < options.start + 1.0)
         continue;
       rows.tracked += idsIn(*snapshot, TrackState::kTracked).size();
-      check.look(*snapshot);
+      check.add(*snapshot);
     }
   }
   rows.wrong = check.false_tracks;
@@ -257,7 +257,7 @@ TEST(TrackerFit, CamerasThatFitNothingAreNamedAndLeftOut) {
       tracker.add(image.camera, image.image);
       while (const Snapshot* snapshot = tracker.next()) {
         if (snapshot->time > options.start + 5.0)
-          check.look(*snapshot);
+          check.add(*snapshot);
       }
     }
     for (std::size_t camera = 0; camera < 5; ++camera) {
@@ -289,7 +289,7 @@ TEST(TrackerFit, ACameraThatABodyBlocksIsRight) {
       tracker.add(image.camera, image.image);
       ASSERT_FALSE(tracker.cameraFault(image.camera)) << lamp << ", image " << i;
       while (const Snapshot* snapshot = tracker.next())
-        check.look(*snapshot);
+        check.add(*snapshot);
     }
     EXPECT_GT(check.near, 7000u) << lamp;
   }
@@ -310,7 +310,7 @@ TEST(TrackerFit, CamerasThatSeeDifferentLedsAreRight) {
     tracker.add(image.camera, image.image);
     ASSERT_FALSE(tracker.cameraFault(image.camera)) << "image " << i;
     while (const Snapshot* snapshot = tracker.next())
-      check.look(*snapshot);
+      check.add(*snapshot);
   }
   EXPECT_GT(check.near, 7000u);
 }
@@ -385,7 +385,7 @@ IdentityCheck withWrongClocksAndPauses(const std::vector<Path>& leds, double ahe
   Tracker tracker(paperRig(), exactOptions());
   IdentityCheck check(leds);
   for (const Snapshot& snapshot : track(&tracker, images))
-    check.look(snapshot);
+    check.add(snapshot);
   return check;
 }
 

@@ -131,7 +131,7 @@ TEST(Tracker, TwoLedsMergedInOneViewKeepTheirIds) {
   IdentityCheck check(leds);
   for (const Snapshot& snapshot : track(&tracker, images)) {
     if (snapshot.time > 1000.5)
-      check.look(snapshot);
+      check.add(snapshot);
   }
   EXPECT_EQ(0u, check.switches);
   EXPECT_EQ(0u, check.renamed);
@@ -160,7 +160,7 @@ TEST(Tracker, TwoLedsMergedInAllViewsKeepTheirIdsByTheirMotion) {
     IdentityCheck check(leds);
     for (const Snapshot& snapshot : track(&tracker, images)) {
       if (snapshot.time > 1001.3)
-        check.look(snapshot);
+        check.add(snapshot);
     }
     EXPECT_EQ(0u, check.switches) << speed;
     EXPECT_EQ(0u, check.renamed) << speed;

@@ -26,7 +26,7 @@ PhantomRows rowsOf(const geometry::Rig& rig,
   PhantomRows rows;
   for (const Snapshot& snapshot : track(&tracker, imagesOf(rig, seen, options, images, seed))) {
     rows.tracked += idsIn(snapshot, TrackState::kTracked).size();
-    check.look(snapshot);
+    check.add(snapshot);
   }
   rows.wrong = check.false_tracks;
   return rows;

@@ -247,7 +247,7 @@ TEST(Tracker, ACameraThatLagsOrRunsAheadDoesNotHarmTheOthers) {
     IdentityCheck check(leds);
     const std::vector<Snapshot> snapshots = track(&tracker, images);
     for (std::size_t i = 200; i < snapshots.size(); ++i)
-      check.look(snapshots[i]);
+      check.add(snapshots[i]);
     // At the start it is unknown whose clock is right.
     EXPECT_LE(tracker.counters().resets, 1u);
     EXPECT_GT(tracker.counters().dropped, 490u);
@@ -273,7 +273,7 @@ TEST(Tracker, ACameraWhoseClockIsSetBackDoesNotHarmTheOthers) {
     IdentityCheck check(leds);
     const std::vector<Snapshot> snapshots = track(&tracker, images);
     for (std::size_t i = 200; i < snapshots.size(); ++i)
-      check.look(snapshots[i]);
+      check.add(snapshots[i]);
     EXPECT_LE(tracker.counters().resets, first > 0.0 ? 1u : 0u)
         << "at the start it is unknown whose clock is right";
     EXPECT_EQ(0u, check.uncovered);

@@ -23,7 +23,7 @@ std::vector<std::int64_t> idsAt(const Snapshot& snapshot,
   return ids;
 }
 
-void IdentityCheck::look(const Snapshot& snapshot) {
+void IdentityCheck::add(const Snapshot& snapshot) {
   ++snapshots;
   for (const TrackedLed& track : snapshot.leds) {
     if (track.state == TrackState::kLost)

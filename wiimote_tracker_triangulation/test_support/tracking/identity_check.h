@@ -24,7 +24,7 @@ class IdentityCheck {
 
   explicit IdentityCheck(const std::vector<Path>& leds) : leds_(leds), last_ids_(leds.size(), -1) {}
 
-  void look(const Snapshot& snapshot);
+  void add(const Snapshot& snapshot);
 
   std::uint64_t snapshots = 0;
   std::uint64_t switches = 0;      ///< A track switched to another LED.

@@ -41,7 +41,7 @@ GestureParameters GestureParameters::read(ParameterReader* reader) {
   reader->read("continuous/straight", &spotter.straight, 0.0, 1.0);
   spotter.rest_time = segmenter.rest_time;
   spotter.rest_radius = segmenter.rest_radius;
-  spotter.longest_hole = segmenter.dark_time;
+  spotter.longest_gap = segmenter.dark_time;
   reader->refuseUnknown();
   return p;
 }

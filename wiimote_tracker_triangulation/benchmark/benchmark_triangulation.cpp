@@ -1,13 +1,12 @@
 // Accuracy and time of triangulation, ours and OpenCV's, in one table: RMS over the
 // Cramer-Rao bound, normalised error squared (3 when the covariance is consistent), time per point.
+#include "benchmark_program.h"
 #include "triangulation_scene.h"
 
-#include <wiimote_tracker_msgs/benchmark_tables.h>
 #include <wiimote_tracker_msgs/median.h>
 
 #include <Eigen/LU>
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <functional>
@@ -18,7 +17,7 @@ using namespace wiimote_tracker;
 
 namespace {
 
-constexpr std::size_t kTimedPoints = 1000;
+constexpr int kTimedPoints = 1000;
 constexpr int kRepetitions = 21;  // of each method, taken in turn against drift
 
 /// RMS over the bound, and NEES: NaN for a method without covariance.
@@ -45,7 +44,7 @@ double secondsOf(const std::function<void(TriangulationOutput*)>& run,
 std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
   const auto methods = triangulationMethods(scene.cameras.size());
   TriangulationScene part = scene;
-  part.truth.resize(std::min(part.truth.size(), kTimedPoints));
+  part.truth.resize(kTimedPoints);
   part.pixels.resize(part.truth.size());
   TriangulationOutput part_output(part.truth.size());
   std::vector<BenchmarkRow> rows;
@@ -71,34 +70,25 @@ std::vector<BenchmarkRow> measure(const TriangulationScene& scene) {
   return rows;
 }
 
+void run(const BenchmarkSettings& settings, const RowCallback& row) {
+  for (const TriangulationLayout& layout : kTriangulationLayouts) {
+    for (const int cameras : {2, 4}) {
+      const auto scene = makeScene(layout, cameras, kTimedPoints * settings.runs, settings.seed);
+      for (const BenchmarkRow& result : measure(scene))
+        row(result);
+    }
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  int points = 100000;
-  unsigned seed = 1;
-  BenchmarkTables tables;
-  ArgumentParser parser("benchmark_triangulation",
-                        "Errors of triangulated points beside the bound, and the time they take.");
-  parser.option("--points N", &points, 100, 1000000000, "points per row");
-  parser.option("--seed N", &seed, 0, 4294967295, "of the random numbers");
-  tables.addOptions(&parser);
-  return parser.run(argc, argv, [&] {
-    tables.begin(
-        "triangulation",
-        format("Simulated: %d points, %.1f px of noise, lenses without distortion. Time: median of "
-               "%d runs over %zu points, methods in turn, from rays that are ready unless it says "
-               "from pixels. Ours give the covariance, the others the point only. ring: cameras on "
-               "a circle.",
-               points, kBenchmarkPixelStddev, kRepetitions, kTimedPoints),
-        format("rosrun wiimote_tracker_triangulation benchmark_triangulation --points %d --seed %u",
-               points, seed));
-    for (const TriangulationLayout& layout : kTriangulationLayouts) {
-      for (const int cameras : {2, 4}) {
-        for (const BenchmarkRow& row : measure(makeScene(layout, cameras, points, seed)))
-          tables.add(row);
-      }
-    }
-    tables.write();
-    return 0;
-  });
+  return runBenchmark(
+      "benchmark_triangulation",
+      {{"triangulation",
+        "1000 points per --runs, 0.5 px of noise, lenses without distortion. Time: median of 21 "
+        "runs over 1000 points, methods in turn, from rays that are ready unless it says from "
+        "pixels. Only ours give a covariance. ring: cameras on a circle.",
+        run}},
+      argc, argv);
 }

@@ -8,18 +8,19 @@
 namespace wiimote_tracker {
 namespace {
 
-constexpr double kMostTilt = 10.0 * M_PI / 180.0;
-constexpr double kPatience = 1.0;  // [s]
-constexpr double kPause = 10.0;    // [s]
+constexpr double kMostTilt = 10.0;  // [degrees]
+constexpr double kPatience = 1.0;   // [s]
+constexpr double kPause = 10.0;     // [s]
 
-/// The angle between the world's z axis and up, by the cameras' accelerometers [rad]; 0: not known.
+/// The angle between the world's z axis and up, by the cameras' accelerometers [degrees]; 0: not
+/// known.
 double tiltOf(const geometry::Rig& rig) {
   Eigen::Vector3d up = Eigen::Vector3d::Zero();
   for (const geometry::RigCamera& camera : rig.cameras) {
     if (camera.gravity)
       up += (camera.camera.world_from_camera.linear() * *camera.gravity).normalized();
   }
-  return std::atan2(up.head<2>().norm(), up.z());
+  return std::atan2(up.head<2>().norm(), up.z()) * 180.0 / M_PI;
 }
 
 /// Times may go back.
@@ -30,21 +31,18 @@ bool isWithin(double seconds, const std::optional<double>& last, double time) {
 }  // namespace
 
 void ImuReports::setRig(const geometry::Rig& rig) {
-  tilt_ = tiltOf(rig);
+  const double tilt = tiltOf(rig);
+  tilt_.clear();
+  if (tilt > kMostTilt)
+    tilt_ = format(
+        "the world's z axis is %.0f degrees from up by the cameras' accelerometers, so the IMUs of "
+        "bodies are not used: calibrate with a level square, its corners taken counter-clockwise",
+        tilt);
   tilt_reported_ = tilt_reported_ && !isLevel();
 }
 
-bool ImuReports::isLevel() const {
-  return tilt_ <= kMostTilt;
-}
-
 std::optional<std::string> ImuReports::addSample() {
-  if (isLevel() || std::exchange(tilt_reported_, true))
-    return std::nullopt;
-  return format(
-      "the world's z axis is %.0f degrees from up by the cameras' accelerometers, so the IMUs of "
-      "bodies are not used: calibrate with a level square, its corners taken counter-clockwise",
-      tilt_ * 180.0 / M_PI);
+  return isLevel() || std::exchange(tilt_reported_, true) ? std::nullopt : std::optional(tilt_);
 }
 
 std::optional<std::string> ImuReports::add(const body::Constellation& constellation,

@@ -19,7 +19,7 @@ class ImuReports {
   void setRig(const geometry::Rig& rig);
 
   /// Whether the world's z axis points up by the cameras' accelerometers, or none tells.
-  bool isLevel() const;
+  bool isLevel() const { return tilt_.empty(); }
 
   /// When a sample comes and the world is not level.
   std::optional<std::string> addSample();
@@ -34,7 +34,7 @@ class ImuReports {
     std::optional<double> unused_since;  // [s]
     std::optional<double> reported;      // [s]
   };
-  double tilt_ = 0.0;  // of the world's z axis [rad]
+  std::string tilt_;  // sentence about the world's z axis; empty: it is level
   bool tilt_reported_ = false;
   std::map<std::string, Body> bodies_;
 };

@@ -69,7 +69,9 @@ MessageTracker::RigChange MessageTracker::takeRig(
     rig_id_ = idOf(message, rig);
     reported_faults_.useRig(rig_, rig, *estimator_);
     statistics_.setRig(rig);
-    reportUnseen(rig);
+    const std::string sentence = describeLoneCamera(rig, parameters_.estimator);
+    if (!std::exchange(lone_camera_, !sentence.empty()) && lone_camera_)
+      sink_->onProblem(sentence);
   }
   rig_ = rig;
   imu_reports_.setRig(rig);
@@ -77,15 +79,6 @@ MessageTracker::RigChange MessageTracker::takeRig(
   if (filter_)
     filter_->setRig(rig);
   return change;
-}
-
-/// Names a camera that can see no LED with another, unless the rig before had one too.
-void MessageTracker::reportUnseen(const geometry::Rig& rig) {
-  std::string sentence = rig.describeFarCamera();
-  if (sentence.empty())
-    sentence = describeRange(rig, parameters_.estimator);
-  if (!std::exchange(unseen_reported_, !sentence.empty()) && unseen_reported_)
-    sink_->onProblem(sentence);
 }
 
 void MessageTracker::takeImage(const std::string& camera,

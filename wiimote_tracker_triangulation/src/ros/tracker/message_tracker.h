@@ -74,7 +74,6 @@ class MessageTracker {
 
  private:
   void reportProblem(std::size_t camera, const std::string& sentence, bool is_new);
-  void reportUnseen(const geometry::Rig& rig);
   void restart();
   void publishBodies(const body::BodySnapshot& snapshot);
   void startBodies(const tracking::Snapshot& snapshot);
@@ -96,7 +95,7 @@ class MessageTracker {
   PointOutput points_;
   Statistics statistics_;
   FaultReports reported_faults_;
-  bool unseen_reported_ = false;
+  bool lone_camera_ = false;  // a camera that sees no LED with another; reported
   std::uint64_t resets_ = 0;
 
   // Reused buffers.

@@ -204,11 +204,13 @@ std::string describeIdentity(const TrackingParameters& parameters) {
       tracks.detection_probability);
 }
 
-std::string describeRange(const geometry::Rig& rig, const estimators::EstimatorOptions& options) {
+std::string describeLoneCamera(const geometry::Rig& rig,
+                               const estimators::EstimatorOptions& options) {
+  const std::string far_camera = rig.describeFarCamera();
   const bool tracks = options.mode == estimators::Mode::kTracks;
   const double range = tracks ? options.tracks.maximum_range : options.instant.maximum_range;
-  if (range >= geometry::kFarthestLed)
-    return "";
+  if (!far_camera.empty() || range >= geometry::kFarthestLed)
+    return far_camera;
   const auto shared = association::sharedViews(rig, range);
   const auto visible = association::sharedViews(rig, geometry::kFarthestLed);
   for (std::size_t i = 0; i < shared.size(); ++i) {

@@ -64,8 +64,10 @@ struct TrackingParameters {
 /// With blink codes: the tracker's parameters that they change, in a sentence; else empty.
 std::string describeIdentity(const TrackingParameters& parameters);
 
-/// Names a camera that maximum_range excludes from tracking: what to do; else empty.
-std::string describeRange(const geometry::Rig& rig, const estimators::EstimatorOptions& options);
+/// Names a camera that sees no LED with another, since it is too far from all others or
+/// maximum_range is too small: what to do; else empty.
+std::string describeLoneCamera(const geometry::Rig& rig,
+                               const estimators::EstimatorOptions& options);
 
 /// "track", or the triangulation method.
 std::string methodWord(const estimators::EstimatorOptions& options);

@@ -531,10 +531,3 @@ TEST_F(DriverTest, ShutDownSwitchesTheRemoteOff) {
 
 }  // namespace
 }  // namespace wiimote_tracker::driver
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_driver");
-  const ros::NodeHandle nh;  // keeps ROS running
-  return RUN_ALL_TESTS();
-}

@@ -116,10 +116,3 @@ TEST_F(FindSensitivity, AdvisesWithoutADriver) {
 
 }  // namespace
 }  // namespace wiimote_tracker::driver
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_find_sensitivity");
-  const ros::NodeHandle nh;
-  return RUN_ALL_TESTS();
-}

@@ -123,13 +123,17 @@ function(wiimote_tracker_add_gtest name)
 endfunction()
 
 # wiimote_tracker_add_node_test(NAME LAUNCH SOURCE... [LIBRARIES LIBRARY...] [NODES TARGET...])
-# A gtest that the launch file starts together with these nodes of ours. The target
-# wiimote_tracker_node_tests builds all of them.
+# A gtest that the launch file starts together with these nodes of ours. A test without main() gets
+# that of node_test_main.cpp. The target wiimote_tracker_node_tests builds all of them.
 function(wiimote_tracker_add_node_test name launch)
   cmake_parse_arguments(ARG "" "" "LIBRARIES;NODES" ${ARGN})
   add_rostest_gtest(${name} ${launch} ${ARG_UNPARSED_ARGUMENTS})
+  if(NOT TARGET wiimote_tracker_node_test_main)
+    add_library(wiimote_tracker_node_test_main STATIC EXCLUDE_FROM_ALL
+      ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support/node_test_main.cpp)
+  endif()
   set(ARG_ROS ON)
-  list(APPEND ARG_LIBRARIES gtest)
+  list(APPEND ARG_LIBRARIES wiimote_tracker_node_test_main gtest)
   _wiimote_tracker_link_test(${name})
   if(ARG_NODES)
     add_dependencies(${name} ${ARG_NODES})

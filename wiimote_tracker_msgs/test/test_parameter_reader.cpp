@@ -140,9 +140,3 @@ TEST(ParameterReaderOfAFile, ErrorsShowAText) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "parameter_reader");
-  return RUN_ALL_TESTS();
-}

@@ -67,10 +67,3 @@ TEST(BodyDiagnostics, AreReportedAlsoWhenTimeStandsStillOrJumpsBack) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_body_diagnostics");
-  const ros::NodeHandle nh;
-  return RUN_ALL_TESTS();
-}

@@ -202,10 +202,3 @@ TEST(Trackers, EndWhileImagesComeWithoutADeadlock) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_callbacks");
-  const ros::NodeHandle nh;
-  return RUN_ALL_TESTS();
-}

@@ -372,10 +372,3 @@ TEST_F(RaisedMinimumLengthTest, UsesShorterExamples) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_gestures");
-  ros::NodeHandle nh;
-  return RUN_ALL_TESTS();
-}

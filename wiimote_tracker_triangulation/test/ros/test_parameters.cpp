@@ -191,10 +191,3 @@ TEST(Parameters, WrongValuesAreNamedByTheirFullKey) {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-int main(int argc, char** argv) {
-  testing::InitGoogleTest(&argc, argv);
-  ros::init(argc, argv, "test_parameters");
-  const ros::NodeHandle keep_alive;
-  return RUN_ALL_TESTS();
-}

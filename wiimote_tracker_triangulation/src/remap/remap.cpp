@@ -4,32 +4,28 @@
 #include "wiimote_tracker_triangulation/remap/model_math.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace wiimote_tracker::remap {
+namespace {
+
+// In the order of Model.
+constexpr std::array<const char*, 4> kNames = {"affine", "projective", "trilinear", "thin_plate"};
+
+}  // namespace
 
 const char* nameOf(Model model) {
-  switch (model) {
-    case Model::kAffine:
-      return "affine";
-    case Model::kProjective:
-      return "projective";
-    case Model::kTrilinear:
-      return "trilinear";
-    default:
-      return "thin_plate";
-  }
+  return kNames[static_cast<std::size_t>(model)];
 }
 
 Model modelFromName(const std::string& name) {
-  for (const Model model :
-       {Model::kAffine, Model::kProjective, Model::kTrilinear, Model::kThinPlate}) {
-    if (name == nameOf(model))
-      return model;
-  }
-  throw Error("\"" + name +
-              "\" is not a model of a volume correction: choose affine, projective, "
-              "trilinear or thin_plate");
+  const auto found = std::find(kNames.begin(), kNames.end(), name);
+  if (found == kNames.end())
+    throw Error("\"" + name +
+                "\" is not a model of a volume correction: choose affine, projective, "
+                "trilinear or thin_plate");
+  return static_cast<Model>(found - kNames.begin());
 }
 
 std::size_t parameterCount(Model model, std::size_t support) {

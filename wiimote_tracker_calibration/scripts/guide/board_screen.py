@@ -13,6 +13,10 @@ KEYS = ['SPACE next  n start again  u undo  s solve  v save  x cancel  q quit',
 def advice(guide: Guide, camera: str) -> Advice:
     """What to do next."""
     board, following = guide.board, guide.asking['next']
+    names = [each.name for each in guide.status.cameras] if guide.status else [camera]
+    if camera not in names:
+        return Advice(f'There is no camera {camera}: ' + (
+            f'name one of {", ".join(names)}' if names else 'start the drivers') + '.')
     if board is None or board.camera != camera:
         return Advice(f'Hold the 16-LED board in front of {camera}. {following} starts.', 'start')
     if guide.has_done('commit', 'undo'):
@@ -40,14 +44,10 @@ def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int
     lines = [left + duration(now - guide.began).rjust(columns - len(left))]
     lines += padded(wrapped(guide.silent(now) or advice(guide, camera).sentence, columns, 2), 2)
     lines += ['', *bars, '']
-    cameras = guide.status.cameras if guide.status else []
-    seen = [each for each in cameras if each.name == camera]
-    if seen:
-        # The title names the camera; the last two lines are of corners and a wave.
-        lines += panel(guide, seen[0])[1:-2]
-    elif guide.status:
-        names = ', '.join(each.name for each in cameras) or 'none'
-        lines.append(f'There is no camera {camera}; there are: {names}')
+    for each in guide.status.cameras if guide.status else []:
+        if each.name == camera:
+            # The title names the camera; the last two lines are of corners and a wave.
+            lines += panel(guide, each)[1:-2]
     said = wrapped(guide.answer or (board.message if board is not None else ''), columns, 3)
     if guide.running:
         said = [guide.running[-1] + ' ...']

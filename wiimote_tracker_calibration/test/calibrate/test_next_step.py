@@ -3,7 +3,7 @@
 import pytest
 from wiimote_tracker_msgs.msg import CalibrationStatus
 
-from fakes import guide_at, status
+from fakes import camera, guide_at, status
 from guide import commands
 from guide.board_screen import advice as board_advice
 from guide.guide import PLAIN_WORDS, Guide
@@ -98,6 +98,13 @@ def test_it_says_how_long_it_took():
     guide.on_answer('save', True, '', 180.0)
     guide.on_answer('check', True, '', 200.0)
     assert guide.elapsed(999.0) == 70.0
+def test_a_board_is_refused_before_a_camera_that_does_not_exist():
+    cameras = [camera('wiimote_1'), camera('wiimote_2')]
+    advice = board_advice(guide_at(status(CalibrationStatus.IDLE, cameras=cameras)), 'wiimote_77')
+    assert advice.word is None
+    assert advice.sentence == 'There is no camera wiimote_77: name one of wiimote_1, wiimote_2.'
+
+
     assert guide.took(999.0) == 'Calibrated and saved in 1 min 10 s, 40 s of it for the square.'
 
 

@@ -216,8 +216,8 @@ def test_a_board_has_four_bars():
     assert '- hold the board nearer' in lines
     assert lines[21] == 'view 5 was kept'
     assert '|O               |' in lines  # what the camera sees
-    assert ('There is no camera wiimote_2; there are: wiimote_1' in
-            board_screen.render(guide, 9.0, 'wiimote_2'))
+    assert ('There is no camera wiimote_2: name one of wiimote_1.' in
+            board_screen.render(guide, 1.0, 'wiimote_2'))
 
 
 def test_a_board_before_another_camera_does_not_count():

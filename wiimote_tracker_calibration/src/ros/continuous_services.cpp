@@ -211,10 +211,14 @@ class ContinuousServices {
   Reply revert(Lock& lock) {
     requireCalibrated(lock);
     const auto before = changes_.revert(context_.existingRig("to change", lock));
-    if (!before)
+    if (!before) {
+      const std::string rig_file = context_.parameters(lock).rig_file;
+      const std::string newest = context_.compute(&lock, [&] { return newestVersion(rig_file); });
       throw Refusal(
-          "the rig in use is not one that continuous calibration has made: load the one that "
-          "you want");
+          "the rig in use is not one that continuous calibration has made since the node "
+          "started: load the one that you want" +
+          (newest.empty() ? "" : "; the newest that was kept is " + newest));
+    }
     const std::string message = "rig " + before->id() +
                                 " from before the last change is in use again; until there is "
                                 "another one, changes are only proposed";

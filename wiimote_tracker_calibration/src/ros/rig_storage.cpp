@@ -29,6 +29,21 @@ std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
 }
 
+/// Paths of the rigs that keepVersion() wrote, as far as they can be listed, the oldest first.
+std::vector<std::filesystem::path> versionsOf(const std::string& rig_file) {
+  namespace fs = std::filesystem;
+  const std::regex is_version("[0-9]{8}_[0-9]{6}_[0-9a-f]+\\.yaml");
+  std::vector<fs::path> versions;
+  std::error_code error;
+  for (fs::directory_iterator entry(beside(rig_file, "versions"), error), end;
+       !error && entry != end; entry.increment(error)) {
+    if (std::regex_match(entry->path().filename().string(), is_version))
+      versions.push_back(entry->path());
+  }
+  std::sort(versions.begin(), versions.end());
+  return versions;
+}
+
 /// @returns sentences on what only the file has, such as zones that a person wrote into it, or the
 /// cameras of another rig that uses the same file.
 std::vector<std::string> describeLost(const geometry::Rig& rig, const std::string& path) {
@@ -115,22 +130,19 @@ std::string keepVersion(const geometry::Rig& rig,
                         double time,
                         const std::string& rig_file,
                         std::size_t most) {
-  namespace fs = std::filesystem;
   const std::string path =
       beside(rig_file, "versions/" + utcDate(time, "%Y%m%d_%H%M%S") + "_" + rig.id() + ".yaml");
   geometry::writeRigFile(rig, path);
-  const std::regex name("[0-9]{8}_[0-9]{6}_[0-9a-f]+\\.yaml");
-  std::vector<fs::path> versions;
+  const std::vector<std::filesystem::path> versions = versionsOf(rig_file);
   std::error_code error;  // Then the next time is soon enough.
-  for (fs::directory_iterator entry(fs::path(path).parent_path(), error), end;
-       !error && entry != end; entry.increment(error)) {
-    if (std::regex_match(entry->path().filename().string(), name))
-      versions.push_back(entry->path());
-  }
-  std::sort(versions.begin(), versions.end());
   for (std::size_t i = 0; i + most < versions.size(); ++i)
-    fs::remove(versions[i], error);
+    std::filesystem::remove(versions[i], error);
   return path;
+}
+
+std::string newestVersion(const std::string& rig_file) {
+  const std::vector<std::filesystem::path> versions = versionsOf(rig_file);
+  return versions.empty() ? "" : versions.back().string();
 }
 
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,

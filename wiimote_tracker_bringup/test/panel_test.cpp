@@ -2,10 +2,8 @@
 // WIIMOTE_TRACKER_SCREENSHOTS names a folder, the pages are drawn into it.
 
 #include "big_words.h"
-#include "calibrate_page.h"
-#include "camera_tile.h"
 #include "contrast.h"
-#include "number_box.h"
+#include "screenshot.h"
 #include "tracker_widget.h"
 
 #include <QApplication>
@@ -14,10 +12,8 @@
 #include <QComboBox>
 #include <QDoubleSpinBox>
 #include <QFile>
-#include <QKeyEvent>
 #include <QLabel>
 #include <QLineEdit>
-#include <QLocale>
 #include <QPalette>
 #include <QPushButton>
 #include <QTabWidget>
@@ -98,13 +94,7 @@ class Panel : public testing::Test {
     return answerTo("Check the LED there", "measured ").section(' ', 1, 1).toDouble();
   }
 
-  void screenshot(const QString& name) const {
-    const char* folder = std::getenv("WIIMOTE_TRACKER_SCREENSHOTS");
-    for (int i = 0; folder && i < 5; ++i)
-      QApplication::processEvents();  // lays out the new words
-    if (folder)
-      widget_->grab().save(QString(folder) + "/" + name + ".png");
-  }
+  void screenshot(const QString& name) const { panel::screenshot(name, widget_.get()); }
 
   std::unique_ptr<TrackerWidget> widget_;
 };
@@ -276,37 +266,6 @@ TEST_F(Panel, IsScrolledByTheWheelAndNothingElse) {
   EXPECT_EQ(find<QDoubleSpinBox>("side")->value(), 2.5);
   EXPECT_EQ(find<QDoubleSpinBox>("x")->value(), 0.0);
   EXPECT_EQ(find<QComboBox>("from")->currentIndex(), 0);
-}
-
-TEST(CalibratePage, HidesTheRemarksOfANodeThatIsGone) {
-  CalibratePage page(nullptr, [](const Request&) {});
-  Guide guide;
-  wiimote_tracker_msgs::CalibrationStatus status;
-  status.missing = {"put the LED on corner 1"};
-  guide.onStatus(status, 0.0);
-  page.show(guide, 0.1);
-  EXPECT_FALSE(page.findChild<QLabel*>("remarks")->isHidden());
-  page.show(guide, 100.0);
-  EXPECT_TRUE(page.findChild<QLabel*>("remarks")->isHidden());
-}
-
-TEST(NumberBox, TakesAPointAndACommaInEveryLanguage) {
-  for (const QLocale::Language language : {QLocale::English, QLocale::German}) {
-    QLocale::setDefault(QLocale(language));
-    for (const char* typed : {"2.5", "2,5"}) {
-      NumberBox box(nullptr);
-      box.setRange(0.0, 100.0);
-      box.setDecimals(3);
-      box.setSuffix(" m");
-      box.selectAll();
-      for (const QChar letter : QString(typed)) {
-        QKeyEvent press(QEvent::KeyPress, 0, Qt::NoModifier, letter);
-        QApplication::sendEvent(&box, &press);
-      }
-      EXPECT_EQ(box.value(), 2.5) << box.text().toStdString();
-    }
-  }
-  QLocale::setDefault(QLocale::c());
 }
 
 TEST_F(Panel, SaysWhatUndoDrops) {

@@ -3,6 +3,8 @@
 #include <QColor>
 #include <QFontMetrics>
 #include <QPainter>
+#include <QStringList>
+#include <QTextLayout>
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +13,7 @@ namespace wiimote_tracker::panel {
 namespace {
 
 constexpr int kMargin = 6;                      // [px of the screen]
+constexpr int kMostLines = 3;                   // of words: the picture is to be seen
 constexpr int kCellColumns = 8, kCellRows = 6;  // as CalibrationCameraStatus.image_cells
 constexpr int kCells = kCellColumns * kCellRows;
 constexpr double kWiimoteRatio = 768.0 / 1024.0;  // height by width, until an image tells them
@@ -74,15 +77,32 @@ void CameraTile::paintEvent(QPaintEvent*) {
   paintWords(&painter);
 }
 
+QString CameraTile::shownWords() const {
+  const int room = width() - 2 * kMargin;
+  QStringList lines;
+  QTextLayout layout(words_, font());
+  layout.beginLayout();
+  for (QTextLine line = layout.createLine(); line.isValid() && lines.size() < kMostLines;
+       line = layout.createLine()) {
+    line.setLineWidth(room);
+    lines << (lines.size() + 1 < kMostLines
+                  ? words_.mid(line.textStart(), line.textLength()).trimmed()
+                  : fontMetrics().elidedText(words_.mid(line.textStart()), Qt::ElideRight, room));
+  }
+  layout.endLayout();
+  return lines.join('\n');
+}
+
 /// At the bottom; more than a line covers the picture's lower edge.
 void CameraTile::paintWords(QPainter* painter) const {
   const QRect room = rect().adjusted(kMargin, kMargin, -kMargin, -kMargin);
-  constexpr int kLayout = Qt::AlignBottom | Qt::AlignLeft | Qt::TextWordWrap;
-  const QRect words = painter->boundingRect(room, kLayout, words_);
+  constexpr int kLayout = Qt::AlignBottom | Qt::AlignLeft;
+  const QString shown = shownWords();
+  const QRect words = painter->boundingRect(room, kLayout, shown);
   if (words.height() > lineHeight())
     painter->fillRect(QRect(words.topLeft(), room.bottomRight()), kGround);
   painter->setPen(colorOf(state_));
-  painter->drawText(room, kLayout, words_);
+  painter->drawText(room, kLayout, shown);
 }
 
 /// Name on the left, rate and battery on the right as far as there is room.

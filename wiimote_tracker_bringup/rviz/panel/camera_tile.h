@@ -13,7 +13,7 @@ class QPainter;
 namespace wiimote_tracker::panel {
 
 /// One camera: its picture with spots, trails, masks and the cells that a wave has filled; name,
-/// rate, battery, and its state by colour and in words.
+/// rate, battery, and its state by colour and in words, of which the tooltip has all.
 class CameraTile : public QWidget {
  public:
   explicit CameraTile(QWidget* parent) : QWidget(parent) {}
@@ -22,6 +22,8 @@ class CameraTile : public QWidget {
 
   int heightForWidth(int width) const override;
   QString words() const { return words_; }
+  /// As far as they have room: in a few lines of the tile's width.
+  QString shownWords() const;
 
  protected:
   void paintEvent(QPaintEvent* event) override;

@@ -37,6 +37,7 @@ HealthPage::HealthPage(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget
   tree_->setObjectName("health");
   tree_->setHeaderLabels({"part", "state"});
   tree_->header()->resizeSection(0, 200);
+  tree_->setWordWrap(true);
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tree_);

@@ -1,0 +1,89 @@
+// Pages and tiles of the Tracker panel without nodes.
+
+#include "calibrate_page.h"
+#include "camera_tile.h"
+#include "health_page.h"
+#include "number_box.h"
+#include "screenshot.h"
+
+#include <QApplication>
+#include <QKeyEvent>
+#include <QLabel>
+#include <QLocale>
+#include <QStringList>
+#include <QTreeWidget>
+
+#include <gtest/gtest.h>
+
+namespace wiimote_tracker::panel {
+namespace {
+
+const char kLongHealth[] =
+    "drifted: its images are 20.3 px (+- 0.3 px) on average off what the other cameras see; "
+    "wiimote_2 was turned by 1.0 degrees and moved by 2 mm, and its images then fit to 0.3 px; "
+    "rosservice call /calibration/continuous/apply  uses that";
+
+TEST(CalibratePage, HidesTheRemarksOfANodeThatIsGone) {
+  CalibratePage page(nullptr, [](const Request&) {});
+  Guide guide;
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.missing = {"put the LED on corner 1"};
+  guide.onStatus(status, 0.0);
+  page.show(guide, 0.1);
+  EXPECT_FALSE(page.findChild<QLabel*>("remarks")->isHidden());
+  page.show(guide, 100.0);
+  EXPECT_TRUE(page.findChild<QLabel*>("remarks")->isHidden());
+}
+
+TEST(CameraTile, KeepsLongWordsToThreeLinesAndItsTooltipHasAll) {
+  CameraTile tile(nullptr);
+  tile.resize(200, 190);
+  static_cast<QWidget&>(tile).show();
+  const CameraView camera("wiimote_2", 0.0);
+  tile.show(camera, CameraState::kKnocked, "turned by 2.8 degrees", 0.0);
+  EXPECT_EQ(tile.shownWords(), "turned by 2.8 degrees");
+  tile.show(camera, CameraState::kKnocked, kLongHealth, 0.0);
+  const QStringList lines = tile.shownWords().split('\n');
+  EXPECT_EQ(lines.size(), 3);
+  EXPECT_TRUE(lines.last().endsWith(QChar(0x2026))) << lines.last().toStdString();
+  EXPECT_EQ(tile.toolTip(), kLongHealth);
+  screenshot("tile_with_long_words", &tile);
+}
+
+TEST(HealthPage, WrapsLongWords) {
+  HealthPage page(nullptr);
+  page.resize(440, 300);
+  static_cast<QWidget&>(page).show();
+  diagnostic_msgs::DiagnosticArray diagnostics;
+  diagnostics.status.resize(1);
+  diagnostics.status[0].name = "calibration: cameras";
+  diagnostics.status[0].message = kLongHealth;
+  HealthView health;
+  health.onDiagnostics(diagnostics, 1.0);
+  page.show(health, 1.0);
+  screenshot("health_with_long_words", &page);
+  const auto* tree = page.findChild<QTreeWidget*>("health");
+  EXPECT_GT(tree->visualItemRect(tree->topLevelItem(0)).height(), 3 * tree->fontMetrics().height());
+}
+
+TEST(NumberBox, TakesAPointAndACommaInEveryLanguage) {
+  for (const QLocale::Language language : {QLocale::English, QLocale::German}) {
+    QLocale::setDefault(QLocale(language));
+    for (const char* typed : {"2.5", "2,5"}) {
+      NumberBox box(nullptr);
+      box.setRange(0.0, 100.0);
+      box.setDecimals(3);
+      box.setSuffix(" m");
+      box.selectAll();
+      for (const QChar letter : QString(typed)) {
+        QKeyEvent press(QEvent::KeyPress, 0, Qt::NoModifier, letter);
+        QApplication::sendEvent(&box, &press);
+      }
+      EXPECT_EQ(box.value(), 2.5) << box.text().toStdString();
+    }
+  }
+  QLocale::setDefault(QLocale::c());
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::panel

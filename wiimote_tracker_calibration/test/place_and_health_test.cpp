@@ -282,6 +282,9 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   ASSERT_TRUE(
       waitUntil([] { return health("camera_2").find("continuous/apply") != std::string::npos; }));
   EXPECT_EQ(status_->get()->rig_id, rig.id());
+  const std::string proposed = health("camera_2");
+  EXPECT_SAYS(proposed, "; rosservice call " + ros::names::resolve("calibration/continuous/apply"));
+  EXPECT_EQ(proposed.find("put it back"), std::string::npos) << proposed;
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
   ASSERT_TRUE(reply.success) << reply.message;
   EXPECT_SAYS(reply.message, "camera_2 was turned by 2.8");

@@ -12,7 +12,7 @@ namespace wiimote_tracker::health {
 
 namespace {
 
-const char kAdvice[] = "; put it back, or recalibrate this camera";
+const char kAdvice[] = "put it back, or recalibrate this camera";
 
 std::string degrees(double radians) {
   return format("%.1f degrees", radians * 180.0 / M_PI);
@@ -23,18 +23,23 @@ std::string tiltText(const Tilt& tilt) {
          ") against where it was calibrated";
 }
 
-/// @param advise whether to say what to do
-std::string driftText(const Drift& drift, bool advise) {
+std::string driftText(const Drift& drift) {
   const std::string size = format("%.1f px (+- %.1f px)", drift.bias.norm(), drift.stddev);
   if (!drift.or_camera.empty())
     return "drifted, or " + drift.or_camera + " did: their rays miss each other by " + size +
-           " on average" +
-           (advise ? "; see which of both was moved, put it back or recalibrate it" : "");
+           " on average";
   const std::string off = "its images are " + size + " on average off what the other cameras see";
   if (drift.or_others)
-    return "drifted, or others did: " + off +
-           (advise ? "; see which cameras were moved, put them back or recalibrate them" : "");
-  return "drifted: " + off + (advise ? kAdvice : "");
+    return "drifted, or others did: " + off;
+  return "drifted: " + off;
+}
+
+std::string driftAdvice(const Drift& drift) {
+  if (!drift.or_camera.empty())
+    return "see which of both was moved, put it back or recalibrate it";
+  if (drift.or_others)
+    return "see which cameras were moved, put them back or recalibrate them";
+  return kAdvice;
 }
 
 /// Whether what was found of a camera holds with another calibration of it, too.
@@ -142,16 +147,24 @@ void HealthWatch::describe(Watched* camera) {
   CameraHealth& health = camera->health;
   const bool was_well = health.text.empty();
   std::vector<std::string> findings;
+  health.advice.clear();
+  // Of several findings the first one says what to do.
+  const auto add = [&](const std::string& finding, const std::string& advice) {
+    findings.push_back(finding);
+    if (health.advice.empty())
+      health.advice = advice;
+  };
   if (!camera->other_device.empty())
-    findings.push_back("is another device (" + camera->other_device + ") than was calibrated (" +
-                       camera->calibrated.camera.identity + "): recalibrate this camera");
+    add("is another device (" + camera->other_device + ") than was calibrated (" +
+            camera->calibrated.camera.identity + ")",
+        "recalibrate this camera");
   if (camera->tilt_alarm.on())
-    findings.push_back(tiltText(*health.tilt) + (findings.empty() ? kAdvice : ""));
-  if (camera->drift_alarm.on())  // of several findings the first one says what to do
-    findings.push_back(driftText(camera->drift_finding, findings.empty()));
+    add(tiltText(*health.tilt), kAdvice);
+  if (camera->drift_alarm.on())
+    add(driftText(camera->drift_finding), driftAdvice(camera->drift_finding));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
-    news_.push_back(camera->calibrated.camera.name + " " + health.text);
+    news_.push_back(camera->calibrated.camera.name + " " + health.text + "; " + health.advice);
 }
 
 }  // namespace wiimote_tracker::health

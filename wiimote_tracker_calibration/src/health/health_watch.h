@@ -23,8 +23,8 @@ struct HealthOptions {
 
 /// Whether one camera has moved since it was calibrated.
 struct CameraHealth {
-  /// What has changed and what to do; empty: nothing has.
-  std::string text;
+  std::string text;            ///< What has changed; empty: nothing has.
+  std::string advice;          ///< What to do then.
   std::optional<Tilt> tilt;    ///< Latest judgement; nothing: none yet.
   std::optional<Drift> drift;  ///< Same.
 };

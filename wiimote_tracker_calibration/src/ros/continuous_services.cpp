@@ -22,7 +22,6 @@ using workflow::Step;
 namespace {
 
 constexpr double kUpdatePeriod = 0.5;  // [s]
-const char kApply[] = "; call calibration/continuous/apply to use it";
 const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
                                   1000.0 * continuous::Approach::kLongestStep,
                                   continuous::Approach::kPeriod);
@@ -79,13 +78,19 @@ class ContinuousServices {
     }
     const bool is_news = !proposal_ || proposal_->cameras != proposal->cameras;
     proposal_ = proposal;
-    context_.status(lock).setProposal(proposal->cameras, proposal->message + kApply);
+    const std::string text = proposal->message + "; " + command("apply") + "  uses that";
+    context_.status(lock).setProposal(proposal->cameras, text);
     if (applies) {
       const Reply applied = apply(lock);
       ROS_WARN_STREAM(applied.message);
     } else if (is_news) {
-      ROS_WARN_STREAM(proposal->message + kApply);
+      ROS_WARN_STREAM(text);
     }
+  }
+
+  /// What a person types for one of the services.
+  std::string command(const std::string& service) const {
+    return "rosservice call " + context_.nh().resolveName("calibration/continuous/" + service);
   }
 
   /// Once for each.
@@ -191,9 +196,8 @@ class ContinuousServices {
     }
     const geometry::Rig goal = changes_.goal(*context_.rig(lock));
     return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
-                      keepVersion(goal, &lock) +
-                      "; calibration/continuous/revert goes back, and save keeps it" +
-                      (rig ? "" : " once it is reached")};
+                      keepVersion(goal, &lock) + "; " + command("revert") +
+                      "  goes back, and save keeps it" + (rig ? "" : " once it is reached")};
   }
 
   /// Writes a rig beside the rig file. @returns where, or why not.

@@ -48,15 +48,14 @@ class HealthMonitor {
         rig_id_ = id;
         useRig(rig, lock);
       }
-      std::map<std::string, std::string> texts;
+      std::map<std::string, health::CameraHealth> healths;
       if (watch_) {
-        for (const auto& camera : watch_->healths())
-          texts[camera.first] = camera.second.text;
+        healths = watch_->healths();
         for (const std::string& news : watch_->takeNews())
           ROS_WARN_STREAM(news);
         warnOfUnknownCameras(*rig, lock);
       }
-      context_.status(lock).setHealth(texts);
+      context_.status(lock).setHealth(healths);
     }
     diagnostics_.update();
   }

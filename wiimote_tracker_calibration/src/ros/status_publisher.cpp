@@ -146,10 +146,10 @@ bool StatusPublisher::isWalked() const {
 
 std::string StatusPublisher::health(const std::string& camera) const {
   const auto found = health_.find(camera);
-  const std::string finding = found != health_.end() ? found->second : "";
-  if (std::count(proposal_.first.begin(), proposal_.first.end(), camera) == 0)
-    return finding;
-  return finding + (finding.empty() ? "" : "; ") + proposal_.second;
+  const bool is_proposed = std::count(proposal_.first.begin(), proposal_.first.end(), camera) > 0;
+  if (found == health_.end() || found->second.text.empty())
+    return is_proposed ? proposal_.second : "";
+  return found->second.text + "; " + (is_proposed ? proposal_.second : found->second.advice);
 }
 
 std::vector<CalibrationCameraStatus> StatusPublisher::cameras(double window) const {

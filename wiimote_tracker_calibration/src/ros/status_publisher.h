@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_STATUS_PUBLISHER_H
 
 #include "capture/walk.h"
+#include "health/health_watch.h"
 #include "samples/verdict.h"
 #include "workflow/calibration.h"
 #include "workflow/sounds.h"
@@ -40,10 +41,11 @@ class StatusPublisher {
   /// With a rig in use its LED is tracked instead.
   void endWalk() { walk_is_wanted_ = false; }
 
-  /// What is found of the cameras' health from now on, by their names; empty or none: all is well.
-  void setHealth(const std::map<std::string, std::string>& texts) { health_ = texts; }
+  /// What is found of the cameras' health from now on, by their names.
+  void setHealth(const std::map<std::string, health::CameraHealth>& healths) { health_ = healths; }
 
-  /// What continuous calibration proposes to change, shown with the health of these cameras.
+  /// What continuous calibration proposes to change, and how; instead of other advice it is shown
+  /// with the health of these cameras.
   void setProposal(const std::vector<std::string>& cameras, const std::string& text) {
     proposal_ = {cameras, text};
   }
@@ -75,7 +77,7 @@ class StatusPublisher {
   geometry_msgs::PolygonStamped outline_;  // of the square, as published
   capture::Walk walk_;
   bool walk_is_wanted_ = false;  // though there is a rig
-  std::map<std::string, std::string> health_;
+  std::map<std::string, health::CameraHealth> health_;
   std::pair<std::vector<std::string>, std::string> proposal_;  // Cameras and text.
 };
 

@@ -112,7 +112,7 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
     case tracking::CameraFault::Kind::kMisfit:
       return format(
           "the spots of %s are not where other cameras see LEDs, and its images are "
-          "ignored: if it was moved or exchanged, put it back or calibrate again; mask "
+          "ignored: if it was moved or exchanged, do what calibration_node says of it; mask "
           "lamps and reflections",
           name);
     case tracking::CameraFault::Kind::kInaccurate:

@@ -10,10 +10,13 @@
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLocale>
+#include <QPushButton>
 #include <QStringList>
 #include <QTreeWidget>
 
 #include <gtest/gtest.h>
+
+#include <string>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -33,6 +36,32 @@ TEST(CalibratePage, HidesTheRemarksOfANodeThatIsGone) {
   EXPECT_FALSE(page.findChild<QLabel*>("remarks")->isHidden());
   page.show(guide, 100.0);
   EXPECT_TRUE(page.findChild<QLabel*>("remarks")->isHidden());
+}
+
+TEST(CalibratePage, AppliesAndRevertsWhatContinuousCalibrationProposes) {
+  std::string sent;
+  CalibratePage page(nullptr, [&](const Request& request) { sent = request.service; });
+  page.resize(440, 740);
+  Guide guide;
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.step = status.SAVED;
+  status.rig_id = "f00";
+  status.next_title = "Correct wiimote_2";
+  status.next_sentence = "wiimote_2 no longer fits the other cameras. What has changed is known.";
+  status.next_request = "continuous/apply";
+  status.next_label = "correct it";
+  status.cameras.resize(1);
+  status.cameras[0].name = "wiimote_2";
+  status.cameras[0].health = kLongHealth;
+  guide.onStatus(status, 0.0);
+  page.show(guide, 0.1);
+  screenshot("calibrate_proposal", &page);
+  auto* next = page.findChild<QPushButton*>("next");
+  EXPECT_EQ(next->text(), "Correct it");
+  next->click();
+  EXPECT_EQ(sent, "continuous/apply");
+  page.findChild<QPushButton*>("Revert")->click();
+  EXPECT_EQ(sent, "continuous/revert");
 }
 
 TEST(CameraTile, KeepsLongWordsToThreeLinesAndItsTooltipHasAll) {

@@ -55,6 +55,13 @@ TEST_F(NextStep, IsWhatTheNodeSays) {
   EXPECT_EQ(advice.request.corner, 2);
 }
 
+TEST_F(NextStep, OffersWhatContinuousCalibrationProposes) {
+  status_.next_request = "continuous/apply";
+  status_.next_label = "correct it";
+  EXPECT_EQ(at(CalibrationStatus::SAVED).button, "Correct it");
+  EXPECT_EQ(guide_.advice(now_).request.service, "continuous/apply");
+}
+
 TEST_F(NextStep, HasNoButtonWhereThereIsNothingToRequest) {
   for (const char* request : {"", "of_a_newer_node"}) {
     status_.next_request = request;

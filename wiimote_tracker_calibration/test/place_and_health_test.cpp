@@ -285,6 +285,8 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   const std::string proposed = health("camera_2");
   EXPECT_SAYS(proposed, "; rosservice call " + ros::names::resolve("calibration/continuous/apply"));
   EXPECT_EQ(proposed.find("put it back"), std::string::npos) << proposed;
+  EXPECT_EQ(status_->get()->next_title, "Correct camera_2");
+  EXPECT_EQ(status_->get()->next_request, "continuous/apply");
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
   ASSERT_TRUE(reply.success) << reply.message;
   EXPECT_SAYS(reply.message, "camera_2 was turned by 2.8");

@@ -10,8 +10,9 @@ namespace {
 
 class NextStepTest : public Workflow {
  protected:
-  NextStep next() const { return nextStep(calibration_, verdict_); }
+  NextStep next() const { return nextStep(calibration_, verdict_, findings_); }
   samples::Verdict verdict_;
+  Findings findings_;
   Sounds sounds_;
 };
 
@@ -83,6 +84,43 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   calibration_.saved();
   EXPECT_EQ(next().title, "Ready");
   EXPECT_TRUE(next().request.empty());
+}
+
+TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {
+  geometry::Rig rig;
+  rig.cameras.resize(3);
+  ASSERT_TRUE(calibration_.load(rig).success);
+  EXPECT_EQ(next().title, "Ready");
+  findings_.changed = {"wiimote_2"};
+  EXPECT_EQ(next().title, "Check wiimote_2");
+  EXPECT_SAYS(next().sentence, "put it back, or recalibrate it");
+  EXPECT_TRUE(next().request.empty());
+  findings_.correctable = {"wiimote_2"};
+  EXPECT_EQ(next().title, "Correct wiimote_2");
+  EXPECT_EQ(next().request, "continuous/apply");
+  EXPECT_EQ(next().label, "correct it");
+  findings_.correctable = {"wiimote_2", "wiimote_3"};
+  EXPECT_EQ(next().title, "Correct cameras");
+  EXPECT_SAYS(next().sentence, "wiimote_2, wiimote_3 no longer fit the other cameras");
+  rig.cameras.pop_back();
+  ASSERT_TRUE(calibration_.load(rig).success);
+  findings_ = {{"wiimote_1", "wiimote_2"}, {}};
+  EXPECT_SAYS(next().sentence, "see which was moved, put it back, or calibrate again");
+}
+
+TEST_F(NextStepTest, ACorrectionIsBeforeTheSavingButAfterABadCorner) {
+  captureAll();
+  ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
+  calibration_.takeSolution(geometry::Rig());
+  calibration_.end();
+  findings_ = {{"wiimote_2"}, {}};
+  verdict_.grade = samples::Grade::kGood;
+  EXPECT_EQ(next().request, "save");
+  findings_.correctable = {"wiimote_2"};
+  EXPECT_EQ(next().request, "continuous/apply");
+  verdict_.grade = samples::Grade::kRedo;
+  verdict_.redo_corner = 2;
+  EXPECT_EQ(next().request, "capture_corner");
 }
 
 TEST_F(NextStepTest, AMeasuredPlaceNeedsAStillLedAndARecalibratedCameraAWavedOne) {

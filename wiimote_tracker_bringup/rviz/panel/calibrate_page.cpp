@@ -206,6 +206,9 @@ void CalibratePage::addFile(QVBoxLayout* layout) {
   path_->setPlaceholderText("parameter rig_file");
   file->addWidget(addButton("Save", "save"));
   file->addWidget(addButton("Load", "load"));
+  QPushButton* revert = addButton("Revert", "continuous/revert");
+  revert->setToolTip("goes back to the rig before the last change of continuous calibration");
+  file->addWidget(revert);
   layout->addLayout(file);
 }
 

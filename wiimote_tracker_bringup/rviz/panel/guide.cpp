@@ -11,8 +11,9 @@ namespace {
 // What the node may ask for next, CalibrationStatus.next_request; another value is of a newer node.
 // Other buttons do not belong here.
 const std::set<std::string> kNextRequests = {
-    "learn_masks", "check_connection", "start", "capture_corner",
-    "start_wave",  "stop_wave",        "solve", "save"};
+    "learn_masks",     "check_connection", "start", "capture_corner",
+    "start_wave",      "stop_wave",        "solve", "save",
+    "continuous/apply"};
 constexpr const char* kLost =
     "The calibration node was started again: what was captured, or solved and not saved, is lost. "
     "Start again.";

@@ -146,7 +146,7 @@ std::string Requests::perform(const Request& request) {
     return call<msgs::SaveRig>(service, fillPath);
   if (service == "load")
     return call<msgs::LoadRig>(service, fillPath);
-  return call<std_srvs::Trigger>(service);  // undo, stop_wave, cancel
+  return call<std_srvs::Trigger>(service);  // undo, stop_wave, cancel, continuous/...
 }
 
 std::string Requests::captureCorner(const Request& request) {

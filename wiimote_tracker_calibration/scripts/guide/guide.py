@@ -13,7 +13,7 @@ LOST = ('The calibration node was started again: what was captured, or solved an
 # The command for each CalibrationStatus.next_request.
 WORDS = {'learn_masks': 'masks', 'check_connection': 'connection', 'start': 'start',
          'capture_corner': 'capture', 'start_wave': 'wave', 'stop_wave': 'wave', 'solve': 'solve',
-         'save': 'save'}
+         'save': 'save', 'continuous/apply': 'apply'}
 # What a person uses to ask for something: keys on the screen, words line by line.
 KEYS = {'next': 'SPACE', 'connection': 'k', 'solve': 's', 'save': 'v', 'check': 'c', 'quit': 'q',
         'cancel': 'x', 'side': 'n asks for the side', 'length': 'w asks for the length'}
@@ -204,7 +204,8 @@ class Guide:
             return f' {self.asking["solve"]} solves.'
         if status.step == status.SOLVED and request != 'save':
             return f' {self.asking["save"]} saves.'
-        return f' {self.asking["check"]} checks it.' if status.step == status.SAVED else ''
+        is_well = status.step == status.SAVED and not any(c.health for c in status.cameras)
+        return f' {self.asking["check"]} checks it.' if is_well else ''
 
     def _keep_time(self, before, status, now: float) -> None:
         if before is None and self._started_at is None and status.step not in (

@@ -1,7 +1,5 @@
 #include "status_publisher.h"
 
-#include "workflow/next_step.h"
-
 #include "square_frame.h"
 
 #include <std_msgs/String.h>
@@ -73,7 +71,8 @@ bool isRight(std::size_t spots, const workflow::Calibration& calibration) {
 
 /// Where the calibration stands, without header and cameras. @param verdict of the rig in use.
 CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
-                                    const samples::Verdict& verdict) {
+                                    const samples::Verdict& verdict,
+                                    const workflow::Findings& findings) {
   static_assert(static_cast<int>(workflow::Step::kIdle) == CalibrationStatus::IDLE &&
                     static_cast<int>(workflow::Step::kReady) == CalibrationStatus::READY &&
                     static_cast<int>(workflow::Step::kCapturing) == CalibrationStatus::CAPTURING &&
@@ -88,7 +87,7 @@ CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
   CalibrationStatus status;
   status.step = static_cast<std::uint8_t>(calibration.step());
   status.message = calibration.message();
-  const workflow::NextStep next = workflow::nextStep(calibration, verdict);
+  const workflow::NextStep next = workflow::nextStep(calibration, verdict, findings);
   status.next_title = next.title;
   status.next_sentence = next.sentence;
   status.next_request = next.request;
@@ -152,6 +151,16 @@ std::string StatusPublisher::health(const std::string& camera) const {
   return found->second.text + "; " + (is_proposed ? proposal_.second : found->second.advice);
 }
 
+workflow::Findings StatusPublisher::findings() const {
+  workflow::Findings findings;
+  for (const auto& [name, health] : health_) {
+    if (!health.text.empty())
+      findings.changed.push_back(name);
+  }
+  findings.correctable = proposal_.first;
+  return findings;
+}
+
 std::vector<CalibrationCameraStatus> StatusPublisher::cameras(double window) const {
   std::vector<wave::CameraCoverage> waved;
   if (calibration_.wave())
@@ -187,7 +196,7 @@ std::vector<CalibrationCameraStatus> StatusPublisher::cameras(double window) con
 }
 
 void StatusPublisher::publish(const samples::Verdict& verdict) {
-  CalibrationStatus status = calibrationStatus(calibration_, verdict);
+  CalibrationStatus status = calibrationStatus(calibration_, verdict, findings());
   status.header.stamp = ros::Time::now();
   status.header.frame_id = parameters_.calibration.world_frame;
   status.cameras = cameras(1.0);

@@ -5,6 +5,7 @@
 #include "health/health_watch.h"
 #include "samples/verdict.h"
 #include "workflow/calibration.h"
+#include "workflow/next_step.h"
 #include "workflow/sounds.h"
 
 #include "camera_inputs.h"
@@ -61,6 +62,7 @@ class StatusPublisher {
  private:
   /// A walk comes before the start.
   bool isWalked() const;
+  workflow::Findings findings() const;
   /// Publishes what has just happened, for the ears.
   void publishSound();
   /// Publishes the square, when its sides have changed.

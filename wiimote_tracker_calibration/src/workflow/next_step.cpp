@@ -87,7 +87,29 @@ NextStep complete(const Calibration& calibration) {
           "start_wave", "begin the wave"};
 }
 
-NextStep solved(const samples::Verdict& verdict) {
+std::string fits(const std::vector<std::string>& cameras) {
+  return joined(cameras) + (cameras.size() == 1 ? " no longer fits" : " no longer fit");
+}
+
+NextStep correct(const std::vector<std::string>& cameras) {
+  const bool is_one = cameras.size() == 1;
+  return {"Correct " + (is_one ? cameras.front() : "cameras"),
+          fits(cameras) + " the other cameras. What has changed is known.", "continuous/apply",
+          is_one ? "correct it" : "correct them"};
+}
+
+NextStep check(const std::vector<std::string>& cameras, bool can_recalibrate) {
+  const std::string fit = fits(cameras) + " the calibration: ";
+  const std::string remedy =
+      can_recalibrate ? "recalibrate it (r in calibrate)." : "calibrate again.";
+  if (cameras.size() == 1)
+    return {"Check " + cameras.front(), fit + "put it back, or " + remedy};
+  return {"Check cameras", fit + "see which was moved, put it back, or " + remedy};
+}
+
+NextStep solved(const samples::Verdict& verdict, const Findings& findings) {
+  if (verdict.grade != samples::Grade::kRedo && !findings.correctable.empty())
+    return correct(findings.correctable);
   if (verdict.grade != samples::Grade::kRedo)
     return {verdict.grade == samples::Grade::kGood ? "Good" : "Usable",
             "Read the verdict, then save.", "save", "save"};
@@ -99,9 +121,21 @@ NextStep solved(const samples::Verdict& verdict) {
           "capture " + name + " again", verdict.redo_corner};
 }
 
+NextStep saved(const Calibration& calibration, const Findings& findings) {
+  constexpr std::size_t kFewest = 3;  // to recalibrate one of them
+  if (!findings.correctable.empty())
+    return correct(findings.correctable);
+  if (!findings.changed.empty())
+    return check(findings.changed,
+                 calibration.rig() && calibration.rig()->cameras.size() >= kFewest);
+  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
+}
+
 }  // namespace
 
-NextStep nextStep(const Calibration& calibration, const samples::Verdict& verdict) {
+NextStep nextStep(const Calibration& calibration,
+                  const samples::Verdict& verdict,
+                  const Findings& findings) {
   switch (calibration.step()) {
     case Step::kIdle:
       return beforeStart(calibration.preparation());
@@ -112,7 +146,7 @@ NextStep nextStep(const Calibration& calibration, const samples::Verdict& verdic
     case Step::kComplete:
       return complete(calibration);
     case Step::kSolved:
-      return solved(verdict);
+      return solved(verdict, findings);
     case Step::kSolving:
       return {"Solving", "Computing the cameras: wait."};
     case Step::kMasking:
@@ -126,7 +160,7 @@ NextStep nextStep(const Calibration& calibration, const samples::Verdict& verdic
     case Step::kSaved:
       break;
   }
-  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
+  return saved(calibration, findings);
 }
 
 }  // namespace wiimote_tracker::workflow

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker::workflow {
 
@@ -19,8 +20,16 @@ struct NextStep {
   std::optional<std::size_t> corner{};  ///< To be captured again, 0..3.
 };
 
+/// Cameras that are no longer as the rig in use has them.
+struct Findings {
+  std::vector<std::string> changed;      ///< What is found of them is in their health.
+  std::vector<std::string> correctable;  ///< By what continuous calibration proposes.
+};
+
 /// @param verdict of the rig in use, if there is one.
-NextStep nextStep(const Calibration& calibration, const samples::Verdict& verdict);
+NextStep nextStep(const Calibration& calibration,
+                  const samples::Verdict& verdict,
+                  const Findings& findings);
 
 }  // namespace wiimote_tracker::workflow
 

@@ -3,7 +3,7 @@
 import pytest
 from wiimote_tracker_msgs.msg import CalibrationStatus
 
-from fakes import camera, guide_at, status
+from fakes import FakeNode, camera, dialogue_with, guide_at, status
 from guide import commands
 from guide.board_screen import advice as board_advice
 from guide.guide import PLAIN_WORDS, Guide
@@ -12,7 +12,7 @@ from guide.guide import PLAIN_WORDS, Guide
 @pytest.mark.parametrize('wanted, word', [
     ('learn_masks', 'masks'), ('check_connection', 'connection'), ('start', 'start'),
     ('capture_corner', 'capture'), ('start_wave', 'wave'), ('stop_wave', 'wave'),
-    ('solve', 'solve'), ('save', 'save')])
+    ('solve', 'solve'), ('save', 'save'), ('continuous/apply', 'apply')])
 def test_space_requests_what_the_node_wants(wanted, word):
     step = CalibrationStatus.WAVING if wanted == 'stop_wave' else CalibrationStatus.READY
     guide = guide_at(status(step, wanted, 'do it'))
@@ -28,6 +28,23 @@ def test_where_there_is_nothing_to_request_space_does_nothing():
     wand = guide_at(status(CalibrationStatus.READY, 'start_wave', 'begin',
                            corners_needed=0)).advice()
     assert wand.word is None and wand.sentence == 'Do this. w asks for the length.'
+
+
+def test_a_camera_that_was_moved_is_not_to_be_checked():
+    moved = [camera(health='drifted; put it back')]
+    assert guide_at(status(CalibrationStatus.SAVED, cameras=moved)).advice().sentence == 'Do this.'
+
+
+def test_a_change_of_continuous_calibration_is_used_and_undone_by_keys():
+    node = FakeNode()
+    dialogue = dialogue_with(node, status(CalibrationStatus.SAVED, 'continuous/apply', 'use it'))
+    for press in (dialogue.next, lambda: dialogue.command('A'), lambda: dialogue.command('b')):
+        press()
+        node.events.put(('answer', dialogue.guide.running[-1], True, 'done'))
+        dialogue.take_events(1.0)
+    assert [(each.name, each.type) for each in node.sent] == [
+        ('continuous/apply', 'Trigger'), ('continuous/apply', 'Trigger'),
+        ('continuous/revert', 'Trigger')]
 
 
 def test_space_starts_with_the_side_that_was_given():
@@ -81,6 +98,13 @@ def test_line_by_line_words_are_named_in_place_of_keys(step, request_, corners, 
     assert board_advice(guide, 'wiimote_1').sentence.endswith('. The word next starts.')
 
 
+def test_a_board_is_refused_before_a_camera_that_does_not_exist():
+    cameras = [camera('wiimote_1'), camera('wiimote_2')]
+    advice = board_advice(guide_at(status(CalibrationStatus.IDLE, cameras=cameras)), 'wiimote_77')
+    assert advice.word is None
+    assert advice.sentence == 'There is no camera wiimote_77: name one of wiimote_1, wiimote_2.'
+
+
 def test_it_says_how_long_it_took():
     guide = Guide(100.0)
     assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
@@ -98,13 +122,6 @@ def test_it_says_how_long_it_took():
     guide.on_answer('save', True, '', 180.0)
     guide.on_answer('check', True, '', 200.0)
     assert guide.elapsed(999.0) == 70.0
-def test_a_board_is_refused_before_a_camera_that_does_not_exist():
-    cameras = [camera('wiimote_1'), camera('wiimote_2')]
-    advice = board_advice(guide_at(status(CalibrationStatus.IDLE, cameras=cameras)), 'wiimote_77')
-    assert advice.word is None
-    assert advice.sentence == 'There is no camera wiimote_77: name one of wiimote_1, wiimote_2.'
-
-
     assert guide.took(999.0) == 'Calibrated and saved in 1 min 10 s, 40 s of it for the square.'
 
 

@@ -53,10 +53,10 @@ constexpr double kHeldVariance = 1e-12;
 // with time, at most. It moves by the lever times the angle. These are assumed. The benchmark
 // drifts by 0.4 mrad an hour. In its eight hours, chi-squared in isWithinDrift() is at most 4; the
 // limit is 51. Where another LED was followed, it was over 1,100.
-constexpr double kLeastTurn = 0.0001;        // [rad]
-constexpr double kTurnRate = 0.0005 / 3600;  // [rad/s]
-constexpr double kMostTurn = 0.002;          // [rad]
-constexpr double kLever = 0.1;               // [m]
+constexpr double kDriftAtOnce = 0.0001;       // [rad]
+constexpr double kDriftRate = 0.0005 / 3600;  // [rad/s]
+constexpr double kWidestDrift = 0.002;        // [rad]
+constexpr double kLever = 0.1;                // [m]
 
 // Error of the stamps that changes slowly [s].
 constexpr double kOffsetStddev = 0.0001;
@@ -289,7 +289,7 @@ class Adjustment {
 }  // namespace
 
 double driftUntil(double time, const geometry::Rig& rig) {
-  return std::min(kLeastTurn + kTurnRate * std::abs(time - rig.solved_at), kMostTurn);
+  return std::min(kDriftAtOnce + kDriftRate * std::abs(time - rig.solved_at), kWidestDrift);
 }
 
 geometry::Rig withDrift(geometry::Rig rig, double time) {
@@ -298,7 +298,7 @@ geometry::Rig withDrift(geometry::Rig rig, double time) {
 }
 
 bool isWithinDrift(const geometry::Rig& rig, const geometry::Rig& adjusted) {
-  const Eigen::MatrixXd all = withTurns(rig, kMostTurn).covariance;
+  const Eigen::MatrixXd all = withTurns(rig, kWidestDrift).covariance;
   const auto cameras = static_cast<Eigen::Index>(rig.cameras.size());
   Eigen::VectorXd change(kPose * cameras);
   Eigen::MatrixXd covariance(kPose * cameras, kPose * cameras);

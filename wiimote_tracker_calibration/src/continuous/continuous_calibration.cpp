@@ -19,14 +19,17 @@ namespace wiimote_tracker::continuous {
 namespace {
 
 constexpr double kDegrees = 180.0 / M_PI;  // in one radian
-// Drift is proposed if it explains as much of the images' misfit, root mean square [px]. What is
-// not applied is forgotten: the higher this is, the more of the world is lost with each knock. The
-// lower, the more errors of lenses look like drift.
-constexpr double kGain = 0.05;
-// A camera was knocked if it turned by so many standard deviations of its drift, or by more than a
-// camera drifts in days [rad].
-constexpr double kKnocked = 10.0;
-constexpr double kMostDrift = 0.007;
+// Least gain of a proposal about drift [px]. What is not applied is forgotten: the higher this is,
+// the more of the world is lost with each knock. The lower, the more errors of lenses look like
+// drift.
+constexpr double kWorthProposing = 0.05;
+// Least gain of other poses over the same poses with the adjusted clocks [px]; below, cameras keep
+// their poses.
+constexpr double kWorthTurning = 0.05;
+// A camera was knocked if it turned by so many standard deviations of its drift, or by so much,
+// farther than a camera drifts in days [rad].
+constexpr double kKnockedDeviations = 10.0;
+constexpr double kKnockedTurn = 0.007;
 // The clock of a camera that did not reconnect has changed if its time offset did by more [s].
 constexpr double kOtherOffset = 0.001;
 
@@ -224,7 +227,7 @@ std::optional<Proposal> ContinuousCalibration::solvedAgainstOthers(const Evidenc
 std::optional<Proposal> ContinuousCalibration::knockFoundBy(const Proposal& drift,
                                                             const MotionImages& images) {
   const double limit =
-      std::min(kKnocked * driftUntil(images.to_check.back().stamp, rig_), kMostDrift);
+      std::min(kKnockedDeviations * driftUntil(images.to_check.back().stamp, rig_), kKnockedTurn);
   const auto camera = turnedAlone(rig_, drift.rig, limit);
   if (!camera)
     return std::nullopt;
@@ -252,7 +255,7 @@ std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImag
   if (!before || !clocks_only || !after)
     return std::nullopt;
   // Cameras turn if that explains what their clocks do not.
-  const bool keeps_poses = gainOf(*clocks_only, *after) < kGain * kGain;
+  const bool keeps_poses = gainOf(*clocks_only, *after) < kWorthTurning * kWorthTurning;
   if (keeps_poses) {
     rig = with_clocks;
     after = clocks_only;
@@ -265,7 +268,7 @@ std::optional<Proposal> ContinuousCalibration::adjustedTogether(const MotionImag
     return std::nullopt;
   const std::size_t most = mostChanged(rig_, *rig);
   const bool reconnected = rig_.cameras[most].hasNewClock(rig->cameras[most].time_offset_epoch);
-  const bool has_drifted = gain >= kGain * kGain &&
+  const bool has_drifted = gain >= kWorthProposing * kWorthProposing &&
                            (!keeps_poses || hasOtherOffset(rig_.cameras[most], rig->cameras[most]));
   if (!reconnected && !has_drifted)
     return std::nullopt;

@@ -3,6 +3,7 @@
 
 #include "capture/image.h"
 #include "continuous/motion_window.h"
+#include "continuous/proposal.h"
 #include "continuous/suspect_watch.h"
 #include "recalibrate/recalibrate_camera.h"
 
@@ -23,25 +24,6 @@ struct Options {
   SuspectOptions knock = {{3.0, 6.0}, {140, 60}, {140, 60, 560, 4}};
   MotionOptions drift = {600, 200};  ///< 30 s and 10 s.
   recalibrate::Options recalibrate;
-};
-
-/// Gain of a proposal about drift for which a person is asked [px]. Clocks that wander by 1 ms
-/// within a minute cause smaller ones, and such changes do not make points more accurate.
-constexpr double kWorthAsking = 0.3;
-
-enum class Cause { kKnock, kReconnect, kDrift };
-
-/// A rig that explains what was seen better than the one in use.
-struct Proposal {
-  Cause cause;
-  /// Those that were knocked; of drift the one that has changed most.
-  std::vector<std::string> cameras;
-  geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
-  double gain;          ///< Of drift: misfit of the images that it explains, RMS [px]; else 0.
-  std::string message;  ///< One sentence: what has changed, and how well the images fit then.
-  /// Where the LED was, world [m]: places that should not jump. Empty if cameras were knocked,
-  /// since the others hold the world.
-  std::vector<Eigen::Vector3d> places;
 };
 
 /// Corrects a rig from ordinary tracking of one LED. One or two cameras that no longer fit the
@@ -75,16 +57,25 @@ class ContinuousCalibration {
   void addAcceleration(const std::string& camera, const Eigen::Vector3d& specific_force);
 
  private:
+  /// What is proposed when there is enough motion since cameras are off.
+  std::optional<Proposal> solvedSuspect(const Evidence& evidence);
+  /// What is proposed when there is enough motion, whether or not cameras are off.
+  std::optional<Proposal> solvedFromMotion();
+
   /// One or two cameras solved against the others.
   std::optional<Proposal> solvedAgainstOthers(const Evidence& evidence);
   /// The camera solved against the others that alone has turned farther than cameras drift, if
   /// there is one. A roll is found so: it leaves the median of the residuals where it was.
   std::optional<Proposal> knockFoundBy(const Proposal& drift, const MotionImages& images);
+
+  /// adjustRig(), unless the rig tells too little of its lenses.
+  std::optional<geometry::Rig> adjustedRig(const MotionImages& images) const;
   /// All cameras adjusted together.
   std::optional<Proposal> adjustedTogether(const MotionImages& images) const;
-  /// All cameras adjusted together but the one that contradicts the others. So these get their new
-  /// clocks, with which that one can be solved.
-  std::optional<Proposal> adjustedWithoutKnocked(const MotionImages& images) const;
+  /// All cameras adjusted together but the one that contradicts the others even with the clocks of
+  /// an adjusted rig. So these get their new clocks, with which that one can be solved.
+  std::optional<Proposal> adjustedWithoutKnocked(const geometry::Rig& adjusted,
+                                                 const MotionImages& images) const;
 
   geometry::Rig rig_;
   Options options_;

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_RIG_CHANGES_H
 
 #include "continuous/approach.h"
-#include "continuous/continuous_calibration.h"
+#include "continuous/proposal.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 

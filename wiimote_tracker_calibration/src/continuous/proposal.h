@@ -1,0 +1,45 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H
+#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H
+
+#include "capture/image.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::continuous {
+
+/// Gain of a proposal about drift for which a person is asked [px]. Clocks that wander by 1 ms
+/// within a minute cause smaller ones, and such changes do not make points more accurate.
+constexpr double kWorthAsking = 0.3;
+
+enum class Cause { kKnock, kReconnect, kDrift };
+
+/// A rig that explains what was seen better than the one in use.
+struct Proposal {
+  Cause cause;
+  /// Those that were knocked; of drift the one that has changed most.
+  std::vector<std::string> cameras;
+  geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
+  double gain;          ///< Of drift: misfit of the images that it explains, RMS [px]; else 0.
+  std::string message;  ///< One sentence: what has changed, and how well the images fit then.
+  /// Where the LED was, world [m]: places that should not jump. Empty if cameras were knocked,
+  /// since the others hold the world.
+  std::vector<Eigen::Vector3d> places;
+};
+
+/// @param before the rig in use, to whose verdict the message is added.
+/// @param checked the images that the rig was checked with, of which the last is its solved_at.
+Proposal proposalOf(Cause cause,
+                    const std::vector<std::string>& cameras,
+                    const geometry::Rig& before,
+                    const geometry::Rig& rig,
+                    const std::string& message,
+                    const std::vector<capture::Image>& checked);
+
+}  // namespace wiimote_tracker::continuous
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H

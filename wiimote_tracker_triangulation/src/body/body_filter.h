@@ -4,6 +4,7 @@
 #include "wiimote_tracker_triangulation/body/inertial_filter.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 
+#include <algorithm>
 #include <limits>
 #include <variant>
 
@@ -38,7 +39,7 @@ class BodyFilter {
     if (const auto* inertial = std::get_if<InertialFilter>(&filter_)) {
       if (inertial->isPlausible())
         return;
-      distrusted_until_ = inertial->time() + kDistrust;
+      distrust(inertial->time());
       filter_ = PoseFilter(*motion_, inertial->time(), inertial->state());
     } else if (const auto& pose = std::get<PoseFilter>(filter_);
                pose.time() >= distrusted_until_ && samples.cover(pose.time(), pose.time())) {
@@ -49,7 +50,10 @@ class BodyFilter {
   /// The body was found anew at `time` [s], where the filter before was wrong: does without the IMU
   /// for a while if that had used it.
   void distrustAfter(const BodyFilter& before, double time) {
-    distrusted_until_ = before.isInertial() ? time + kDistrust : before.distrusted_until_;
+    distrusted_until_ = before.distrusted_until_;
+    pause_ = before.pause_;
+    if (before.isInertial())
+      distrust(time);
   }
 
   const PoseState& state() const {
@@ -60,12 +64,23 @@ class BodyFilter {
   bool isInertial() const { return std::holds_alternative<InertialFilter>(filter_); }
 
  private:
-  static constexpr double kDistrust = 10.0;  // of an IMU that was not plausible [s]
+  // How long an IMU that was not plausible is left out: the first time, at most [s].
+  static constexpr double kPause = 10.0;
+  static constexpr double kLongestPause = 320.0;
+
+  /// Leaves the IMU out from a time [s]; twice as long as the last time if it was tried again for
+  /// less than that. Each time that a wrong one is tried, the pose is off by up to 3 cm.
+  void distrust(double time) {
+    const bool again = time < distrusted_until_ + pause_;
+    pause_ = again ? std::min(2.0 * pause_, kLongestPause) : kPause;
+    distrusted_until_ = time + pause_;
+  }
 
   const PoseFilterOptions* motion_;
   const InertialOptions* inertial_;
   std::variant<PoseFilter, InertialFilter> filter_;
   double distrusted_until_ = -std::numeric_limits<double>::infinity();  // the IMU [s]
+  double pause_ = 0.0;                                                  // that ends then [s]
 };
 
 }  // namespace wiimote_tracker::body

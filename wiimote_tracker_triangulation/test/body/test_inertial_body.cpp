@@ -10,6 +10,7 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker::body {
 namespace {
@@ -284,6 +285,25 @@ TEST(InertialBody, IsAnOrdinaryBodyWhereItsImuContradictsTheImages) {
     EXPECT_LT(std::sqrt(squares / images), 0.003) << what;
     EXPECT_LT(greatest, 0.03) << what;
   }
+}
+
+TEST(InertialBody, TriesAnImuThatStaysWrongEverMoreRarely) {
+  Carried body(6, 0.0, kNever, [](InertialSample s) {
+    s.force /= 9.80665;
+    return s;
+  });
+  std::vector<double> starts;  // [s]
+  bool was_inertial = false;
+  for (body.step(); body.time() < kStart + 75.0; body.step()) {
+    const bool is_inertial = body.estimate() && body.estimate()->inertial;
+    if (is_inertial && !was_inertial)
+      starts.push_back(body.time() - kStart);
+    was_inertial = is_inertial;
+  }
+  ASSERT_EQ(starts.size(), 4U);
+  EXPECT_NEAR(starts[1] - starts[0], 10.0, 2.0);
+  EXPECT_NEAR(starts[2] - starts[1], 20.0, 2.0);
+  EXPECT_NEAR(starts[3] - starts[2], 40.0, 2.0);
 }
 
 TEST(InertialBody, DoesNotDependOnWhenItsSamplesCome) {

@@ -174,6 +174,7 @@ TEST(BodyFollower, StatesWhatIsNotKnownOfAClock) {
     nees += meanNees(rig, options, seed, 1000.5, take) / 4.0;
   }
   RecordProperty("nees", std::to_string(nees));
+  EXPECT_GT(nees, 0.8);
   EXPECT_LT(nees, 1.5);
 }
 

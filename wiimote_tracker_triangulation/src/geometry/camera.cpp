@@ -18,6 +18,7 @@ void require(bool good, const std::string& what, double value) {
 }
 
 // No switch over the models has a default, so that the compiler finds where a new one is missing.
+// GCC wants a return after the switch: that of the case that breaks.
 
 Vector2 distort(const Intrinsics& lens, const Vector2& normalized, Matrix2* jacobian) {
   switch (lens.distortion_model) {

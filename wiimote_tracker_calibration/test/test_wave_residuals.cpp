@@ -61,6 +61,22 @@ TEST(ExtensiveWave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
   }
 }
 
+TEST(ExtensiveWave, ACornerThatMayLieAnywhereIsNoEvidence) {
+  WaveScene scene = shortScene();
+  scene.quantized = false;
+  scene.wrong_share = 0.0;
+  scene.camera_count = 2;
+  WaveOptions options = optionsFor(scene);
+  options.offset = scene.offset * std::sqrt(2.0 / 3.0);  // of differences of uniform offsets
+  options.uncertainty.unknown_corner = 2;
+  const int kSeeds = 60;
+  double squared = 0.0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+    squared += std::pow(solveWave(simulateWave(scene, seed).recording, options).misfit, 2);
+  // At least five degrees of freedom: two standard deviations are allowed.
+  EXPECT_NEAR(squared / kSeeds, 1.0, 0.17);
+}
+
 TEST(Wave, TheFirstCamerasClockIsNoEvidence) {
   // All is given but the second camera's clock, which is off by one standard deviation.
   constexpr double kOffset = 0.005;  // [s]

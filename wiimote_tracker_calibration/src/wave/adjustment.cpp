@@ -128,9 +128,8 @@ class WaveProblem {
   }
 
   Agreement agreement() {
-    // Two directions differ by two angles, in three residuals.
     return {adjust::squaresOf(&problem_, known_),
-            adjust::degreesOfFreedom(&problem_, known_) - accelerometers_};
+            adjust::degreesOfFreedom(&problem_, known_) - surplus_};
   }
 
   std::optional<Eigen::MatrixXd> covariance() {
@@ -213,6 +212,8 @@ class WaveProblem {
         square::addSquare(layout, layout.corners(state_.z_up), recording_.sightings(),
                           options_.uncertainty, &cameras_, &square_, &problem_);
     known_.insert(known_.end(), added.begin(), added.end());
+    if (options_.uncertainty.unknown_corner)
+      surplus_ += 2;  // its prior tells nothing
   }
 
   /// The wand at rest, whose LEDs define origin and x axis, and the accelerometers.
@@ -243,7 +244,7 @@ class WaveProblem {
                                  cameras_[i].world_from_start, options_.uncertainty.gravity}
                 .cost(),
             nullptr, cameras_[i].rotation.data()));
-        ++accelerometers_;
+        ++surplus_;  // two directions differ by two angles, in three residuals
       }
     }
   }
@@ -269,7 +270,7 @@ class WaveProblem {
   std::set<const double*> fitted_;  // control points that matches tell of
   // What is known besides the wave: corners, places, lengths, floor, accelerometers, and priors.
   std::vector<ceres::ResidualBlockId> known_;
-  int accelerometers_ = 0;
+  int surplus_ = 0;       // of these residuals, that measure nothing
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };
 

@@ -4,8 +4,8 @@
 #include "wave_trial.h"
 #include "waved_led.h"
 
-#include "continuous/approach.h"
 #include "continuous/continuous_calibration.h"
+#include "continuous/rig_changes.h"
 
 #include <Eigen/Geometry>
 
@@ -64,7 +64,8 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
   std::array<std::uint32_t, 4> epochs = {7, 7, 7, 7};
   std::optional<ContinuousCalibration> watch;
   watch.emplace(rig, continuous::Options{});
-  std::optional<continuous::Approach> approach;
+  continuous::RigChanges changes;
+  changes.follow(rig);
   // Each camera drifts in one direction all day.
   std::vector<Eigen::Vector3d> axes;
   for (std::size_t i = 0; i < led.truth.size(); ++i)
@@ -91,16 +92,11 @@ void addDay(std::uint64_t seed, std::array<Hour, kHours + 1>* hours) {
         image.stamp += pauses;
         image.clock_epoch = epochs[static_cast<std::size_t>(image.camera.back() - '1')];
         if (const auto proposal = watch->add(image)) {
-          watch.emplace(proposal->rig, continuous::Options{});
           ++at.changes;
-          if (proposal->places.empty()) {
-            approach.reset();
-            rig = proposal->rig;
-          } else {
-            approach.emplace(proposal->rig, proposal->places);
-          }
+          rig = changes.apply(*proposal, rig).value_or(rig);
+          watch.emplace(changes.goal(rig), continuous::Options{});
         }
-        const auto next = approach ? approach->step(rig, image.stamp) : std::nullopt;
+        const auto next = changes.step(rig, image.stamp);
         if (!next)
           return;
         at.step = std::max(at.step, movementOf(led.truth, rig, *next));

@@ -245,7 +245,8 @@ TEST(Board, CommitGivesTheLensToTheDriver) {
   EXPECT_EQ(g_bench->camera_info_.header.frame_id, "wiimote_1_optical_frame");
 
   g_bench->info_.shutdown();
-  EXPECT_SAYS(g_bench->trigger("commit").message, "but nothing offers set_camera_info of wiimote_1:");
+  EXPECT_SAYS(g_bench->trigger("commit").message,
+              "but nothing offers set_camera_info of wiimote_1:");
   // A lens of a view that was dropped is not used.
   EXPECT_TRUE(g_bench->trigger("undo").success);
   EXPECT_SAYS(g_bench->trigger("commit").message, "solve it first");

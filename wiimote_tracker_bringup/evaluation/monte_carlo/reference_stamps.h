@@ -18,7 +18,7 @@ struct GridStamp {
   double stddev;    ///< [s]
 };
 
-/// What a causal estimator can reach on reports that were polled: Bayes' rule for the delay of the
+/// A causal estimator for reports that were polled: Bayes' rule for the delay of the
 /// newest report, on a grid of 0.1 ms, over all numbers of lost frames. Unlike the exposure clock,
 /// it is told the spread of the delays, the polls, the losses, the wander (all as in recordings of
 /// two remotes) and the period.

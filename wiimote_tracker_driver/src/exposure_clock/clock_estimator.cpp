@@ -47,7 +47,7 @@ const ModelPrior kModelPriors[] = {
 // Index of the model whose posterior SteadyEdge computes, and its weight when SteadyEdge begins.
 constexpr std::size_t kSteadyEdge = 0;
 constexpr double kSteadyEdgeWeight = 0.5;
-// SteadyEdge, and the probability of stalls, use a report whose smoothed number is this probable.
+// SteadyEdge and learnStalls() use a report whose smoothed number is this probable.
 constexpr double kCertain = 0.9;
 // SteadyEdge leaves out a report that is this much too early [s]: its number is wrong.
 constexpr double kTooEarly = 1e-3;
@@ -56,11 +56,11 @@ constexpr double kMaxEdgeError = 0.5e-3;
 // Time over which the wander of a steady clock is added to its variance [s].
 constexpr double kEdgeMemory = 3.0;
 
-// Mean time that a stall holds a report up [s] (simulated ones of up to 160 ms: 53 ms); initial
-// stall probability, the number of reports it counts as, the number of latest reports it is
-// estimated from, and its least value.
-constexpr double kStallLength = 0.060;
-constexpr double kInitialStallProbability = 0.003;
+// Initial share of reports that a stall holds up, and the mean time it does [s], as in recordings
+// of two remotes; the number of reports they count as; the number of latest reports they are
+// estimated from; and the share that stays of this length.
+constexpr double kInitialStallProbability = 0.02;
+constexpr double kInitialStallLength = 0.020;
 constexpr double kStallPriorCount = 300.0;
 constexpr double kStallMemory = 6000.0;
 constexpr double kMinStallProbability = 0.0005;
@@ -87,6 +87,7 @@ constexpr double kNegligible = 1e-6;
 /// Densities of an arrival [1/s]: the report was on time, or waited for the one before, or was held
 /// up by a stall.
 struct ClockEstimator::ArrivalDensity {
+  double late;  // this report, after the least delay [s]
   double on_time, queued, stalled;
   double sum() const { return on_time + queued + stalled; }
 };
@@ -114,7 +115,8 @@ ClockEstimator::ClockEstimator(double period)
     : period_(period),
       filters_(makeBank(period)),
       edge_(period, 3.0 * period * kPeriodStddev),
-      stall_probability_(kInitialStallProbability) {
+      stall_probability_(kInitialStallProbability),
+      stall_time_(kInitialStallProbability * kInitialStallLength) {
   static_assert(sizeof(kModelPriors) / sizeof(kModelPriors[0]) == kModels,
                 "one filter per candidate");
   std::transform(std::begin(kModelPriors), std::end(kModelPriors), weights_.begin(),
@@ -123,6 +125,7 @@ ClockEstimator::ClockEstimator(double period)
 
 void ClockEstimator::copyLinkFrom(const ClockEstimator& other) {
   stall_probability_ = other.stall_probability_;
+  stall_time_ = other.stall_time_;
   sample_count_ = other.sample_count_;
   counter_.copyLossesFrom(other.counter_);
 }
@@ -188,13 +191,15 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
 ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter& filter,
                                                               const Arrival& arrival,
                                                               double offset) const {
-  const double late = arrival.time - filter.time() - offset * filter.period();
   const ClockFilter::Prediction frame = filter.predict(offset);
+  const double stall_rate = stall_probability_ / stall_time_;  // over the mean length [1/s]
   ArrivalDensity density;
+  density.late = arrival.time - filter.time() - offset * filter.period();
   density.on_time = (1.0 - stall_probability_) * filter.likelihood(frame, arrival.time);
   density.queued = filter.readyBefore(frame, arrival.before) * arrival.served;
-  density.stalled =
-      late > 0.0 ? stall_probability_ / kStallLength * std::exp(-late / kStallLength) : 0.0;
+  density.stalled = density.late > 0.0
+                        ? stall_probability_ * stall_rate * std::exp(-density.late * stall_rate)
+                        : 0.0;
   return density;
 }
 
@@ -260,17 +265,19 @@ void ClockEstimator::learnFromHistory(double arrival, double on_time) {
     const auto offset = static_cast<double>(report.frame - frame_);
     if (report.arrival - edge.time() - offset * edge.period() > -kTooEarly)
       edge_.add(report.frame, report.arrival, report.on_time, edge.period());
-    learnStallProbability(arrivalDensity(
-        best(), arrivalAfter(history_.report(i - 1).arrival, report.arrival), offset));
+    learnStalls(arrivalDensity(best(), arrivalAfter(history_.report(i - 1).arrival, report.arrival),
+                               offset));
   }
 }
 
 /// A step of expectation maximisation.
-void ClockEstimator::learnStallProbability(const ArrivalDensity& density) {
+void ClockEstimator::learnStalls(const ArrivalDensity& density) {
   sample_count_ = std::min(sample_count_ + 1.0, kStallMemory);
   const double stalled = density.stalled / (density.sum() + kUnexplained);
-  stall_probability_ += (stalled - stall_probability_) / (sample_count_ + kStallPriorCount);
-  stall_probability_ = std::max(stall_probability_, kMinStallProbability);
+  const double rate = 1.0 / (sample_count_ + kStallPriorCount);
+  stall_probability_ += rate * (stalled + kMinStallProbability - stall_probability_);
+  stall_time_ +=
+      rate * (stalled * density.late + kMinStallProbability * kInitialStallLength - stall_time_);
 }
 
 void ClockEstimator::applySteadyEdge() {

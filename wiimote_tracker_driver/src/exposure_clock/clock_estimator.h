@@ -57,7 +57,7 @@ class ClockEstimator {
                                 double offset) const;
   void updateModels(double arrival);
   void learnFromHistory(double arrival, double on_time);
-  void learnStallProbability(const ArrivalDensity& density);
+  void learnStalls(const ArrivalDensity& density);
   void applySteadyEdge();
   void reinitialiseUnlikelyModels();
   Estimate estimate(double arrival);
@@ -69,7 +69,8 @@ class ClockEstimator {
   SteadyEdge edge_;  // exact state of the filter for a sharp edge and a steady clock
   bool edge_used_ = false;
   double stall_probability_;   // that a report is held up,
-  double sample_count_ = 0.0;  // and number of reports used for it
+  double stall_time_;          // for how long, averaged over all reports [s],
+  double sample_count_ = 0.0;  // and number of reports used for both
   std::array<double, kModels> weights_;
   FrameCounter counter_;
   // Internal times are relative to the first arrival, for precision.

@@ -8,7 +8,7 @@ namespace wiimote_tracker::exposure_clock {
 namespace {
 constexpr double kNextLoss = 0.3;    // probability of a loss after a loss
 constexpr double kDuplicate = 1e-4;  // probability of a duplicate report
-constexpr double kFloor = 1e-8;      // least probability of each number
+constexpr double kFloor = 1e-9;      // least probability of each number
 constexpr double kNegligibleShare = 1e-7;
 // Number of reports that the initial loss probability counts as, number of latest reports it is
 // estimated from, and its least value.

@@ -44,7 +44,7 @@ class ClockEstimator {
   double logEvidence() const { return log_evidence_; }
 
  private:
-  static constexpr int kModels = 10;
+  static constexpr int kModels = 9;
   using Bank = std::array<ClockFilter, kModels>;
   static Bank makeBank(double period);
 

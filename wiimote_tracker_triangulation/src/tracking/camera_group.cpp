@@ -2,6 +2,8 @@
 
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 
@@ -71,6 +73,7 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
                      {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo});
   state_.clock_regressions.resize(members_.size());
   state_.unassigned.resize(members_.size());
+  state_.crowd = Crowd(members_.size());
   useRig(rig, partners);
 }
 
@@ -158,13 +161,14 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   update_->apply(camera, image, &state_.fits, &state_.clock_regressions[image.camera], &tracks,
                  &state_.pairs);
   removeMergedPairs(image.time);
+  const bool in_crowd = noteCrowd(image);
   show(image, views);
   collectUnassigned(image);
   initiation_->apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
   showStarts(views);
   for (Track& track : tracks) {
     const bool was_confirmed = track.isConfirmed();
-    track.updateStatus(image.time, options_);
+    track.updateStatus(image.time, options_, in_crowd);
     if (track.isFinished() && track.isDuplicate())
       doubtPartnerOf(track.id);
     if (was_confirmed || !track.mayContinue())
@@ -177,6 +181,44 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   tracks.erase(std::remove_if(tracks.begin(), tracks.end(),
                               [](const Track& track) { return track.isFinished(); }),
                tracks.end());
+}
+
+/// @returns whether unknown LEDs may be merged with some LED.
+bool CameraGroup::noteCrowd(const StoredImage& image) {
+  const auto begin = update_->trackOfSpot().begin();
+  const bool has_unknown = std::any_of(begin, begin + image.spot_count, [&](int track) {
+    return track == association::kFalseDetection || !state_.tracks[track].isConfirmed();
+  });
+  state_.crowd.add(image, has_unknown);
+  bool in_crowd = false;
+  for (Track& track : state_.tracks) {
+    if (!track.isConfirmed())
+      continue;
+    if (state_.crowd.mayHideLedsNear(track, cameras_, options_, image.time))
+      track.noteCrowd(image.time);
+    in_crowd = in_crowd || track.isCrowded(image.time);
+  }
+  return in_crowd;
+}
+
+Eigen::Matrix3d CameraGroup::mergingCovariance(const Track& track,
+                                               const TrackedLed& led,
+                                               double time) const {
+  constexpr double kSingular = 1e-10;
+  if (!track.isCrowded(time))
+    return Eigen::Matrix3d::Zero();
+  const double stddev = 0.25 * options_.merging_distance;  // of a coordinate in the circle [px]
+  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < members_.size(); ++i) {
+    Eigen::Matrix<double, 2, 3> jacobian;
+    if (std::binary_search(led.cameras.begin(), led.cameras.end(), members_[i]) &&
+        cameras_[i].forRays().project(led.position, &jacobian))
+      information.noalias() += jacobian.transpose() * jacobian;
+  }
+  const double trace = information.trace();
+  if (!(information.determinant() > kSingular * trace * trace * trace))  // one camera, or none
+    return Eigen::Matrix3d::Zero();
+  return stddev * stddev * information.inverse();
 }
 
 /// Removes pairs that are decided, and those whose tracks ended or were reacquired since.
@@ -282,6 +324,7 @@ void CameraGroup::clear() {
   next_step_ = 0;
   state_.tracks.clear();
   state_.pairs.clear();
+  state_.crowd = Crowd(members_.size());
   std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());
 }
 

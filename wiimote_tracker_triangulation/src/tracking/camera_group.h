@@ -55,10 +55,10 @@ class CameraGroup {
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  /// @param views see Crowd; must outlive it.
-  Crowd crowd(const std::vector<CameraView>& views, double time) const {
-    return {cameras_, members_, state_.tracks, options_, views, time};
-  }
+  /// Covariance of an LED's position where unknown LEDs may be merged with it (see Crowd); else
+  /// zero.
+  /// @param led as the track reports it at this time [s]
+  Eigen::Matrix3d mergingCovariance(const Track& track, const TrackedLed& led, double time) const;
 
   CameraClocks& clocks() { return clocks_; }
   const CameraClocks& clocks() const { return clocks_; }
@@ -80,6 +80,7 @@ class CameraGroup {
   struct State {
     std::vector<Track> tracks;
     std::vector<MergedPair> pairs;
+    Crowd crowd{0};
     std::vector<UnassignedSpots> unassigned;         // per camera
     std::vector<CameraFit> fits;                     // per camera
     std::vector<ClockRegression> clock_regressions;  // per camera, since the last correction
@@ -88,6 +89,7 @@ class CameraGroup {
 
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+  bool noteCrowd(const StoredImage& image);
   void removeMergedPairs(double time);
   void doubtPartnerOf(std::uint32_t ended);
   Track* continuing(std::uint32_t id, double since);

@@ -115,9 +115,13 @@ void Track::continueAs(const Track& found) {
   const std::uint32_t own_id = id;
   const double initiated = initiated_;
   const double same_led_probability = same_led_probability_;
+  const double crowded_since = crowded_since_;
+  const double last_crowded = last_crowded_;
   *this = found;
   id = own_id;
   same_led_probability_ = same_led_probability;
+  crowded_since_ = crowded_since;
+  last_crowded_ = last_crowded;
   confirmed_ = true;
   initiated_ = initiated;
   agreement_.reacquire();
@@ -141,7 +145,20 @@ Track::Visibility Track::visibilityAt(double time, const TrackerOptions& options
   return result;
 }
 
-void Track::updateStatus(double time, const TrackerOptions& options) {
+/// False detections can look like a crowd, but for a few images only.
+void Track::noteCrowd(double time) {
+  constexpr double kLongestGap = 0.05;  // [s]
+  if (time - last_crowded_ > kLongestGap)
+    crowded_since_ = time;
+  last_crowded_ = time;
+}
+
+bool Track::isCrowded(double time) const {
+  constexpr double kMemory = 0.2;  // [s]
+  return time - last_crowded_ <= std::min(last_crowded_ - crowded_since_, kMemory);
+}
+
+void Track::updateStatus(double time, const TrackerOptions& options, bool in_crowd) {
   const Visibility now = visibilityAt(time, options);
   if (now.detected >= 2)
     last_located_ = time;
@@ -152,7 +169,7 @@ void Track::updateStatus(double time, const TrackerOptions& options) {
     finished_ = time - last_observed_ > options.prediction_time ||
                 time - last_located_ > options.single_view_time || isDuplicate();
   else
-    updateTentative(now, time, options);
+    updateTentative(now, time, options, in_crowd);
 }
 
 void Track::weighRays(const Visibility& now, double time, const TrackerOptions& options) {
@@ -165,7 +182,12 @@ void Track::weighRays(const Visibility& now, double time, const TrackerOptions& 
     agreement_.wait(time);
 }
 
-void Track::updateTentative(const Visibility& now, double time, const TrackerOptions& options) {
+/// In a crowd, nobody is confirmed where only two cameras look: facing ones often show a light each
+/// whose rays meet.
+void Track::updateTentative(const Visibility& now,
+                            double time,
+                            const TrackerOptions& options,
+                            bool in_crowd) {
   constexpr double kMaximumTentativeTime = 0.5;  // [s]
   const bool is_supported =
       now.supporting >= 2 && now.supporting >= options.minimum_support * now.expected;
@@ -174,7 +196,8 @@ void Track::updateTentative(const Visibility& now, double time, const TrackerOpt
   may_continue_ = initial_spots_ + hits_ >= kReacquisitionSpots &&
                   now.squared_residuals <= now.detected * limit * limit &&
                   (now.detected >= 3 || (is_supported && agreement_.areNowOne()));
-  confirmed_ = is_supported && hits_ >= options.confirmation_hits && !is_doubtful;
+  confirmed_ = is_supported && hits_ >= options.confirmation_hits && !is_doubtful &&
+               !(in_crowd && now.in_view == 2);
 
   const double unseen = time - last_observed_;
   const double patience = options.tracked_time + options.dark_time;
@@ -206,6 +229,13 @@ bool Track::isShownBeside(const Track& other, double since) const {
     }
   }
   return false;
+}
+
+double Track::lastDetectedBy(std::size_t camera) const {
+  const auto record = std::find_if(records_.begin(), records_.end(),
+                                   [&](auto& known) { return known.camera == camera; });
+  return record == records_.end() ? -std::numeric_limits<double>::infinity()
+                                  : record->last_detected;
 }
 
 bool Track::wasMissedBy(std::size_t camera) const {

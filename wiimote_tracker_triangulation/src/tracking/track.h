@@ -12,6 +12,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace wiimote_tracker::tracking {
 
@@ -62,8 +63,15 @@ class Track {
   /// Forgets the cameras' records, after a change of the rig.
   void forgetCameras() { records_.clear(); }
 
+  /// Unknown LEDs may be merged with this one, see Crowd.
+  void noteCrowd(double time);
+
+  /// Whether they are, or lately were: the filter forgets merged spots with some delay.
+  bool isCrowded(double time) const;
+
   /// Confirms or finishes the track given the detections up to a time [s].
-  void updateStatus(double time, const TrackerOptions& options);
+  /// @param in_crowd whether some track isCrowded()
+  void updateStatus(double time, const TrackerOptions& options, bool in_crowd);
 
   /// Whether the newest image of some camera with a spot of one of the two, at a time [s] or later,
   /// has one of the other too.
@@ -71,6 +79,8 @@ class Track {
 
   /// Whether the rays of the cameras that see it have met for long.
   bool raysMeet() const { return agreement_.areLikelyOne(); }
+
+  double lastDetectedBy(std::size_t camera) const;  // [s]; negative infinity: never
 
   /// Whether the camera's last image should have shown it and did not.
   bool wasMissedBy(std::size_t camera) const;
@@ -123,12 +133,18 @@ class Track {
   Visibility visibilityAt(double time, const TrackerOptions& options) const;
   bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
   void weighRays(const Visibility& now, double time, const TrackerOptions& options);
-  void updateTentative(const Visibility& now, double time, const TrackerOptions& options);
+  void updateTentative(const Visibility& now,
+                       double time,
+                       const TrackerOptions& options,
+                       bool in_crowd);
 
-  double initiated_;             // TrackedLed::first_seen; stays with continueAs() [s]
-  double started_;               // see startedAt() [s]
-  double last_observed_;         // by any camera [s]
-  double last_located_;          // by two cameras within tracked_time [s]
+  double initiated_;      // TrackedLed::first_seen; stays with continueAs() [s]
+  double started_;        // see startedAt() [s]
+  double last_observed_;  // by any camera [s]
+  double last_located_;   // by two cameras within tracked_time [s]
+  // Since when and until when unknown LEDs were noted, see noteCrowd() [s].
+  double crowded_since_ = 0.0;
+  double last_crowded_ = -std::numeric_limits<double>::infinity();
   double unmerged_share_ = 1.0;  // share of recent spots that are this LED's alone
   double own_share_ = 0.5;       // share of recent merged spots assigned to this LED
   std::uint32_t shared_with_ = 0;

@@ -230,12 +230,11 @@ void Tracker::report(double time, Snapshot* snapshot) const {
   snapshot->leds.resize(count);
   auto led = snapshot->leds.begin();
   for (const auto& group : groups_) {
-    const Crowd crowd = group->crowd(views_, time);
     for (const Track& track : group->tracks()) {
       track.report(time, options_, group->members(), &*led);
       if (led->state == TrackState::kTracked && group->isDoubtful())
         led->state = TrackState::kPredicted;
-      led->position_covariance += crowd.mergingCovariance(*led);
+      led->position_covariance += group->mergingCovariance(track, *led, time);
       ++led;
     }
   }

@@ -16,7 +16,7 @@ TEST(Track, ThatHasEndedContinuesNoOther) {
     track.addInitialSpot(camera, 0.0, 0.0);
   track.filter.predict(0.01);
   track.hit(0, Eigen::Vector2d::Zero(), nullptr, true);
-  track.updateStatus(0.01, options);
+  track.updateStatus(0.01, options, false);
   EXPECT_FALSE(track.isFinished());
   EXPECT_TRUE(track.mayContinue());
 
@@ -24,7 +24,7 @@ TEST(Track, ThatHasEndedContinuesNoOther) {
     for (std::size_t camera = 0; camera < cameras; ++camera)
       track.miss(camera, time);
   }
-  track.updateStatus(0.025, options);
+  track.updateStatus(0.025, options, false);
   EXPECT_TRUE(track.isFinished());
   EXPECT_FALSE(track.mayContinue());
 }

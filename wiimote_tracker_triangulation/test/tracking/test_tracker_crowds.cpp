@@ -60,20 +60,26 @@ std::vector<Path> movingLeds(std::size_t count, unsigned seed) {
   return leds;
 }
 
+/// Three LEDs that move among thirteen others.
+Situation amongStillLeds(unsigned seed) {
+  Situation situation;
+  situation.leds = movingLeds(3, seed);
+  for (int i = 0; i < 13; ++i) {
+    const int row = i / 4;
+    situation.leds.push_back(
+        still({0.3 + 0.6 * (i % 4), 0.3 + 0.6 * row, 0.5 + 0.1 * (5 * i % 13)}));
+  }
+  situation.scene.equally_bright = true;
+  return situation;
+}
+
 // Three LEDs move among thirteen that the cameras hardly show. Where an unknown LED merges with one
 // of them, its point is drawn aside, by more than its filter's covariance says for 0.3 % of all.
 TEST(TrackerCrowds, TheCovarianceAllowsForUnknownLedsThatMerge) {
   std::size_t tracked = 0;
   std::size_t wrong = 0;
   for (unsigned seed = 1; seed <= 8; ++seed) {
-    Situation situation;
-    situation.leds = movingLeds(3, seed);
-    for (int i = 0; i < 13; ++i) {
-      const int row = i / 4;
-      situation.leds.push_back(
-          still({0.3 + 0.6 * (i % 4), 0.3 + 0.6 * row, 0.5 + 0.1 * (5 * i % 13)}));
-    }
-    situation.scene.equally_bright = true;
+    Situation situation = amongStillLeds(seed);
     situation.scene.hidden = [](std::size_t, std::size_t led, double time) {
       return led >= 3 && time < 1001.0 + 0.005 * static_cast<double>(led);
     };
@@ -83,6 +89,24 @@ TEST(TrackerCrowds, TheCovarianceAllowsForUnknownLedsThatMerge) {
     EXPECT_LT(points.stddev, 0.06);
   }
   EXPECT_GT(tracked, 80000u);
+  EXPECT_LE(wrong, 3e-5 * tracked) << tracked;
+}
+
+// They shine for 1.5 s and are out for 0.5 s. Once they are out, no camera is full, but the filters
+// have not yet forgotten a merged spot. While they shine, facing cameras show different LEDs.
+TEST(TrackerCrowds, ItStaysRightWhileUnknownLedsGoOnAndOut) {
+  std::size_t tracked = 0;
+  std::size_t wrong = 0;
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    Situation situation = amongStillLeds(seed);
+    situation.scene.hidden = [](std::size_t, std::size_t led, double time) {
+      return led >= 3 && std::fmod(time - 0.003 * static_cast<double>(led), 2.0) < 0.5;
+    };
+    const Points points = pointsIn(situation, seed);
+    tracked += points.tracked;
+    wrong += points.wrong;
+  }
+  EXPECT_GT(tracked, 70000u);
   EXPECT_LE(wrong, 3e-5 * tracked) << tracked;
 }
 

@@ -3,6 +3,7 @@
 #include <QHeaderView>
 #include <QPainter>
 #include <QPixmap>
+#include <QStyledItemDelegate>
 #include <QTreeWidget>
 #include <QVBoxLayout>
 
@@ -31,6 +32,23 @@ QIcon iconOf(std::uint8_t level) {
   return QIcon(pixmap);
 }
 
+/// A wrapped item is as high as its words need in its column; Qt gives it a single line.
+class WrappedItem : public QStyledItemDelegate {
+ public:
+  explicit WrappedItem(QTreeWidget* tree) : QStyledItemDelegate(tree), tree_(*tree) {}
+
+  QSize sizeHint(const QStyleOptionViewItem& option, const QModelIndex& index) const override {
+    const int depth = index.column() > 0 ? 0 : index.parent().isValid() ? 2 : 1;
+    QStyleOptionViewItem in_column = option;
+    in_column.rect = QRect(0, 0, tree_.columnWidth(index.column()) - depth * tree_.indentation(),
+                           tree_.height());
+    return QStyledItemDelegate::sizeHint(in_column, index);
+  }
+
+ private:
+  const QTreeWidget& tree_;
+};
+
 }  // namespace
 
 HealthPage::HealthPage(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget(this)) {
@@ -38,6 +56,7 @@ HealthPage::HealthPage(QWidget* parent) : QWidget(parent), tree_(new QTreeWidget
   tree_->setHeaderLabels({"part", "state"});
   tree_->header()->resizeSection(0, 200);
   tree_->setWordWrap(true);
+  tree_->setItemDelegate(new WrappedItem(tree_));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->addWidget(tree_);

@@ -26,7 +26,10 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <rviz/panel.h>
+#include <std_srvs/Trigger.h>
+#include <wiimote_tracker_msgs/LoadRig.h>
 #include <wiimote_tracker_msgs/SetLed.h>
+#include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <pluginlib/class_loader.hpp>
 
 #include <chrono>
@@ -176,6 +179,41 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   screenshot("calibrate_place");
   answerTo("Take this place", "place 1 at (1.000, 1.500, 1.000) m is captured by 4 cameras");
   EXPECT_TRUE(waitFor([this] { return title() == "Solve"; })) << title().toStdString();
+}
+
+/// With the rig that the test before has saved.
+TEST_F(Panel, CorrectsACameraThatWasMovedAndRevertsThat) {
+  std::string rig_file;
+  ASSERT_TRUE(ros::param::get("calibration/rig_file", rig_file));
+  geometry::Rig rig = geometry::readRigFile(rig_file);
+  auto& pose = rig.cameras.at(1).camera.world_from_camera;
+  pose.linear() = pose.linear() * Eigen::AngleAxisd(0.0175, Eigen::Vector3d::UnitY());
+  wiimote_tracker_msgs::LoadRig moved;
+  moved.request.path = rig_file.substr(0, rig_file.rfind('/')) + "/moved.yaml";
+  geometry::writeRigFile(rig, moved.request.path);
+  std_srvs::Trigger drop;  // what was captured after saving
+  ASSERT_TRUE(ros::service::call("calibration/cancel", drop));
+  ASSERT_TRUE(ros::service::call("calibration/load", moved) && moved.response.success)
+      << moved.response.message;
+  open(1);
+  ASSERT_TRUE(waitFor([this] { return title() == "Ready"; })) << title().toStdString();
+  QThread::sleep(4);  // until the hand circles
+  wiimote_tracker_msgs::SetLed wave;
+  wave.request.led = "led";
+  wave.request.on = 1;
+  wave.request.motion = wave.request.WAVE;
+  wave.request.target.x = wave.request.target.y = wave.request.target.z = 1.25;
+  wave.request.box.x = wave.request.box.y = wave.request.box.z = 2.0;
+  wave.request.speed = 1.0;
+  ASSERT_TRUE(ros::service::call("simulation/set_led", wave));
+  ASSERT_TRUE(waitFor([this] { return title() == "Correct wiimote_2"; })) << title().toStdString();
+  screenshot("calibrate_correct");
+  find<QPushButton>("next")->click();
+  EXPECT_TRUE(waitFor([this] {
+    return label("answer").startsWith("in use: wiimote_2 was turned by ");
+  })) << label("answer").toStdString();
+  screenshot("calibrate_corrected");
+  EXPECT_GE(answerTo("Revert", "rig ").indexOf("from before the last change is in use again"), 0);
 }
 
 TEST_F(Panel, NamesTheBagThatItRecords) {

@@ -10,6 +10,7 @@ import roslib.packages
 import rosnode
 import rospy
 import rostest
+from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from nodelet.srv import NodeletLoad
 
 NODES = {
@@ -26,6 +27,14 @@ SAID = {'coverage': '/coverage/cell_size is -1, but', 'triangulation': '/triangu
 
 
 class RefusedParameters(unittest.TestCase):
+    def assert_diagnosed(self, name, said):
+        """That /diagnostics repeats what was said."""
+        statuses = []
+        while name + ': parameters' not in [status.name for status in statuses]:
+            statuses = rospy.wait_for_message('/diagnostics', DiagnosticArray, 10.0).status
+        self.assertEqual(statuses[0].level, DiagnosticStatus.ERROR)
+        self.assertIn(statuses[0].message, said)
+
     def start(self, name, **environment):
         process = subprocess.Popen(NODES.get(name, MANAGER) + ['__name:=' + name],
                                    stderr=subprocess.PIPE, text=True,
@@ -48,6 +57,8 @@ class RefusedParameters(unittest.TestCase):
             process = self.start(name, WIIMOTE_TRACKER_RESPAWNS='1')
             said = next(line for line in process.stderr if 'rosnode kill /' + name in line)
             self.assertIn(SAID[name], said)
+            if name != 'simulated_hand':
+                self.assert_diagnosed(name, said)
             self.assertTrue(rosnode.rosnode_ping('/' + name, max_count=1))
             self.assertIsNone(process.poll())
             rosnode.kill_nodes(['/' + name])
@@ -62,6 +73,7 @@ class RefusedParameters(unittest.TestCase):
         self.assertTrue(load('/gestures', gestures, [], [], [], '').success)
         said = next(line for line in process.stderr if 'rosnode kill /manager' in line)
         self.assertIn('/gestures/boundary is', said)
+        self.assert_diagnosed('gestures', said)
 
 
 if __name__ == '__main__':

@@ -5,6 +5,7 @@
 #include "wiimote_tracker_msgs/error.h"
 #include "wiimote_tracker_msgs/log_exceptions.h"
 #include "wiimote_tracker_msgs/parameter_reader.h"
+#include "wiimote_tracker_msgs/refusal_report.h"
 
 #include <ros/callback_queue.h>
 #include <ros/network.h>
@@ -24,21 +25,6 @@
 #include <vector>
 
 namespace wiimote_tracker {
-
-/// Says why a parameter was refused. Started again, this process would refuse it again, once a
-/// second: one that roslaunch starts again, as launch files tell it by WIIMOTE_TRACKER_RESPAWNS,
-/// therefore has to stay. @returns whether it has to.
-inline bool staysRefused(const ParameterError& error) {
-  if (std::getenv("WIIMOTE_TRACKER_RESPAWNS") == nullptr) {
-    ROS_FATAL("%s", error.what());
-    return false;
-  }
-  ROS_FATAL(
-      "%s. Correct it, and start the launch file again; or correct it by rosparam, and: "
-      "rosnode kill %s",
-      error.what(), ros::this_node::getName().c_str());
-  return true;
-}
 
 /// What a master or node answers to a call of its XML-RPC API. Nothing when it refuses, or does not
 /// answer within a second; ros::master::execute() would wait for ever for one that hangs.
@@ -132,8 +118,10 @@ int runWithMaster(const Node& node) {
     node(nh, ros::NodeHandle("~"));
     return 0;
   } catch (const ParameterError& error) {
-    if (staysRefused(error))
-      ros::waitForShutdown();
+    if (staysRefused(error)) {
+      const RefusalReport report(nh, ros::this_node::getName(), error);
+      spin();
+    }
     return 1;
   } catch (const std::exception& e) {
     ROS_FATAL("%s", e.what());
@@ -202,7 +190,7 @@ class OwnThread {
   OwnThread& operator=(const OwnThread&) = delete;
 
   /// Makes the object of both handles, then handles its callbacks. After a refused parameter it may
-  /// do nothing (see staysRefused()).
+  /// only report that (see staysRefused()).
   /// @throws what the object throws: the manager reports that it could not load.
   void start(ros::NodeHandle nh, ros::NodeHandle private_nh) {
     nh.setCallbackQueue(&queue_);
@@ -210,9 +198,9 @@ class OwnThread {
     try {
       object_ = std::make_unique<Object>(nh, private_nh);
     } catch (const ParameterError& e) {
-      if (staysRefused(e))
-        return;
-      throw;
+      if (!staysRefused(e))
+        throw;
+      report_ = std::make_unique<RefusalReport>(nh, private_nh.getNamespace(), e);
     } catch (const std::exception& e) {
       ROS_FATAL("%s", e.what());
       throw;
@@ -237,6 +225,7 @@ class OwnThread {
 
   ros::CallbackQueue queue_;
   std::unique_ptr<Object> object_;
+  std::unique_ptr<RefusalReport> report_;
   std::atomic<bool> is_ending_{false};
   std::thread thread_;
 };

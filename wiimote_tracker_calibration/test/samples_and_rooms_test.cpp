@@ -125,7 +125,9 @@ TEST_F(Samples, AreSolvedWithoutTheNodeByItsParameters) {
   ASSERT_TRUE(live.success) << live.message;
   const std::string samples = "'" + folder_ + "/samples.yaml' --params '" + folder_;
   // This node's parameters are not the default ones.
-  std::ofstream(folder_ + "/parameters.yaml") << "stamp_wander: 0.0002\nside_length: 2.5\n";
+  std::ofstream(folder_ + "/parameters.yaml")
+      << "calibration: {stamp_wander: 0.0002, side_length: 2.5}\n"
+         "triangulation: {mode: instant}\n";
   auto outcome = solveSamples(samples + "/parameters.yaml' --rig '" + folder_ + "/offline.yaml'");
   EXPECT_EQ(outcome.first, 0);
   EXPECT_SAYS(outcome.second, "rig " + live.rig.id);

@@ -57,11 +57,11 @@ int main(int argc, char** argv) {
                         "verdict.");
   parser.positional("FILE", &arguments.samples);
   parser.option("--params FILE", &arguments.params,
-                "parameters of the node, a file like config/calibration.yaml (default: their "
-                "defaults)");
+                "parameters of the node, a file like config/calibration.yaml, or one for "
+                "parameters:= of tracker.launch (default: their defaults)");
   parser.option("--rig FILE", &arguments.rig, "write the rig to this file");
   return parser.run(argc, argv, [&] {
-    const ParameterTree parameters = readParameterTree(arguments.params);
+    const ParameterTree parameters = readParameterTree(arguments.params, "calibration");
     samples::Solution solution =
         samples::solveSamples(samples::readSamplesFile(arguments.samples),
                               readParameters(ParameterReader(parameters)).solve);

@@ -47,7 +47,7 @@ XmlRpcValue valueOf(const YAML::Node& node, const std::string& path) {
 
 }  // namespace
 
-ParameterTree readParameterTree(const std::string& path) {
+ParameterTree readParameterTree(const std::string& path, const std::string& node_name) {
   XmlRpcValue empty;
   empty.begin();
   if (path.empty())
@@ -60,6 +60,8 @@ ParameterTree readParameterTree(const std::string& path) {
       throw ParameterError(path +
                            " does not hold keys with values: name a file such as those in the "
                            "package's folder config");
+    if (const YAML::Node section = node[node_name]; section && section.IsMap())
+      return ParameterTree(path + "/" + node_name, valueOf(section, path));
     return ParameterTree(path, valueOf(node, path));
   } catch (const YAML::Exception& e) {
     throw ParameterError(path + " cannot be read as YAML (" + e.what() +

@@ -25,26 +25,26 @@ TrackingParameters read(const ros::NodeHandle& nh) {
 }
 
 TEST(Parameters, ShippedFileHoldsTheDefaults) {
-  ParameterReader reader(readParameterTree(""));
+  ParameterReader reader(readParameterTree("", "triangulation"));
   TrackingParameters::read(&reader);
   expectDocumented(reader, CONFIG_FOLDER "/triangulation.yaml");
   EXPECT_NO_THROW(read(ros::NodeHandle("~shipped"))) << "from the parameter server";
 }
 
 TEST(GestureParameters, ShippedFileHoldsTheDefaults) {
-  ParameterReader reader(readParameterTree(""));
+  ParameterReader reader(readParameterTree("", "triangulation"));
   GestureParameters::read(&reader);
   expectDocumented(reader, CONFIG_FOLDER "/gestures.yaml");
 }
 
 TEST(CoverageParameters, ShippedFileHoldsTheDefaults) {
-  ParameterReader reader(readParameterTree(""));
+  ParameterReader reader(readParameterTree("", "triangulation"));
   EXPECT_FALSE(CoverageParameters::read(&reader).volume);
   expectDocumented(reader, CONFIG_FOLDER "/coverage.yaml");
 }
 
 TEST(Parameters, EveryNumberIsReadAndBounded) {
-  ParameterReader defaults(readParameterTree(""));
+  ParameterReader defaults(readParameterTree("", "triangulation"));
   TrackingParameters::read(&defaults);
   EXPECT_FALSE(defaults.ranges().empty());
   for (const auto& [key, range] : defaults.ranges()) {
@@ -93,7 +93,8 @@ TEST(Parameters, SetValuesAreRead) {
 TEST(Parameters, OfAFileAreTypedAsByRosparam) {
   const std::string path = testing::TempDir() + "typed_" + std::to_string(::getpid()) + ".yaml";
   std::ofstream(path) << "labels: [x, y, n]\noutput: {led_odometry: yes, rate: 30}\n";
-  const TrackingParameters p = TrackingParameters::read(ParameterReader(readParameterTree(path)));
+  const TrackingParameters p =
+      TrackingParameters::read(ParameterReader(readParameterTree(path, "triangulation")));
   std::remove(path.c_str());
   EXPECT_EQ((std::vector<std::string>{"x", "y", "n"}), p.labels);
   EXPECT_TRUE(p.output.led_odometry);

@@ -228,3 +228,10 @@ def test_parameters_are_the_nodes(bag, tmp_path):
     track(bag, tmp_path / 'shipped.bag', '--params', shipped)
     track(bag, tmp_path / 'default.bag')
     assert (tmp_path / 'shipped.bag').read_bytes() == (tmp_path / 'default.bag').read_bytes()
+
+
+def test_parameters_may_be_those_of_the_launch_file(bag, tmp_path):
+    (tmp_path / 'p.yaml').write_text('triangulation: {mode: instant, labels: [anna]}\n'
+                                     'calibration: {side_length: 2.0}\n')
+    track(bag, tmp_path / 'out.bag', '--params', tmp_path / 'p.yaml')
+    assert len(arrays(tmp_path / 'out.bag', '/anna/point')) > 300

@@ -165,7 +165,7 @@ void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
 }
 
 TrackingParameters parametersOf(const Arguments& arguments) {
-  ParameterTree tree = readParameterTree(arguments.parameters);
+  ParameterTree tree = readParameterTree(arguments.parameters, "triangulation");
   if (!arguments.mode.empty())
     tree.set("mode", arguments.mode);
   if (!arguments.bodies.empty()) {
@@ -297,7 +297,8 @@ int main(int argc, char** argv) {
   parser.option("--mode MODE", &arguments.mode,
                 "tracks or instant, instead of the parameters' mode");
   parser.option("--params FILE", &arguments.parameters,
-                "YAML with the node's parameters; default: those of config/triangulation.yaml");
+                "YAML with the node's parameters, or with a group triangulation of them, as for "
+                "parameters:= of tracker.launch; default: those of config/triangulation.yaml");
   parser.option("--rig FILE", &arguments.rig, "rig.yaml to use instead of the rigs in the bag");
   parser.option("--bodies FILE", &arguments.bodies,
                 "rigid bodies to track, instead of the parameters' bodies/file");

@@ -17,6 +17,7 @@ def test_one_led_is_found_where_it_was(bag, tmp_path):
     output = track(bag, out)
     count = len(images(DURATION))
     assert 'Images: %d (' % count in output and ' LEDs: 1,' in output
+    assert 'Images out of the order of their exposures (normal): ' in output
     points = arrays(out)
     assert len(points) > 0.9 * count
     tracked = 0

@@ -218,9 +218,11 @@ void printSummary(const Output& output, const Player& player, double seconds) {
       "zone events: %llu.\n",
       player.images(), images / seconds, count(output.points()), count(output.leds()),
       count(output.triggersAnswered()), count(output.zoneEvents()));
-  std::printf("Images that were late: %llu, too late to be used: %llu, repeated: %llu.\n",
-              count(player.counters().late), count(player.counters().dropped),
-              count(player.counters().repeated));
+  std::printf(
+      "Images out of the order of their exposures (normal): %llu, not used since too late or by a "
+      "wrong clock: %llu, repeated: %llu.\n",
+      count(player.counters().late), count(player.counters().dropped),
+      count(player.counters().repeated));
   if (player.imagesBeforeRig() > 0)
     std::printf("Images before the first rig, without points: %zu; name a rig with --rig.\n",
                 player.imagesBeforeRig());

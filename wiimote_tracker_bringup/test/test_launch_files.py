@@ -185,6 +185,17 @@ def test_what_is_recorded_is_an_input_or_kept_apart_in_a_replay(load):
     assert names - inputs - {'pose', 'twist', 'odometry'} <= apart
 
 
+def test_simulated_rigs_share_no_files_with_another_rig(load, monkeypatch):
+    monkeypatch.setenv('ROS_HOME', '/var/lib/lab')
+    usual, real = (load(name)[1] for name in ('simulated_rig.launch', 'tracker.launch'))
+    for name in ('/drivers/camera_info_directory', '/triangulation/label_places'):
+        assert usual[name].startswith('/var/lib/lab/wiimote_tracker/') and usual[name] != real[name]
+    for rig_file, folder in (('planned_rig.yaml', 'planned_cameras'), ('my.yaml', 'my_cameras'),
+                             ('rig', 'rig_cameras')):
+        parameters = load('simulated_rig.launch', 'rig_file:=' + rig_file)[1]
+        assert parameters['/drivers/camera_info_directory'] == '/home/my lab/' + folder
+
+
 @pytest.mark.parametrize('namespace', ['', 'first', '/second'])
 def test_each_namespace_has_its_own_label_places(load, monkeypatch, namespace):
     """A file in this folder, also where the namespace is that of a group."""

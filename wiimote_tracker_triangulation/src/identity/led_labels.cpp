@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <system_error>
 #include <utility>
 
@@ -18,6 +19,7 @@ constexpr double kNear = 0.1;          // error of a place after no time [m]
 constexpr double kLeastSpeed = 0.3;    // of an LED out of sight, per axis [m/s]
 constexpr double kSteady = 2.0;        // for how long it goes on as before [s]
 constexpr double kAnywhere = 0.003;    // density of an LED that was carried off [1/m^3]
+constexpr char kRig[] = "rig:";        // begins a file of places; no label has a colon
 
 /// Speed of the fastest LED when it was seen last [m/s]. It is used for all LEDs, since one that
 /// paused when it was seen last may have moved on.
@@ -220,11 +222,14 @@ std::string placesFile(const std::string& parameter, const std::string& name_spa
   return fs::path(parameter + name_space + "/label_places").lexically_normal().string();
 }
 
-bool writePlaces(const std::string& file, const LedLabels::Places& places) {
+bool writePlaces(const std::string& file,
+                 const std::string& rig_id,
+                 const LedLabels::Places& places) {
   const std::string fresh = file + ".new";
   std::error_code error;
   fs::create_directories(fs::absolute(file).parent_path(), error);
   std::ofstream out(fresh);
+  out << kRig << ' ' << std::quoted(rig_id) << '\n';
   for (const auto& [label, place] : places)
     out << label << ' ' << place.position.transpose() << ' ' << place.speed << ' '
         << std::max(0.0, place.age) << ' ' << place.confidence << '\n';
@@ -235,7 +240,9 @@ bool writePlaces(const std::string& file, const LedLabels::Places& places) {
   return !error;
 }
 
-LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest) {
+LedLabels::Places readPlaces(const std::string& file,
+                             const std::string& rig_id,
+                             std::chrono::seconds oldest) {
   std::error_code error;
   const fs::file_time_type written = fs::last_write_time(file, error);
   if (error)
@@ -247,7 +254,11 @@ LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldes
     return {};
   std::ifstream in(file);
   LedLabels::Places places;
-  std::string label;
+  std::string label, written_rig;
+  if (in >> label && label != kRig)
+    in.seekg(0);
+  else if (in >> std::quoted(written_rig) && written_rig != rig_id)
+    return {};
   LedLabels::Place place;
   Eigen::Vector3d& position = place.position;
   while (in >> label >> position.x() >> position.y() >> position.z() >> place.speed >> place.age >>

@@ -103,12 +103,17 @@ std::string placesFile(const std::string& parameter, const std::string& name_spa
 
 /// Keeps where labelled LEDs are for a node that is started right after this one was killed. The
 /// file need not survive a power failure, so the disk is not waited for.
+/// @param rig_id of the rig in whose world the places are.
 /// @returns whether it was written.
-bool writePlaces(const std::string& file, const LedLabels::Places& places);
+bool writePlaces(const std::string& file,
+                 const std::string& rig_id,
+                 const LedLabels::Places& places);
 
-/// Reads such a file; nothing if there is none, or it is older than this or damaged. The places are
-/// older by the file's age.
-LedLabels::Places readPlaces(const std::string& file, std::chrono::seconds oldest);
+/// Reads such a file; nothing if there is none, or it is of another rig, older than this or
+/// damaged. The places are older by the file's age. Older versions wrote no rig.
+LedLabels::Places readPlaces(const std::string& file,
+                             const std::string& rig_id,
+                             std::chrono::seconds oldest);
 
 }  // namespace wiimote_tracker::identity
 

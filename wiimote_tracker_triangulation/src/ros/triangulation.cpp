@@ -111,7 +111,7 @@ void Triangulation::onImage(const std::string& camera,
     useBodies(*bodies);
   if (!std::exchange(has_former_places_, true))  // now, since their ages count from here
     tracker_.labels().setFormerPlaces(
-        identity::readPlaces(parameters_.label_places, kLongestRestart));
+        identity::readPlaces(parameters_.label_places, tracker_.rigId(), kLongestRestart));
   if (isShed(event.getReceiptTime()))
     return;
   const IrBlobArray& image = *event.getConstMessage();
@@ -229,8 +229,9 @@ void Triangulation::keepPlaces() {
   }
   const identity::LedLabels::Places* places = tracker_.labels().placesToKeep();
   if (!file.empty() && places)
-    places_kept_ = std::async(std::launch::async,
-                              [file, copy = *places] { return identity::writePlaces(file, copy); });
+    places_kept_ = std::async(std::launch::async, [file, rig = tracker_.rigId(), copy = *places] {
+      return identity::writePlaces(file, rig, copy);
+    });
 }
 
 }  // namespace wiimote_tracker

@@ -161,11 +161,11 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   LedLabels labels({"a", "b", "c", "d"});
   labels.update(kTime, {at(0, 0.0), at(1, 1.0), at(2, 2.0)});
   const std::string file = testing::TempDir() + "label_places_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, labels.places()));
+  ASSERT_TRUE(writePlaces(file, "rig", labels.places()));
   labels.clear();
   labels.clear();
   LedLabels of_another_process({"a", "b", "c", "d"});
-  of_another_process.setFormerPlaces(readPlaces(file, std::chrono::seconds(60)));
+  of_another_process.setFormerPlaces(readPlaces(file, "rig", std::chrono::seconds(60)));
   for (LedLabels* restarted : {&labels, &of_another_process}) {
     restarted->update(kTime, {at(3, 2.3)});
     restarted->update(kTime, {at(3, 2.2), at(4, 1.3), at(5, 0.3), at(6, 0.3)});
@@ -174,14 +174,25 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
     EXPECT_EQ("a", restarted->of(5).name);
     EXPECT_EQ("d", restarted->of(6).name) << "the first that was not in use";
   }
-  EXPECT_TRUE(readPlaces(file, std::chrono::seconds(-1)).empty()) << "too old";
+  EXPECT_TRUE(readPlaces(file, "rig", std::chrono::seconds(-1)).empty()) << "too old";
   namespace fs = std::filesystem;
   fs::last_write_time(file, fs::file_time_type::clock::now() - std::chrono::seconds(30));
-  EXPECT_NEAR(30.0, readPlaces(file, std::chrono::seconds(60)).at("a").age, 5.0);
+  EXPECT_NEAR(30.0, readPlaces(file, "rig", std::chrono::seconds(60)).at("a").age, 5.0);
   fs::last_write_time(file, fs::file_time_type::clock::now() + std::chrono::seconds(30));
-  EXPECT_GE(readPlaces(file, std::chrono::seconds(60)).at("a").age, 0.0) << "from the future";
+  EXPECT_GE(readPlaces(file, "rig", std::chrono::seconds(60)).at("a").age, 0.0)
+      << "from the future";
   std::ofstream(file, std::ios::app) << "e 1.0 x";
-  EXPECT_TRUE(readPlaces(file, std::chrono::seconds(60)).empty()) << "damaged";
+  EXPECT_TRUE(readPlaces(file, "rig", std::chrono::seconds(60)).empty()) << "damaged";
+  std::remove(file.c_str());
+}
+
+TEST(LedLabels, PlacesOfAnotherRigAreIgnored) {
+  const std::string file = testing::TempDir() + "places_of_rig_" + std::to_string(::getpid());
+  ASSERT_TRUE(writePlaces(file, "a rig", {{"rig", {}}, {"b", {}}}));
+  EXPECT_EQ(2u, readPlaces(file, "a rig", std::chrono::seconds(60)).size());
+  EXPECT_TRUE(readPlaces(file, "another", std::chrono::seconds(60)).empty());
+  std::ofstream(file) << "rig 1 2 3 0 0 1\n";
+  EXPECT_EQ(1u, readPlaces(file, "a rig", std::chrono::seconds(60)).size()) << "older version's";
   std::remove(file.c_str());
 }
 
@@ -200,8 +211,8 @@ TEST(LedLabels, AllOfAPlaceIsInItsFile) {
   place.age = 4.0;
   place.confidence = 0.75;
   const std::string file = testing::TempDir() + "one_place_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, {{"a", place}}));
-  const LedLabels::Places places = readPlaces(file, std::chrono::seconds(60));
+  ASSERT_TRUE(writePlaces(file, "rig", {{"a", place}}));
+  const LedLabels::Places places = readPlaces(file, "rig", std::chrono::seconds(60));
   std::remove(file.c_str());
   ASSERT_EQ(1u, places.size());
   const LedLabels::Place& found = places.at("a");

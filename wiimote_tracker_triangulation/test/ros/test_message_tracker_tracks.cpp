@@ -92,6 +92,26 @@ TEST(Labels, ThatMayBeWrongAreNamed) {
     EXPECT_NEAR(0.5, point.label_confidence, 0.1) << time;
 }
 
+/// One LED comes to another one; their spots merge for a second, then one of them leaves.
+TEST(Labels, OfOneLedCannotBeMixedUp) {
+  const auto way = [](double since) { return since < 0.0 ? 0.0 : std::min(0.5, since * since); };
+  const Paths paths = {
+      [&](double time) { return Vector3d(way(1001.5 - time), way(time - 1002.5), 0.5); },
+      [](double) { return Vector3d(0.0, 0.0, 0.5); }};
+  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  for (const std::vector<std::string>& labels :
+       std::vector<std::vector<std::string>>{{"led", "second"}, {"led"}}) {
+    parameters.labels = labels;
+    Studio studio(parameters);
+    studio.is_dark = [](std::size_t led, double time) {
+      return led == 1 && time > 1001.5 && time < 1002.5;
+    };
+    studio.film(4.0, paths);
+    EXPECT_EQ(labels.size() > 1, studio.heard.problemsWith("labels may be wrong") > 0);
+    EXPECT_LT(studio.pointsOf("led", 1003.5).back().second.label_confidence, 0.8);
+  }
+}
+
 TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
   constexpr double kChip = 0.023;
   const std::vector<std::string> words = {"01011111", "01010101"};

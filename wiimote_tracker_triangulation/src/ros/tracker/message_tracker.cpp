@@ -197,7 +197,7 @@ void MessageTracker::reportDoubtfulLabels() {
   for (const std::string& label : labels_.doubtful())
     labels += format("%s%s (%.2f)", labels.empty() ? "" : ", ", label.c_str(),
                      labels_.places().at(label).confidence);
-  if (!labels.empty())
+  if (!labels.empty() && parameters_.allLabels().size() > 1)
     sink_->onProblem(
         "labels may be wrong after LEDs were out of sight or met (probability of being right): " +
         labels + "; check which LED has which, or let LEDs blink by codes");

@@ -106,7 +106,7 @@ class Consumers(LiveRigTest):
         self.assertEqual({(n.package, n.type) for n in nodes.values()},
                          {('robot_localization', 'ekf_localization_node'),
                           ('tf2_ros', 'static_transform_publisher'),
-                          ('wiimote_tracker_bringup', 'check_arguments')})
+                          ('wiimote_tracker_msgs', 'check_arguments')})
         self.assertEqual(nodes['world_in_map'].args.split()[-2:], ['map', 'world'])
         for name, world_frame in (('ekf_odom', 'odom'), ('ekf_map', 'map')):
             own = {key[len(name) + 2:]: value for key, value in parameters.items()

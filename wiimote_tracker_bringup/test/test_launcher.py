@@ -5,7 +5,7 @@ import subprocess
 import sys
 
 import pytest
-from wiimote_tracker_bringup import launcher
+from wiimote_tracker_launch import launcher
 
 TRACKER = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/tracker.launch')
 OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
@@ -35,19 +35,23 @@ def test_arguments_that_nobody_takes_are_told(words, said):
 
 
 @pytest.mark.parametrize('file, given, meant', [
+    ('calibration/calibration', 'rig_fiel', 'rig_file'), ('driver/driver', 'devise', 'device'),
+    ('triangulation/gestures', 'fil', 'file'), ('triangulation/record_points', 'cvs', 'csv'),
+    ('triangulation/triangulation', 'confg', 'config'),
     ('mavros_vision', 'massage', 'message'), ('plan', 'plain', 'plan'),
     ('record', 'outptu', 'output'), ('replay', 'rat', 'rate'),
     ('robot_localization', 'odometri', 'odometry'), ('calibrate', 'cemeras', 'cameras'),
     ('triangulation', 'labbels', 'labels')])
 def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, meant):
-    folder = os.path.dirname(TRACKER)
-    with open(os.path.join(folder, file + '.launch'), encoding='utf-8') as text:
+    package, file = file.split('/') if '/' in file else ('bringup', file)
+    packages = os.path.join(os.path.dirname(TRACKER), '../../wiimote_tracker_')
+    with open(f'{packages}{package}/launch/{file}.launch', encoding='utf-8') as text:
         assert 'type="check_arguments"' in text.read()
     stand_in = tmp_path / 'roslaunch'
     stand_in.write_text('import subprocess, sys; subprocess.call([sys.executable, sys.argv[1]])')
     done = subprocess.run(
-        [sys.executable, str(stand_in), os.path.join(folder, 'check_arguments'),
-         'wiimote_tracker_bringup', file + '.launch', given + ':=1'],
+        [sys.executable, str(stand_in), packages + 'msgs/python/check_arguments',
+         'wiimote_tracker_' + package, file + '.launch', given + ':=1'],
         capture_output=True, text=True, timeout=60)
     assert done.stderr == (f'[WARN] {file}.launch has no argument {given}, so {given}:= has no '
                            f'effect: write {meant}:=.\n')

@@ -8,8 +8,6 @@ from typing import Iterator, List, Optional, Set
 
 import rospkg
 
-PACKAGE = 'wiimote_tracker_bringup'
-
 
 def command_line() -> Optional[List[str]]:
     """Its words after `roslaunch`; None: another program started this node."""
@@ -35,27 +33,30 @@ def without_effect(words: List[str]) -> Iterator[str]:
                 'set the parameter in a file, parameters:=FILE' if 'parameters' in known else
                 'leave it out')
         elif name not in known:
-            file, meant = os.path.basename(paths[0]), difflib.get_close_matches(name, known, 1)
+            package, _, file = paths[0].split('/')[-3:]
+            meant = difflib.get_close_matches(name, known, 1)
             yield f'{file} has no argument {name}, so {name}:= has no effect: ' + (
                 f'write {meant[0]}:=' if meant else
-                f'choose one of roslaunch --ros-args {PACKAGE} {file}')
+                f'choose one of roslaunch --ros-args {package} {file}')
 
 
 def own_files(words: List[str]) -> List[str]:
-    """Paths of the launch files; none if one of them is not of this package."""
-    folder = os.path.join(rospkg.RosPack().get_path(PACKAGE), 'launch')
+    """Paths of the launch files; none if one of them is of none of our packages."""
+    packages = rospkg.RosPack()
+    folders = {name: os.path.realpath(os.path.join(packages.get_path(name), 'launch'))
+               for name in packages.list() if name.startswith('wiimote_tracker_')}
     paths = []
     for before, word in zip([''] + words, words):
         if word.endswith('.launch'):
-            paths.append(os.path.join(folder, os.path.basename(word)))
-            is_same = os.path.realpath(word) == os.path.realpath(paths[-1])
-            if not os.path.exists(paths[-1]) or not (before == PACKAGE or is_same):
+            path = os.path.realpath(os.path.join(folders.get(before, ''), word))
+            if not os.path.exists(path) or os.path.dirname(path) not in folders.values():
                 return []
+            paths.append(path)
     return paths
 
 
 def arguments_of(path: str) -> Set[str]:
-    """Those of a launch file of this package, and of files to which it passes all."""
+    """Those of a launch file, and of files to which it passes all."""
     root = ElementTree.parse(path).getroot()
     names = {each.get('name') for each in root if each.tag == 'arg'}
     for include in root.iter('include'):

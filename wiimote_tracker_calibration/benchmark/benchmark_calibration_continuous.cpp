@@ -163,7 +163,7 @@ void runDays(int runs, const RowCallback& row) {
           {"step_mm", 1000.0 * at.step}}});
   }
   const double bound = boundOf(paperRigWith(wellCalibrated()));
-  row({"bound", {{"all_mm", 1000.0 * bound}, {"/ fresh", bound / std::sqrt(fresh)}}});
+  row({"bound", {{"all_mm", 1000.0 * bound}, {"/ fresh", bound / std::sqrt(fresh / runs)}}});
 }
 
 }  // namespace

@@ -161,7 +161,8 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   update_->apply(camera, image, &state_.fits, &state_.clock_regressions[image.camera], &tracks,
                  &state_.pairs);
   removeMergedPairs(image.time);
-  const bool in_crowd = noteCrowd(image);
+  // Two cameras cannot do without it: nobody would ever be confirmed.
+  const bool in_crowd = noteCrowd(image) && members_.size() > 2;
   show(image, views);
   collectUnassigned(image);
   initiation_->apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);

@@ -58,7 +58,7 @@ constexpr double kEdgeMemory = 3.0;
 
 // Initial share of reports that a stall holds up, and the mean time it does [s], as in recordings
 // of two remotes; the number of reports they count as; the number of latest reports they are
-// estimated from; and the share that stays of this length.
+// estimated from; and the share of this length that is always added.
 constexpr double kInitialStallProbability = 0.02;
 constexpr double kInitialStallLength = 0.020;
 constexpr double kStallPriorCount = 300.0;
@@ -66,7 +66,7 @@ constexpr double kStallMemory = 6000.0;
 constexpr double kMinStallProbability = 0.0005;
 // Mean time between reports that leave a queue [s].
 constexpr double kServiceTime = 0.0025;
-// Density of an arrival that no model explains [1/s]; a stall explains delays up to 0.8 s.
+// Density of an arrival that no model explains [1/s]; a stall explains delays up to 0.3 s.
 constexpr double kUnexplained = 1e-7;
 // Number of such arrivals in a row after which the clock restarts, as when reports come once a
 // second or less.

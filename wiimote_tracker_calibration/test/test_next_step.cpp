@@ -89,6 +89,8 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
 TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {
   geometry::Rig rig;
   rig.cameras.resize(3);
+  for (geometry::RigCamera& camera : rig.cameras)
+    camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
   ASSERT_TRUE(calibration_.load(rig).success);
   EXPECT_EQ(next().title, "Ready");
   findings_.changed = {"wiimote_2"};
@@ -101,11 +103,21 @@ TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {
   EXPECT_EQ(next().label, "correct it");
   findings_.correctable = {"wiimote_2", "wiimote_3"};
   EXPECT_EQ(next().title, "Correct cameras");
-  EXPECT_SAYS(next().sentence, "wiimote_2, wiimote_3 no longer fit the other cameras");
-  rig.cameras.pop_back();
-  ASSERT_TRUE(calibration_.load(rig).success);
-  findings_ = {{"wiimote_1", "wiimote_2"}, {}};
-  EXPECT_SAYS(next().sentence, "see which was moved, put it back, or calibrate again");
+  EXPECT_SAYS(next().sentence, "most of all wiimote_2, wiimote_3");
+}
+
+TEST_F(NextStepTest, ACameraOfTwoOrOfASquareAloneIsNotRecalibrated) {
+  geometry::Rig two;
+  two.cameras.resize(2);
+  for (geometry::RigCamera& camera : two.cameras)
+    camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
+  geometry::Rig of_square;
+  of_square.cameras.resize(3);
+  findings_.changed = {"wiimote_1", "wiimote_2"};
+  for (const geometry::Rig& rig : {two, of_square}) {
+    ASSERT_TRUE(calibration_.load(rig).success);
+    EXPECT_SAYS(next().sentence, "see which was moved, put it back, or calibrate again");
+  }
 }
 
 TEST_F(NextStepTest, ACorrectionIsBeforeTheSavingButAfterABadCorner) {

@@ -87,22 +87,21 @@ NextStep complete(const Calibration& calibration) {
           "start_wave", "begin the wave"};
 }
 
-std::string fits(const std::vector<std::string>& cameras) {
-  return joined(cameras) + (cameras.size() == 1 ? " no longer fits" : " no longer fit");
-}
-
 NextStep correct(const std::vector<std::string>& cameras) {
   const bool is_one = cameras.size() == 1;
   return {"Correct " + (is_one ? cameras.front() : "cameras"),
-          fits(cameras) + " the other cameras. What has changed is known.", "continuous/apply",
-          is_one ? "correct it" : "correct them"};
+          "Cameras have changed since they were calibrated, most of all " + joined(cameras) +
+              ". How is known.",
+          "continuous/apply", is_one ? "correct it" : "correct them"};
 }
 
 NextStep check(const std::vector<std::string>& cameras, bool can_recalibrate) {
-  const std::string fit = fits(cameras) + " the calibration: ";
+  const bool is_one = cameras.size() == 1;
+  const std::string fit =
+      joined(cameras) + (is_one ? " no longer fits" : " no longer fit") + " the calibration: ";
   const std::string remedy =
       can_recalibrate ? "recalibrate it (r in calibrate)." : "calibrate again.";
-  if (cameras.size() == 1)
+  if (is_one)
     return {"Check " + cameras.front(), fit + "put it back, or " + remedy};
   return {"Check cameras", fit + "see which was moved, put it back, or " + remedy};
 }
@@ -121,13 +120,19 @@ NextStep solved(const samples::Verdict& verdict, const Findings& findings) {
           "capture " + name + " again", verdict.redo_corner};
 }
 
+/// Whether one camera can be solved against the others: two at least, with clocks that a wave told.
+bool canRecalibrate(const geometry::Rig& rig) {
+  return rig.cameras.size() >= 3 &&
+         std::none_of(rig.cameras.begin(), rig.cameras.end(), [](const auto& camera) {
+           return camera.time_offset_rule == geometry::TimeOffsetRule::kNone;
+         });
+}
+
 NextStep saved(const Calibration& calibration, const Findings& findings) {
-  constexpr std::size_t kFewest = 3;  // to recalibrate one of them
   if (!findings.correctable.empty())
     return correct(findings.correctable);
   if (!findings.changed.empty())
-    return check(findings.changed,
-                 calibration.rig() && calibration.rig()->cameras.size() >= kFewest);
+    return check(findings.changed, calibration.rig() && canRecalibrate(*calibration.rig()));
   return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
 }
 

@@ -25,6 +25,7 @@ OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
     (OURS + ['label_places:='], [
         'label_places:= has no effect, since roslaunch ignores an empty value: set the parameter '
         'in a file, parameters:=FILE']),
+    (OURS + ['rig_file:=', 'parameters:='], []),  # as their defaults
     (['wiimote_tracker_bringup', 'record.launch', 'output:='], [
         'output:= has no effect, since roslaunch ignores an empty value: leave it out']),
     # Whose arguments are unknown.

@@ -4,7 +4,7 @@ import difflib
 import os
 import re
 import xml.etree.ElementTree as ElementTree
-from typing import Iterator, List, Optional, Set
+from typing import Dict, Iterator, List, Optional
 
 import rospkg
 
@@ -20,15 +20,17 @@ def command_line() -> Optional[List[str]]:
 
 
 def without_effect(words: List[str]) -> Iterator[str]:
-    """A sentence for each argument that no launch file takes, and for each empty one, of which
-    roslaunch says nothing."""
+    """A sentence for each argument that no launch file takes, and for each empty one that has
+    another default, of which roslaunch says nothing."""
     paths = own_files(words)
-    known = set().union(*map(arguments_of, paths))
+    known: Dict[str, str] = {}
+    for path in paths:
+        known.update(arguments_of(path))
     for word in words if paths else []:
         name, given, value = word.partition(':=')
         if not given or not re.fullmatch(r'[A-Za-z]\w*', name):
             continue
-        if name in known and not value:
+        if known.get(name) and not value:
             yield f'{name}:= has no effect, since roslaunch ignores an empty value: ' + (
                 'set the parameter in a file, parameters:=FILE' if 'parameters' in known else
                 'leave it out')
@@ -55,12 +57,14 @@ def own_files(words: List[str]) -> List[str]:
     return paths
 
 
-def arguments_of(path: str) -> Set[str]:
-    """Those of a launch file, and of files to which it passes all."""
+def arguments_of(path: str) -> Dict[str, str]:
+    """Defaults of those of a launch file, and of files to which it passes all; empty: none."""
     root = ElementTree.parse(path).getroot()
-    names = {each.get('name') for each in root if each.tag == 'arg'}
+    defaults = {}
     for include in root.iter('include'):
         if include.get('pass_all_args') == 'true':
-            names |= arguments_of(os.path.join(os.path.dirname(path),
-                                               os.path.basename(include.get('file'))))
-    return names
+            defaults.update(arguments_of(os.path.join(os.path.dirname(path),
+                                                      os.path.basename(include.get('file')))))
+    defaults.update((each.get('name'), each.get('default', ''))
+                    for each in root if each.tag == 'arg')
+    return defaults

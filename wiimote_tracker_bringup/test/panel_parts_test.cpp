@@ -47,7 +47,7 @@ TEST(CalibratePage, AppliesAndRevertsWhatContinuousCalibrationProposes) {
   status.step = status.SAVED;
   status.rig_id = "f00";
   status.next_title = "Correct wiimote_2";
-  status.next_sentence = "wiimote_2 no longer fits the other cameras. What has changed is known.";
+  status.next_sentence = "Cameras have changed, most of all wiimote_2. How is known.";
   status.next_request = "continuous/apply";
   status.next_label = "correct it";
   status.cameras.resize(1);

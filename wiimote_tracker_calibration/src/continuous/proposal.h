@@ -21,11 +21,11 @@ enum class Cause { kKnock, kReconnect, kDrift };
 /// A rig that explains what was seen better than the one in use.
 struct Proposal {
   Cause cause;
-  /// Those that were knocked; of drift the one that has changed most.
+  /// Those that were knocked; of drift, and of new clocks of several, the one that changed most.
   std::vector<std::string> cameras;
   geometry::Rig rig;    ///< As it was found; solved_at: its last image, if poses changed.
   double gain;          ///< Of drift: misfit of the images that it explains, RMS [px]; else 0.
-  std::string message;  ///< One sentence: what has changed, and how well the images fit then.
+  std::string message;  ///< What has changed, and how well the images fit then.
   /// Where the LED was, world [m]: places that should not jump. Empty if cameras were knocked,
   /// since the others hold the world.
   std::vector<Eigen::Vector3d> places;

@@ -13,8 +13,8 @@ namespace wiimote_tracker::continuous {
 
 /// Proposes a rig that adjustRig() made, if it explains later images better than the rig before:
 /// with the poses of that one where the adjusted clocks explain nearly as much.
-/// @returns nothing when it explains too little more, when a camera does not fit the others, or
-/// when poses differ by more than drift.
+/// @returns nothing when it explains too little more, when too few places were seen, when a camera
+/// does not fit the others or reconnected since, or when poses differ by more than drift.
 std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
                                           const geometry::Rig& adjusted,
                                           const std::vector<capture::Image>& later);

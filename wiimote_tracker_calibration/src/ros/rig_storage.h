@@ -31,7 +31,7 @@ std::string newestVersion(const std::string& rig_file);
 
 /// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
 /// `timeout` [s], even if a driver never answers. Hold no mutex.
-/// @returns warnings, one for each camera that did not accept it.
+/// @returns warnings: one for each camera that did not accept it, one for all without that service.
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,
                                         double timeout);

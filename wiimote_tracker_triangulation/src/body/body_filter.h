@@ -68,8 +68,8 @@ class BodyFilter {
   static constexpr double kPause = 10.0;
   static constexpr double kLongestPause = 320.0;
 
-  /// Leaves the IMU out from a time [s]; twice as long as the last time if it was tried again for
-  /// less than that. Each time that a wrong one is tried, the pose is off by up to 3 cm.
+  /// Leaves the IMU out from a time [s]; twice as long as the last time if that pause ended less
+  /// than its own length ago. Each time that a wrong one is tried, the pose is off by up to 3 cm.
   void distrust(double time) {
     const bool again = time < distrusted_until_ + pause_;
     pause_ = again ? std::min(2.0 * pause_, kLongestPause) : kPause;

@@ -161,7 +161,7 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
   update_->apply(camera, image, &state_.fits, &state_.clock_regressions[image.camera], &tracks,
                  &state_.pairs);
   removeMergedPairs(image.time);
-  // Two cameras cannot do without it: nobody would ever be confirmed.
+  // With two cameras, nobody would ever be confirmed in a crowd.
   const bool in_crowd = noteCrowd(image) && members_.size() > 2;
   show(image, views);
   collectUnassigned(image);

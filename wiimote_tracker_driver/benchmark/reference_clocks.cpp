@@ -98,72 +98,6 @@ double pointMass(const SimulatedSession& session, const LinkModel& link) {
   return start + static_cast<double>(frame - first.frame) * session.period + mean;
 }
 
-// The exposure time of the newest report, on a grid over `kPeriods` periods around the true one.
-class ExposureGrid {
- public:
-  explicit ExposureGrid(double period) : cell_(period / kCells) {}
-
-  /// Moves on to the next report: `frames` true periods later, by runs of lost frames.
-  void advance(std::int64_t frames, const LinkModel& link) {
-    const double drop = link.drops * (1.0 - link.burst) / (1.0 - link.drops);
-    std::fill(next_.begin(), next_.end(), 0.0);
-    for (int phase = 0; phase < kCells; ++phase) {
-      double run = 0.0;  // probability that the frame before was lost
-      for (std::int64_t to = 1; to <= kPeriods + frames; ++to) {
-        const double direct = to <= kPeriods ? mass_[index(to - 1, phase)] : 0.0;
-        if (to >= frames && to - frames < kPeriods)
-          next_[index(to - frames, phase)] = (1.0 - drop) * direct + (1.0 - link.burst) * run;
-        run = drop * direct + link.burst * run;
-      }
-    }
-    mass_.swap(next_);
-  }
-
-  /// By a normal error [s].
-  void blur(double stddev) { exposure_clock::blur(stddev / cell_, &mass_, &next_); }
-
-  /// `likelihood` of a time after the true one [s].
-  template <typename Likelihood>
-  void weigh(const Likelihood& likelihood) {
-    double sum = 0.0;
-    for (int i = 0; i < kSize; ++i)
-      sum += mass_[static_cast<std::size_t>(i)] *= likelihood(offset(i));
-    for (double& m : mass_)
-      m /= sum;
-  }
-
-  /// Mean of the phase, in the most probable period; after the true time [s].
-  double estimate() const {
-    double x = 0.0, y = 0.0;
-    for (int i = 0; i < kSize; ++i) {
-      const double angle = 2.0 * M_PI * i / kCells;
-      x += mass_[static_cast<std::size_t>(i)] * std::cos(angle);
-      y += mass_[static_cast<std::size_t>(i)] * std::sin(angle);
-    }
-    const double phase = std::atan2(y, x) / (2.0 * M_PI) * kCells;
-    std::vector<double> periods(kPeriods + 2, 0.0);
-    for (int i = 0; i < kSize; ++i)
-      periods[static_cast<std::size_t>(std::lround((i - phase) / kCells))] +=
-          mass_[static_cast<std::size_t>(i)];
-    const auto best = std::max_element(periods.begin(), periods.end()) - periods.begin();
-    return offset(0) + (phase + static_cast<double>(best) * kCells) * cell_;
-  }
-
- private:
-  static constexpr int kCells = 500;  // per period
-  static constexpr int kPeriods = 11;
-  static constexpr int kSize = kCells * kPeriods;
-  static constexpr int kMiddle = kSize / 2;
-
-  static std::size_t index(std::int64_t period, int phase) {
-    return static_cast<std::size_t>(period * kCells + phase);
-  }
-  double offset(int i) const { return (i - kMiddle) * cell_; }
-
-  double cell_;
-  std::vector<double> mass_ = std::vector<double>(kSize, 1.0 / kSize);
-  std::vector<double> next_ = std::vector<double>(kSize);
-};
 }  // namespace
 
 double leastSquares(const SimulatedSession& session) {
@@ -206,38 +140,8 @@ double convexHull(const SimulatedSession& session) {
   return last.arrival + hull[i].second - slope * hull[i].first;
 }
 
-double olson(const SimulatedSession& session) {
-  const virtual_wiimote::FrameTime& first = session.reports.front();
-  double offset = 0.0, device = 0.0;
-  for (const virtual_wiimote::FrameTime& report : session.reports) {
-    const double now = static_cast<double>(report.frame - first.frame) * kNominalPeriod;
-    offset =
-        std::min(offset + kPeriodTolerance * (now - device), report.arrival - first.arrival - now);
-    device = now;
-  }
-  return first.arrival + device + offset;
-}
-
 double oracle(const SimulatedSession& session, const LinkModel& link) {
   return link.core == LinkModel::Core::kBell ? kalman(session, link) : pointMass(session, link);
-}
-
-double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link) {
-  ExposureGrid grid(session.period);
-  const virtual_wiimote::FrameTime& first = session.reports.front();
-  double base = 0.0;
-  std::int64_t frame = first.frame;
-  for (const virtual_wiimote::FrameTime& report : session.reports) {
-    if (&report != &first)
-      grid.advance(report.frame - frame, link);
-    grid.blur(link.wander *
-              std::sqrt(static_cast<double>(report.frame - frame) * session.period / 10.0));
-    frame = report.frame;
-    base = first.exposure + link.delay + static_cast<double>(frame - first.frame) * session.period;
-    grid.weigh(
-        [&](double offset) { return likelihoodOf(report, link, report.arrival - base - offset); });
-  }
-  return base + grid.estimate();
 }
 
 }  // namespace wiimote_tracker::exposure_clock

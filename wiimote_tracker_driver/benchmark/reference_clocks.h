@@ -5,8 +5,8 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-// Other estimators of the last report's exposure time [s], late by a constant. All but the last use
-// the frame numbers of the session, which a real receiver does not have.
+// Other estimators of the last report's exposure time [s], late by a constant. They use the frame
+// numbers of the session, which a real receiver does not have.
 
 /// Straight line through all arrivals.
 double leastSquares(const SimulatedSession& session);
@@ -15,17 +15,9 @@ double leastSquares(const SimulatedSession& session);
 /// INFOCOM 2002).
 double convexHull(const SimulatedSession& session);
 
-/// Least delay so far, ageing by the largest drift of the clocks, 500 ppm (Olson, A Passive
-/// Solution to the Sensor Synchronization Problem, IROS 2010).
-double olson(const SimulatedSession& session);
-
 /// A lower bound: knows spread, wander, slots and which reports were queued. For a bell a Kalman
 /// filter that does not know the period; for a hard edge a point-mass filter that does.
 double oracle(const SimulatedSession& session, const LinkModel& link);
-
-/// The same for a hard edge without the frame numbers, but with the model of losses: a point-mass
-/// filter over the exposure time of the newest report, period after period.
-double oracleWithoutNumbers(const SimulatedSession& session, const LinkModel& link);
 
 }  // namespace wiimote_tracker::exposure_clock
 

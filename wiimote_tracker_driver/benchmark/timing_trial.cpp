@@ -14,7 +14,7 @@ namespace {
 /// One session.
 struct Trial : TimingErrors {
   double total = 0.0;
-  bool wrong_frame = false, blind_oracle_wrong_frame = false;
+  bool wrong_frame = false;
   double clock_stddev = 0.0, stddev = 0.0;
   double seconds = 0.0;     ///< CPU time of the clock.
   std::size_t reports = 0;  ///< That it took.
@@ -34,7 +34,7 @@ double rmsAboutMean(const std::vector<Trial>& trials, double TimingErrors::*erro
   return std::sqrt(sum / (static_cast<double>(trials.size()) - 1.0));
 }
 
-Trial run(const LinkModel& link, double duration, bool blind_oracle, std::uint64_t seed) {
+Trial run(const LinkModel& link, double duration, std::uint64_t seed) {
   const SimulatedSession session = simulate(link, duration, seed);
   Trial trial;
   ExposureClock ours;
@@ -56,15 +56,8 @@ Trial run(const LinkModel& link, double duration, bool blind_oracle, std::uint64
   trial.arrival = session.reports.back().arrival - truth;
   trial.least_squares = leastSquares(session) - truth;
   trial.convex_hull = convexHull(session) - truth;
-  trial.least_squares_own = toNearest(leastSquares(numbered) - truth);
   trial.convex_hull_own = toNearest(convexHull(numbered) - truth);
-  trial.olson = olson(session) - truth;
   trial.oracle = oracle(session, link) - truth;
-  if (blind_oracle && link.core == LinkModel::Core::kHardEdge) {
-    const double error = oracleWithoutNumbers(session, link) - truth;
-    trial.blind_oracle = toNearest(error);
-    trial.blind_oracle_wrong_frame = std::abs(error) > 0.5 * session.period;
-  }
   // The reference of a bell is its mean less a typical spread.
   const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.jitter - 0.0024 : 0.0;
   trial.total = estimate.exposure - truth - bell;
@@ -80,11 +73,10 @@ Trial run(const LinkModel& link, double duration, bool blind_oracle, std::uint64
 TimingScore runTiming(const LinkModel& link,
                       double duration,
                       int sessions,
-                      bool blind_oracle,
                       std::uint64_t first_seed) {
   std::vector<Trial> trials;
   for (int i = 0; i < sessions; ++i)
-    trials.push_back(run(link, duration, blind_oracle, first_seed + static_cast<std::uint64_t>(i)));
+    trials.push_back(run(link, duration, first_seed + static_cast<std::uint64_t>(i)));
   TimingScore score{};
   const double bias = mean(trials, &Trial::clock);
   double ratio = 0.0, total_square = 0.0;
@@ -95,8 +87,6 @@ TimingScore runTiming(const LinkModel& link,
     total_square += total * total / sessions;
     score.covered += (std::abs(total) < 2.0 * trial.stddev) / static_cast<double>(sessions);
     score.wrong_frames += trial.wrong_frame / static_cast<double>(sessions);
-    score.blind_oracle_wrong_frames +=
-        trial.blind_oracle_wrong_frame / static_cast<double>(sessions);
     score.update_seconds += trial.seconds;
     reports += trial.reports;
   }
@@ -104,9 +94,8 @@ TimingScore runTiming(const LinkModel& link,
   score.total = std::sqrt(total_square);
   score.update_seconds /= static_cast<double>(reports);
   using E = TimingErrors;
-  for (const auto error :
-       {&E::arrival, &E::oracle, &E::blind_oracle, &E::least_squares, &E::convex_hull, &E::olson,
-        &E::least_squares_own, &E::convex_hull_own, &E::clock})
+  for (const auto error : {&E::arrival, &E::oracle, &E::least_squares, &E::convex_hull,
+                           &E::convex_hull_own, &E::clock})
     score.*error = rmsAboutMean(trials, error);
   return score;
 }

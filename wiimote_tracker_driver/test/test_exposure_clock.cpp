@@ -60,7 +60,7 @@ struct Running {
 
 TEST(ExtensiveExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
   for (double mean : {0.002, 0.005}) {
-    const TimingScore score = runTiming(edge(mean), 10.0, kSessions, false);
+    const TimingScore score = runTiming(edge(mean), 10.0, kSessions);
     EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
     EXPECT_LT(score.clock, 0.2 * score.least_squares) << mean;
     EXPECT_LT(score.clock, score.convex_hull_own) << mean;  // which has the same numbers
@@ -70,12 +70,12 @@ TEST(ExtensiveExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
 }
 
 TEST(ExtensiveExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_with_known_frame_numbers) {
-  const TimingScore score = runTiming(edge(0.002), 10.0, kSessions, false);
+  const TimingScore score = runTiming(edge(0.002), 10.0, kSessions);
   EXPECT_LT(score.clock, 1.2 * score.convex_hull);
 }
 
 TEST(ExtensiveExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
-  const TimingScore score = runTiming(bell(), 10.0, kSessions, false);
+  const TimingScore score = runTiming(bell(), 10.0, kSessions);
   EXPECT_LT(score.clock, 0.2e-3 * kTolerance);
   EXPECT_LT(score.clock, 1.3 * score.least_squares);
   EXPECT_LT(score.clock, 0.3 * score.convex_hull);
@@ -85,7 +85,7 @@ TEST(ExtensiveExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
 
 TEST(ExtensiveExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_the_model) {
   for (const LinkModel& link : {bell(1e-3), edge(0.002, 1e-3)}) {
-    const TimingScore score = runTiming(link, 10.0, kSessions, false);
+    const TimingScore score = runTiming(link, 10.0, kSessions);
     // Same sessions on both sides: the ratio scatters less than either.
     EXPECT_LT(score.clock, 1.2 * score.oracle);
     EXPECT_LT(score.clock, score.least_squares);
@@ -98,7 +98,7 @@ TEST(ExtensiveExposureClockAccuracy, is_robust_to_stalls_and_slots) {
   LinkModel link = bell(0.3e-3);
   link.slot = 1.25e-3;
   link.stalls = 0.3;
-  const TimingScore score = runTiming(link, 10.0, kSessions, false);
+  const TimingScore score = runTiming(link, 10.0, kSessions);
   EXPECT_LT(score.clock, 0.3e-3);
   EXPECT_GT(score.least_squares, 1e-3);
   EXPECT_GT(score.covered, 0.85);

@@ -1,8 +1,8 @@
 #include "trials.h"
 
 #include "allocation_counter.h"
+#include "fake_remote.h"
 #include "soak_stamps.h"
-#include "steady_remote.h"
 
 #include "wiimote/wiimote.h"
 
@@ -33,24 +33,27 @@ double residentMemory() {
   return pages * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-/// The disturbance of each hour. @param length of an hour [s].
-void disturb(wiimote::SteadyRemote& remote, std::uint64_t hour, double length) {
+/// The disturbance of each hour. @param length of an hour [s]. @returns until when the remote is
+/// away [s].
+double disturb(wiimote::FakeRemote& remote, std::uint64_t hour, double length) {
   const std::uint64_t age = hour % kLifeOfBatteries;
   remote.battery = static_cast<std::uint8_t>(kFull - kFull * age / kLifeOfBatteries);
-  if (age == 0)
-    remote.disconnect(remote.now + kChange * length);
-  else if (hour % 6 == 0)
+  if (age != 0 && hour % 6 == 0)
     remote.powerCycle();
-  else if (hour % 6 == 3)
-    remote.loseMode();
+  else if (age != 0 && hour % 6 == 3)
+    remote.mode = 0x30;  // no images
   else
-    remote.disconnect();
+    remote.present = false;
+  return remote.now + (age == 0 ? kChange * length : 0.0);
 }
 
 }  // namespace
 
 Results runSoak(std::uint64_t reports, double length) {
-  wiimote::SteadyRemote remote;
+  wiimote::FakeRemote remote;
+  remote.now = 0.0;
+  remote.period = 0.010035;  // about that of real ones
+  remote.remembers = false;
   wiimote::Wiimote wiimote(
       wiimote::Options(), [&](bool) { return remote.open(); }, [&] { return remote.now; });
   SoakStamps stamps(DriftingClock(24.0 * length, 24.0 * length * kLeapAfter),
@@ -58,11 +61,13 @@ Results runSoak(std::uint64_t reports, double length) {
   const auto begin = std::chrono::steady_clock::now();
   std::uint64_t images = 0;
   std::uint64_t hour = 0;
+  double away_until = 0.0;  // [s]
   std::uint8_t lowest = kFull;
   double resident = 0.0;
   Allocations warm;
   while (remote.sent < reports) {
     remote.now += wiimote.idleTime();
+    remote.present |= remote.now > away_until;
     if (wiimote.step(0.1)) {
       ++images;
       stamps.add(remote.now, wiimote.link().clock_epoch);
@@ -76,7 +81,7 @@ Results runSoak(std::uint64_t reports, double length) {
     }
     if (wiimote.link().status)
       lowest = std::min(lowest, wiimote.link().status->battery);
-    disturb(remote, hour, length);
+    away_until = disturb(remote, hour, length);
   }
   const Allocations end = allocations();
   const double grown = residentMemory() - resident;

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <set>
@@ -17,7 +19,8 @@
 namespace wiimote_tracker::wiimote {
 
 /// A remote in fake time, in raw bytes: answers requests after 5 ms and sends an infrared report
-/// every 10 ms in modes 0x33, 0x37 and 0x3e. Tests remove, add and change its reports.
+/// every 10 ms in modes 0x33, 0x37 and 0x3e. Tests remove, add and change its reports. It allocates
+/// nothing per report once it has seen all of a kind, unless it `remembers`.
 class FakeRemote {
  public:
   using Report = protocol::Report;
@@ -28,6 +31,8 @@ class FakeRemote {
   };
 
   double now = 100.0;
+  double period = 0.01;         ///< [s] Of the camera's clock, which runs on without reports.
+  std::uint8_t battery = 0x8f;  ///< Raw level.
   bool present = true;
   bool answers = true;
   /// Called for each output report; true: the remote does not get it.
@@ -43,8 +48,10 @@ class FakeRemote {
   bool registers_readable = true;
   bool echoes = true;  ///< Sends its present data at once when a mode is set.
 
+  bool remembers = true;  ///< Keeps all output reports.
   std::vector<Written> written;
   int opened = 0;
+  std::uint64_t sent = 0;  ///< Images or halves, without echoes.
 
   // State that others may change without the driver.
   std::uint8_t mode = 0x30;
@@ -67,9 +74,11 @@ class FakeRemote {
 
   /// Sends this `delay` seconds from now.
   void say(const Report& report, double delay = 0.0) {
-    pending_.push_back({now + delay, report});
-    std::stable_sort(pending_.begin(), pending_.end(),
-                     [](const Written& a, const Written& b) { return a.time < b.time; });
+    const double due = now + delay;
+    const auto after =
+        std::upper_bound(pending_.begin(), pending_.end(), due,
+                         [](double time, const Written& other) { return time < other.time; });
+    pending_.insert(after, {due, report});
   }
 
   int count(const Report& report) const {
@@ -91,8 +100,8 @@ class FakeRemote {
     }
     if (image_due) {
       now = std::max(now, next_image_);
-      next_image_ = now + 0.01;
-      ++samples_;
+      next_image_ = nextExposure();
+      ++sent;
       report = image();
       return true;
     }
@@ -103,7 +112,8 @@ class FakeRemote {
   void receive(const Report& report) {
     if (!present)
       throw transport::Disconnected("the fake remote has gone");
-    written.push_back({now, report});
+    if (remembers)
+      written.push_back({now, report});
     if (!answers || lose(report))
       return;
     const auto& b = report.bytes;
@@ -111,7 +121,9 @@ class FakeRemote {
     rumble = (b[1] & 1) != 0;
     switch (b[0]) {
       case 0x15:
-        say({0x20, 0, 0, static_cast<std::uint8_t>(leds << 4 | (camera ? 8 : 0)), 0, 0, 0x8f},
+        say({0x20, 0, 0,
+             static_cast<std::uint8_t>(leds << 4 | (camera ? 8 : 0) | (battery < 0x20 ? 1 : 0)), 0,
+             0, battery},
             kDelay);
         return;
       case 0x16: {
@@ -129,7 +141,7 @@ class FakeRemote {
         break;
       case 0x12:
         if (!sendsImages())
-          next_image_ = now + 0.01;
+          next_image_ = nextExposure();
         mode = b[2];
         break;
       case 0x13:
@@ -150,20 +162,22 @@ class FakeRemote {
  private:
   static constexpr double kDelay = 0.005;
 
+  double nextExposure() const { return period * (std::floor(now / period + 1e-3) + 1.0); }
+
   bool sendsImages() const { return mode == 0x33 || mode == 0x37 || mode == 0x3e; }
 
   /// One light at (291, 69), of size 3 where the format has sizes.
   Report image() {
     const bool sees = light && camera && logic && registers[0x30] == 8;
     const auto ir = [&](Report& report, std::size_t at, int format,
-                        const std::vector<std::uint8_t>& bytes) {
+                        std::initializer_list<std::uint8_t> bytes) {
       std::fill(report.bytes.begin() + static_cast<std::ptrdiff_t>(at), report.bytes.end(), 0xff);
       if (sees && registers[0x33] == format)
         std::copy(bytes.begin(), bytes.end(),
                   report.bytes.begin() + static_cast<std::ptrdiff_t>(at));
     };
     // No two samples of a real accelerometer are the same.
-    Report report{mode, 0, 0, 0x80, 0x80, static_cast<std::uint8_t>(0x80 | (samples_ & 1))};
+    Report report{mode, 0, 0, 0x80, 0x80, static_cast<std::uint8_t>(0x80 | (sent & 1))};
     if (mode == 0x3e) {
       second_half_ = !second_half_;
       report.bytes[0] = second_half_ ? 0x3f : 0x3e;
@@ -209,7 +223,6 @@ class FakeRemote {
 
   std::vector<Written> pending_;
   double next_image_ = 0.0;
-  unsigned samples_ = 0;
   bool second_half_ = true;  ///< The last half sent was the second.
 };
 

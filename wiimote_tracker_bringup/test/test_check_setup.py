@@ -89,8 +89,10 @@ def check(tmp_path, monkeypatch, capsys):
     return run
 
 
-def test_all_is_well(check):
-    status, lines = check()
+@pytest.mark.parametrize('cameras', [
+    CAMERAS % A, 'cameras: {door: {identity: "%s", driver: {ir_sensitivity: max}}}' % A])
+def test_all_is_well(check, cameras):
+    status, lines = check(cameras=cameras)
     assert status == 0
     assert [line.split(':')[0] for line in lines[:-2]] == [
         'ok Bluetooth', 'ok computer', 'ok remote 00', 'ok cameras', 'ok ROS master',
@@ -111,6 +113,8 @@ def test_all_is_well(check):
     ({'cameras': None}, 'list_wiimotes --write cameras.yaml'),
     ({'cameras': 'cameras: {a: [1'}, 'not valid YAML'),
     ({'cameras': CAMERAS % A + '  window: "%s"\n' % A}, 'so has another one'),
+    ({'cameras': 'cameras: {door: {identity: "%s", driver: {ir_sensitvity: max}}}' % A},
+     'camera door has the unknown driver parameter ir_sensitvity: correct its spelling'),
     ({'rig': None}, 'rig.yaml yet: start the tracker, then run'),
     ({'rig': 'cameras:\n'}, 'no complete rig file'),
     ({'rig': 'cameras:\ncomplete: true\n'}, 'no complete rig file'),

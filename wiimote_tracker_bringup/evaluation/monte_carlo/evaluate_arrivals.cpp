@@ -1,6 +1,6 @@
 // Errors of a moving LED with the exposure clock on recorded arrivals of real remotes.
+#include "grid_stamps.h"
 #include "paper/experiment.h"
-#include "reference_stamps.h"
 #include "remote_camera.h"
 #include "room.h"
 
@@ -35,10 +35,10 @@ enum Stamps { kExact, kClock, kGrid, kArrivals };
 constexpr std::array<const char*, 4> kNames{"exact", "clock", "grid", "arrivals"};
 
 constexpr char kExplanation[] =
-    "Errors of the stamps [ms] against a smoother that knows the whole recording. clock: the "
-    "exposure clock; grid: Bayes' rule, told how such remotes behave; arrivals: the "
-    "arrival as stamp; in_2sd: errors within two stated deviations. Then RMS errors of a "
-    "tracked LED [mm]; clock_in_95%: points within their ellipsoids.";
+    "Errors of the stamps [ms] against Bayes' rule with the whole recording, told how such remotes "
+    "behave (its own deviation: 0.5 ms). clock: the exposure clock; grid: Bayes' rule with the "
+    "arrivals so far; arrivals: the arrival as stamp; in_2sd: errors within two stated deviations. "
+    "Then RMS errors of a tracked LED [mm]; clock_in_95%: points within their ellipsoids.";
 
 struct Frame {
   std::size_t camera;
@@ -100,30 +100,21 @@ BenchmarkRow settle(Stamps stamps, const std::string& name, std::vector<Frame>* 
            {"in_2sd%", states ? 100.0 * inside / count : none}}};
 }
 
-/// Mean time between frames [s].
-double periodOf(const std::vector<double>& exposures) {
-  constexpr double kNominal = 0.010035;  // [s]
-  double frames = 0.0;
-  for (std::size_t i = 1; i < exposures.size(); ++i)
-    frames += std::round((exposures[i] - exposures[i - 1]) / kNominal);
-  return (exposures.back() - exposures.front()) / frames;
-}
-
 /// @returns the images of a recording such as shuffle01_wm1.txt.
 std::vector<Frame> framesOf(std::size_t camera, const fs::path& path, const RowCallback& row) {
   const std::vector<double> arrivals = readArrivals(path);
-  const std::vector<double> exposures = recordedExposures(arrivals);
-  const std::vector<GridStamp> grid = gridStamps(arrivals, periodOf(exposures));
+  const GridStamps grid = gridStamps(arrivals);
   exposure_clock::ExposureClock clock;
   std::vector<Frame> frames;
   frames.reserve(arrivals.size());
   for (std::size_t i = 0; i < arrivals.size(); ++i) {
     const exposure_clock::Estimate estimate = clock.update(arrivals[i]);
+    const double exposure = grid.smoothed[i].exposure;
     frames.push_back({camera,
-                      exposures[i],
+                      exposure,
                       arrivals[i],
-                      {exposures[i], estimate.exposure, grid[i].exposure, arrivals[i]},
-                      {kExactStddev, estimate.stddev, grid[i].stddev, 0.0}});
+                      {exposure, estimate.exposure, grid.filtered[i].exposure, arrivals[i]},
+                      {kExactStddev, estimate.stddev, grid.filtered[i].stddev, 0.0}});
   }
   for (const Stamps stamps : {kClock, kGrid, kArrivals})
     row(settle(stamps, path.stem(), &frames));

@@ -1,4 +1,4 @@
-#include "reference_stamps.h"
+#include "grid_stamps.h"
 
 #include <Eigen/Core>
 
@@ -9,6 +9,7 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
+constexpr double kPeriod = 0.010035;    // between frames, to begin with [s]
 constexpr double kCell = 1e-4;          // of the delay [s]
 constexpr Eigen::Index kCells = 1200;   // up to 120 ms
 constexpr double kMean = 0.005;         // delay before the poll [s]
@@ -80,30 +81,61 @@ void addShifted(const Density& density, double change, double weight, Density* s
                                             share * density.segment(begin + from + 1, count));
 }
 
-}  // namespace
+/// Mean and standard deviation of the exposure.
+GridStamp stampOf(double arrival, const Density& delay) {
+  const Density x = middles(kCells);
+  const double mean = (delay * x).sum();
+  return {arrival - mean, std::sqrt(std::max(0.0, (delay * x.square()).sum() - mean * mean))};
+}
 
-std::vector<GridStamp> gridStamps(const std::vector<double>& arrivals, double period) {
+/// Forward-backward recursion (Rabiner, Proc. IEEE 77, 1989, eq. 20, 25 and 27).
+GridStamps recursion(const std::vector<double>& arrivals, double period) {
   constexpr Eigen::Index kReach = 8;  // of the wander of one period, in cells
   const Density likelihood = delays();
   const Density walk = bell((kReach + 0.5) * kCell, kWalk * std::sqrt(period), 2 * kReach + 1);
-  const Density x = middles(kCells);
-  Density delay = likelihood;
-  std::vector<GridStamp> stamps;
-  stamps.reserve(arrivals.size());
-  for (std::size_t n = 0; n < arrivals.size(); ++n) {
-    if (n > 0) {
-      Density predicted = Density::Zero(kCells);
-      for (int frames = 1; frames <= kMostFrames; ++frames)
-        addShifted(delay, arrivals[n] - arrivals[n - 1] - frames * period, transition(frames),
-                   &predicted);
-      delay = (convolve(predicted, walk, -kReach) + kUnexplained) * likelihood;
-      delay /= delay.sum();
-    }
-    const double mean = (delay * x).sum();
-    const double variance = (delay * x.square()).sum() - mean * mean;
-    stamps.push_back({arrivals[n] - mean, std::sqrt(std::max(0.0, variance))});
+  // The delays of report n by those of the one before; `direction` -1: the other way.
+  const auto next = [&](const Density& delay, std::size_t n, double direction) {
+    Density sum = Density::Zero(kCells);
+    for (int frames = 1; frames <= kMostFrames; ++frames)
+      addShifted(delay, direction * (arrivals[n] - arrivals[n - 1] - frames * period),
+                 transition(frames), &sum);
+    return sum;
+  };
+  GridStamps stamps;
+  std::vector<Density> forward{likelihood / likelihood.sum()};
+  for (std::size_t n = 1; n < arrivals.size(); ++n) {
+    const Density delay =
+        (convolve(next(forward.back(), n, 1.0), walk, -kReach) + kUnexplained) * likelihood;
+    forward.push_back(delay / delay.sum());
+  }
+  for (std::size_t n = 0; n < arrivals.size(); ++n)
+    stamps.filtered.push_back(stampOf(arrivals[n], forward[n]));
+  stamps.smoothed.resize(arrivals.size());
+  Density later = Density::Ones(kCells);  // density of the later arrivals, given the delay
+  for (std::size_t n = arrivals.size(); n-- > 0;) {
+    const Density delay = forward[n] * later;
+    stamps.smoothed[n] = stampOf(arrivals[n], delay / delay.sum());
+    if (n == 0)
+      break;
+    later *= likelihood;
+    later = next(convolve(later, walk, -kReach), n, -1.0) + kUnexplained * later.sum();
+    later /= later.sum();
   }
   return stamps;
+}
+
+/// Mean time between frames [s].
+double periodOf(const std::vector<GridStamp>& stamps) {
+  double frames = 0.0;
+  for (std::size_t i = 1; i < stamps.size(); ++i)
+    frames += std::round((stamps[i].exposure - stamps[i - 1].exposure) / kPeriod);
+  return (stamps.back().exposure - stamps.front().exposure) / frames;
+}
+
+}  // namespace
+
+GridStamps gridStamps(const std::vector<double>& arrivals) {
+  return recursion(arrivals, periodOf(recursion(arrivals, kPeriod).smoothed));
 }
 
 }  // namespace wiimote_tracker::monte_carlo

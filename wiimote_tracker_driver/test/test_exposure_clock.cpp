@@ -240,6 +240,26 @@ TEST(ExposureClock, identifies_the_kind_and_the_size_of_the_jitter) {
   }
 }
 
+TEST(ExposureClock, takes_no_bell_for_an_edge_while_delays_are_equal) {
+  for (const double wander : {0.0, 1e-3, 5e-3}) {
+    const LinkModel link = bell(wander);
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      const SimulatedSession session = simulate(link, 30.0, seed);
+      ExposureClock clock;
+      for (const virtual_wiimote::FrameTime& report : session.reports)
+        clock.update(report.arrival);
+      double exposure = session.reports.back().exposure;
+      for (int i = 0; i < 25; ++i) {
+        exposure += session.period;
+        const double mean = exposure + link.delay + 3.4 * link.jitter;
+        const Estimate estimate = clock.update(mean);
+        EXPECT_LT(std::abs(estimate.exposure - (mean - 0.0024)), 2.0 * estimate.stddev)
+            << wander << ", " << seed << ", " << i;
+      }
+    }
+  }
+}
+
 TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
   ExposureClock clock;
   const Estimate first = clock.update(1234.5);

@@ -80,6 +80,9 @@ constexpr double kStepBack = 1e-3;
 // Weight below which a model is reinitialised from the best one. With twice as much the stated
 // deviations behind edges are 9 % larger.
 constexpr double kMinWeight = 1.5e-4;
+// The same of an edge beside a bell: delays of a bell may look like an edge for a second, while
+// those of an edge soon contradict a bell. A thousandth of this is as good.
+constexpr double kMinWeightOfEdge = 1e-9;
 // Probability below which a frame number does not change a filter.
 constexpr double kNegligible = 1e-6;
 }  // namespace
@@ -297,8 +300,10 @@ void ClockEstimator::reinitialiseUnlikelyModels() {
   const ClockFilter& likeliest = best();
   double sum = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
-    if (weights_[m] < kMinWeight) {
-      weights_[m] = kMinWeight;
+    const bool edge_beside_bell = filters_[m].model().hard_edge && !likeliest.model().hard_edge;
+    const double least = edge_beside_bell ? kMinWeightOfEdge : kMinWeight;
+    if (weights_[m] < least) {
+      weights_[m] = least;
       if (m != kSteadyEdge || !edge_.ready())
         filters_[m].copyStateFrom(likeliest);
       else if (std::abs(filters_[m].time() - likeliest.time()) > kMaxEdgeError)

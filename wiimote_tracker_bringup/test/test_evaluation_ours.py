@@ -88,7 +88,7 @@ def test_lights_are_seen_up_to_the_distance_of_the_threshold(tmp_path):
     assert (late <= 0.25 * 0.5 + step).all() and (late > 0.0).all()
 
 
-@pytest.mark.parametrize('program', ['cameras', 'map', 'occlusion'])
+@pytest.mark.parametrize('program', ['cameras', 'occlusion'])
 def test_a_programs_table_depends_only_on_its_seed(tmp_path, program):
     def written(seed):
         with open(table_of(tmp_path, 'evaluate_' + program, 1, seed)[1], 'rb') as file:

@@ -36,7 +36,8 @@ def short(monkeypatch):
                         functools.partial(statistics.bootstrap, resamples=50))
     for name in ('cumulative_errors', 'cubes', 'correction', 'paper_cases'):
         monkeypatch.setattr(positions.plots, name, lambda *data: None)
-    monkeypatch.setattr(circles, 'plot', lambda *data: None)
+    for section in (circles, positions.volume):
+        monkeypatch.setattr(section, 'plot', lambda *data: None)
     monkeypatch.setattr(Run, 'plot', lambda *data: None)
 
 
@@ -45,10 +46,10 @@ def write_csv(path, columns, rows):
         csv.writer(file).writerows([columns] + rows)
 
 
-def point_rows(session, cameras, method, model, error, variance):
-    """Ten points in a row; error: along y, of each point [m]; None: not measured."""
+def point_rows(session, cameras, method, model, error, variance, points=10):
+    """Points in a row; error: along y, of each point [m]; None: not measured."""
     rows = []
-    for point in range(1, 11):
+    for point in range(1, points + 1):
         nominal = np.array([0.1 * point, 1.0, 2.0 * (point % 2)])
         true = nominal + [PLACED, 0.0, 0.0]
         measured = [np.nan] * 3 if error is None else list(true + [0.0, error, 0.0])
@@ -59,7 +60,7 @@ def point_rows(session, cameras, method, model, error, variance):
 
 def make_results(folder, our_error):
     """our_error: of each point by square, wave and wand; its sign alternates by session [m]."""
-    points, traces = [], []
+    points, places, traces = [], [], []
     for session in range(SESSIONS):
         for cameras in (TWO, FACING, FOUR):
             for model in ('calibrated', 'image_center'):
@@ -77,10 +78,13 @@ def make_results(folder, our_error):
                 points += point_rows(session, cameras, method, 'calibrated', our_error,
                                      BOUND_STDDEV ** 2)
             for method in OURS:
+                places += point_rows(session, cameras, method, 'calibrated', 2.0 * our_error,
+                                     BOUND_STDDEV ** 2, points=27)
                 points += point_rows(session, cameras, 'bound_' + method, 'calibrated', None,
                                      BOUND_STDDEV ** 2)
     os.makedirs(str(folder))
     write_csv(os.path.join(str(folder), 'points.csv'), POINT_COLUMNS, points)
+    write_csv(os.path.join(str(folder), 'places.csv'), POINT_COLUMNS, places)
     write_csv(os.path.join(str(folder), 'traces.csv'), TRACE_COLUMNS, traces)
     return Results([str(folder)])
 
@@ -102,6 +106,11 @@ def test_figures_equal_the_simulated_errors(tmp_path):
         0.006 / (np.sqrt(3.0) * BOUND_STDDEV))
     assert figures['four_wand_stated'].value == pytest.approx(
         (0.006 / BOUND_STDDEV) ** 2 / 3.0)
+    assert figures['volume_wave_measured'].value == pytest.approx(12.0)
+    assert figures['volume_wave_predicted'].value == pytest.approx(
+        1e3 * np.sqrt(3.0) * BOUND_STDDEV)
+    assert figures['volume_wave_consistency'].value == pytest.approx(
+        (0.012 / BOUND_STDDEV) ** 2 / 3.0)
     # The principal points end 14 px from the middle; the board's errors are (8, 4) px.
     assert figures['corrected_principal_point_off'].value == pytest.approx(14.0)
     assert figures['board_principal_point_error'].value == pytest.approx(

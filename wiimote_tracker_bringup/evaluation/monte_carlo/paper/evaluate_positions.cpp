@@ -58,6 +58,7 @@ struct SessionWriter {
   const PaperSession& session;
   double pixel;  // standard deviation of a coordinate [px]
   Table* points;
+  Table* places;
   Table* traces;
 
   void writePaper() {
@@ -117,7 +118,7 @@ struct SessionWriter {
 
   void writeSolved(const std::string& method, const geometry::Rig& rig) {
     const geometry::CalibrationUncertainty uncertainty(rig);
-    write(method, "calibrated", [&](const StillLed& led) {
+    const auto measure_point = [&](const StillLed& led) {
       Measured measured;
       const auto point = measure(session, rig, led, ourOptions());
       if (!point)
@@ -133,7 +134,9 @@ struct SessionWriter {
       if (systematic)
         measured.covariance = point->covariance + *systematic;
       return measured;
-    });
+    };
+    write(session.points, method, "calibrated", measure_point, points);
+    write(session.known_places, method, "calibrated", measure_point, places);
   }
 
   /// With a volume correction from 27 points, placed as precisely as an LED can be.
@@ -160,14 +163,15 @@ struct SessionWriter {
                      const geometry::Rig& rig,
                      const geometry::TriangulationOptions& options,
                      const std::optional<remap::Correction>& correction = {}) {
-    write(method, model_name, [&](const StillLed& led) {
+    const auto measure_point = [&](const StillLed& led) {
       Measured measured;
       if (const auto point = measure(session, rig, led, options))
         measured.position = correction
                                 ? correction->apply(point->position, point->covariance)->position
                                 : point->position;
       return measured;
-    });
+    };
+    write(session.points, method, model_name, measure_point, points);
   }
 
   void writeBound(const std::string& method,
@@ -176,26 +180,28 @@ struct SessionWriter {
     const double image_pixel = std::sqrt(scene.pixel * scene.pixel + 1.0 / 12.0);
     const Eigen::MatrixXd covariance =
         wave::waveBound(scene, wave, image_pixel, {session.points.front().truth}).covariance;
-    write(method, "calibrated", [&](const StillLed& led) {
+    const auto bound_of = [&](const StillLed& led) {
       Measured bound;
       if (const auto least = wave::pointBound(wave.cameras, covariance, led.truth, pixel))
         bound.covariance = *least;
       return bound;
-    });
+    };
+    write(session.points, method, "calibrated", bound_of, points);
   }
 
-  void write(const std::string& method,
+  void write(const std::vector<StillLed>& leds,
+             const std::string& method,
              const std::string& model_name,
-             const std::function<Measured(const StillLed&)>& measure_point) {
-    for (std::size_t p = 0; p < session.points.size(); ++p) {
-      const StillLed& led = session.points[p];
-      const Measured measured = measure_point(led);
-      *points << number << cameras << method << model_name << p + 1;
-      for (const Eigen::Vector3d& place : {led.nominal, led.truth, measured.position})
-        *points << place.x() << place.y() << place.z();
+             const std::function<Measured(const StillLed&)>& measure_point,
+             Table* table) {
+    for (std::size_t p = 0; p < leds.size(); ++p) {
+      const Measured measured = measure_point(leds[p]);
+      *table << number << cameras << method << model_name << p + 1;
+      for (const Eigen::Vector3d& place : {leds[p].nominal, leds[p].truth, measured.position})
+        *table << place.x() << place.y() << place.z();
       for (Eigen::Index i = 0; i < 3; ++i) {
         for (Eigen::Index j = i; j < 3; ++j)
-          *points << measured.covariance(i, j);
+          *table << measured.covariance(i, j);
       }
     }
   }
@@ -223,6 +229,7 @@ void measureAll(const simulation::Description& description,
                 const std::vector<Session>& sessions,
                 const std::string& output) {
   Table points(output + "/points.csv", kPointColumns);
+  Table places(output + "/places.csv", kPointColumns);
   Table traces(output + "/traces.csv", kTraceColumns);
   for (const Session& one : sessions) {
     for (const CameraSet& set : kCameraSets) {
@@ -230,13 +237,14 @@ void measureAll(const simulation::Description& description,
         continue;
       const PaperSession session = drawPaperSession(description, set.cameras, one.seed);
       SessionWriter writer{one.number, set.name, session, stillPixelStddev(description),
-                           &points,    &traces};
+                           &points,    &places,  &traces};
       writer.writePaper();
       if (set.ours)
         writer.writeOurs();
     }
   }
   points.close();
+  places.close();
   traces.close();
 }
 
@@ -247,7 +255,7 @@ int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
       "The paper's ten points measured after the paper's calibrations (cases C1 to C5, both ray "
-      "models) and after others, with two and with four cameras; writes points.csv and traces.csv "
-      "into the folder --output.",
+      "models) and after others, with two and with four cameras, and 27 places in the whole cube; "
+      "writes points.csv, places.csv and traces.csv into the folder --output.",
       wiimote_tracker::monte_carlo::measureAll);
 }

@@ -8,7 +8,7 @@ import numpy as np
 from wiimote_tracker_bringup import programs, statistics
 from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.live import positions as with_a_person
-from wiimote_tracker_evaluation.sections.positions import claims, plots
+from wiimote_tracker_evaluation.sections.positions import claims, plots, volume
 from wiimote_tracker_evaluation.sections.positions.results import (
     CASES, FACING, FOUR, OURS, TWO, Results)
 from wiimote_tracker_evaluation.sessions import parts_of, unit_of
@@ -56,6 +56,7 @@ def tell(run, results):
     compare(run, results)
     cases(run, results)
     ours(run, results)
+    volume.tell(run, results)
     shapes(run, results)
     run.progress(1.0, 1.0)
 
@@ -236,8 +237,10 @@ def ours(run, results):
     run.table('ours', [('wiimotes', ''), ('method', ''), ('rms', 'mm'), ('interval_95', 'mm'),
                        ('bound', 'mm'), ('over_bound', ''), ('over_bound_95', ''), ('stated', ''),
                        ('stated_95', ''), ('unsolved_sessions', '')], rows)
-    run.table('points', [(name, unit_of(name)) for name in results.points],
-              programs.table_rows(results.points), 'Every measurement.', shown=False)
+    for name, table, caption in (('points', results.points, 'Every measurement.'),
+                                 ('places', results.places, 'Every place in the volume.')):
+        run.table(name, [(column, unit_of(column)) for column in table],
+                  programs.table_rows(table), caption, shown=False)
     remap(run, results)
     best = results.group(FOUR, 'wand').from_truth()
     two = results.group(TWO, 'wand').from_truth()

@@ -11,7 +11,6 @@ from wiimote_tracker_evaluation.sessions import joined, where
 CASES = ('C1', 'C2', 'C3', 'C4', 'C5')
 OURS = ('square', 'wave', 'wand')
 TWO, FACING, FOUR = '1 2', '1 3', '1 2 3 4'  # cameras, as the tables name them
-POINTS = 10
 
 
 @dataclasses.dataclass(eq=False)
@@ -53,26 +52,29 @@ class Results:
     """sessions: their number."""
 
     def __init__(self, folders):
-        self.points, self.traces = (
+        self.points, self.places, self.traces = (
             joined([read_csv(os.path.join(folder, name)) for folder in folders])
-            for name in ('points.csv', 'traces.csv'))
+            for name in ('points.csv', 'places.csv', 'traces.csv'))
         self.sessions = len(np.unique(self.points['session']))
 
     def has(self, cameras):
         return bool((self.points['cameras'] == cameras).any())
 
-    def group(self, cameras, method, ray_model='calibrated'):
-        chosen = where(self.points, cameras=cameras, method=method, ray_model=ray_model)
+    def group(self, cameras, method, ray_model='calibrated', places=False):
+        """places: of the 27 in the whole cube instead of the ten points."""
+        table = self.places if places else self.points
+        chosen = where(table, cameras=cameras, method=method, ray_model=ray_model)
+        number = 27 if places else 10
 
         def triple(name):
-            return np.stack([self.points[f'{name}_{axis}'][chosen] for axis in 'xyz'],
-                            axis=1).reshape(-1, POINTS, 3)
+            return np.stack([table[f'{name}_{axis}'][chosen] for axis in 'xyz'],
+                            axis=1).reshape(-1, number, 3)
 
         covariance = np.stack([
-            self.points['var_' + ''.join(sorted(pair))][chosen]
+            table['var_' + ''.join(sorted(pair))][chosen]
             for pair in ('xx', 'xy', 'xz', 'yx', 'yy', 'yz', 'zx', 'zy', 'zz')], axis=1)
         return Group(triple('nominal'), triple('true'), triple('measured'),
-                     covariance.reshape(-1, POINTS, 3, 3))
+                     covariance.reshape(-1, number, 3, 3))
 
     def trace(self, cameras, case, ray_model, session):
         """Rounds of one correction, by camera: arrays by column name."""

@@ -196,7 +196,7 @@ def made_laps(radial):
                         missing = step == 0
                         row = [session, cameras, method, 1, speed, 0.05 * step, 1, 1, 1]
                         error = radial * speed * 2 / cameras
-                        row += [np.nan] * 5 if missing else [1, 1, 1, error, 0.001]
+                        row += [np.nan] * 5 if missing else [1 + error, 1, 1.001, error, 0.001]
                         for name, value in zip(columns, row):
                             columns[name].append(value)
     return {name: np.array(values) for name, values in columns.items()}
@@ -208,6 +208,7 @@ def test_circle_figures_equal_the_simulated_errors(tmp_path):
     assert figures['four_wand_tracks_radial_2'].value == pytest.approx(3.0)
     assert figures['four_wand_tracks_radial_0_5'].value == pytest.approx(0.75)
     assert figures['two_wand_tracks_height_0_5'].value == pytest.approx(1.0)
+    assert figures['exact_arrivals_whole'].value == pytest.approx(np.hypot(3.0, 1.0))
     table = next(each for each in run.contents
                  if isinstance(each, Table) and each.name == 'errors')
     assert len(table.rows) == 2 * len(circles.METHODS) * 3

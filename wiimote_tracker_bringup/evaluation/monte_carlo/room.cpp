@@ -3,6 +3,7 @@
 #include <wiimote_tracker_msgs/median.h>
 
 #include <algorithm>
+#include <limits>
 #include <random>
 #include <utility>
 
@@ -13,20 +14,6 @@ namespace {
 constexpr double kLedBrightness = 1.0;
 // Of all cameras: the middle one of the console's settings.
 constexpr char kSensitivity[] = "wii_3";
-// For images with exact stamps [s].
-constexpr double kExactStampStddev = 1e-6;
-
-virtual_wiimote::FrameTimesModel timesOf(const virtual_wiimote::FrameTimesModel& described,
-                                         bool synchronised,
-                                         double phase) {
-  virtual_wiimote::FrameTimesModel model = described;
-  model.phase = synchronised ? 0.0 : phase;
-  if (synchronised) {
-    model.period_tolerance = 0.0;
-    model.wander = 0.0;
-  }
-  return model;
-}
 
 bool arrivesLater(const RoomImage& a, const RoomImage& b) {
   return std::make_pair(a.image.arrival, a.camera) > std::make_pair(b.image.arrival, b.camera);
@@ -42,11 +29,11 @@ Room::Room(const simulation::Description& description,
   std::mt19937 random(seed);
   for (const simulation::CameraDescription& camera : description.cameras) {
     // Phases differ from session to session; those of the description are one draw.
-    const double phase = camera.timing.period * (random() / 4294967296.0);
+    virtual_wiimote::FrameTimesModel timing = camera.timing;
+    timing.phase = timing.period * (random() / 4294967296.0);
     const auto pixel_seed = static_cast<std::uint32_t>(random());
     const auto time_seed = static_cast<std::uint64_t>(random());
-    virtual_wiimote::FrameTimes times(timesOf(camera.timing, options.synchronised, phase),
-                                      time_seed);
+    virtual_wiimote::FrameTimes times(timing, time_seed);
     const virtual_wiimote::FrameTime first = times.next();
     cameras_.push_back(
         {simulation::VirtualCamera(camera.camera, description.pixel_noise, pixel_seed),
@@ -69,19 +56,8 @@ const RoomImage& Room::next() {
   on_the_way_.pop_back();
   tracking::CameraImage& image = current_.image;
   const exposure_clock::Estimate estimate = cameras_[current_.camera].clock.update(image.arrival);
-  switch (options_.stamping) {
-    case Stamping::kExact:
-      image.stamp = current_.exposure;
-      image.stamp_stddev = kExactStampStddev;
-      break;
-    case Stamping::kEstimated:
-      image.stamp = estimate.exposure;
-      image.stamp_stddev = estimate.stddev;
-      break;
-    case Stamping::kArrival:
-      image.stamp = image.arrival;
-      break;
-  }
+  image.stamp = estimate.exposure;
+  image.stamp_stddev = estimate.stddev;
   return current_;
 }
 
@@ -115,6 +91,14 @@ std::vector<RoomImage> record(Room* room, double duration) {
   images.erase(std::remove_if(images.begin(), images.end(),
                               [&](const RoomImage& image) { return image.exposure > duration; }),
                images.end());
+  return images;
+}
+
+std::vector<RoomImage> stampedByArrival(std::vector<RoomImage> images) {
+  for (RoomImage& each : images) {
+    each.image.stamp = each.image.arrival;
+    each.image.stamp_stddev = std::numeric_limits<double>::quiet_NaN();  // unknown
+  }
   return images;
 }
 

@@ -22,16 +22,7 @@ namespace wiimote_tracker::monte_carlo {
 /// Position of an LED [m, world] at a time [s].
 using Path = std::function<Eigen::Vector3d(double)>;
 
-/// Source of the stamps.
-enum class Stamping {
-  kExact,      ///< The true exposure time: ideal.
-  kEstimated,  ///< The driver's exposure clock.
-  kArrival,    ///< The arrival.
-};
-
 struct RoomOptions {
-  bool synchronised = false;  ///< All cameras expose together; else each by its own clock.
-  Stamping stamping = Stamping::kEstimated;
   double led_size = 3.0;  ///< As reported by the sensor; closer LEDs merge.
 
   /// Whether an LED is dark for a camera at an exposure time [s], as by occlusion or blinking.
@@ -40,7 +31,7 @@ struct RoomOptions {
 
 struct RoomImage {
   std::size_t camera = 0;
-  double exposure = 0.0;  ///< True [s]; arrival and stamp are in the image.
+  double exposure = 0.0;  ///< True [s]; the arrival, and the driver's estimate, are in the image.
   tracking::CameraImage image;
 };
 
@@ -78,6 +69,9 @@ class Room {
 
 /// All images exposed in the first `duration` [s], in the order of arrival.
 std::vector<RoomImage> record(Room* room, double duration);
+
+/// The images with their arrivals as stamps, as if the driver estimated nothing.
+std::vector<RoomImage> stampedByArrival(std::vector<RoomImage> images);
 
 /// Median lateness of the images' stamps [s]. A common part for all cameras cannot be estimated
 /// from the arrivals; it only shifts the times of points.

@@ -26,6 +26,7 @@ struct Method {
   std::string name;
   geometry::Rig rig;
   estimators::EstimatorOptions options;
+  bool by_arrival = false;  // whether the arrivals are the stamps, not the driver's estimates
 };
 
 /// Nothing if a camera of the session could not be solved.
@@ -68,6 +69,7 @@ std::vector<Method> methodsOf(const simulation::Description& described,
   add("wave_tracks", waved, tracks);
   add("wand_tracks", wand, tracks);
   add("exact_tracks", trueRig(described), tracks);
+  methods.push_back({"exact_arrivals", trueRig(described), tracks, true});
   return methods;
 }
 
@@ -131,8 +133,9 @@ void measureAll(const simulation::Description& description, const Session& sessi
         Room room(described, {[&](double time) { return lap.position(time); }}, RoomOptions(),
                   session.seed + static_cast<std::uint32_t>(circle));
         const std::vector<RoomImage> images = record(&room, kSettling + lap.duration());
+        const std::vector<RoomImage> by_arrival = stampedByArrival(images);
         for (const Method& method : methods)
-          lap.follow(method, images);
+          lap.follow(method, method.by_arrival ? by_arrival : images);
       }
     }
   }

@@ -1,11 +1,11 @@
-"""Subjects beyond the paper: clocks, occlusion, more cameras, bodies, gestures.
+"""Subjects beyond the paper: occlusion, more cameras, bodies, gestures.
 
 One module per subject: PROGRAM, QUICK and FULL, the CAPTION of its table, and tell(run, table);
 gestures have commands(run) and tell(run).
 """
 
 from wiimote_tracker_evaluation.sections.ours import (
-    bodies, cameras, gestures, occlusion, unsynchronised)
+    bodies, cameras, gestures, occlusion)
 from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 
 TITLE = 'Beyond the paper'
@@ -13,7 +13,7 @@ SECONDS = 20, 190
 
 add_arguments = gestures.add_arguments
 
-PARTS = (unsynchronised, occlusion, cameras, bodies)
+PARTS = (occlusion, cameras, bodies)
 
 
 def run(run):

@@ -7,8 +7,10 @@ import os
 import numpy as np
 
 from wiimote_tracker_bringup import charts, programs
+from wiimote_tracker_evaluation.sections.ours import people
 
-PROGRAM, EXAMPLES = 'evaluate_gestures', 2
+EXAMPLES = 2
+QUICK, FULL = 10, 40  # simulated people
 
 
 def add_arguments(parser):
@@ -22,13 +24,6 @@ def folder_of_people(path):
         raise argparse.ArgumentTypeError(f'{path} needs folders of at least two people: each '
                                          "person is recognised by the others' drawings")
     return path
-
-
-def commands(run):
-    if run.options.gestures:
-        return []
-    return [[PROGRAM, '--rig', run.rig, '--output', run.file('drawings'), '--seed', run.seed,
-             '--sessions', 10 if run.quick else 40]]
 
 
 def tell(run):
@@ -46,8 +41,9 @@ def tell(run):
         run.say(
             '### Gestures\n\n'
             'Twelve gestures, drawn with an LED by simulated people of different size, slant, '
-            'roundness and pace, tracked, and recognised by %d examples of other people. **The '
-            'people are simulated**; `--gestures DIR` uses recordings of real ones.' % EXAMPLES)
+            'roundness and pace, located to %.0f mm, and recognised by %d examples of other '
+            'people. **The people are simulated**; `--gestures DIR` uses recordings of real ones.'
+            % (1e3 * people.NOISE, EXAMPLES))
         note = 'Gestures of made-up people recognised, %d examples each by others' % EXAMPLES
     draw(run, names, confusion)
     run.table('confusion', [('drawn', '')] + [('as_%d' % (i + 1), '') for i in range(len(names))],
@@ -62,7 +58,10 @@ def tell(run):
 
 def recognised(run):
     """Result of gesture_tool: each person is recognised by the others' examples."""
-    folder = run.options.gestures or run.file('drawings')
+    folder = run.options.gestures
+    if not folder:
+        folder = run.file('drawings')
+        people.write(folder, QUICK if run.quick else FULL, run.seed)
     programs.run_programs([['wiimote_tracker_triangulation/gesture_tool', 'evaluate', '--train',
                             folder, '--test', folder, '--json', run.file('gestures.json')]
                            + ([] if run.options.gestures else ['--examples', EXAMPLES])],

@@ -85,7 +85,7 @@ void measureTrack(const simulation::Description& description,
   const Path path = [=](double time) {  // at 1 m/s
     return onCircle(kUpperCircle, phase + time / kCircleRadius);
   };
-  Room room(description, {path}, {}, seed);
+  Room room(description, {path}, seed);
   double squared = 0.0, predicted = 0.0;
   int count = 0;
   const auto take = [&](double time, const tracking::Snapshot& snapshot) {

@@ -71,12 +71,11 @@ Outcome identify(const simulation::Description& description,
   std::vector<Path> paths;
   for (const Eigen::Vector3d& place : kPlaces)
     paths.push_back([place](double) { return place; });
-  RoomOptions options;
-  options.hidden = [&](std::size_t, std::size_t led, double time) {
+  const Hidden hidden = [&](std::size_t, std::size_t led, double time) {
     const double begin = (time - 0.5 * kExposure) / scheme.period + phases[led];
     return litShare(scheme.codes.codes[led].waveform, begin, kExposure / scheme.period) < 0.5;
   };
-  Room room(description, paths, options, seed);
+  Room room(description, paths, seed, hidden);
   const geometry::Rig rig = trueRig(description);
   tracking::Tracker tracker(rig, forBlinking(scheme.codes, {}));
   Identifier identifier(scheme.codes, {});

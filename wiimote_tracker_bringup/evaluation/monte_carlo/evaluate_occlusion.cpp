@@ -126,11 +126,10 @@ void measure(const simulation::Description& all, const Session& session, Table* 
       const Path path = [=](double time) {  // at 1 m/s
         return onCircle(kUpperCircle, phase + time / kCircleRadius);
       };
-      RoomOptions options;
-      options.hidden = [&](std::size_t camera, std::size_t, double time) {
+      const Hidden hidden = [&](std::size_t camera, std::size_t, double time) {
         return occlusions[camera].isHidden(time);
       };
-      Room room(description, {path}, options, session.seed);
+      Room room(description, {path}, session.seed, hidden);
       const std::vector<RoomImage> images = record(&room, kDuration);
       for (const Method& method : kMethods) {
         const Score score = follow(rig, images, path, method);

@@ -10,7 +10,9 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-// Of the LEDs; with a given size the brightness does not depend on distance.
+// Of the LEDs, as reported by the sensor; with a given size the brightness does not depend on
+// distance.
+constexpr double kLedSize = 3.0;
 constexpr double kLedBrightness = 1.0;
 // Of all cameras: the middle one of the console's settings.
 constexpr char kSensitivity[] = "wii_3";
@@ -23,9 +25,9 @@ bool arrivesLater(const RoomImage& a, const RoomImage& b) {
 
 Room::Room(const simulation::Description& description,
            const std::vector<Path>& leds,
-           const RoomOptions& options,
-           std::uint32_t seed)
-    : leds_(leds), options_(options) {
+           std::uint32_t seed,
+           const Hidden& hidden)
+    : leds_(leds), hidden_(hidden) {
   std::mt19937 random(seed);
   for (const simulation::CameraDescription& camera : description.cameras) {
     // Phases differ from session to session; those of the description are one draw.
@@ -67,8 +69,8 @@ void Room::expose(std::size_t number) {
   camera.coming = camera.times.next();
   lamps_.clear();
   for (std::size_t led = 0; led < leds_.size(); ++led) {
-    if (!options_.hidden || !options_.hidden(number, led, frame.exposure))
-      lamps_.push_back({leds_[led](frame.exposure), options_.led_size, kLedBrightness});
+    if (!hidden_ || !hidden_(number, led, frame.exposure))
+      lamps_.push_back({leds_[led](frame.exposure), kLedSize, kLedBrightness});
   }
   const std::vector<tracking::Spot>& spots = camera.sensor.look(camera.optics.sense(lamps_));
   if (frame.lost)

@@ -22,12 +22,8 @@ namespace wiimote_tracker::monte_carlo {
 /// Position of an LED [m, world] at a time [s].
 using Path = std::function<Eigen::Vector3d(double)>;
 
-struct RoomOptions {
-  double led_size = 3.0;  ///< As reported by the sensor; closer LEDs merge.
-
-  /// Whether an LED is dark for a camera at an exposure time [s], as by occlusion or blinking.
-  std::function<bool(std::size_t camera, std::size_t led, double time)> hidden;
-};
+/// Whether an LED is dark for a camera at an exposure time [s], as by occlusion or blinking.
+using Hidden = std::function<bool(std::size_t camera, std::size_t led, double time)>;
 
 struct RoomImage {
   std::size_t camera = 0;
@@ -42,8 +38,8 @@ class Room {
  public:
   Room(const simulation::Description& description,
        const std::vector<Path>& leds,
-       const RoomOptions& options,
-       std::uint32_t seed);
+       std::uint32_t seed,
+       const Hidden& hidden = {});
 
   /// The next image in the order of arrival; endless. Valid until the next call.
   const RoomImage& next();
@@ -60,7 +56,7 @@ class Room {
   void expose(std::size_t number);
 
   std::vector<Path> leds_;
-  RoomOptions options_;
+  Hidden hidden_;
   std::vector<Camera> cameras_;
   std::vector<RoomImage> on_the_way_;  // a heap; the next to arrive is in front
   std::vector<simulation::Lamp> lamps_;

@@ -130,7 +130,7 @@ void measureAll(const simulation::Description& description, const Session& sessi
     for (std::size_t circle = 0; circle < circleCenters().size(); ++circle) {
       for (const double speed : {0.5, 1.0, 2.0}) {
         const LapWriter lap{session.number, circle, speed, 1e-3 * (session.seed % 6283), table};
-        Room room(described, {[&](double time) { return lap.position(time); }}, RoomOptions(),
+        Room room(described, {[&](double time) { return lap.position(time); }},
                   session.seed + static_cast<std::uint32_t>(circle));
         const std::vector<RoomImage> images = record(&room, kSettling + lap.duration());
         const std::vector<RoomImage> by_arrival = stampedByArrival(images);

@@ -1,11 +1,10 @@
 """Subjects beyond the paper: occlusion, more cameras, bodies, gestures.
 
-One module per subject: PROGRAM, QUICK and FULL, the CAPTION of its table, and tell(run, table);
-gestures have tell(run).
+One module per subject. Those that simulate a room have PROGRAM, QUICK and FULL, the CAPTION of its
+table, and tell(run, table); the others have tell(run).
 """
 
-from wiimote_tracker_evaluation.sections.ours import (
-    bodies, cameras, gestures, occlusion)
+from wiimote_tracker_evaluation.sections.ours import bodies, cameras, gestures, occlusion
 from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 
 TITLE = 'Beyond the paper'
@@ -13,17 +12,18 @@ SECONDS = 20, 190
 
 add_arguments = gestures.add_arguments
 
-PARTS = (occlusion, cameras, bodies)
+PARTS = (occlusion, cameras)
 
 
 def run(run):
     commands = [command for part in PARTS for command in shared(
         run, part.PROGRAM, part.QUICK if run.quick else part.FULL)]
-    run.compute(commands, 'measuring in simulated time', 0.0, 0.9)
+    run.compute(commands + bodies.commands(run), 'measuring in simulated time', 0.0, 0.9)
     for number, part in enumerate(PARTS):
         run.progress(0.9 + 0.1 * number / (len(PARTS) + 1), 1.0, 'drawing')
         table = read_shared(run, part.PROGRAM)
         part.tell(run, table)
         keep(run, part.PROGRAM, table, part.CAPTION)
     run.progress(0.9 + 0.1 * len(PARTS) / (len(PARTS) + 1), 1.0, 'drawing')
+    bodies.tell(run)
     gestures.tell(run)

@@ -17,10 +17,10 @@ import numpy as np
 import rosgraph
 import rospy
 import rostest
+from point_bounds import point_bound
 from std_msgs.msg import Header
 from wiimote_tracker_bringup import experiment, scene
 from wiimote_tracker_bringup.true_rig import publish, true_rig
-from wiimote_tracker_evaluation.sections.ours.cameras import point_bound
 from wiimote_tracker_msgs.msg import IrBlobArray, TrackedPointArray
 from wiimote_tracker_msgs.srv import SetLed, SetLedRequest
 

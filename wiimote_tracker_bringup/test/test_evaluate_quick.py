@@ -4,11 +4,11 @@ and Rao that are computed here."""
 import numpy as np
 import pytest
 
+from point_bounds import ring_bounds
 from quick_evaluation import COMPUTED, PAPER_RIG, TIMED, check, evaluate
 
 from wiimote_tracker_bringup import bound, experiment, scene, statistics
 from wiimote_tracker_evaluation import sections
-from wiimote_tracker_evaluation.sections import ours
 
 SIGMAS = 4.0
 
@@ -102,7 +102,7 @@ def test_tracks_are_better_than_the_bound_of_single_images(results):
 def test_single_points_reach_the_bound_and_the_papers_mean_does_not(results):
     table = results.columns('ours', 'cameras')
     counts = (2, 4, 8)
-    bounds = dict(zip(counts, ours.cameras.ring_bounds(PAPER_RIG, table, counts)))
+    bounds = dict(zip(counts, ring_bounds(PAPER_RIG, table, counts)))
     for count, least in bounds.items():
         errors = table['error_mm'][(table['cameras'] == count) & (table['method'] == 'most_likely')]
         assert np.isfinite(errors).all(), 'a point was not measured'

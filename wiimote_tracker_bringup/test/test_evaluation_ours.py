@@ -10,12 +10,13 @@ import numpy as np
 import pytest
 import yaml
 
+from point_bounds import point_bound
 from section_run import section_run
 from wiimote_tracker_bringup import programs, scene
 from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation import evaluation, section
 from wiimote_tracker_evaluation.live import circles, dialogue, distance, latency, running_tracker
-from wiimote_tracker_evaluation.sections.ours import cameras, gestures
+from wiimote_tracker_evaluation.sections.ours import gestures
 from wiimote_tracker_evaluation.sections import identification
 from wiimote_tracker_evaluation.sections.distance import light
 
@@ -120,7 +121,7 @@ def test_the_bound_of_two_cameras_at_a_right_angle():
                                 scene.look_at(np.array(position), (0.0, 0.0, 0.0)), position,
                                 (1024, 768)))
     expected = noise * distance / f * np.sqrt(2.5)
-    assert cameras.point_bound(rig, noise, np.zeros((1, 3))) == pytest.approx(expected, rel=1e-6)
+    assert point_bound(rig, noise, np.zeros((1, 3))) == pytest.approx(expected, rel=1e-6)
 
 
 # --- Gestures
@@ -160,7 +161,7 @@ def tries(length, labelled, seconds):
     count = len(length)
     return {'length_ms': np.array(length, dtype=float), 'labelled': np.array(labelled),
             'wrong': np.zeros(count), 'ever_wrong': np.zeros(count), 'cameras': np.full(count, 4.0),
-            'scheme': np.array(['paper'] * count), 'seconds': np.array(seconds, dtype=float)}
+            'scheme': np.array(['paper'] * count), 'time_s': np.array(seconds, dtype=float)}
 
 
 def test_the_shortest_period_is_the_one_above_which_nearly_all_succeed():

@@ -65,8 +65,8 @@ void measurePoints(const simulation::Description& description,
           std::make_pair(geometry::TriangulationMethod::kMeanClosest, "mean_closest")}) {
       options.method = method;
       const auto point = geometry::triangulate(observations, options);
-      *table << session << description.cameras.size() << name << place.x() << place.y() << place.z()
-             << observations.size();
+      *table << session << description.cameras.size() << name << place.x() << place.y()
+             << place.z();
       if (point)
         *table << 1e3 * (point->position - place).norm()
                << 1e3 * std::sqrt(point->covariance.trace());
@@ -97,8 +97,8 @@ void measureTrack(const simulation::Description& description,
   };
   trackImages(trueRig(description), {}, record(&room, kDuration), take);
   *table << session << description.cameras.size() << "tracks_1_m_per_s" << std::nan("")
-         << std::nan("") << std::nan("") << description.cameras.size()
-         << 1e3 * std::sqrt(squared / count) << 1e3 * std::sqrt(predicted / count);
+         << std::nan("") << std::nan("") << 1e3 * std::sqrt(squared / count)
+         << 1e3 * std::sqrt(predicted / count);
 }
 
 void measure(const simulation::Description& like, const Session& session, Table* table) {
@@ -118,6 +118,6 @@ int main(int argc, char** argv) {
       argc, argv,
       "Errors of single points in the cube, by two methods, and of a tracked LED, with two to "
       "eight exactly known cameras on a ring, and the errors predicted by the covariance.",
-      {"session", "cameras", "method", "x_m", "y_m", "z_m", "rays", "error_mm", "predicted_mm"},
+      {"session", "cameras", "method", "x_m", "y_m", "z_m", "error_mm", "predicted_mm"},
       wiimote_tracker::monte_carlo::measure);
 }

@@ -130,6 +130,6 @@ int main(int argc, char** argv) {
       "Labels of four blinking LEDs and the time until all are right: the paper's scheme "
       "(90/60/40/20 %) over the period, cyclic codes over the chip.",
       {"session", "cameras", "scheme", "length_ms", "period_ms", "labelled", "wrong", "ever_wrong",
-       "seconds"},
+       "time_s"},
       wiimote_tracker::monte_carlo::measure);
 }

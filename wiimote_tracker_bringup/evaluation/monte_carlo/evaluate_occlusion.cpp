@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
-#include <set>
 #include <vector>
 
 namespace wiimote_tracker::monte_carlo {
@@ -61,8 +60,6 @@ struct Score {
   int astray = 0;        // points farther off than kNear
   int inside = 0;        // points whose 95 % ellipsoid contains the LED
   double covered = 0.0;  // time with a fresh point of the LED [s]
-  double longest_gap = 0.0;
-  std::set<std::uint32_t> ids;
 };
 
 Score follow(const geometry::Rig& rig,
@@ -91,12 +88,9 @@ Score follow(const geometry::Rig& rig,
       score.squared += error * error;
       ++score.published;
       score.covered += std::min(time - last, kFresh);
-      score.longest_gap = std::max(score.longest_gap, time - last);
-      score.ids.insert(led.id);
       last = time;
     }
   });
-  score.longest_gap = std::max(score.longest_gap, kDuration - last);
   return score;
 }
 
@@ -137,8 +131,7 @@ void measure(const simulation::Description& all, const Session& session, Table* 
         *table << session.number << description.cameras.size() << hidden_share << method.name
                << score.covered / (kDuration - kSettled) << shareOfTwoViews(occlusions)
                << score.astray / points << score.inside / points
-               << 1e3 * std::sqrt(score.squared / score.published) << score.longest_gap
-               << score.ids.size();
+               << 1e3 * std::sqrt(score.squared / score.published);
       }
     }
   }
@@ -151,8 +144,8 @@ int main(int argc, char** argv) {
   return wiimote_tracker::monte_carlo::runProgram(
       argc, argv,
       "An LED on a circle, hidden from each camera at random for 0.25 s on average: share of the "
-      "time with a position, its accuracy, and the number of ids.",
+      "time with a position, and its accuracy.",
       {"session", "cameras", "hidden_share", "method", "covered_share", "two_views_share",
-       "astray_share", "inside_share", "rms_mm", "longest_gap_s", "ids"},
+       "astray_share", "inside_share", "rms_mm"},
       wiimote_tracker::monte_carlo::measure);
 }

@@ -39,30 +39,25 @@ def joined(tables):
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
 
 
-def keep(run, program, columns, caption):
-    """Copies the result of read_shared() to the report's folder."""
-    run.table(program.replace('evaluate_', ''), [name_and_unit(name) for name in columns],
-              programs.table_rows(columns), caption, shown=False)
+def keep(run, name, columns, caption):
+    """Adds a table of a program to the report's files."""
+    run.table(name, [name_and_unit(column) for column in columns], programs.table_rows(columns),
+              caption, shown=False)
 
 
 def name_and_unit(name):
-    """('speed', 'm/s') of speed_m_per_s."""
+    """('speed', 'm/s') of speed_m_per_s; or the unit of a column that does not name it."""
     fits = [ending for ending in UNITS if name.endswith(ending)]
-    if not fits:
-        return name, ''
-    ending = max(fits, key=len)
-    return name[:-len(ending)], UNITS[ending]
-
-
-def unit_of(name):
-    """Of a column that does not name it."""
+    if fits:
+        ending = max(fits, key=len)
+        return name[:-len(ending)], UNITS[ending]
     if name.startswith('var_'):
-        return 'm^2'
+        return name, 'm^2'
     if name[-2:] in ('_u', '_v'):
-        return 'px'
+        return name, 'px'
     if name[-2:] in ('_x', '_y', '_z') or name.endswith('_error'):
-        return 'm'
-    return {'speed': 'm/s', 'time': 's'}.get(name, '')
+        return name, 'm'
+    return name, {'speed': 'm/s', 'time': 's'}.get(name, '')
 
 
 def where(columns, **values):

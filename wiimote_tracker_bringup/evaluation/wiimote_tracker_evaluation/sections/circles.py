@@ -4,7 +4,7 @@ import itertools
 
 import numpy as np
 
-from wiimote_tracker_bringup import charts, programs, statistics
+from wiimote_tracker_bringup import charts, statistics
 from wiimote_tracker_evaluation import sessions
 from wiimote_tracker_evaluation.live import circles as with_a_person
 
@@ -66,8 +66,7 @@ def tell(run, laps):
                          ('height_95', 'mm'), ('not_seen', '%')], rows,
               'RMS over all circles and all solved sessions, with its interval; and the share of '
               'times without a point within 0.5 m of the LED.')
-    run.table('laps', [(name, sessions.unit_of(name)) for name in laps], programs.table_rows(laps),
-              'Every point.', shown=False)
+    sessions.keep(run, 'laps', laps, 'Every point.')
     compare(run, laps)
     tell_times(run, laps, speeds[-1])
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from wiimote_tracker_bringup import charts, programs, statistics
+from wiimote_tracker_bringup import charts, statistics
 from wiimote_tracker_evaluation import sessions
 from wiimote_tracker_evaluation.live import identification as with_a_person
 
@@ -24,8 +24,7 @@ def run(run):
                 'letting LEDs blink', 0.0, 0.95)
     tries = sessions.read_shared(run, PROGRAM)
     tell(run, tries)
-    run.table('tries', [('time', 's') if name == 'seconds' else sessions.name_and_unit(name)
-                        for name in tries], programs.table_rows(tries), 'Every try.', shown=False)
+    sessions.keep(run, 'tries', tries, 'Every try.')
 
 
 def succeeded(tries):
@@ -43,7 +42,7 @@ class Line:
         groups = [chosen & (tries['length_ms'] == length) for length in self.lengths]
         self.tries = [int(here.sum()) for here in groups]
         self.right = [int((here & good).sum()) for here in groups]
-        self.seconds = [tries['seconds'][here & good] for here in groups]
+        self.seconds = [tries['time_s'][here & good] for here in groups]
         self.wrong = int((tries['ever_wrong'][chosen] != 0).sum())
         self.shares = 100.0 * (np.array(self.right) / self.tries)
         self.intervals = 100.0 * np.array(list(map(statistics.wilson, self.right, self.tries)))

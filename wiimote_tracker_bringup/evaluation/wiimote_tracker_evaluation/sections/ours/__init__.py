@@ -23,7 +23,7 @@ def run(run):
         run.progress(0.9 + 0.1 * number / (len(PARTS) + 1), 1.0, 'drawing')
         table = read_shared(run, part.PROGRAM)
         part.tell(run, table)
-        keep(run, part.PROGRAM, table, part.CAPTION)
+        keep(run, part.PROGRAM.replace('evaluate_', ''), table, part.CAPTION)
     run.progress(0.9 + 0.1 * len(PARTS) / (len(PARTS) + 1), 1.0, 'drawing')
     bodies.tell(run)
     gestures.tell(run)

@@ -5,13 +5,13 @@ import shutil
 
 import numpy as np
 
-from wiimote_tracker_bringup import programs, statistics
+from wiimote_tracker_bringup import statistics
 from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_evaluation.live import positions as with_a_person
 from wiimote_tracker_evaluation.sections.positions import claims, plots, volume
 from wiimote_tracker_evaluation.sections.positions.results import (
     CASES, FACING, FOUR, OURS, TWO, Results)
-from wiimote_tracker_evaluation.sessions import parts_of, unit_of
+from wiimote_tracker_evaluation.sessions import keep, parts_of
 
 TITLE = 'Positions'
 SECONDS = 20, 210
@@ -237,10 +237,8 @@ def ours(run, results):
     run.table('ours', [('wiimotes', ''), ('method', ''), ('rms', 'mm'), ('interval_95', 'mm'),
                        ('bound', 'mm'), ('over_bound', ''), ('over_bound_95', ''), ('stated', ''),
                        ('stated_95', ''), ('unsolved_sessions', '')], rows)
-    for name, table, caption in (('points', results.points, 'Every measurement.'),
-                                 ('places', results.places, 'Every place in the volume.')):
-        run.table(name, [(column, unit_of(column)) for column in table],
-                  programs.table_rows(table), caption, shown=False)
+    keep(run, 'points', results.points, 'Every measurement.')
+    keep(run, 'places', results.places, 'Every place in the volume.')
     remap(run, results)
     best = results.group(FOUR, 'wand').from_truth()
     two = results.group(TWO, 'wand').from_truth()
@@ -302,5 +300,4 @@ def shapes(run, results):
              '(Fig. 2), C3 with two Wiimotes, simulated session %d. Left: the difference in each '
              'image by rounds; each round corrects a quarter of it. Right: the distance of the '
              'measured origin from the ideal one.' % (session + 1))
-    run.table('correction_rounds', [(name, unit_of(name)) for name in results.traces],
-              programs.table_rows(results.traces), 'Every round of every correction.', shown=False)
+    keep(run, 'correction_rounds', results.traces, 'Every round of every correction.')

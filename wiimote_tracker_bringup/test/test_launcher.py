@@ -28,6 +28,16 @@ OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
     (OURS + ['rig_file:=', 'parameters:='], []),  # as their defaults
     (['wiimote_tracker_bringup', 'record.launch', 'output:='], [
         'output:= has no effect, since roslaunch ignores an empty value: leave it out']),
+    (OURS + ['rig_file:=1.10', 'camera_latency:=0.010', 'labels:=a'], [
+        'roslaunch takes rig_file:=1.10 for 1.1: write rig_file:=./1.10']),
+    (OURS + ['socket_directory:=true', 'rig_file:=110', 'bodies:=./1.10'], [
+        'roslaunch takes socket_directory:=true for True: write socket_directory:=./true']),
+    (['wiimote_tracker_triangulation', 'gestures.launch', 'file:=1e3'], [
+        'roslaunch takes file:=1e3 for 1000.0: write file:=./1e3']),
+    (OURS + ['cemeras:=mine.launch'], [
+        'tracker.launch has no argument cemeras, so cemeras:= has no effect: write cameras:=']),
+    (['wiimote_tracker_bringup', 'diagnostics.launch', 'rviz:=1'], [
+        'diagnostics.launch has no argument rviz, so rviz:= has no effect: leave it out']),
     # Whose arguments are unknown.
     (['my_package', 'tracker.launch', 'cemeras:=4'], []), (['mine.launch', 'cemeras:=4'], []),
     (OURS + ['mine.launch', 'cemeras:=4'], []), ([], [])])
@@ -42,17 +52,20 @@ def test_arguments_that_nobody_takes_are_told(words, said):
     ('mavros_vision', 'massage', 'message'), ('plan', 'plain', 'plan'),
     ('record', 'outptu', 'output'), ('replay', 'rat', 'rate'),
     ('robot_localization', 'odometri', 'odometry'), ('calibrate', 'cemeras', 'cameras'),
-    ('triangulation', 'labbels', 'labels')])
-def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, meant):
+    ('triangulation', 'labbels', 'labels'), ('rviz', 'check_argument', 'check_arguments')])
+@pytest.mark.parametrize('here', [False, True])
+def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, meant, here):
     package, file = file.split('/') if '/' in file else ('bringup', file)
     packages = os.path.join(os.path.dirname(TRACKER), '../../wiimote_tracker_')
     with open(f'{packages}{package}/launch/{file}.launch', encoding='utf-8') as text:
         assert 'type="check_arguments"' in text.read()
     stand_in = tmp_path / 'roslaunch'
-    stand_in.write_text('import subprocess, sys; subprocess.call([sys.executable, sys.argv[1]])')
+    stand_in.write_text('import subprocess, sys\n'
+                        'subprocess.call([sys.executable, sys.argv[1]], cwd="/")')
     done = subprocess.run(
         [sys.executable, str(stand_in), packages + 'msgs/python/check_arguments',
-         'wiimote_tracker_' + package, file + '.launch', given + ':=1'],
-        capture_output=True, text=True, timeout=60)
+         *([] if here else ['wiimote_tracker_' + package]), file + '.launch', given + ':=1'],
+        capture_output=True, text=True, timeout=60,
+        cwd=f'{packages}{package}/launch' if here else None)
     assert done.stderr == (f'[WARN] {file}.launch has no argument {given}, so {given}:= has no '
                            f'effect: write {meant}:=.\n')

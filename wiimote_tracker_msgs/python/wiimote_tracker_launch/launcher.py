@@ -4,7 +4,7 @@ import difflib
 import os
 import re
 import xml.etree.ElementTree as ElementTree
-from typing import Dict, Iterator, List, Optional
+from typing import Dict, Iterator, List, Optional, Set
 
 import rospkg
 
@@ -20,12 +20,14 @@ def command_line() -> Optional[List[str]]:
 
 
 def without_effect(words: List[str]) -> Iterator[str]:
-    """A sentence for each argument that no launch file takes, and for each empty one that has
-    another default, of which roslaunch says nothing."""
+    """A sentence for each argument that no launch file takes, for each empty one that has another
+    default, and for each path that looks like a number, of which roslaunch says nothing."""
     paths = own_files(words)
     known: Dict[str, str] = {}
+    files: Set[str] = set()
     for path in paths:
         known.update(arguments_of(path))
+        files.update(paths_of(path))
     for word in words if paths else []:
         name, given, value = word.partition(':=')
         if not given or not re.fullmatch(r'[A-Za-z]\w*', name):
@@ -39,7 +41,9 @@ def without_effect(words: List[str]) -> Iterator[str]:
             meant = difflib.get_close_matches(name, known, 1)
             yield f'{file} has no argument {name}, so {name}:= has no effect: ' + (
                 f'write {meant[0]}:=' if meant else
-                f'choose one of roslaunch --ros-args {package} {file}')
+                f'choose one of roslaunch --ros-args {package} {file}' if known else 'leave it out')
+        elif name in files and evaluated(value) != value:
+            yield f'roslaunch takes {word} for {evaluated(value)}: write {name}:=./{value}'
 
 
 def own_files(words: List[str]) -> List[str]:
@@ -47,10 +51,11 @@ def own_files(words: List[str]) -> List[str]:
     packages = rospkg.RosPack()
     folders = {name: os.path.realpath(os.path.join(packages.get_path(name), 'launch'))
                for name in packages.list() if name.startswith('wiimote_tracker_')}
+    user_folder = f'/proc/{os.getppid()}/cwd'
     paths = []
     for before, word in zip([''] + words, words):
-        if word.endswith('.launch'):
-            path = os.path.realpath(os.path.join(folders.get(before, ''), word))
+        if word.endswith('.launch') and ':=' not in word:
+            path = os.path.realpath(os.path.join(folders.get(before, user_folder), word))
             if not os.path.exists(path) or os.path.dirname(path) not in folders.values():
                 return []
             paths.append(path)
@@ -59,12 +64,33 @@ def own_files(words: List[str]) -> List[str]:
 
 def arguments_of(path: str) -> Dict[str, str]:
     """Defaults of those of a launch file, and of files to which it passes all; empty: none."""
-    root = ElementTree.parse(path).getroot()
     defaults = {}
-    for include in root.iter('include'):
-        if include.get('pass_all_args') == 'true':
-            defaults.update(arguments_of(os.path.join(os.path.dirname(path),
-                                                      os.path.basename(include.get('file')))))
+    for each in included(path):
+        defaults.update(arguments_of(each))
     defaults.update((each.get('name'), each.get('default', ''))
-                    for each in root if each.tag == 'arg')
+                    for each in ElementTree.parse(path).getroot() if each.tag == 'arg')
     return defaults
+
+
+def paths_of(path: str) -> Set[str]:
+    """Arguments that are paths: those that $(eval) in these files makes a text of."""
+    with open(path, encoding='utf-8') as file:
+        found = set(re.findall(r"\bstr\((?:arg\(')?(\w+)", file.read()))
+    return found.union(*map(paths_of, included(path)))
+
+
+def included(path: str) -> List[str]:
+    """The files to which a launch file passes all of its arguments."""
+    return [os.path.join(os.path.dirname(path), os.path.basename(include.get('file')))
+            for include in ElementTree.parse(path).getroot().iter('include')
+            if include.get('pass_all_args') == 'true']
+
+
+def evaluated(value: str) -> str:
+    """What $(eval) makes of a value, a number or truth value if it can be one, as a text."""
+    for kind in (int, float):
+        try:
+            return str(kind(value))
+        except ValueError:
+            pass
+    return value.capitalize() if value.lower() in ('true', 'false') else value

@@ -13,7 +13,6 @@
 #include <condition_variable>
 #include <cstdio>
 #include <fstream>
-#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <string>
@@ -42,21 +41,20 @@ std::string summary(const std::string& name, std::vector<double> seconds) {
 
 }  // namespace
 
-/// Measures the latency from the arrival of a camera's report to that of the resulting
-/// PointStamped: in this process, and in a callback. In one nodelet manager the former is the time
-/// of publication. Then measures the round trip of a message to LatencyEcho and back. Both are two
-/// hops. Callbacks must come from one thread.
+/// Measures the latency from the arrival of a camera's report to that of the resulting points: in
+/// this process, and in a callback. In one nodelet manager the former is the time of publication.
+/// Then measures the round trip of a message to LatencyEcho and back. Both are two hops.
 class LatencyProbe : public nodelet::Nodelet {
  public:
   ~LatencyProbe() override;
 
  private:
-  /// Private parameters: file (YAML results), label of the LED (default led), seconds (of each
-  /// measurement, default 10). @throws std::runtime_error if one is missing.
+  /// Private parameters: file (YAML results), seconds (of each measurement, default 10).
+  /// @throws std::runtime_error if one is missing.
   void onInit() override;
 
-  void onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points);
-  void onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event);
+  using PointsEvent = ros::MessageEvent<const wiimote_tracker_msgs::TrackedPointArray>;
+  void onPoints(const PointsEvent& event);
   void onPong(const geometry_msgs::PointStampedConstPtr& pong);
   void run();
   bool wait(double seconds);
@@ -65,18 +63,14 @@ class LatencyProbe : public nodelet::Nodelet {
 
   std::string file_;
   double seconds_ = 0.0;
-  std::mutex mutex_;  // protects the members below
-  struct Arrival {
-    ros::Time in_process, in_callback;
-  };
-  std::map<ros::Time, Arrival> arrivals_;    // arrival of the point with this stamp
-  std::map<ros::Time, ros::Time> reported_;  // latest arrival of the images for this stamp
+  std::mutex mutex_;                              // protects the members below
+  std::vector<double> in_process_, in_callback_;  // latencies of points [s]
   bool is_back_ = false;
   std::condition_variable change_;
 
   std::atomic<bool> ended_{false};
   ros::Publisher ping_;
-  ros::Subscriber pong_, points_, point_;
+  ros::Subscriber pong_, points_;
   std::thread thread_;
 };
 
@@ -94,11 +88,9 @@ void LatencyProbe::onInit() {
   const ros::TransportHints no_delay = ros::TransportHints().tcpNoDelay();
   ping_ = nh.advertise<geometry_msgs::PointStamped>("latency/ping", 10);
   pong_ = nh.subscribe("latency/pong", 10, &LatencyProbe::onPong, this, no_delay);
-  points_ = nh.subscribe("points", 1000, &LatencyProbe::onPoints, this, no_delay);
-  using PointEvent = ros::MessageEvent<const geometry_msgs::PointStamped>;
-  point_ = nh.subscribe<geometry_msgs::PointStamped, const PointEvent&>(
-      private_nh.param<std::string>("label", "led") + "/point", 1000,
-      [this](const PointEvent& event) { onPoint(event); }, ros::VoidConstPtr(), no_delay);
+  points_ = nh.subscribe<wiimote_tracker_msgs::TrackedPointArray, const PointsEvent&>(
+      "points", 1000, [this](const PointsEvent& event) { onPoints(event); }, ros::VoidConstPtr(),
+      no_delay);
   thread_ = std::thread([this] { run(); });
 }
 
@@ -112,15 +104,14 @@ LatencyProbe::~LatencyProbe() {
     thread_.join();
 }
 
-void LatencyProbe::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& points) {
+void LatencyProbe::onPoints(const PointsEvent& event) {
+  const ros::Time now = ros::Time::now();
+  const wiimote_tracker_msgs::TrackedPointArray& points = *event.getConstMessage();
+  if (points.points.empty())
+    return;
   const std::lock_guard<std::mutex> lock(mutex_);
-  reported_[points->header.stamp] = points->latest_arrival;
-}
-
-void LatencyProbe::onPoint(const ros::MessageEvent<const geometry_msgs::PointStamped>& event) {
-  const Arrival arrival{event.getReceiptTime(), ros::Time::now()};
-  const std::lock_guard<std::mutex> lock(mutex_);
-  arrivals_[event.getConstMessage()->header.stamp] = arrival;
+  in_process_.push_back((event.getReceiptTime() - points.latest_arrival).toSec());
+  in_callback_.push_back((now - points.latest_arrival).toSec());
 }
 
 void LatencyProbe::onPong(const geometry_msgs::PointStampedConstPtr&) {
@@ -139,7 +130,7 @@ bool LatencyProbe::wait(double seconds) {
 void LatencyProbe::run() {
   const auto count = [this] {
     const std::lock_guard<std::mutex> lock(mutex_);
-    return arrivals_.size();
+    return in_process_.size();
   };
   while (count() < kWarmUp || ping_.getNumSubscribers() == 0 || pong_.getNumPublishers() == 0) {
     if (!wait(0.1))
@@ -156,21 +147,13 @@ void LatencyProbe::run() {
 std::string LatencyProbe::measurePoints() {
   {
     const std::lock_guard<std::mutex> lock(mutex_);
-    arrivals_.clear();
-    reported_.clear();
+    in_process_.clear();
+    in_callback_.clear();
   }
   if (!wait(seconds_))
     return "";
-  std::vector<double> in_process, in_callback;
   const std::lock_guard<std::mutex> lock(mutex_);
-  for (const auto& [stamp, arrival] : arrivals_) {
-    const auto reported = reported_.find(stamp);
-    if (reported == reported_.end())
-      continue;
-    in_process.push_back((arrival.in_process - reported->second).toSec());
-    in_callback.push_back((arrival.in_callback - reported->second).toSec());
-  }
-  return summary("in_process", in_process) + summary("points", in_callback);
+  return summary("in_process", in_process_) + summary("points", in_callback_);
 }
 
 std::vector<double> LatencyProbe::measureRoundTrips() {

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H
 
 #include "adjust/lens_prior.h"
-#include "adjust/prior.h"
 
 #include "wiimote_tracker_calibration/square/square_model.h"
 
@@ -26,35 +25,6 @@ inline adjust::LensPrior marginalLensPrior(const geometry::Intrinsics& start,
   const double shared = sharesOffset(start) ? stated.shared_principal_point : 0.0;
   return {start, stated.focal, stated.aspect, std::hypot(stated.principal_point, shared),
           stated.k1};
-}
-
-/// Adds the offset that principal points share, with its prior, to a problem.
-/// @param offset block (2) [px]. @returns the prior, unless the offset is held.
-inline std::optional<ceres::ResidualBlockId> addSharedOffset(const Uncertainty& stated,
-                                                             double* offset,
-                                                             ceres::Problem* problem) {
-  const double shared = stated.shared_principal_point;
-  if (shared > 0.0)
-    return problem->AddResidualBlock(
-        adjust::priorOf(Eigen::Vector2d::Zero(), Eigen::Vector2d::Constant(shared)), nullptr,
-        offset);
-  problem->AddParameterBlock(offset, 2);
-  problem->SetParameterBlockConstant(offset);
-  return std::nullopt;
-}
-
-/// Adds the prior of a lens given the shared offset to a problem that estimates the offset.
-/// @param lens block of CameraBlocks.
-inline ceres::ResidualBlockId addLensPriorGivenOffset(const geometry::Intrinsics& start,
-                                                      const Uncertainty& stated,
-                                                      double* lens,
-                                                      double* offset,
-                                                      ceres::Problem* problem) {
-  adjust::LensPrior own = marginalLensPrior(start, stated);
-  own.principal_point = stated.principal_point;
-  return sharesOffset(start)
-             ? problem->AddResidualBlock(adjust::SharedLensPrior{own}.cost(), nullptr, lens, offset)
-             : problem->AddResidualBlock(own.cost(), nullptr, lens);
 }
 
 }  // namespace wiimote_tracker::square

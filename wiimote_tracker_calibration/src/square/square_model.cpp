@@ -4,9 +4,8 @@
 
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
-#include "adjust/gravity.h"
+#include "square/known_terms.h"
 #include "square/lens_priors.h"
-#include "square/square_terms.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
@@ -30,13 +29,13 @@ class SquareModel::Problem {
       cameras_.emplace_back(camera);
     for (std::size_t c = 0; c < 4; ++c)
       corners_[c] = (state.corners[c] - model.nominal_corners_[c]).head<2>();
-    addSharedOffset(model.uncertainty_, shared_offset_.data(), &problem_);
-    addSquare(model.layout_, model.nominal_corners_, model.sightings_, model.uncertainty_,
-              &cameras_, &square_, &problem_);
-    for (std::size_t i = 0; i < cameras_.size(); ++i)
-      addCamera(i);
-    if (model.uncertainty_.unknown_corner)
-      surplus_ += 2;  // its prior tells nothing
+    known_.addSquare(model.layout_, model.z_up_, model.sightings_, &corners_);
+    known_.addLenses(model.sightings_);
+    known_.addGravity(model.sightings_, model.up());
+    for (adjust::CameraBlocks& camera : cameras_) {
+      problem_.AddParameterBlock(&camera.time_offset, 1);
+      problem_.SetParameterBlockConstant(&camera.time_offset);
+    }
   }
 
   /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
@@ -66,16 +65,7 @@ class SquareModel::Problem {
   }
 
   /// As SquareModel::degreesOfFreedom().
-  int degreesOfFreedom() const {
-    int result = problem_.NumResiduals() - surplus_;
-    std::vector<double*> blocks;
-    problem_.GetParameterBlocks(&blocks);
-    for (double* const block : blocks) {
-      if (!problem_.IsParameterBlockConstant(block))
-        result -= problem_.ParameterBlockSize(block);
-    }
-    return result;
-  }
+  int degreesOfFreedom() const { return static_cast<int>(std::lround(known_.degreesOfFreedom())); }
 
   /// As SquareModel::covarianceOfAll().
   Eigen::MatrixXd covariance() {
@@ -91,34 +81,12 @@ class SquareModel::Problem {
   }
 
  private:
-  void addCamera(std::size_t i) {
-    adjust::CameraBlocks& blocks = cameras_[i];
-    const geometry::Camera& camera = state_.cameras[i];
-    const CameraSightings& sightings = model_.sightings_[i];
-    const Uncertainty& uncertainty = model_.uncertainty_;
-    problem_.SetParameterBlockConstant(blocks.higher_distortion.data());
-    problem_.AddParameterBlock(&blocks.time_offset, 1);
-    problem_.SetParameterBlockConstant(&blocks.time_offset);
-    addLensPriorGivenOffset(sightings.intrinsics, uncertainty, blocks.lens.data(),
-                            shared_offset_.data(), &problem_);
-    if (sightings.gravity) {
-      problem_.AddResidualBlock(
-          adjust::GravityError{sightings.gravity->normalized(), model_.up(),
-                               camera.world_from_camera.linear(), uncertainty.gravity}
-              .cost(),
-          nullptr, blocks.rotation.data());
-      ++surplus_;  // two directions differ by two angles, in three residuals
-    }
-  }
-
   const SquareModel& model_;
   const RigState state_;
   ceres::Problem problem_;
   std::vector<adjust::CameraBlocks> cameras_;
-  std::array<double, 2> shared_offset_{};   // of the principal points [px]
   std::array<Eigen::Vector2d, 4> corners_;  // displacements [m]
-  SquareBlocks square_{&corners_};
-  int surplus_ = 0;  // residuals that measure nothing
+  KnownTerms known_{model_.uncertainty_, &cameras_, &problem_};
 };
 
 SquareModel::SquareModel(std::vector<CameraSightings> sightings,

@@ -3,12 +3,10 @@
 #include "adjust/camera_blocks.h"
 #include "adjust/chi_squared.h"
 #include "adjust/covariance.h"
-#include "adjust/gravity.h"
 #include "adjust/path.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
-#include "square/lens_priors.h"
-#include "square/square_terms.h"
+#include "square/known_terms.h"
 #include "wave/error.h"
 
 #include <ceres/ceres.h>
@@ -69,23 +67,20 @@ class Reporting : public ceres::IterationCallback {
 class WaveProblem {
  public:
   WaveProblem(const Task& task, const std::vector<Match>& matches, double loss_scale, State* state)
-      : recording_(task.recording),
-        options_(task.options),
-        state_(*state),
-        square_{&state->corner_offsets} {
+      : recording_(task.recording), options_(task.options), state_(*state) {
     for (std::size_t i = 0; i < state->cameras.size(); ++i)
       cameras_.emplace_back(state->cameras[i], state->offsets[i]);
     addMatches(matches, loss_scale);
     addPath();
     if (recording_.wand)
       addWand(matches);
-    if (const auto prior =
-            square::addSharedOffset(options_.uncertainty, shared_offset_.data(), &problem_))
-      known_.push_back(*prior);
-    for (std::size_t i = 0; i < cameras_.size(); ++i)
-      addCamera(i);
+    known_.addLenses(recording_.sightings());
+    // The first one's is held at 0: it cannot disagree.
+    for (std::size_t i = 1; i < cameras_.size(); ++i)
+      known_.add(adjust::priorOf(0.0, options_.offset), &cameras_[i].time_offset);
     if (recording_.square)
-      addSquare();
+      known_.addSquare(*recording_.square, state->z_up, recording_.sightings(),
+                       &state->corner_offsets);
     if (state->floor)
       addFloor();
     holdGauge();
@@ -127,10 +122,7 @@ class WaveProblem {
     return share > kLeastRedundancy ? std::optional(share) : std::nullopt;
   }
 
-  Agreement agreement() {
-    return {adjust::squaresOf(&problem_, known_),
-            adjust::degreesOfFreedom(&problem_, known_) - surplus_};
-  }
+  Agreement agreement() const { return {known_.chiSquared(), known_.degreesOfFreedom()}; }
 
   std::optional<Eigen::MatrixXd> covariance() {
     std::vector<double*> blocks = adjust::blocksOf(&cameras_);
@@ -188,32 +180,8 @@ class WaveProblem {
                       [this](const double* control) { return fitted_.count(control) > 0; }))
         freedom_ += 1.0;
     }
-    addPrior(recording_.wand->length, recording_.wand->stddev, &state_.wand_length);
-  }
-
-  void addPrior(double mean, double stddev, double* value) {
-    known_.push_back(problem_.AddResidualBlock(adjust::priorOf(mean, stddev), nullptr, value));
-  }
-
-  /// Priors of a camera.
-  void addCamera(std::size_t i) {
-    adjust::CameraBlocks& camera = cameras_[i];
-    const geometry::Intrinsics& start = recording_.cameras[i].sightings.intrinsics;
-    known_.push_back(square::addLensPriorGivenOffset(
-        start, options_.uncertainty, camera.lens.data(), shared_offset_.data(), &problem_));
-    if (i > 0)  // the first one's is held at 0: it cannot disagree
-      addPrior(0.0, options_.offset, &camera.time_offset);
-    problem_.SetParameterBlockConstant(camera.higher_distortion.data());
-  }
-
-  void addSquare() {
-    const square::SquareLayout& layout = *recording_.square;
-    const std::vector<ceres::ResidualBlockId> added =
-        square::addSquare(layout, layout.corners(state_.z_up), recording_.sightings(),
-                          options_.uncertainty, &cameras_, &square_, &problem_);
-    known_.insert(known_.end(), added.begin(), added.end());
-    if (options_.uncertainty.unknown_corner)
-      surplus_ += 2;  // its prior tells nothing
+    known_.add(adjust::priorOf(recording_.wand->length, recording_.wand->stddev),
+               &state_.wand_length);
   }
 
   /// The wand at rest, whose LEDs define origin and x axis, and the accelerometers.
@@ -226,27 +194,14 @@ class WaveProblem {
         Eigen::Vector3d::Constant(kExact),
         Eigen::Vector3d(kUnknown, kExact, options_.uncertainty.placement)};
     for (std::size_t led = 0; led < places.size(); ++led) {
-      known_.push_back(problem_.AddResidualBlock(adjust::priorOf(places[led], stddevs[led]),
-                                                 nullptr, floor.leds[led].data()));
+      double* const place = floor.leds[led].data();
+      known_.add(adjust::priorOf(places[led], stddevs[led]), place);
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
         if (floor.spots[i])
-          known_.push_back(cameras_[i].addTo(
-              &problem_,
-              adjust::PixelError(cameras_[i], (*floor.spots[i])[led], options_.uncertainty.pixel)
-                  .cost(),
-              nullptr, floor.leds[led].data()));
+          known_.addPixel(i, (*floor.spots[i])[led], place);
       }
     }
-    for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      if (const auto& gravity = recording_.cameras[i].sightings.gravity) {
-        known_.push_back(problem_.AddResidualBlock(
-            adjust::GravityError{gravity->normalized(), Eigen::Vector3d::UnitZ(),
-                                 cameras_[i].world_from_start, options_.uncertainty.gravity}
-                .cost(),
-            nullptr, cameras_[i].rotation.data()));
-        ++surplus_;  // two directions differ by two angles, in three residuals
-      }
-    }
+    known_.addGravity(recording_.sightings(), Eigen::Vector3d::UnitZ());
   }
 
   /// All clocks could be shifted together with the path, and without square or floor all cameras
@@ -263,14 +218,10 @@ class WaveProblem {
   const WaveOptions& options_;
   State& state_;
   std::vector<adjust::CameraBlocks> cameras_;
-  std::array<double, 2> shared_offset_{};  // of the principal points [px]
-  square::SquareBlocks square_;
   ceres::Problem problem_;
   std::vector<ceres::ResidualBlockId> matches_;
   std::set<const double*> fitted_;  // control points that matches tell of
-  // What is known besides the wave: corners, places, lengths, floor, accelerometers, and priors.
-  std::vector<ceres::ResidualBlockId> known_;
-  int surplus_ = 0;       // of these residuals, that measure nothing
+  square::KnownTerms known_{options_.uncertainty, &cameras_, &problem_};
   double freedom_ = 0.0;  // residuals of the matches beyond the number of parameters
 };
 

@@ -126,43 +126,30 @@ Eigen::MatrixXd SquareModel::covarianceOfAll(const RigState& state) const {
 namespace {
 
 constexpr Eigen::Index kPose = adjust::kRotationSize + adjust::kPositionSize;
-constexpr Eigen::Index kLens = adjust::kLensSize;
-constexpr Eigen::Index kPrincipalPoint = 2;  // of a lens
 
-/// Derivatives of the pixels of the corners that a camera saw, two rows each.
-struct CornerPixels {
-  Eigen::Matrix<double, Eigen::Dynamic, geometry::kParameters> by_camera;
-  Eigen::Matrix<double, Eigen::Dynamic, kCornerParameters> by_corners;
-};
-
-CornerPixels cornerPixels(const geometry::Camera& camera,
-                          const CameraSightings& seen,
-                          const Corners& corners) {
-  const auto rows = 2 * static_cast<Eigen::Index>(seen.cornersSeen());
-  CornerPixels pixels;
-  pixels.by_camera.resize(rows, geometry::kParameters);
-  pixels.by_corners.setZero(rows, kCornerParameters);
-  Eigen::Index row = 0;
-  for (std::size_t c = 0; c < corners.size(); ++c) {
-    if (!seen.corners[c])
-      continue;
-    const auto projection = geometry::projectionOf(camera, corners[c]).value();
-    pixels.by_camera.middleRows<2>(row) = projection.by_parameters;
-    pixels.by_corners.block<2, 2>(row, 2 * static_cast<Eigen::Index>(c)) =
-        projection.by_point.leftCols<2>();
-    row += 2;
+/// Covariance of what is stated of the starting lenses and of the corners; order and units as in
+/// covarianceOfAll().
+Eigen::MatrixXd statedCovariance(const std::vector<geometry::Camera>& cameras,
+                                 const std::vector<CameraSightings>& sightings,
+                                 const Uncertainty& stated) {
+  const Eigen::Index corners = geometry::firstParameter(cameras.size());
+  Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(corners + kCornerParameters, corners + 2);
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const Eigen::Index lens = geometry::firstParameter(i) + geometry::kIntrinsics;
+    const double fx = cameras[i].intrinsics.fx;
+    const double fy = cameras[i].intrinsics.fy;
+    by_errors.block<2, 2>(lens, lens) << fx * stated.focal, 0.5 * fx * stated.aspect,
+        fy * stated.focal, -0.5 * fy * stated.aspect;
+    by_errors.diagonal().segment<3>(lens + 2) << stated.principal_point, stated.principal_point,
+        stated.k1;
+    if (sharesOffset(sightings[i].intrinsics))
+      by_errors.block<2, 2>(lens + 2, corners)
+          .diagonal()
+          .setConstant(stated.shared_principal_point);
   }
-  return pixels;
-}
-
-/// Derivative of a lens by unit errors of its focal length, aspect, principal point and k1.
-Eigen::Matrix<double, kLens, kLens> lensByErrors(const geometry::Intrinsics& lens,
-                                                 const Uncertainty& stated) {
-  Eigen::Matrix<double, kLens, kLens> by_errors = Eigen::Matrix<double, kLens, kLens>::Zero();
-  by_errors.topLeftCorner<2, 2>() << lens.fx * stated.focal, 0.5 * lens.fx * stated.aspect,
-      lens.fy * stated.focal, -0.5 * lens.fy * stated.aspect;
-  by_errors.diagonal().tail<3>() << stated.principal_point, stated.principal_point, stated.k1;
-  return by_errors;
+  Eigen::MatrixXd covariance = by_errors * by_errors.transpose();
+  covariance.diagonal().tail<kCornerParameters>().setConstant(stated.placement * stated.placement);
+  return covariance;
 }
 
 }  // namespace
@@ -170,41 +157,29 @@ Eigen::Matrix<double, kLens, kLens> lensByErrors(const geometry::Intrinsics& len
 // A pose of least reprojection error follows the pixels p(pose, lens, corners) to first order by
 // d pose = (dp/d pose)^+ (dp - dp/d lens d lens - dp/d corners d corners).
 Eigen::MatrixXd SquareModel::covarianceOfPoses(const RigState& state) const {
-  constexpr Eigen::Index kShared = 2;
-  constexpr Eigen::Index kPixels = 8;
-  constexpr Eigen::Index kOwn = kLens + kPixels;
-  const auto cameras = static_cast<Eigen::Index>(sightings_.size());
-  // Derivative of all parameters by independent unit errors: of all corners, of the principal
-  // points' shared offset, then of the lens and the pixels camera by camera.
-  Eigen::MatrixXd by_errors = Eigen::MatrixXd::Zero(geometry::kParameters * cameras,
-                                                    kCornerParameters + kShared + kOwn * cameras);
+  const Eigen::Index corners = geometry::firstParameter(sightings_.size());
+  const Eigen::MatrixXd stated = statedCovariance(state.cameras, sightings_, uncertainty_);
+  Eigen::MatrixXd by_stated = Eigen::MatrixXd::Identity(corners, stated.cols());
+  Eigen::MatrixXd by_pixels = Eigen::MatrixXd::Zero(corners, 8 * state.cameras.size());
   for (std::size_t i = 0; i < sightings_.size(); ++i) {
-    const CornerPixels pixels = cornerPixels(state.cameras[i], sightings_[i], state.corners);
-    const auto lens_by_errors = lensByErrors(state.cameras[i].intrinsics, uncertainty_);
-    const Eigen::MatrixXd pose_by_pixels =
-        geometry::pseudoInverse(pixels.by_camera.leftCols<kPose>());
-    const Eigen::MatrixXd pose_by_lens =
-        -pose_by_pixels * pixels.by_camera.middleCols<kLens>(geometry::kIntrinsics);
-
-    auto rows = by_errors.middleRows<geometry::kParameters>(geometry::firstParameter(i));
-    auto pose = rows.topRows<kPose>();
-    auto lens = rows.middleRows<kLens>(geometry::kIntrinsics);
-    const Eigen::Index own = kCornerParameters + kShared + kOwn * static_cast<Eigen::Index>(i);
-    pose.leftCols<kCornerParameters>() =
-        -uncertainty_.placement * pose_by_pixels * pixels.by_corners;
-    pose.middleCols<kLens>(own) = pose_by_lens * lens_by_errors;
-    pose.middleCols(own + kLens, pose_by_pixels.cols()) = uncertainty_.pixel * pose_by_pixels;
-    lens.middleCols<kLens>(own) = lens_by_errors;
-    if (sharesOffset(sightings_[i].intrinsics)) {
-      const double shared = uncertainty_.shared_principal_point;
-      pose.middleCols<kShared>(kCornerParameters) =
-          shared * pose_by_lens.middleCols<kShared>(kPrincipalPoint);
-      lens.block<kShared, kShared>(kPrincipalPoint, kCornerParameters)
-          .diagonal()
-          .setConstant(shared);
+    const Eigen::Index pose = geometry::firstParameter(i);
+    Eigen::MatrixXd pixels = Eigen::MatrixXd::Zero(8, stated.cols());  // 0: of a corner not seen
+    for (Eigen::Index c = 0; c < 4; ++c) {
+      const auto corner = static_cast<std::size_t>(c);
+      if (!sightings_[i].corners[corner])
+        continue;
+      const auto projection =
+          geometry::projectionOf(state.cameras[i], state.corners[corner]).value();
+      pixels.block<2, geometry::kParameters>(2 * c, pose) = projection.by_parameters;
+      pixels.block<2, 2>(2 * c, corners + 2 * c) = projection.by_point.leftCols<2>();
     }
+    const Eigen::MatrixXd pose_by_pixels = geometry::pseudoInverse(pixels.middleCols<kPose>(pose));
+    pixels.middleCols<kPose>(pose).setZero();
+    by_stated.middleRows<kPose>(pose) = -pose_by_pixels * pixels;
+    by_pixels.block<kPose, 8>(pose, 8 * static_cast<Eigen::Index>(i)) = pose_by_pixels;
   }
-  return by_errors * by_errors.transpose();
+  return geometry::propagated(by_stated, stated) +
+         uncertainty_.pixel * uncertainty_.pixel * by_pixels * by_pixels.transpose();
 }
 
 double SquareModel::reprojectionError(const RigState& state, std::size_t camera) const {

@@ -93,5 +93,32 @@ TEST(Wave, TheFirstCamerasClockIsNoEvidence) {
   EXPECT_NEAR(solveWave(wave.recording, options).misfit, 1.0, 0.1);
 }
 
+TEST(Wave, WhereTheWandLayIsNoEvidence) {
+  // Only the second camera's clock is off, by one standard deviation, and nothing else by much.
+  // Beyond what is needed are measured: that clock, both LEDs by one pixel coordinate each, and the
+  // floor's slope along the wand, by the wand and one accelerometer.
+  constexpr double kOffset = 0.005;  // [s]
+  constexpr double kMeasured = 4.0;
+  WaveScene scene = wandScene();
+  scene.rest = 2.5;
+  scene.pixel = 0.05;
+  scene.quantized = false;
+  scene.uncertainty.focal = scene.uncertainty.aspect = 1e-5;
+  scene.uncertainty.principal_point = 1e-3;
+  scene.uncertainty.k1 = 1e-6;
+  scene.uncertainty.gravity = scene.uncertainty.placement = 1e-5;
+  SimulatedWave wave = simulateWave(scene, 3);
+  wave.recording.cameras[0].sightings.gravity.reset();
+  for (Frame& frame : wave.recording.cameras[1].frames)
+    frame.stamp += wave.offsets[1] - kOffset;
+  WaveOptions options = optionsFor(scene);
+  options.offset = kOffset;
+  options.uncertainty.gravity = square::Uncertainty().gravity;
+  options.uncertainty.placement = square::Uncertainty().placement;
+  const WaveSolution solution = solveWave(wave.recording, options);
+  ASSERT_EQ(solution.rig.method, "floor+wand");
+  EXPECT_NEAR(std::pow(solution.misfit, 2), 1.0 / kMeasured, 0.02);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::wave

@@ -27,10 +27,9 @@ namespace {
 // Of the distance between the paths of a wand's LEDs [m]: far below what cameras resolve.
 constexpr double kStickStddev = 0.0002;
 
-// Of coordinates of the wand on the floor that define the world, far below what cameras resolve,
-// and of those that nothing tells but the images [m].
+// Of coordinates of the wand on the floor that define the world, far below what cameras resolve
+// [m].
 constexpr double kExact = 1e-5;
-constexpr double kUnknown = 10.0;
 
 // With less redundancy (degrees of freedom per residual) the residuals do not tell the noise.
 constexpr double kLeastRedundancy = 0.1;
@@ -187,18 +186,17 @@ class WaveProblem {
   /// The wand at rest, whose LEDs define origin and x axis, and the accelerometers.
   void addFloor() {
     WandOnFloor& floor = *state_.floor;
-    const double height = *recording_.wand->led_height;
-    const std::array<Eigen::Vector3d, 2> places = {
-        Eigen::Vector3d(0.0, 0.0, height), Eigen::Vector3d(state_.wand_length, 0.0, height)};
-    const std::array<Eigen::Vector3d, 2> stddevs = {
-        Eigen::Vector3d::Constant(kExact),
-        Eigen::Vector3d(kUnknown, kExact, options_.uncertainty.placement)};
-    for (std::size_t led = 0; led < places.size(); ++led) {
-      double* const place = floor.leds[led].data();
-      known_.add(adjust::priorOf(places[led], stddevs[led]), place);
+    const Eigen::Vector3d origin(0.0, 0.0, *recording_.wand->led_height);
+    known_.add(adjust::priorOf(origin, Eigen::Vector3d::Constant(kExact)), floor.leds[0].data());
+    // How far the other end lies along the x axis is left to the images.
+    Eigen::Matrix<double, 2, 3> across = Eigen::Matrix<double, 2, 3>::Zero();
+    across(0, 1) = 1.0 / kExact;
+    across(1, 2) = 1.0 / options_.uncertainty.placement;
+    known_.add(new ceres::NormalPrior(across, origin), floor.leds[1].data());
+    for (std::size_t led = 0; led < floor.leds.size(); ++led) {
       for (std::size_t i = 0; i < cameras_.size(); ++i) {
         if (floor.spots[i])
-          known_.addPixel(i, (*floor.spots[i])[led], place);
+          known_.addPixel(i, (*floor.spots[i])[led], floor.leds[led].data());
       }
     }
     known_.addGravity(recording_.sightings(), Eigen::Vector3d::UnitZ());

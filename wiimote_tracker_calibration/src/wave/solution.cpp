@@ -44,7 +44,8 @@ std::vector<Eigen::Vector3d> thinned(const std::vector<Eigen::Vector3d>& path) {
 geometry::RigCamera rigCamera(const CameraRecording& recording,
                               const State& state,
                               std::size_t index,
-                              const Matching& matching) {
+                              const Matching& matching,
+                              double redundancy) {
   geometry::RigCamera result;
   result.camera = state.cameras[index];
   result.time_offset = state.offsets[index];
@@ -72,8 +73,9 @@ geometry::RigCamera rigCamera(const CameraRecording& recording,
     squared_m += squared * (point - result.camera.center()).squaredNorm() / (lens.fx * lens.fy);
     count += 1.0;
   }
-  result.residual_px = std::sqrt(squared_px / count);
-  result.residual_m = std::sqrt(squared_m / count);
+  // The fit follows the noise in part: divided by the redundancy, the residuals tell all of it.
+  result.residual_px = std::sqrt(squared_px / (redundancy * count));
+  result.residual_m = std::sqrt(squared_m / (redundancy * count));
   return result;
 }
 
@@ -96,9 +98,14 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
 
 }  // namespace
 
-WaveSolution solutionOf(const Task& task, const State& state, const Matching& matching) {
+WaveSolution solutionOf(const Task& task,
+                        const State& state,
+                        const Matching& matching,
+                        double redundancy,
+                        double pixel_stddev) {
   const Recording& recording = task.recording;
   WaveSolution solution;
+  solution.pixel_stddev = pixel_stddev;
   solution.z_up = state.z_up;
   solution.wand_length = state.wand_length;
   describePath(state, matching, &solution);
@@ -110,7 +117,7 @@ WaveSolution solutionOf(const Task& task, const State& state, const Matching& ma
   rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
   addWander(task.options, solution.seconds_seen, &rig.covariance);
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
-    rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching));
+    rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching, redundancy));
   if (state.floor) {
     rig.method = "floor+wand";
     rig.led_height = *recording.wand->led_height;
@@ -126,6 +133,9 @@ WaveSolution solutionOf(const Task& task, const State& state, const Matching& ma
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);
   solution.expected_error = square::expectedError(rig, points);
   solution.expected_shape_error = square::expectedShapeError(rig, points);
+  const Agreement agreement = agreementOf(task, matching.matches, state);
+  solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
+  solution.contradicts = agreement.isContradiction();
   return solution;
 }
 

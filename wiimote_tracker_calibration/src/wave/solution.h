@@ -6,10 +6,15 @@
 
 namespace wiimote_tracker::wave {
 
-/// The solution of an adjusted state with its covariance; without noise, warnings and
-/// verdict. @param matching that the state was adjusted to.
+/// The solution of an adjusted state with its covariance; without warnings and verdict.
+/// @param matching that the state was adjusted to. @param redundancy of that. @param pixel_stddev
+/// of a moving spot, as estimated [px].
 /// @throws WaveError: some parameter is not determined.
-WaveSolution solutionOf(const Task& task, const State& state, const Matching& matching);
+WaveSolution solutionOf(const Task& task,
+                        const State& state,
+                        const Matching& matching,
+                        double redundancy,
+                        double pixel_stddev);
 
 }  // namespace wiimote_tracker::wave
 

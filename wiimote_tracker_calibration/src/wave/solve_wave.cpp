@@ -71,24 +71,6 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
                     });
 }
 
-WaveSolution summarise(const Task& task,
-                       const State& state,
-                       const Matching& matching,
-                       const Refinement& refinement,
-                       double pixel_stddev) {
-  WaveSolution solution = solutionOf(task, state, matching);
-  solution.pixel_stddev = pixel_stddev;
-  // The fit follows the noise in part: divided by the redundancy, the residuals tell all of it.
-  for (geometry::RigCamera& camera : solution.rig.cameras) {
-    camera.residual_px /= std::sqrt(refinement.redundancy.value_or(1.0));
-    camera.residual_m /= std::sqrt(refinement.redundancy.value_or(1.0));
-  }
-  const Agreement agreement = agreementOf(task, matching.matches, state);
-  solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
-  solution.contradicts = agreement.isContradiction();
-  return solution;
-}
-
 /// Alternates matching and adjusting until neither changes.
 WaveSolution fit(const Task& task, State state, const ProgressCallback& progress) {
   const WaveOptions& options = task.options;
@@ -127,7 +109,7 @@ WaveSolution fit(const Task& task, State state, const ProgressCallback& progress
     useFloorAsWorld(task, &state);
     refinement = refine(task, matching.matches, kInfinity, report, &state);
   }
-  return summarise(task, state, matching, refinement, pixel_stddev);
+  return solutionOf(task, state, matching, refinement.redundancy.value_or(1.0), pixel_stddev);
 }
 
 /// From a start to a solution that passed all checks.

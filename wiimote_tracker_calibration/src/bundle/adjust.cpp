@@ -61,10 +61,7 @@ class BundleProblem {
       problem_.AddResidualBlock(error.cost(), new ceres::HuberLoss(options_.loss_scale),
                                 camera.rotation.data(), camera.position.data(), lens.lens.data(),
                                 lens.higher_distortion.data(), point);
-      if (held_.points)
-        problem_.SetParameterBlockConstant(point);
-      else
-        points_.push_back(point);
+      points_.push_back(point);
     }
     if (problem_.NumResidualBlocks() == 0)
       throw BundleError(
@@ -74,7 +71,7 @@ class BundleProblem {
 
   /// One camera keeps its pose, unless something else fixes the world.
   void holdPoses() {
-    bool world_fixed = held_.positions || held_.points;
+    bool world_fixed = held_.positions;
     for (adjust::CameraBlocks& camera : cameras_) {
       if (!problem_.HasParameterBlock(camera.rotation.data()))
         continue;
@@ -114,20 +111,16 @@ class BundleProblem {
 
   ceres::Solver::Options solverOptions() {
     ceres::Solver::Options solver;
-    if (held_.points) {
-      solver.linear_solver_type = ceres::DENSE_QR;
-    } else {
-      // The points are eliminated first (Schur complement).
-      solver.linear_solver_type = ceres::DENSE_SCHUR;
-      auto* const ordering = new ceres::ParameterBlockOrdering;
-      std::vector<double*> blocks;
-      problem_.GetParameterBlocks(&blocks);
-      for (double* const block : blocks)
-        ordering->AddElementToGroup(block, 1);
-      for (double* const point : points_)
-        ordering->AddElementToGroup(point, 0);
-      solver.linear_solver_ordering.reset(ordering);
-    }
+    // The points are eliminated first (Schur complement).
+    solver.linear_solver_type = ceres::DENSE_SCHUR;
+    auto* const ordering = new ceres::ParameterBlockOrdering;
+    std::vector<double*> blocks;
+    problem_.GetParameterBlocks(&blocks);
+    for (double* const block : blocks)
+      ordering->AddElementToGroup(block, 1);
+    for (double* const point : points_)
+      ordering->AddElementToGroup(point, 0);
+    solver.linear_solver_ordering.reset(ordering);
     solver.max_num_iterations = options_.rough ? 20 : 200;
     // In simulations, iterations beyond 1e-7 change focal lengths by less than 1 % of their
     // standard deviations.

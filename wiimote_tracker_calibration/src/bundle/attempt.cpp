@@ -43,35 +43,6 @@ double costOf(const Reconstruction& reconstruction, double maximum_error) {
   return count == 0 ? std::numeric_limits<double>::infinity() : sum / static_cast<double>(count);
 }
 
-/// Adjusts pose and lens of one camera, the points being fixed. @returns its mean cost [px^2].
-double refineAlone(const Options& options, std::size_t camera, Reconstruction* reconstruction) {
-  Reconstruction alone;
-  alone.cameras = {reconstruction->cameras[camera]};
-  alone.points = reconstruction->points;
-  for (const Observation& observation : reconstruction->observations) {
-    if (observation.camera == camera && alone.points[observation.point])
-      alone.observations.push_back({0, observation.point, observation.pixel});
-  }
-  const auto mark = [&] {
-    alone.inliers.clear();
-    double sum = 0.0;
-    const double limit = kStartTolerance * options.maximum_error;
-    for (const Observation& observation : alone.observations) {
-      const double error = reprojectionError(alone, observation).value_or(limit);
-      alone.inliers.push_back(error < limit);
-      sum += std::min(error * error, limit * limit);
-    }
-    return sum / static_cast<double>(std::max<std::size_t>(alone.observations.size(), 1));
-  };
-  mark();
-  Held held;
-  held.intrinsics = options.one_lens;
-  held.points = true;
-  adjust(&alone, options, held);
-  reconstruction->cameras[camera] = alone.cameras.front();
-  return mark();
-}
-
 /// Lenses to try for a camera that is added: the others' if all have the same, else each focal
 /// length.
 std::vector<geometry::Intrinsics> lensesToTry(const SelfCalibrationOptions& options,
@@ -158,23 +129,22 @@ void grow(const SelfCalibrationOptions& options, std::size_t camera_count, Attem
   while (static_cast<std::size_t>(std::count(placed.begin(), placed.end(), true)) < camera_count) {
     const std::size_t next = nextToResect(rough, reconstruction);
     geometry::Camera best;
-    double least = std::numeric_limits<double>::infinity();
+    std::size_t most = 0;
     std::string reason;
     for (const geometry::Intrinsics& lens :
          lensesToTry(options, reconstruction.cameras[next].intrinsics)) {
       reconstruction.cameras[next].intrinsics = lens;
       try {
-        resect(rough, next, &reconstruction);
-        const double cost = refineAlone(rough, next, &reconstruction);
-        if (cost < least) {
-          least = cost;
+        const std::size_t inliers = resect(rough, next, &reconstruction);
+        if (inliers > most) {
+          most = inliers;
           best = reconstruction.cameras[next];
         }
       } catch (const BundleError& error) {
         reason = error.what();
       }
     }
-    if (!(least < std::numeric_limits<double>::infinity()))
+    if (most == 0)
       throw BundleError(reason);
     reconstruction.cameras[next] = best;
     adjustPlaced(rough, kStartTolerance * options.bundle.maximum_error, attempt);

@@ -33,7 +33,6 @@ struct Options {
 struct Held {
   bool positions = false;  ///< Of all cameras.
   bool intrinsics = true;  ///< Of all cameras; if false, Options::lens is their prior.
-  bool points = false;
 };
 
 /// Estimates the poses of the cameras and the points, with the intrinsics given; poses, points and
@@ -48,7 +47,7 @@ Reconstruction solve(Reconstruction observed, const Options& options);
 
 /// Bundle adjustment: minimises the reprojection errors of the inliers (Huber loss) over cameras
 /// and points except what is held, and selects the inliers again until they no longer change. If no
-/// positions or points are held, the first camera keeps its pose.
+/// positions are held, the first camera keeps its pose.
 /// @throws BundleError: no point is determined, or the minimisation fails.
 void adjust(Reconstruction* reconstruction, const Options& options, const Held& held);
 

@@ -189,7 +189,7 @@ TEST_P(StatedUncertainty, IsThatOfTheErrors) {
     Held held;
     held.intrinsics = false;
     adjust(&solution, options, held);
-    const Certainty certainty(solution, options, false);
+    Certainty certainty(solution, options, false);
     for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
       const auto covariance = certainty.lensCovariance(i);
       ASSERT_TRUE(covariance);

@@ -19,12 +19,13 @@ namespace {
 constexpr double kOpen = 1e-13;
 
 /// The whitened residuals' derivatives, with the rows and columns that the options ask for; empty
-/// where one of them is not defined.
+/// where one of them is not defined. @param gradient of half the sum of squares, by the columns.
 Eigen::SparseMatrix<double, Eigen::RowMajor> jacobianOf(
     ceres::Problem* problem,
-    const ceres::Problem::EvaluateOptions& options) {
+    const ceres::Problem::EvaluateOptions& options,
+    std::vector<double>* gradient = nullptr) {
   ceres::CRSMatrix rows;
-  if (!problem->Evaluate(options, nullptr, nullptr, nullptr, &rows))
+  if (!problem->Evaluate(options, nullptr, nullptr, gradient, &rows))
     return {};
   return Eigen::Map<const Eigen::SparseMatrix<double, Eigen::RowMajor>>(
       rows.num_rows, rows.num_cols, static_cast<Eigen::Index>(rows.values.size()), rows.rows.data(),
@@ -34,7 +35,8 @@ Eigen::SparseMatrix<double, Eigen::RowMajor> jacobianOf(
 /// J^T J by the blocks that are estimated, the wanted ones first.
 /// @throws Error: a block has fewer columns than parameters, which would shift those after it.
 Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
-                                          const std::vector<double*>& wanted) {
+                                          const std::vector<double*>& wanted,
+                                          std::vector<double>* gradient) {
   ceres::Problem::EvaluateOptions options;
   std::vector<double*> all;
   problem->GetParameterBlocks(&all);
@@ -47,7 +49,8 @@ Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
       parameters += problem->ParameterBlockSize(block);
     }
   }
-  const Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian = jacobianOf(problem, options);
+  const Eigen::SparseMatrix<double, Eigen::RowMajor> jacobian =
+      jacobianOf(problem, options, gradient);
   // Not ParameterBlockTangentSize(), which Ceres 1.14 calls ParameterBlockLocalSize().
   if (jacobian.size() > 0 && jacobian.cols() != parameters)
     throw Error("the covariance of a block of which a part is held is not known: hold it whole");
@@ -56,8 +59,7 @@ Eigen::SparseMatrix<double> informationOf(ceres::Problem* problem,
 
 }  // namespace
 
-std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
-                                            const std::vector<double*>& blocks) {
+std::optional<Estimate> estimateOf(ceres::Problem* problem, const std::vector<double*>& blocks) {
   std::vector<Eigen::Index> places;  // in the result, of the parameters that are estimated
   Eigen::Index size = 0;
   for (double* block : blocks) {
@@ -66,7 +68,8 @@ std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
         places.push_back(size);
     }
   }
-  const Eigen::SparseMatrix<double> information = informationOf(problem, blocks);
+  std::vector<double> gradient;
+  const Eigen::SparseMatrix<double> information = informationOf(problem, blocks, &gradient);
   // Parameters of very different units: scaled to a unit diagonal.
   const Eigen::VectorXd scale = information.diagonal().cwiseSqrt().cwiseInverse();
   if (information.size() == 0 || !scale.allFinite())
@@ -78,13 +81,27 @@ std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
   const auto wanted = static_cast<Eigen::Index>(places.size());
   const Eigen::MatrixXd unit = Eigen::MatrixXd::Identity(scaled.rows(), wanted);
   const Eigen::MatrixXd inverse = factor.solve(unit);
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(size, size);
+  const Eigen::VectorXd descent = -Eigen::Map<const Eigen::VectorXd>(
+      gradient.data(), static_cast<Eigen::Index>(gradient.size()));
+  const Eigen::VectorXd step =
+      scale.head(wanted).cwiseProduct(inverse.transpose() * scale.cwiseProduct(descent));
+  Estimate result{Eigen::MatrixXd::Zero(size, size), Eigen::VectorXd::Zero(size)};
   for (Eigen::Index i = 0; i < wanted; ++i) {
+    const Eigen::Index row = places[static_cast<std::size_t>(i)];
+    result.step(row) = step(i);
     for (Eigen::Index j = 0; j < wanted; ++j)
-      result(places[static_cast<std::size_t>(i)], places[static_cast<std::size_t>(j)]) =
+      result.covariance(row, places[static_cast<std::size_t>(j)]) =
           scale(i) * scale(j) * inverse(i, j);
   }
-  return 0.5 * (result + result.transpose());  // symmetric to the last bit
+  // Symmetric to the last bit.
+  result.covariance = (0.5 * (result.covariance + result.covariance.transpose())).eval();
+  return result;
+}
+
+std::optional<Eigen::MatrixXd> covarianceOf(ceres::Problem* problem,
+                                            const std::vector<double*>& blocks) {
+  const auto estimate = estimateOf(problem, blocks);
+  return estimate ? std::optional(estimate->covariance) : std::nullopt;
 }
 
 double squaresOf(ceres::Problem* problem, const std::vector<ceres::ResidualBlockId>& residuals) {

@@ -10,6 +10,15 @@
 
 namespace wiimote_tracker::adjust {
 
+/// What a problem tells at its present values of some parameter blocks, in their order.
+struct Estimate {
+  Eigen::MatrixXd covariance;  ///< As covarianceOf().
+  Eigen::VectorXd step;        ///< To the solution, to first order (Gauss-Newton).
+};
+
+/// Nothing and throws as covarianceOf().
+std::optional<Estimate> estimateOf(ceres::Problem* problem, const std::vector<double*>& blocks);
+
 /// Joint covariance of some parameter blocks of a problem at its present values, in this order:
 /// the inverse of J^T J, with the whitened residuals' Jacobian J by all blocks of the problem.
 /// A block is held as a whole or not at all; held blocks have zero rows. Nothing when the residuals

@@ -1,148 +1,164 @@
-#include "wiimote_tracker_calibration/bundle/error.h"
-#include "wiimote_tracker_calibration/bundle/solve.h"
+#include "bundle_problem.h"
 
-#include "adjust/camera_blocks.h"
 #include "adjust/lens_prior.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
+#include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <ceres/ceres.h>
 
+#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <vector>
 
 namespace wiimote_tracker::bundle {
 
-namespace {
+BundleProblem::BundleProblem(Reconstruction* reconstruction,
+                             const Options& options,
+                             const Held& held)
+    : reconstruction_(*reconstruction), options_(options), held_(held) {
+  for (const geometry::Camera& camera : reconstruction->cameras)
+    cameras_.emplace_back(camera);
+  addObservations();
+  holdPoses();
+  for (std::size_t i = 0; i < (options.one_lens ? 1 : cameras_.size()); ++i)
+    holdOrKnowLens(i);
+}
 
-/// The inliers of a reconstruction as a problem of Ceres. Residuals in px.
-class BundleProblem {
- public:
-  BundleProblem(Reconstruction* reconstruction, const Options& options, const Held& held)
-      : reconstruction_(*reconstruction), options_(options), held_(held) {
-    for (const geometry::Camera& camera : reconstruction->cameras)
-      cameras_.emplace_back(camera);
-    addObservations();
-    holdPoses();
-    for (std::size_t i = 0; i < (options.one_lens ? 1 : cameras_.size()); ++i)
-      holdOrKnowLens(i);
+void BundleProblem::addObservations() {
+  for (std::size_t i = 0; i < reconstruction_.observations.size(); ++i) {
+    if (!reconstruction_.inliers[i])
+      continue;
+    const Observation& observation = reconstruction_.observations[i];
+    adjust::CameraBlocks& camera = cameras_[observation.camera];
+    adjust::CameraBlocks& lens = lensOf(observation.camera);
+    double* const point = reconstruction_.points[observation.point]->data();
+    const adjust::PixelError error(camera, observation.pixel, 1.0);
+    problem_.AddResidualBlock(
+        error.cost(),
+        std::isfinite(options_.loss_scale) ? new ceres::HuberLoss(options_.loss_scale) : nullptr,
+        camera.rotation.data(), camera.position.data(), lens.lens.data(),
+        lens.higher_distortion.data(), point);
+    points_.push_back(point);
   }
+  if (problem_.NumResidualBlocks() == 0)
+    throw BundleError(
+        "no point is seen by two cameras that agree on it from different directions: check the "
+        "cameras' intrinsics and that they do not stand in one place");
+}
 
-  void solve() {
-    ceres::Solver::Summary summary;
-    ceres::Solve(solverOptions(), &problem_, &summary);
-    if (!summary.IsSolutionUsable())
-      throw BundleError("the adjustment failed (" + summary.message +
-                        "): record the light in more places");
-    for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      cameras_[i].lens = lensOf(i).lens;
-      cameras_[i].higher_distortion = lensOf(i).higher_distortion;
-      geometry::Camera& camera = reconstruction_.cameras[i];
-      camera = cameras_[i].cameraLike(camera);
-    }
+/// One camera keeps its pose, unless something else fixes the world.
+void BundleProblem::holdPoses() {
+  bool world_fixed = held_.positions;
+  for (adjust::CameraBlocks& camera : cameras_) {
+    if (!problem_.HasParameterBlock(camera.rotation.data()))
+      continue;
+    if (!world_fixed)
+      problem_.SetParameterBlockConstant(camera.rotation.data());
+    if (held_.positions || !world_fixed)
+      problem_.SetParameterBlockConstant(camera.position.data());
+    world_fixed = true;
   }
+}
 
- private:
-  /// Cameras with one lens vary the first one's.
-  adjust::CameraBlocks& lensOf(std::size_t camera) {
-    return cameras_[options_.one_lens ? 0 : camera];
+void BundleProblem::holdOrKnowLens(std::size_t index) {
+  adjust::CameraBlocks& camera = cameras_[index];
+  if (!problem_.HasParameterBlock(camera.lens.data()))
+    return;
+  if (held_.intrinsics) {
+    problem_.SetParameterBlockConstant(camera.lens.data());
+    problem_.SetParameterBlockConstant(camera.higher_distortion.data());
+    return;
   }
+  const LensPrior& prior = options_.lens;
+  const double weight = 1.0 / options_.pixel_stddev;  // residuals are in px
+  geometry::Intrinsics mean = reconstruction_.cameras[index].intrinsics;
+  mean.fx = mean.fy =
+      prior.focal_about > 0.0 ? prior.focal_about * mean.width : std::sqrt(mean.fx * mean.fy);
+  mean.cx = 0.5 * (mean.width - 1);
+  mean.cy = 0.5 * (mean.height - 1);
+  mean.distortion = {};
+  const adjust::LensPrior lens{mean, prior.focal_length * weight, prior.aspect * weight,
+                               prior.principal_point * mean.width * weight,
+                               prior.distortion[0] * weight};
+  problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
+  const Eigen::Map<const Eigen::Vector4d> distortion(prior.distortion.data() + 1);
+  problem_.AddResidualBlock(adjust::priorOf(Eigen::Vector4d::Zero(), weight * distortion), nullptr,
+                            camera.higher_distortion.data());
+}
 
-  void addObservations() {
-    for (std::size_t i = 0; i < reconstruction_.observations.size(); ++i) {
-      if (!reconstruction_.inliers[i])
-        continue;
-      const Observation& observation = reconstruction_.observations[i];
-      adjust::CameraBlocks& camera = cameras_[observation.camera];
-      adjust::CameraBlocks& lens = lensOf(observation.camera);
-      double* const point = reconstruction_.points[observation.point]->data();
-      const adjust::PixelError error(camera, observation.pixel, 1.0);
-      problem_.AddResidualBlock(error.cost(), new ceres::HuberLoss(options_.loss_scale),
-                                camera.rotation.data(), camera.position.data(), lens.lens.data(),
-                                lens.higher_distortion.data(), point);
-      points_.push_back(point);
-    }
-    if (problem_.NumResidualBlocks() == 0)
-      throw BundleError(
-          "no point is seen by two cameras that agree on it from different directions: check the "
-          "cameras' intrinsics and that they do not stand in one place");
+void BundleProblem::addScale() {
+  const double kWeight = 1e4;  // any will do; about that of the observations
+  const Eigen::Vector3d origin = reconstruction_.cameras.front().center();
+  const auto from_origin = [&](const geometry::Camera& camera) {
+    return (camera.center() - origin).norm();
+  };
+  const auto& cameras = reconstruction_.cameras;
+  const auto farthest = std::max_element(
+      cameras.begin(), cameras.end(),
+      [&](const auto& a, const auto& b) { return from_origin(a) < from_origin(b); });
+  double* const position =
+      cameras_[static_cast<std::size_t>(farthest - cameras.begin())].position.data();
+  if (!problem_.HasParameterBlock(position))
+    return;
+  const Eigen::Vector3d baseline = farthest->center() - origin;
+  problem_.AddResidualBlock(
+      new ceres::NormalPrior(kWeight / baseline.squaredNorm() * baseline.transpose(),
+                             farthest->center()),
+      nullptr, position);
+}
+
+ceres::Solver::Options BundleProblem::solverOptions() {
+  ceres::Solver::Options solver;
+  // The points are eliminated first (Schur complement).
+  solver.linear_solver_type = ceres::DENSE_SCHUR;
+  auto* const ordering = new ceres::ParameterBlockOrdering;
+  std::vector<double*> blocks;
+  problem_.GetParameterBlocks(&blocks);
+  for (double* const block : blocks)
+    ordering->AddElementToGroup(block, 1);
+  for (double* const point : points_)
+    ordering->AddElementToGroup(point, 0);
+  solver.linear_solver_ordering.reset(ordering);
+  solver.max_num_iterations = options_.rough ? 20 : 200;
+  // In simulations, iterations beyond 1e-7 change focal lengths by less than 1 % of their
+  // standard deviations.
+  solver.function_tolerance = options_.rough ? 1e-4 : 1e-7;
+  solver.parameter_tolerance = 1e-12;
+  solver.gradient_tolerance = 1e-14;
+  // The scale is free, so only the damping keeps the normal equations regular: keep some of it.
+  solver.max_trust_region_radius = 1e8;
+  solver.num_threads = 1;  // the same bits on every run
+  solver.logging_type = ceres::SILENT;
+  return solver;
+}
+
+void BundleProblem::solve() {
+  ceres::Solver::Summary summary;
+  ceres::Solve(solverOptions(), &problem_, &summary);
+  if (!summary.IsSolutionUsable())
+    throw BundleError("the adjustment failed (" + summary.message +
+                      "): record the light in more places");
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    cameras_[i].lens = lensOf(i).lens;
+    cameras_[i].higher_distortion = lensOf(i).higher_distortion;
+    geometry::Camera& camera = reconstruction_.cameras[i];
+    camera = cameras_[i].cameraLike(camera);
   }
+}
 
-  /// One camera keeps its pose, unless something else fixes the world.
-  void holdPoses() {
-    bool world_fixed = held_.positions;
-    for (adjust::CameraBlocks& camera : cameras_) {
-      if (!problem_.HasParameterBlock(camera.rotation.data()))
-        continue;
-      if (!world_fixed)
-        problem_.SetParameterBlockConstant(camera.rotation.data());
-      if (held_.positions || !world_fixed)
-        problem_.SetParameterBlockConstant(camera.position.data());
-      world_fixed = true;
-    }
+std::optional<adjust::Estimate> BundleProblem::estimate(const std::vector<std::size_t>& points) {
+  std::vector<double*> blocks;
+  for (std::size_t i = 0; i < (options_.one_lens ? 1 : cameras_.size()); ++i) {
+    blocks.push_back(cameras_[i].lens.data());
+    blocks.push_back(cameras_[i].higher_distortion.data());
   }
-
-  void holdOrKnowLens(std::size_t index) {
-    adjust::CameraBlocks& camera = cameras_[index];
-    if (!problem_.HasParameterBlock(camera.lens.data()))
-      return;
-    if (held_.intrinsics) {
-      problem_.SetParameterBlockConstant(camera.lens.data());
-      problem_.SetParameterBlockConstant(camera.higher_distortion.data());
-      return;
-    }
-    const LensPrior& prior = options_.lens;
-    const double weight = 1.0 / options_.pixel_stddev;  // residuals are in px
-    geometry::Intrinsics mean = reconstruction_.cameras[index].intrinsics;
-    mean.fx = mean.fy =
-        prior.focal_about > 0.0 ? prior.focal_about * mean.width : std::sqrt(mean.fx * mean.fy);
-    mean.cx = 0.5 * (mean.width - 1);
-    mean.cy = 0.5 * (mean.height - 1);
-    mean.distortion = {};
-    const adjust::LensPrior lens{mean, prior.focal_length * weight, prior.aspect * weight,
-                                 prior.principal_point * mean.width * weight,
-                                 prior.distortion[0] * weight};
-    problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
-    const Eigen::Map<const Eigen::Vector4d> distortion(prior.distortion.data() + 1);
-    problem_.AddResidualBlock(adjust::priorOf(Eigen::Vector4d::Zero(), weight * distortion),
-                              nullptr, camera.higher_distortion.data());
-  }
-
-  ceres::Solver::Options solverOptions() {
-    ceres::Solver::Options solver;
-    // The points are eliminated first (Schur complement).
-    solver.linear_solver_type = ceres::DENSE_SCHUR;
-    auto* const ordering = new ceres::ParameterBlockOrdering;
-    std::vector<double*> blocks;
-    problem_.GetParameterBlocks(&blocks);
-    for (double* const block : blocks)
-      ordering->AddElementToGroup(block, 1);
-    for (double* const point : points_)
-      ordering->AddElementToGroup(point, 0);
-    solver.linear_solver_ordering.reset(ordering);
-    solver.max_num_iterations = options_.rough ? 20 : 200;
-    // In simulations, iterations beyond 1e-7 change focal lengths by less than 1 % of their
-    // standard deviations.
-    solver.function_tolerance = options_.rough ? 1e-4 : 1e-7;
-    solver.parameter_tolerance = 1e-12;
-    solver.gradient_tolerance = 1e-14;
-    // The scale is free, so only the damping keeps the normal equations regular: keep some of it.
-    solver.max_trust_region_radius = 1e8;
-    solver.num_threads = 1;  // the same bits on every run
-    solver.logging_type = ceres::SILENT;
-    return solver;
-  }
-
-  Reconstruction& reconstruction_;
-  const Options& options_;
-  const Held& held_;
-  std::vector<adjust::CameraBlocks> cameras_;
-  std::vector<double*> points_;
-  ceres::Problem problem_;
-};
-
-}  // namespace
+  for (const std::size_t point : points)
+    blocks.push_back(reconstruction_.points[point]->data());
+  if (!std::all_of(blocks.begin(), blocks.end(),
+                   [this](const double* block) { return problem_.HasParameterBlock(block); }))
+    return std::nullopt;
+  return adjust::estimateOf(&problem_, blocks);
+}
 
 void adjust(Reconstruction* reconstruction, const Options& options, const Held& held) {
   // A camera without any inlier keeps its pose and takes no part in the triangulation.

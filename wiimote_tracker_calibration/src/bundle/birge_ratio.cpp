@@ -20,6 +20,19 @@ constexpr double kLeastGain = 0.1;
 // Cameras that are left out, one at a time.
 constexpr std::size_t kMostLeftOut = 6;
 
+/// Leaves out points that only one camera still sees: they tell nothing.
+void dropSingleViews(Reconstruction* part) {
+  std::vector<int> views(part->points.size(), 0);
+  for (std::size_t i = 0; i < part->observations.size(); ++i)
+    views[part->observations[i].point] += part->inliers[i] ? 1 : 0;
+  for (std::size_t i = 0; i < part->observations.size(); ++i)
+    part->inliers[i] = part->inliers[i] && views[part->observations[i].point] >= 2;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    if (views[i] < 2)
+      part->points[i].reset();
+  }
+}
+
 /// The observations of all cameras but one, or of some of the points.
 Reconstruction part(const Reconstruction& all,
                     std::size_t left_out,
@@ -38,6 +51,7 @@ Reconstruction part(const Reconstruction& all,
     result.observations.push_back(observation);
     result.inliers.push_back(all.inliers[i]);
   }
+  dropSingleViews(&result);
   return result;
 }
 
@@ -69,6 +83,8 @@ class Moves {
   /// The difference of a part's estimate and that of all has the difference of their covariances
   /// (Hausman 1978: the estimate from all is efficient).
   void add(const Reconstruction& part, std::size_t left_out) {
+    if (std::find(part.inliers.begin(), part.inliers.end(), true) == part.inliers.end())
+      return;
     const Certainty certainty(part, options_, false);
     for (std::size_t i = 0; i < part.cameras.size(); ++i) {
       const auto own = certainty.lensCovariance(i);

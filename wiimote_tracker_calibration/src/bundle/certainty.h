@@ -1,14 +1,12 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_CERTAINTY_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_CERTAINTY_H
 
-#include "wiimote_tracker_calibration/bundle/reconstruction.h"
-#include "wiimote_tracker_calibration/bundle/solve.h"
+#include "bundle_problem.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <optional>
-#include <vector>
 
 namespace wiimote_tracker::bundle {
 
@@ -16,10 +14,9 @@ namespace wiimote_tracker::bundle {
 /// @param fixed_lenses the lenses were held: no degrees of freedom went into them.
 double pixelStddev(const Reconstruction& reconstruction, const Options& options, bool fixed_lenses);
 
-/// Covariance of the lenses and poses of an adjusted reconstruction, to first order: the inverse of
-/// the information of the inliers, the points eliminated (Schur complement), with pixelStddev().
-/// The adjustment's Huber loss hardly changes it (test_self_calibrate.cpp). Options::lens counts
-/// too, but not its focal length.
+/// Covariance of an adjusted reconstruction, to first order: the inverse of the information of the
+/// inliers, with pixelStddev(). The adjustment's Huber loss hardly changes it
+/// (test_self_calibrate.cpp). Options::lens counts too, but not its focal length.
 class Certainty {
  public:
   /// @param fixed_lenses the lenses are given, and exact.
@@ -29,34 +26,24 @@ class Certainty {
   /// observations leave some parameter open.
   std::optional<Eigen::MatrixXd> lensCovariance(std::size_t camera) const;
 
-  /// How far a lens is from the optimum of these observations, to first order, in the same order:
-  /// zero for those that were adjusted, and for others a Gauss-Newton step.
+  /// How far a lens is from the optimum of these observations, to first order, in the same order;
+  /// lensCovariance() must be known.
   Eigen::VectorXd lensStep(std::size_t camera) const;
 
   /// Expected RMS distance of the points from the truth after the best similarity [unit of the
   /// points], from the errors of cameras, lenses and pixels together. Nothing when some parameter
   /// is open.
-  std::optional<double> expectedShapeError() const;
+  std::optional<double> expectedShapeError();
 
  private:
-  struct Point {
-    Eigen::Vector3d position;
-    Eigen::Matrix3d covariance;      ///< The cameras being exact.
-    Eigen::Matrix3Xd by_parameters;  ///< How it moves with the lenses and poses.
-  };
-
-  Eigen::Index lensColumn(std::size_t camera) const;
-  Eigen::Index poseColumn(std::size_t camera) const;
-  void addObservations(const Reconstruction& reconstruction, double stddev);
-  void addLensPrior(const Reconstruction& reconstruction, const Options& options);
-  void fixWorld(const Reconstruction& reconstruction);
+  /// Of its first parameter in `lenses_`.
+  Eigen::Index columnOf(std::size_t camera) const;
 
   const bool one_lens_;
-  const std::size_t camera_count_;
-  std::vector<Point> points_;                  // with two views or more
-  Eigen::MatrixXd information_;                // of lenses, then poses
-  Eigen::VectorXd gradient_;                   // of the same: covariance times this is the step
-  std::optional<Eigen::MatrixXd> covariance_;  // of the same
+  const double pixel_stddev_;
+  Reconstruction reconstruction_;
+  BundleProblem problem_;
+  std::optional<adjust::Estimate> lenses_;  // for residuals of 1 px
 };
 
 }  // namespace wiimote_tracker::bundle

@@ -243,7 +243,7 @@ class Search {
 };
 
 void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCalibration* result) {
-  const Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
+  Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
   result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle, options.fixed_lenses);
   const double ratio =
       options.fixed_lenses ? 1.0 : birgeRatio(result->reconstruction, options.bundle);

@@ -68,31 +68,6 @@ geometry::Intrinsics guessedLens(int width, int height, double focal_length, dou
   return lens;
 }
 
-std::vector<std::pair<std::size_t, std::size_t>> likelyPairs(const Reconstruction& observed,
-                                                             const Options& options,
-                                                             std::size_t count) {
-  // Number of points that suffices for the pose of a camera.
-  const double kEnough = 60.0;
-  std::vector<std::map<std::size_t, Eigen::Vector2d>> views(observed.cameras.size());
-  for (const Observation& observation : observed.observations)
-    views[observation.camera][observation.point] = observation.pixel;
-  std::vector<std::pair<double, std::pair<std::size_t, std::size_t>>> ranked;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t j = i + 1; j < views.size(); ++j) {
-      const CommonViews common = commonViews(views[i], views[j]);
-      if (common.first.size() < options.minimum_common_points)
-        continue;
-      const double points = std::min(static_cast<double>(common.first.size()), kEnough);
-      ranked.push_back({-points * distanceFromPlane(common, options.maximum_error), {i, j}});
-    }
-  }
-  std::sort(ranked.begin(), ranked.end());
-  std::vector<std::pair<std::size_t, std::size_t>> pairs;
-  for (std::size_t i = 0; i < std::min(count, ranked.size()); ++i)
-    pairs.push_back(ranked[i].second);
-  return pairs;
-}
-
 void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt) {
   Options now = options;
   now.maximum_error = maximum_error;
@@ -104,16 +79,13 @@ void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt
 }
 
 Attempt attemptPair(const Reconstruction& observed,
-                    const std::pair<std::size_t, std::size_t>& pair,
+                    const CameraPair& pair,
                     const Options& options) {
   Attempt attempt;
   attempt.reconstruction = observed;
   attempt.reconstruction.placed.assign(observed.cameras.size(), false);
-  const NormalizedViews views = normalize(observed);
-  const auto posed = solvePair(views, observed, options, pair.first, pair.second);
-  if (!posed)
+  if (!placePair(options, pair, &attempt.reconstruction))
     return attempt;
-  startFrom(*posed, &attempt.reconstruction);
   try {
     adjustPlaced(roughly(options), kStartTolerance * options.maximum_error, &attempt);
   } catch (const BundleError&) {

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_ATTEMPT_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_ATTEMPT_H
 
+#include "start.h"
+
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 
 #include <cstddef>
@@ -17,19 +19,11 @@ struct Attempt {
   double cost = std::numeric_limits<double>::infinity();  ///< [px^2]
 };
 
-/// Pairs of cameras to start from, at most `count`, the best first: many common points, and views
-/// that no plane explains.
-std::vector<std::pair<std::size_t, std::size_t>> likelyPairs(const Reconstruction& observed,
-                                                             const Options& options,
-                                                             std::size_t count);
-
 /// A lens with centred principal point; focal length in image widths.
 geometry::Intrinsics guessedLens(int width, int height, double focal_length, double k1);
 
 /// Starts from a pair with the lenses in `observed`. The cost stays infinite if that fails.
-Attempt attemptPair(const Reconstruction& observed,
-                    const std::pair<std::size_t, std::size_t>& pair,
-                    const Options& options);
+Attempt attemptPair(const Reconstruction& observed, const CameraPair& pair, const Options& options);
 
 /// Adds cameras, each with the focal length that fits best, until camera_count are placed.
 /// @throws BundleError: a camera shares too few points with the others, or does not fit to them.

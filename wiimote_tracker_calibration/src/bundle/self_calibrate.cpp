@@ -4,6 +4,7 @@
 #include "birge_ratio.h"
 #include "certainty.h"
 #include "checks.h"
+#include "start.h"
 
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
@@ -11,46 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
-#include <random>
 
 namespace wiimote_tracker::bundle {
 
 namespace {
-
-/// Some of the points, at random but those that many cameras saw first: about per_camera
-/// observations of each camera.
-Reconstruction thinned(const Reconstruction& all, std::size_t per_camera) {
-  std::vector<std::vector<const Observation*>> views(all.points.size());
-  for (const Observation& observation : all.observations)
-    views[observation.point].push_back(&observation);
-  std::vector<std::size_t> order(views.size());
-  std::iota(order.begin(), order.end(), 0);
-  std::mt19937 random(1);
-  for (std::size_t i = order.size(); i > 1; --i)
-    std::swap(order[i - 1], order[random() % i]);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return views[a].size() > views[b].size(); });
-  Reconstruction few;
-  few.cameras = all.cameras;
-  std::vector<std::size_t> counts(all.cameras.size(), 0);
-  for (const std::size_t point : order) {
-    if (views[point].size() < 2)
-      break;
-    const bool wanted =
-        std::any_of(views[point].begin(), views[point].end(),
-                    [&](const Observation* view) { return counts[view->camera] < per_camera; });
-    if (!wanted)
-      continue;
-    for (const Observation* view : views[point]) {
-      few.observations.push_back({view->camera, few.points.size(), view->pixel});
-      ++counts[view->camera];
-    }
-    few.points.emplace_back();
-  }
-  few.inliers.assign(few.observations.size(), false);
-  return few;
-}
 
 /// Whether two attempts ended with the same lenses.
 bool agree(const Attempt& a, const Attempt& b, double tolerance) {
@@ -67,8 +32,8 @@ bool agree(const Attempt& a, const Attempt& b, double tolerance) {
 // A focal length with a larger relative standard deviation counts as not determined.
 constexpr double kMostFocalUncertainty = 0.05;
 
-// Observations of each camera that suffice to distinguish a good start from a bad one.
-constexpr std::size_t kFewPerCamera = 100;
+// Points that two cameras share which suffice to distinguish a good start from a bad one.
+constexpr std::size_t kFewPoints = 100;
 
 /// Continues the best starts until one solution is left.
 class Search {
@@ -76,7 +41,7 @@ class Search {
   Search(const Reconstruction& all,
          const SelfCalibrationOptions& options,
          const ProgressCallback& progress)
-      : all_(all), options_(options), progress_(progress), few_(thinned(all, kFewPerCamera)) {}
+      : all_(all), options_(options), progress_(progress), few_(thinned(all, kFewPoints)) {}
 
   /// Sets starts, followed and agreeing of the result. @throws BundleError.
   Attempt run(SelfCalibration* result) {
@@ -121,14 +86,15 @@ class Search {
 
   /// Keeps the best start of each focal length.
   void start(std::size_t* starts) {
-    const auto pairs = likelyPairs(few_, options_.bundle, kPairs);
+    std::vector<CameraPair> pairs = likelyPairs(few_, options_.bundle);
+    pairs.resize(std::min(pairs.size(), kPairs));
     if (pairs.empty())
       throw BundleError(
           "no two cameras have " + std::to_string(options_.bundle.minimum_common_points) +
           " points in common: move the light where two cameras or more see it at a time");
     std::size_t tried = 0;
     attempts_.assign(options_.focal_lengths.size(), Attempt());
-    for (const auto& pair : pairs) {
+    for (const CameraPair& pair : pairs) {
       for (std::size_t i = 0; i < options_.focal_lengths.size(); ++i) {
         const double focal_length = options_.focal_lengths[i];
         report("trying starts",
@@ -335,7 +301,7 @@ SelfCalibration selfCalibrate(Reconstruction observed,
         return false;
       }
     };
-    throw BundleError(suspicion(thinned(observed, kFewPerCamera), options.fixed_lenses, works)
+    throw BundleError(suspicion(thinned(observed, kFewPoints), options.fixed_lenses, works)
                           .value_or(error.what()));
   }
   // Points close to a plane still determine the depth when a lens is known.

@@ -24,23 +24,15 @@ std::string commonText(const NormalizedViews& views, const Reconstruction& recon
   return joined(texts);
 }
 
-/// Starts from the pair of cameras with the most parallax.
 void startFromPair(const Options& options, Reconstruction* reconstruction) {
-  const NormalizedViews views = normalize(*reconstruction);
-  Pair best;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    for (std::size_t j = i + 1; j < views.size(); ++j) {
-      const auto pair = solvePair(views, *reconstruction, options, i, j);
-      if (pair && pair->parallax > best.parallax)
-        best = *pair;
-    }
+  for (const CameraPair& pair : likelyPairs(*reconstruction, options)) {
+    if (placePair(options, pair, reconstruction))
+      return;
   }
-  if (!(best.parallax > 0.0))
-    throw BundleError("no two cameras agree on where they stand; they need " +
-                      std::to_string(options.minimum_common_points) +
-                      " or more points in common, spread over the room, and have: " +
-                      commonText(views, *reconstruction));
-  startFrom(best, reconstruction);
+  throw BundleError("no two cameras agree on where they stand; they need " +
+                    std::to_string(options.minimum_common_points) +
+                    " or more points in common, spread over the room, and have: " +
+                    commonText(normalize(*reconstruction), *reconstruction));
 }
 
 }  // namespace

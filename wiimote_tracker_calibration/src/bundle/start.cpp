@@ -11,7 +11,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker::bundle {
 
@@ -22,6 +24,38 @@ double focalLength(const geometry::Camera& camera) {
 }
 
 }  // namespace
+
+Reconstruction thinned(const Reconstruction& all, std::size_t enough) {
+  std::vector<std::vector<const Observation*>> views(all.points.size());
+  for (const Observation& observation : all.observations)
+    views[observation.point].push_back(&observation);
+  std::mt19937 random(1);
+  for (std::size_t i = views.size(); i > 1; --i)
+    std::swap(views[i - 1], views[random() % i]);
+  std::stable_sort(views.begin(), views.end(),
+                   [](const auto& a, const auto& b) { return a.size() > b.size(); });
+  Reconstruction few;
+  few.cameras = all.cameras;
+  const std::size_t cameras = all.cameras.size();
+  std::vector<std::vector<std::size_t>> common(cameras, std::vector<std::size_t>(cameras, 0));
+  for (const std::vector<const Observation*>& point : views) {
+    bool is_wanted = false;
+    for (const Observation* a : point) {
+      for (const Observation* b : point)
+        is_wanted = is_wanted || (a != b && common[a->camera][b->camera] < enough);
+    }
+    if (!is_wanted)
+      continue;
+    for (const Observation* a : point) {
+      for (const Observation* b : point)
+        ++common[a->camera][b->camera];
+      few.observations.push_back({a->camera, few.points.size(), a->pixel});
+    }
+    few.points.emplace_back();
+  }
+  few.inliers.assign(few.observations.size(), false);
+  return few;
+}
 
 NormalizedViews normalize(const Reconstruction& reconstruction) {
   NormalizedViews views(reconstruction.cameras.size());
@@ -62,52 +96,59 @@ double distanceFromPlane(const CommonViews& common, double tolerance) {
   return sum / static_cast<double>(mapped.size());
 }
 
-std::optional<Pair> solvePair(const NormalizedViews& views,
-                              const Reconstruction& reconstruction,
-                              const Options& options,
-                              std::size_t first_camera,
-                              std::size_t second_camera) {
-  const auto [first, second] = commonViews(views[first_camera], views[second_camera]);
+std::vector<CameraPair> likelyPairs(const Reconstruction& observed, const Options& options) {
+  // Number of points that suffices for the pose of a camera.
+  const double kEnough = 60.0;
+  std::vector<std::map<std::size_t, Eigen::Vector2d>> views(observed.cameras.size());
+  for (const Observation& observation : observed.observations)
+    views[observation.camera][observation.point] = observation.pixel;
+  std::vector<std::pair<double, CameraPair>> ranked;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    for (std::size_t j = i + 1; j < views.size(); ++j) {
+      const CommonViews common = commonViews(views[i], views[j]);
+      if (common.first.size() < options.minimum_common_points)
+        continue;
+      const double points = std::min(static_cast<double>(common.first.size()), kEnough);
+      ranked.push_back({-points * distanceFromPlane(common, options.maximum_error), {i, j}});
+    }
+  }
+  std::sort(ranked.begin(), ranked.end());
+  std::vector<CameraPair> pairs;
+  for (const auto& [rank, pair] : ranked)
+    pairs.push_back(pair);
+  return pairs;
+}
+
+bool placePair(const Options& options, const CameraPair& pair, Reconstruction* reconstruction) {
+  const NormalizedViews views = normalize(*reconstruction);
+  geometry::Camera& first_camera = reconstruction->cameras[pair.first];
+  geometry::Camera& second_camera = reconstruction->cameras[pair.second];
+  const auto [first, second] = commonViews(views[pair.first], views[pair.second]);
   if (first.size() < options.minimum_common_points || !adjust::fillAnArea(first) ||
       !adjust::fillAnArea(second))
-    return std::nullopt;
-  const double focal_length = 0.5 * (focalLength(reconstruction.cameras[first_camera]) +
-                                     focalLength(reconstruction.cameras[second_camera]));
+    return false;
+  const double focal_length = 0.5 * (focalLength(first_camera) + focalLength(second_camera));
   cv::Mat mask;
   const cv::Mat essential =
       cv::findEssentialMat(first, second, 1.0, cv::Point2d(0.0, 0.0), cv::RANSAC, 0.999,
                            kStartTolerance * options.maximum_error / focal_length, mask);
   if (essential.rows != 3 || essential.cols != 3)
-    return std::nullopt;
+    return false;
   cv::Mat rotation;
   cv::Mat translation;
   const int in_front =
       cv::recoverPose(essential, first, second, rotation, translation, 1.0, {0.0, 0.0}, mask);
   if (in_front < static_cast<int>(options.minimum_common_points))
-    return std::nullopt;
-  Pair pair;
-  pair.first = first_camera;
-  pair.second = second_camera;
+    return false;
   Eigen::Matrix3d second_from_first;
   cv::cv2eigen(rotation, second_from_first);
-  pair.second_from_first.linear() = second_from_first;
-  pair.second_from_first.translation() = adjust::vectorFromCv(translation);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    if (mask.at<unsigned char>(static_cast<int>(i)) == 0)
-      continue;
-    const Eigen::Vector3d a =
-        pair.second_from_first.linear() * Eigen::Vector3d(first[i].x, first[i].y, 1.0);
-    const Eigen::Vector3d b(second[i].x, second[i].y, 1.0);
-    pair.parallax += std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
-  }
-  return pair;
-}
-
-void startFrom(const Pair& pair, Reconstruction* reconstruction) {
-  reconstruction->cameras[pair.first].world_from_camera = Eigen::Isometry3d::Identity();
-  reconstruction->cameras[pair.second].world_from_camera = pair.second_from_first.inverse();
+  const Eigen::Isometry3d pose = Eigen::Translation3d(adjust::vectorFromCv(translation)) *
+                                 Eigen::Isometry3d(second_from_first);
+  first_camera.world_from_camera = Eigen::Isometry3d::Identity();
+  second_camera.world_from_camera = pose.inverse();
   reconstruction->placed[pair.first] = true;
   reconstruction->placed[pair.second] = true;
+  return true;
 }
 
 namespace {

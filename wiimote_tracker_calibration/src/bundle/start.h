@@ -9,7 +9,7 @@
 
 #include <cstddef>
 #include <map>
-#include <optional>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::bundle {
@@ -17,6 +17,10 @@ namespace wiimote_tracker::bundle {
 /// Factor on the error of an outlier while poses and lenses are start values, or a camera was just
 /// added.
 constexpr double kStartTolerance = 4.0;
+
+/// Some of the points, numbered anew: at random, but those that many cameras saw first, until each
+/// two cameras share `enough`, or all that they share.
+Reconstruction thinned(const Reconstruction& all, std::size_t enough);
 
 /// What each camera saw, on its normalised image plane (x/z, y/z), by point. Pixels without a ray
 /// are left out.
@@ -38,24 +42,16 @@ CommonViews commonViews(const std::map<std::size_t, Eigen::Vector2d>& first,
 /// tolerance.
 double distanceFromPlane(const CommonViews& common, double tolerance);
 
-/// Two cameras and their relative pose.
-struct Pair {
-  std::size_t first = 0;
-  std::size_t second = 0;
-  Eigen::Isometry3d second_from_first = Eigen::Isometry3d::Identity();  ///< Baseline of length 1.
-  double parallax = 0.0;  ///< Sum over the points [rad].
-};
+using CameraPair = std::pair<std::size_t, std::size_t>;
 
-/// Relative pose of two cameras from their common points (essential matrix). Nothing if these are
-/// too few, lie on a line in an image, or contradict each other.
-std::optional<Pair> solvePair(const NormalizedViews& views,
-                              const Reconstruction& reconstruction,
-                              const Options& options,
-                              std::size_t first,
-                              std::size_t second);
+/// Pairs of cameras to start from, the best first: many common points, and views that no plane
+/// explains.
+std::vector<CameraPair> likelyPairs(const Reconstruction& observed, const Options& options);
 
-/// Makes the first camera of the pair the world, and marks both as placed.
-void startFrom(const Pair& pair, Reconstruction* reconstruction);
+/// Estimates the relative pose of two cameras from their common points (essential matrix, Nister
+/// 2004), makes the first the world and the baseline 1, and marks both as placed. @returns false if
+/// the points are too few, lie on a line in an image, or contradict each other.
+bool placePair(const Options& options, const CameraPair& pair, Reconstruction* reconstruction);
 
 /// The camera that sees most known points of those not placed.
 /// @throws BundleError when it sees too few of them.

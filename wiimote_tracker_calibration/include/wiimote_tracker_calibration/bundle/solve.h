@@ -38,7 +38,7 @@ struct Held {
 /// Estimates the poses of the cameras and the points, with the intrinsics given; poses, points and
 /// inliers in `observed` are ignored, but not how many points there are. The result is determined
 /// up to a similarity: the world is the frame of the first camera of the start pair, whose baseline
-/// has length 1. Starts from the pair of cameras with the most parallax (essential matrix, Nister
+/// has length 1. Starts from two cameras with many common points in depth (essential matrix, Nister
 /// 2004), adds the others one by one by resection, and calls adjust().
 /// @throws BundleError: fewer than two cameras, an observation that is not finite or names no
 /// camera or point, intrinsics out of range, a camera that shares too few points with the others or

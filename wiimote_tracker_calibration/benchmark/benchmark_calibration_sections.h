@@ -17,10 +17,8 @@ struct BenchmarkSection {
 };
 
 // What each measures is in its explanation.
-BenchmarkSection poseSection();
 BenchmarkSection waveSection();
 BenchmarkSection floorSection();
-BenchmarkSection measureSection();
 BenchmarkSection paperSection();
 BenchmarkSection remapSection();
 BenchmarkSection roomsSection();

@@ -96,6 +96,7 @@ TEST_F(NextMeasurementOf, AWaveKeepsItsPromise) {
       EXPECT_LT(steps[k].next->expected_error, 0.95 * steps[k].expected);
       EXPECT_NEAR(steps[k + 1].expected / steps[k].next->expected_error, 1.0, 0.05);
     }
+    EXPECT_LT(steps[3].expected, 0.5 * steps[0].expected);
     EXPECT_LT(steps[3].error, 0.006);
   }
 }

@@ -51,20 +51,20 @@ std::vector<geometry::Intrinsics> lensesToTry(const SelfCalibrationOptions& opti
     return {present};
   std::vector<geometry::Intrinsics> lenses;
   for (const double focal_length : options.focal_lengths)
-    lenses.push_back(guessedLens(present.width, present.height, focal_length, 0.0));
+    lenses.push_back(guessedLens(present.width, present.height, focal_length));
   return lenses;
 }
 
 }  // namespace
 
-geometry::Intrinsics guessedLens(int width, int height, double focal_length, double k1) {
+geometry::Intrinsics guessedLens(int width, int height, double focal_length) {
   geometry::Intrinsics lens;
   lens.width = width;
   lens.height = height;
   lens.fx = lens.fy = focal_length * width;
   lens.cx = 0.5 * (width - 1);
   lens.cy = 0.5 * (height - 1);
-  lens.distortion = {k1, 0.0, 0.0, 0.0, 0.0};
+  lens.distortion = {};
   return lens;
 }
 

@@ -19,8 +19,8 @@ struct Attempt {
   double cost = std::numeric_limits<double>::infinity();  ///< [px^2]
 };
 
-/// A lens with centred principal point; focal length in image widths.
-geometry::Intrinsics guessedLens(int width, int height, double focal_length, double k1);
+/// A lens with centred principal point, without distortion; focal length in image widths.
+geometry::Intrinsics guessedLens(int width, int height, double focal_length);
 
 /// Starts from a pair with the lenses in `observed`. The cost stays infinite if that fails.
 Attempt attemptPair(const Reconstruction& observed, const CameraPair& pair, const Options& options);

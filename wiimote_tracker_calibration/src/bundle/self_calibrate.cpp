@@ -100,15 +100,11 @@ class Search {
         report("trying starts",
                0.3 * static_cast<double>(tried++) /
                    static_cast<double>(pairs.size() * options_.focal_lengths.size()));
-        for (const double k1 : options_.distortions) {
-          if (k1 != 0.0 && !bendsCorners(focal_length, k1))
-            continue;
-          const Attempt attempt = attemptPair(guess(focal_length, k1), pair, options_.bundle);
-          ++*starts;
-          // Two cameras alone hardly determine their focal lengths: keep the best of each.
-          if (attempt.cost < attempts_[i].cost)
-            attempts_[i] = attempt;
-        }
+        const Attempt attempt = attemptPair(guess(focal_length), pair, options_.bundle);
+        ++*starts;
+        // Two cameras alone hardly determine their focal lengths: keep the best of each.
+        if (attempt.cost < attempts_[i].cost)
+          attempts_[i] = attempt;
       }
     }
     reason_ = "no two cameras agree on where they stand: move the light through all of the room";
@@ -116,19 +112,12 @@ class Search {
   }
 
   /// Some of the points, and all cameras with such a lens.
-  Reconstruction guess(double focal_length, double k1) const {
+  Reconstruction guess(double focal_length) const {
     Reconstruction guessed = few_;
     for (geometry::Camera& camera : guessed.cameras)
       camera.intrinsics =
-          guessedLens(camera.intrinsics.width, camera.intrinsics.height, focal_length, k1);
+          guessedLens(camera.intrinsics.width, camera.intrinsics.height, focal_length);
     return guessed;
-  }
-
-  /// Whether distortion matters so much that a start without may fail.
-  static bool bendsCorners(double focal_length, double k1) {
-    const double kMuch = 0.03;
-    const double corner = 0.6 / focal_length;  // half the diagonal of an image of 4:3
-    return std::abs(k1) * corner * corner > kMuch;
   }
 
   void growTo(std::size_t cameras, Attempt* attempt) const {
@@ -280,7 +269,7 @@ SelfCalibration selfCalibrate(Reconstruction observed,
                               const ProgressCallback& progress) {
   if (!options.fixed_lenses) {
     for (geometry::Camera& camera : observed.cameras)
-      camera.intrinsics = guessedLens(camera.intrinsics.width, camera.intrinsics.height, 1.0, 0.0);
+      camera.intrinsics = guessedLens(camera.intrinsics.width, camera.intrinsics.height, 1.0);
   }
   checkObservations(observed);
   if (isOnALine(observed))
@@ -292,7 +281,6 @@ SelfCalibration selfCalibrate(Reconstruction observed,
     // It only matters whether it works: fewer points and starts are enough.
     SelfCalibrationOptions quick = options;
     quick.focal_lengths = {0.7, 1.4, 2.8};
-    quick.distortions = {0.0};
     const auto works = [&](const Reconstruction& changed) {
       try {
         solveOnce(changed, quick, progress);

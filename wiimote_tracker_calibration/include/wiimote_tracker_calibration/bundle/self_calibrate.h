@@ -22,8 +22,6 @@ struct SelfCalibrationOptions {
   bool fixed_lenses = false;  ///< The intrinsics are given and exact.
   /// Focal lengths to start from [image widths]: fields of view from 90 to 14 degrees.
   std::vector<double> focal_lengths = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
-  /// Distortions k1 to start from [1].
-  std::vector<double> distortions = {0.0, -0.25};
 };
 
 /// How well the lens of one camera is known.
@@ -39,7 +37,7 @@ struct SelfCalibration {
   /// Expected RMS error of the points after the best similarity [unit of the points]; nothing if
   /// the covariance is singular.
   std::optional<double> expected_shape_error;
-  std::size_t starts = 0;    ///< Combinations of camera pair, focal length, distortion tried.
+  std::size_t starts = 0;    ///< Combinations of camera pair and focal length tried.
   std::size_t followed = 0;  ///< The best of these, adjusted with all cameras.
   std::size_t agreeing = 0;  ///< Of these, those that reached the solution returned.
 };
@@ -52,7 +50,7 @@ using ProgressCallback = std::function<void(const std::string& step, double frac
 /// number. The result is determined up to a similarity, as that of solve(), and up to a reflection.
 ///
 /// With given intrinsics: solve(). Otherwise it tries many starts with some of the points: pairs of
-/// cameras whose views no plane explains, with each focal length and distortion (essential matrix);
+/// cameras whose views no plane explains, with each focal length (essential matrix);
 /// other cameras are added by resection, each with its own best focal length. The best starts are
 /// adjusted with all cameras, the best of these with all points: focal lengths, principal point,
 /// k1, k2, p1, p2 of each camera, with the prior Options::lens. A focal length counts as determined

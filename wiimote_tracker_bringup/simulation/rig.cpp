@@ -94,10 +94,11 @@ void Rig::expose(std::size_t number) {
     if (person.present)
       bodies_.push_back(cylinderOf(person, time));
   }
-  const Image image{camera.optics.sense(lamps_, bodies_, description_.reflections), time};
+  const Image image{camera.optics.sense(lamps_, bodies_, description_.reflections), time,
+                    camera.next.arrival};
   if (!camera.next.lost) {
     camera.travelling.push(image);
-    push(camera.next.arrival, Event::kDelivery, number);
+    push(image.due, Event::kDelivery, number);
   }
   camera.next = camera.times.next();
   push(camera.next.exposure, Event::kExposure, number);

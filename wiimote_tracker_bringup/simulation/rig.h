@@ -19,6 +19,7 @@ namespace wiimote_tracker::simulation {
 /// Input of a camera's sensor for one image.
 struct Image : virtual_wiimote::Senses {
   double exposure;  ///< Time [s since the start].
+  double due;       ///< When its report arrives [s since the start].
 };
 
 /// A queue of the events of a description: exposures, deliveries of reports, instants of truth.

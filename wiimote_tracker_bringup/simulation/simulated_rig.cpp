@@ -204,7 +204,23 @@ ros::Time SimulatedRig::stamp(double time) const {
   return start_stamp_ + ros::Duration(time);
 }
 
+/// Whether an image comes too late since the computer paused or has too much to do. Remotes do not
+/// wait for it: their images would get lost, not old. Then all are lost until one is in time.
+bool SimulatedRig::isLost(const Image& image) {
+  constexpr double kLatest = 0.1;   // [s]
+  constexpr double kInTime = 0.01;  // [s]
+  is_late_ = now() - image.due > (is_late_ ? kInTime : kLatest);
+  if (is_late_)
+    ROS_WARN_THROTTLE(10.0,
+                      "This computer is too busy to simulate %zu cameras, and images are lost: end "
+                      "other programs, or simulate fewer cameras.",
+                      cameras_.size());
+  return is_late_;
+}
+
 void SimulatedRig::deliver(std::size_t camera, const Image& image) {
+  if (isLost(image))
+    return;
   wiimote_tracker_msgs::IrBlobArray exposure;
   exposure.header.stamp = stamp(image.exposure);
   exposure.camera = cameras_[camera];

@@ -44,6 +44,7 @@ class SimulatedRig {
   double now() const;                  ///< [s since the start]
   ros::Time stamp(double time) const;  ///< Of a time since the start.
   void deliver(std::size_t camera, const Image& image);
+  bool isLost(const Image& image);
   void publishTruth(std::size_t led, double time, const Eigen::Vector3d& position);
   void publishBodyTruth(std::size_t body, double time, const Eigen::Isometry3d& pose);
 
@@ -56,8 +57,9 @@ class SimulatedRig {
   ros::Publisher exposures_;
   std::vector<ros::Publisher> truth_;
   std::vector<ros::Publisher> body_truth_;
-  std::mutex mutex_;  ///< Guards rig_.
+  std::mutex mutex_;  ///< Guards rig_ and is_late_.
   Rig rig_;
+  bool is_late_ = false;
   ros::ServiceServer set_led_;
 };
 

@@ -3,11 +3,15 @@
 
 import collections
 import os
+import signal
 import subprocess
 import sys
+from xmlrpc.client import ServerProxy
 
 import numpy as np
+import rosgraph
 import roslib.packages
+import rosnode
 import rospkg
 import rospy
 import rostest
@@ -91,6 +95,23 @@ class SimulatedRig(NodeTest):
                 stderr=subprocess.PIPE, timeout=15.0, universal_newlines=True)
             self.assertEqual(ended.returncode, 1)
             self.assertIn(problem, ended.stderr)
+
+    def test_images_that_a_pause_would_delay_are_lost(self):
+        exposures = []
+        rospy.Subscriber('simulation/exposures', IrBlobArray, exposures.append)
+        self.wait(lambda: exposures, 'exposures')
+        uri = rosnode.get_api_uri(rosgraph.Master(rospy.get_name()), '/simulated_rig')
+        process = ServerProxy(uri).getPid(rospy.get_name())[2]
+        os.kill(process, signal.SIGSTOP)
+        try:
+            rospy.sleep(1.0)
+        finally:
+            os.kill(process, signal.SIGCONT)
+        end = rospy.get_time()
+        self.wait(lambda: exposures[-1].header.stamp.to_sec() > end, 'images after the pause')
+        after = [(image.arrival - image.header.stamp).to_sec() for image in list(exposures)
+                 if image.arrival.to_sec() > end]
+        self.assertLess(max(after), 0.2)
 
     def test_accelerometer_measures_gravity_as_mounted(self):
         names = [camera.name for camera in self.scene.cameras]

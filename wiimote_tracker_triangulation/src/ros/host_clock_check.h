@@ -10,7 +10,7 @@
 namespace wiimote_tracker {
 
 /// Finds cameras whose computer has another clock than this one. An image carries its arrival time
-/// by the camera's computer and is handled at a time of this computer: the difference is the
+/// by the camera's computer and is received at a time of this computer: the difference is the
 /// transport delay plus the clock offset. The shortest of many delays is short and nearly the same
 /// for all cameras.
 class HostClockCheck {
@@ -20,7 +20,7 @@ class HostClockCheck {
 
   void clear(std::size_t cameras) { shortest_.assign(cameras, std::nullopt); }
 
-  /// `delay`: from the arrival time of an image to its handling here [s].
+  /// `delay`: from the arrival time of an image to its receipt here [s].
   void add(std::size_t camera, double delay) {
     std::optional<double>& shortest = shortest_.at(camera);
     shortest = std::min(shortest.value_or(delay), delay);
@@ -32,7 +32,7 @@ class HostClockCheck {
     if (!shortest_.at(camera))
       return std::nullopt;
     const double delay = *shortest_[camera];
-    // No image is handled before it arrives.
+    // No image is received before it arrives.
     if (delay < -tolerance_)
       return -delay;
     std::vector<double> delays;

@@ -60,6 +60,7 @@ void TrackingDiagnostics::setRig() {
 
 void TrackingDiagnostics::addArrival(const std::string& camera,
                                      const ros::Time& arrival,
+                                     const ros::Time& receipt,
                                      const std::string& node) {
   // Simulated time is too coarse for a comparison.
   if (arrival.isZero() || ros::Time::isSimTime())
@@ -69,7 +70,7 @@ void TrackingDiagnostics::addArrival(const std::string& camera,
     return;
   const std::size_t index = place - cameras_.begin();
   nodes_[index] = node;
-  clocks_.add(index, ros::Time::now().toSec() - arrival.toSec());
+  clocks_.add(index, receipt.toSec() - arrival.toSec());
 }
 
 /// Runs before the reports of the cameras and begins a new period for all.

@@ -28,8 +28,12 @@ class TrackingDiagnostics {
   /// To be called after the tracker got a new rig.
   void setRig();
 
-  /// Call it when an image is handled. `node`: its publisher.
-  void addArrival(const std::string& camera, const ros::Time& arrival, const std::string& node);
+  /// Notes when an image arrived by its camera's computer, and when this process received it.
+  /// `node`: its publisher.
+  void addArrival(const std::string& camera,
+                  const ros::Time& arrival,
+                  const ros::Time& receipt,
+                  const std::string& node);
 
   /// Publishes when due.
   void update() { updater_.update(); }

@@ -112,10 +112,11 @@ void Triangulation::onImage(const std::string& camera,
   if (!std::exchange(has_former_places_, true))  // now, since their ages count from here
     tracker_.labels().setFormerPlaces(
         identity::readPlaces(parameters_.label_places, tracker_.rigId(), kLongestRestart));
-  if (isShed(event.getReceiptTime()))
-    return;
   const IrBlobArray& image = *event.getConstMessage();
-  diagnostics_.addArrival(camera, image.arrival, event.getPublisherName());
+  const ros::Time receipt = event.getReceiptTime();
+  diagnostics_.addArrival(camera, image.arrival, receipt, event.getPublisherName());
+  if (isShed(receipt))
+    return;
   tracker_.takeImage(camera, image);
 }
 

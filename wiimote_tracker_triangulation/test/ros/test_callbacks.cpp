@@ -7,11 +7,13 @@
 #include "ros/triangulation.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
 #include <ros/spinner.h>
 #include <std_msgs/Header.h>
+#include <boost/algorithm/string/predicate.hpp>
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
@@ -135,6 +137,43 @@ IrBlobArray image(const geometry::Camera& camera, std::uint64_t frame) {
   IrBlobArray image = blobImage(camera, time, leds);
   image.frame = frame;
   return image;
+}
+
+/// One camera's images wait 30 ms in the tracker's
+/// queue, and those of the others do not.
+TEST_F(Callbacks, ThatAreLateAreNotTakenForAWrongClock) {
+  geometry::test::Random random(7);
+  const geometry::Rig rig = geometry::test::randomRig(random, 3);
+  const std::string late = rig.cameras[0].camera.name;
+  ros::NodeHandle private_nh("~");
+  private_nh.setCallbackQueue(&queue_);
+  const ros::Publisher rigs =
+      nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 1, true);
+  rigs.publish(toMessage(rig));
+  std::vector<ros::Publisher> publishers;
+  for (const auto& camera : rig.cameras)
+    publishers.push_back(nh_.advertise<IrBlobArray>(camera.camera.name + "/ir_blobs", 10));
+  std::vector<std::string> said;
+  const ros::Subscriber diagnostics =
+      subscribe<diagnostic_msgs::DiagnosticArray>(nh_, "/diagnostics", 100, [&](const auto& event) {
+        for (const auto& status : event.getConstMessage()->status) {
+          if (boost::algorithm::ends_with(status.name, late))
+            said.push_back(status.message);
+        }
+      });
+  Triangulation tracker(nh_, private_nh);
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(60.0);
+  while (said.size() < 2 && ros::WallTime::now() < deadline) {
+    for (std::size_t i = 0; i < publishers.size(); ++i) {
+      IrBlobArray image = blobImage(rig.cameras[i].camera, ros::Time::now().toSec(), {});
+      image.arrival = image.header.stamp;
+      publishers[i].publish(boost::make_shared<IrBlobArray>(image));
+      if (i == 0)
+        ros::WallDuration(0.03).sleep();
+    }
+    queue_.callAvailable();
+  }
+  EXPECT_EQ((std::vector<std::string>{"Node starting up", "in use"}), said);
 }
 
 // Three threads publish images in this process, while trackers begin and end and the topics of LEDs

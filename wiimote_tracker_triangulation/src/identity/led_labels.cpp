@@ -158,7 +158,7 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
   const double same = sum > 0.0 ? greatest / sum : 0.0;
   setConfidence(place.confidence * same +
                     (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1),
-                &given);
+                same, &given);
   given.since = time;
 }
 
@@ -176,13 +176,16 @@ void LedLabels::notePlace(const tracking::TrackedLed& led) {
   if (!(led.same_led_probability < label.same_led_probability))
     return;
   former_[label.name] = place;
-  setConfidence(place.confidence * led.same_led_probability / label.same_led_probability, &label);
+  const double same = led.same_led_probability / label.same_led_probability;
+  setConfidence(place.confidence * same, same, &label);
   label.same_led_probability = led.same_led_probability;
 }
 
-void LedLabels::setConfidence(double confidence, LedLabel* given) {
+/// @param same probability that this time the label stayed with its LED. Where that is doubtful, a
+/// label that was doubtful already is named again: somebody may have found it right.
+void LedLabels::setConfidence(double confidence, double same, LedLabel* given) {
   Place& place = places_.at(given->name);
-  if (confidence < kDoubtful && place.confidence >= kDoubtful)
+  if (confidence < kDoubtful && (place.confidence >= kDoubtful || same < kDoubtful))
     doubtful_.push_back(given->name);
   place.confidence = confidence;
   given->confidence = confidence;

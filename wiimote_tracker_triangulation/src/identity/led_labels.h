@@ -73,7 +73,7 @@ class LedLabels {
   /// Probability below which a label is doubtful.
   static constexpr double kDoubtful = 0.8;
 
-  /// Labels that became doubtful by the last update.
+  /// Labels that became doubtful by the last update, or once more.
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
  private:
@@ -82,7 +82,7 @@ class LedLabels {
   void takeIdentity(std::uint32_t id, const Identifier& identifier);
   void giveFreeLabel(double time, const tracking::TrackedLed& led);
   void notePlace(const tracking::TrackedLed& led);
-  void setConfidence(double confidence, LedLabel* given);
+  void setConfidence(double confidence, double same, LedLabel* given);
   const LedLabel* holderOf(const std::string& label) const;
 
   std::vector<std::string> listed_;

@@ -321,6 +321,24 @@ TEST(LedLabels, StayDoubtfulWhenTheyAreGivenAgain) {
   EXPECT_TRUE(labels.doubtful().empty()) << "said when it became so";
 }
 
+TEST(LedLabels, AreNamedAgainWhenTheyBecomeDoubtfulOnceMore) {
+  LedLabels labels({"a", "b"});
+  std::vector<TrackedLed> leds = {at(0, 0.0), at(1, 2.0)};
+  labels.update(kTime, leds);
+  for (const double time : {160.0, 220.0, 280.0}) {
+    for (TrackedLed& led : leds)
+      led.state = TrackState::kLost;
+    labels.update(time - 60.0, leds);
+    labels.update(time, {});
+    for (TrackedLed& led : leds)
+      led = at(led.id + 2, led.position.x());
+    labels.update(time, leds);
+    EXPECT_EQ(2u, labels.doubtful().size()) << time;
+    labels.update(time, leds);
+    EXPECT_TRUE(labels.doubtful().empty()) << "said once";
+  }
+}
+
 /// One camera sees LED `id` for 2 s from `start` on: blinking as word 0 of two, or steady.
 void see(Identifier* identifier, std::uint32_t id, double start, bool steady) {
   for (double time = start; time < start + 2.0; time += 0.01) {

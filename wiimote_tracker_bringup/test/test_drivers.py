@@ -3,6 +3,7 @@
 import json
 import os
 import subprocess
+import types
 
 import program_module
 import pytest
@@ -183,6 +184,28 @@ def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
     monkeypatch.setattr(drivers.rospy, 'logwarn_throttle', lambda period, text: said.append(text))
     drivers.try_to_start_more(NoMaster())
     assert len(said) == 1 and 'check that the ROS master runs' in said[0]
+
+
+def test_a_manager_that_was_started_again_gets_its_drivers_soon(monkeypatch):
+    now, back, loaded = [0.0], 1.3, []
+
+    def call(_, service, __, *arguments):
+        if 0.1 < now[0] < back:
+            return None
+        if service == 'load_nodelet':
+            loaded.append((now[0], arguments[0]))
+        return types.SimpleNamespace(nodelets=['/wiimote_1/driver'] if now[0] <= 0.1 else [])
+
+    def sleep(duration):
+        now[0] += duration
+    monkeypatch.setattr(drivers.Manager, '_call', call)
+    monkeypatch.setattr(drivers, 'time', types.SimpleNamespace(sleep=sleep))
+    monkeypatch.setattr(drivers.rospy, 'is_shutdown', lambda: bool(loaded))
+    manager = object.__new__(drivers.Manager)
+    manager._drivers = ['/wiimote_1/driver']
+    manager._keep()
+    assert [name for _, name in loaded] == ['/wiimote_1/driver']
+    assert back <= loaded[0][0] < back + 0.3
 
 
 @pytest.mark.parametrize('given, complaint', [

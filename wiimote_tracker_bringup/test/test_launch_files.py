@@ -190,6 +190,8 @@ def test_simulated_rigs_share_no_files_with_another_rig(load, monkeypatch):
     usual, real = (load(name)[1] for name in ('simulated_rig.launch', 'tracker.launch'))
     for name in ('/drivers/camera_info_directory', '/triangulation/label_places'):
         assert usual[name].startswith('/var/lib/lab/wiimote_tracker/') and usual[name] != real[name]
+    # Beside the rig its cameras and samples are saved.
+    assert usual['/calibration/rig_file'] == '/var/lib/lab/wiimote_tracker/simulated/rig.yaml'
     for rig_file, folder in (('planned_rig.yaml', 'planned_cameras'), ('my.yaml', 'my_cameras'),
                              ('rig', 'rig_cameras')):
         parameters = load('simulated_rig.launch', 'rig_file:=' + rig_file)[1]

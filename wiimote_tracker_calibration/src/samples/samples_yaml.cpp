@@ -7,8 +7,8 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <limits>
-#include <optional>
 
 namespace wiimote_tracker::samples {
 
@@ -19,132 +19,90 @@ using geometry::YamlMap;
 constexpr const char* kFormat = "wiimote_tracker_samples";
 constexpr int kVersion = 1;
 
-template <typename Numbers>
-void emitNumbers(const Numbers& numbers, YAML::Emitter& out) {
-  out << YAML::Flow << YAML::BeginSeq;
-  for (decltype(numbers.size()) i = 0; i < numbers.size(); ++i)
-    out << exactNumber(numbers[i]);
+/// @param values a std::vector or Eigen's
+template <typename Values>
+std::vector<std::string> exactNumbers(const Values& values) {
+  std::vector<std::string> numbers;
+  std::transform(values.data(), values.data() + values.size(), std::back_inserter(numbers),
+                 exactNumber);
+  return numbers;
+}
+
+/// A list of whatever `emit` writes of each element.
+template <typename List, typename Emit>
+void emitList(const char* key, const List& list, YAML::Emitter& out, const Emit& emit) {
+  out << key << YAML::BeginSeq;
+  for (const auto& element : list)
+    emit(element);
   out << YAML::EndSeq;
 }
 
-void emitKey(const std::string& key, double value, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << exactNumber(value);
-}
-
-void emitLengths(const std::vector<square::TapedLength>& lengths, YAML::Emitter& out) {
-  out << YAML::Key << "lengths" << YAML::Value << YAML::BeginSeq;
-  for (const square::TapedLength& taped : lengths) {
-    out << YAML::Flow << YAML::BeginMap;
-    out << YAML::Key << "from" << YAML::Value << taped.from + 1;
-    out << YAML::Key << "to" << YAML::Value << taped.to + 1;
-    emitKey("length", taped.length, out);
-    emitKey("stddev", taped.stddev, out);
-    out << YAML::EndMap;
-  }
-  out << YAML::EndSeq;
-}
-
-void emitPlaces(const std::vector<square::KnownPlace>& places, YAML::Emitter& out) {
-  out << YAML::Key << "places" << YAML::Value << YAML::BeginSeq;
-  for (const square::KnownPlace& place : places) {
-    out << YAML::Flow << YAML::BeginMap << YAML::Key << "position" << YAML::Value;
-    emitNumbers(place.position, out);
-    emitKey("stddev", place.stddev, out);
-    out << YAML::EndMap;
-  }
-  out << YAML::EndSeq;
-}
-
-void emitSquare(const std::optional<square::SquareLayout>& square, YAML::Emitter& out) {
-  out << YAML::Key << "square" << YAML::Value;
-  if (!square) {
-    out << YAML::Null;
-    return;
-  }
+void emitSquare(const square::SquareLayout& square, YAML::Emitter& out) {
   out << YAML::BeginMap;
-  emitKey("side_x", square->side_x, out);
-  emitKey("side_y", square->side_y, out);
-  emitKey("led_height", square->led_height, out);
-  out << YAML::Key << "origin" << YAML::Value;
-  emitNumbers(square->origin, out);
-  emitKey("yaw", square->yaw, out);
+  out << "side_x" << exactNumber(square.side_x);
+  out << "side_y" << exactNumber(square.side_y);
+  out << "led_height" << exactNumber(square.led_height);
+  out << "origin" << YAML::Flow << exactNumbers(square.origin);
+  out << "yaw" << exactNumber(square.yaw);
   // Older programs refuse these keys.
-  if (!square->lengths.empty())
-    emitLengths(square->lengths, out);
-  if (!square->places.empty())
-    emitPlaces(square->places, out);
+  if (!square.lengths.empty())
+    emitList("lengths", square.lengths, out, [&](const square::TapedLength& taped) {
+      out << YAML::Flow << YAML::BeginMap << "from" << taped.from + 1 << "to" << taped.to + 1;
+      out << "length" << exactNumber(taped.length);
+      out << "stddev" << exactNumber(taped.stddev) << YAML::EndMap;
+    });
+  if (!square.places.empty())
+    emitList("places", square.places, out, [&](const square::KnownPlace& place) {
+      out << YAML::Flow << YAML::BeginMap << "position" << exactNumbers(place.position);
+      out << "stddev" << exactNumber(place.stddev) << YAML::EndMap;
+    });
   out << YAML::EndMap;
 }
 
-void emitWand(const std::optional<wave::Wand>& wand, YAML::Emitter& out) {
-  out << YAML::Key << "wand" << YAML::Value;
-  if (!wand) {
-    out << YAML::Null;
-    return;
-  }
+void emitWand(const wave::Wand& wand, YAML::Emitter& out) {
   out << YAML::BeginMap;
-  emitKey("length", wand->length, out);
-  emitKey("stddev", wand->stddev, out);
-  if (wand->led_height)  // older programs refuse this key
-    emitKey("led_height", *wand->led_height, out);
+  out << "length" << exactNumber(wand.length);
+  out << "stddev" << exactNumber(wand.stddev);
+  if (wand.led_height)  // older programs refuse this key
+    out << "led_height" << exactNumber(*wand.led_height);
   out << YAML::EndMap;
 }
 
 void emitLens(const geometry::Intrinsics& lens, YAML::Emitter& out) {
-  out << YAML::Key << "lens" << YAML::Value << YAML::BeginMap;
-  out << YAML::Key << "width" << YAML::Value << lens.width;
-  out << YAML::Key << "height" << YAML::Value << lens.height;
-  emitKey("fx", lens.fx, out);
-  emitKey("fy", lens.fy, out);
-  emitKey("cx", lens.cx, out);
-  emitKey("cy", lens.cy, out);
-  out << YAML::Key << "distortion_model" << YAML::Value << geometry::nameOf(lens.distortion_model);
-  out << YAML::Key << "distortion" << YAML::Value;
-  emitNumbers(std::vector<double>(
-                  lens.distortion.begin(),
-                  lens.distortion.begin() + static_cast<std::ptrdiff_t>(
-                                                geometry::coefficientCount(lens.distortion_model))),
-              out);
-  out << YAML::EndMap;
-}
-
-template <typename Pixels>
-void emitPixels(const char* key, const Pixels& pixels, YAML::Emitter& out) {
-  out << YAML::Key << key << YAML::Value << YAML::BeginSeq;
-  for (const auto& pixel : pixels) {
-    if (pixel)
-      emitNumbers(*pixel, out);
-    else
-      out << YAML::Null;
-  }
-  out << YAML::EndSeq;
+  const Eigen::Map<const Eigen::VectorXd> distortion(
+      lens.distortion.data(),
+      static_cast<Eigen::Index>(geometry::coefficientCount(lens.distortion_model)));
+  out << YAML::BeginMap << "width" << lens.width << "height" << lens.height;
+  out << "fx" << exactNumber(lens.fx) << "fy" << exactNumber(lens.fy);
+  out << "cx" << exactNumber(lens.cx) << "cy" << exactNumber(lens.cy);
+  out << "distortion_model" << geometry::nameOf(lens.distortion_model);
+  out << "distortion" << YAML::Flow << exactNumbers(distortion) << YAML::EndMap;
 }
 
 void emitCamera(const wave::CameraRecording& camera, YAML::Emitter& out) {
   const square::CameraSightings& sightings = camera.sightings;
+  const auto emitNumbers = [&](const auto& numbers) {
+    if (numbers)
+      out << YAML::Flow << exactNumbers(*numbers);
+    else
+      out << YAML::Null;
+  };
   out << YAML::BeginMap;
-  out << YAML::Key << "name" << YAML::Value << YAML::DoubleQuoted << sightings.name;
-  out << YAML::Key << "identity" << YAML::Value << YAML::DoubleQuoted << sightings.identity;
+  out << "name" << YAML::DoubleQuoted << sightings.name;
+  out << "identity" << YAML::DoubleQuoted << sightings.identity;
+  out << "lens";
   emitLens(sightings.intrinsics, out);
-  out << YAML::Key << "gravity" << YAML::Value;
-  if (sightings.gravity)
-    emitNumbers(*sightings.gravity, out);
-  else
-    out << YAML::Null;
-  out << YAML::Key << "clock_epoch" << YAML::Value << camera.clock_epoch;
-  emitPixels("corners", sightings.corners, out);
+  out << "gravity";
+  emitNumbers(sightings.gravity);
+  out << "clock_epoch" << camera.clock_epoch;
+  emitList("corners", sightings.corners, out, emitNumbers);
   if (!sightings.places.empty())
-    emitPixels("places", sightings.places, out);
-  out << YAML::Key << "masks" << YAML::Value << YAML::BeginSeq;
-  for (const geometry::ImageMask& mask : camera.masks) {
-    out << YAML::Flow << YAML::BeginMap << YAML::Key << "center" << YAML::Value;
-    emitNumbers(mask.center, out);
-    emitKey("radius", mask.radius, out);
-    out << YAML::EndMap;
-  }
-  out << YAML::EndSeq;
-  out << YAML::Key << "frames" << YAML::Value << camera.frames.size();
-  out << YAML::EndMap;
+    emitList("places", sightings.places, out, emitNumbers);
+  emitList("masks", camera.masks, out, [&](const geometry::ImageMask& mask) {
+    out << YAML::Flow << YAML::BeginMap << "center" << exactNumbers(mask.center);
+    out << "radius" << exactNumber(mask.radius) << YAML::EndMap;
+  });
+  out << "frames" << camera.frames.size() << YAML::EndMap;
 }
 
 Eigen::VectorXd readVector(YamlMap& map, const std::string& key, std::size_t size) {
@@ -257,18 +215,24 @@ void readCamera(YamlMap map, SamplesHead* head) {
 }  // namespace
 
 std::string yamlFromSamples(const Samples& samples) {
+  const wave::Recording& recording = samples.recording;
   YAML::Emitter out;
   out << YAML::Comment("What was captured to calibrate a rig; units as in doc/samples.md.");
-  out << YAML::BeginMap;
-  out << YAML::Key << "format" << YAML::Value << kFormat;
-  out << YAML::Key << "version" << YAML::Value << kVersion;
-  out << YAML::Key << "world_frame" << YAML::Value << YAML::DoubleQuoted << samples.world_frame;
-  emitSquare(samples.recording.square, out);
-  emitWand(samples.recording.wand, out);
-  out << YAML::Key << "cameras" << YAML::Value << YAML::BeginSeq;
-  for (const wave::CameraRecording& camera : samples.recording.cameras)
-    emitCamera(camera, out);
-  out << YAML::EndSeq << YAML::EndMap;
+  out << YAML::BeginMap << "format" << kFormat << "version" << kVersion;
+  out << "world_frame" << YAML::DoubleQuoted << samples.world_frame;
+  out << "square";
+  if (recording.square)
+    emitSquare(*recording.square, out);
+  else
+    out << YAML::Null;
+  out << "wand";
+  if (recording.wand)
+    emitWand(*recording.wand, out);
+  else
+    out << YAML::Null;
+  emitList("cameras", recording.cameras, out,
+           [&](const wave::CameraRecording& camera) { emitCamera(camera, out); });
+  out << YAML::EndMap;
   return out.c_str();
 }
 

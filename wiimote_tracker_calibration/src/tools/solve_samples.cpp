@@ -16,12 +16,6 @@ namespace {
 
 using namespace wiimote_tracker;
 
-struct Arguments {
-  std::string samples;
-  std::string params;
-  std::string rig;
-};
-
 void print(const samples::Solution& solution) {
   const samples::Verdict& verdict = solution.verdict;
   std::printf("%s\n\n", verdict.text.c_str());
@@ -51,24 +45,23 @@ void print(const samples::Solution& solution) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  Arguments arguments;
+  std::string file, params, rig;
   ArgumentParser parser("solve_samples",
                         "Solves FILE, which calibration/save_samples wrote, and prints the "
                         "verdict.");
-  parser.positional("FILE", &arguments.samples);
-  parser.option("--params FILE", &arguments.params,
+  parser.positional("FILE", &file);
+  parser.option("--params FILE", &params,
                 "parameters of the node, a file like config/calibration.yaml, or one for "
                 "parameters:= of tracker.launch (default: their defaults)");
-  parser.option("--rig FILE", &arguments.rig, "write the rig to this file");
+  parser.option("--rig FILE", &rig, "write the rig to this file");
   return parser.run(argc, argv, [&] {
-    const ParameterTree parameters = readParameterTree(arguments.params, "calibration");
-    samples::Solution solution =
-        samples::solveSamples(samples::readSamplesFile(arguments.samples),
-                              readParameters(ParameterReader(parameters)).solve);
+    const ParameterTree parameters = readParameterTree(params, "calibration");
+    samples::Solution solution = samples::solveSamples(
+        samples::readSamplesFile(file), readParameters(ParameterReader(parameters)).solve);
     print(solution);
-    if (!arguments.rig.empty()) {
+    if (!rig.empty()) {
       solution.rig.solved_at = static_cast<double>(std::time(nullptr));
-      geometry::writeRigFile(solution.rig, arguments.rig);
+      geometry::writeRigFile(solution.rig, rig);
     }
     return 0;
   });

@@ -5,6 +5,7 @@
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
+#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/BoardStatus.h>
 #include <wiimote_tracker_msgs/SolveBoard.h>
 #include <wiimote_tracker_msgs/StartBoard.h>
@@ -17,6 +18,7 @@
 
 namespace wiimote_tracker {
 
+using std_srvs::Trigger;
 using wiimote_tracker_msgs::SolveBoard;
 using workflow::Reply;
 
@@ -59,9 +61,11 @@ class BoardServices {
   explicit BoardServices(NodeContext* context) : context_(*context) {
     publisher_ =
         context_.nh().advertise<wiimote_tracker_msgs::BoardStatus>("calibration/board", 1, true);
-    services_ = {offer("start", &BoardServices::start), offer("undo", &BoardServices::undo),
-                 offer("cancel", &BoardServices::cancel), offer("solve", &BoardServices::solve),
-                 offer("commit", &BoardServices::commit)};
+    offer("start", &BoardServices::start);
+    offer("undo", &BoardServices::undo);
+    offer("cancel", &BoardServices::cancel);
+    offer("solve", &BoardServices::solve);
+    offer("commit", &BoardServices::commit);
     context_.inputs().subscribeImages(
         [this](const capture::Image& image, const Lock& lock) { onImage(image, lock); });
     const Lock lock(context_.mutex());
@@ -71,27 +75,25 @@ class BoardServices {
  private:
   /// The calibration's status does not show replies: a lens is none of its steps.
   template <typename Handler>
-  ros::ServiceServer offer(const std::string& name, Handler handler) {
-    return advertise(&context_, "calibration/board/" + name, handler, this, false);
+  void offer(const std::string& name, Handler handler) {
+    context_.offer("board/" + name, handler, this, false);
   }
 
-  Reply start(const wiimote_tracker_msgs::StartBoard::Request& request,
-              wiimote_tracker_msgs::StartBoard::Response*,
-              Lock& lock) {
+  Reply start(wiimote_tracker_msgs::StartBoard& call, Lock& lock) {
     context_.discover(&lock);
-    const auto input = context_.inputs().cameras().find(request.camera);
+    const auto input = context_.inputs().cameras().find(call.request.camera);
     if (input == context_.inputs().cameras().end() || input->second.width < 0)
-      throw Refusal("no image of a camera '" + request.camera +
+      throw Refusal("no image of a camera '" + call.request.camera +
                     "' has come: check its name, or start its driver");
     const Parameters& parameters = context_.parameters(lock);
     intrinsics::Board board = parameters.board;
-    if (request.column_spacing != 0.0)
-      board.column_spacing = board.row_spacing = request.column_spacing;
-    if (request.row_spacing != 0.0)
-      board.row_spacing = request.row_spacing;
+    if (call.request.column_spacing != 0.0)
+      board.column_spacing = board.row_spacing = call.request.column_spacing;
+    if (call.request.row_spacing != 0.0)
+      board.row_spacing = call.request.row_spacing;
     run_ = intrinsics::ViewCollector(board, input->second.width, input->second.height,
                                      parameters.board_views);
-    camera_ = request.camera;
+    camera_ = call.request.camera;
     dropLens();
     const std::string message =
         "hold the board still in front of " + camera_ +
@@ -100,7 +102,7 @@ class BoardServices {
     return {true, message};
   }
 
-  Reply undo(Lock& lock) {
+  Reply undo(Trigger&, Lock& lock) {
     if (run().samples().views.empty())
       throw Refusal("there is no view to undo");
     run_->undo();
@@ -109,7 +111,7 @@ class BoardServices {
     return {true, run_->message()};
   }
 
-  Reply cancel(Lock& lock) {
+  Reply cancel(Trigger&, Lock& lock) {
     run();
     run_.reset();
     dropLens();
@@ -118,21 +120,21 @@ class BoardServices {
     return {true, "the views of the board are dropped"};
   }
 
-  Reply solve(const SolveBoard::Request& request, SolveBoard::Response* response, Lock& lock) {
+  Reply solve(SolveBoard& call, Lock& lock) {
     const std::string camera = camera_;
     const unsigned lens_number = lens_number_;
     const intrinsics::Samples samples = run().samples();
     intrinsics::SolverOptions options;
     options.minimum_views = context_.parameters(lock).board_views;
     options.start_focal_length = context_.parameters(lock).intrinsics.fx;
-    options.model = lensModel(request.model);
+    options.model = lensModel(call.request.model);
     const intrinsics::IntrinsicsSolution solution =
         context_.compute(&lock, [&] { return intrinsics::solveIntrinsics(samples, options); });
-    response->camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
-    response->reprojection_error = solution.reprojection_error;
-    const auto parameters = static_cast<Eigen::Index>(4 + response->camera_info.D.size());
+    call.response.camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
+    call.response.reprojection_error = solution.reprojection_error;
+    const auto parameters = static_cast<Eigen::Index>(4 + call.response.camera_info.D.size());
     for (Eigen::Index i = 0; i < parameters; ++i)
-      response->stddev.push_back(std::sqrt(solution.covariance(i, i)));
+      call.response.stddev.push_back(std::sqrt(solution.covariance(i, i)));
     if (lens_number == lens_number_) {
       lens_ = solution.intrinsics;
       publish("solved: " + solution.summary, lock);
@@ -140,7 +142,7 @@ class BoardServices {
     return {true, solution.summary};
   }
 
-  Reply commit(Lock& lock) {
+  Reply commit(Trigger&, Lock& lock) {
     run();
     if (!lens_)
       throw Refusal("the lens is not solved: solve it first");
@@ -197,7 +199,6 @@ class BoardServices {
 
   NodeContext& context_;
   ros::Publisher publisher_;
-  std::vector<ros::ServiceServer> services_;
   // All of the following with the mutex locked.
   std::string camera_;  // that sees the board; empty: nothing started
   std::optional<intrinsics::ViewCollector> run_;

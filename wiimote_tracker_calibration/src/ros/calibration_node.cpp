@@ -12,15 +12,12 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
               placeServices(&context_), recalibrateServices(&context_),
               continuousServices(&context_), healthMonitor(&context_)}) {
   context_.inputs().start();
-  status_timer_ =
-      context_.nh().createWallTimer(ros::WallDuration(0.5), [this](const ros::WallTimerEvent&) {
-        runCallback("the status", [this] {
-          const Lock lock(context_.mutex());
-          endRecordingOfOtherTime(lock);
-          context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
-          context_.publishStatus(lock);
-        });
-      });
+  status_timer_ = context_.everyHalfSecond("the status", [this] {
+    const Lock lock(context_.mutex());
+    endRecordingOfOtherTime(lock);
+    context_.calibration(lock).update(NodeContext::now() - NodeContext::kUnderWay);
+    context_.publishStatus(lock);
+  });
   const Lock lock(context_.mutex());
   context_.publishStatus(lock);
 }
@@ -36,8 +33,7 @@ void CalibrationNode::endRecordingOfOtherTime(const Lock& lock) {
 }
 
 CalibrationNode::~CalibrationNode() {
-  // The units are destroyed before the context: no image may reach them any more.
-  context_.inputs().stop();
+  context_.stop();
 }
 
 }  // namespace wiimote_tracker

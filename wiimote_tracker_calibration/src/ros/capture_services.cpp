@@ -5,6 +5,7 @@
 
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/CheckConnection.h>
 #include <wiimote_tracker_msgs/MeasureLength.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
@@ -19,6 +20,7 @@
 
 namespace wiimote_tracker {
 
+using std_srvs::Trigger;
 using workflow::Reply;
 
 namespace {
@@ -50,12 +52,12 @@ class CaptureServices {
         capture_server_(context_.nh(), [this](const auto& goal) { return captureCorner(goal); }) {
     using Self = CaptureServices;
     ros::NodeHandle& nh = context_.nh();
-    services_ = {advertise(context, "calibration/check_connection", &Self::checkConnection, this),
-                 advertise(context, "calibration/start", &Self::start, this),
-                 advertise(context, "calibration/measure_length", &Self::measureLength, this),
-                 advertise(context, "calibration/hands_free", &Self::handsFree, this),
-                 advertise(context, "calibration/undo", &Self::undo, this),
-                 advertise(context, "calibration/cancel", &Self::cancel, this)};
+    context->offer("check_connection", &Self::checkConnection, this);
+    context->offer("start", &Self::start, this);
+    context->offer("measure_length", &Self::measureLength, this);
+    context->offer("hands_free", &Self::handsFree, this);
+    context->offer("undo", &Self::undo, this);
+    context->offer("cancel", &Self::cancel, this);
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
       workflow::Calibration& calibration = context_.calibration(lock);
       const workflow::Step before = calibration.step();
@@ -74,18 +76,16 @@ class CaptureServices {
   }
 
  private:
-  Reply checkConnection(const wiimote_tracker_msgs::CheckConnection::Request& request,
-                        wiimote_tracker_msgs::CheckConnection::Response* response,
-                        Lock& lock) {
+  Reply checkConnection(wiimote_tracker_msgs::CheckConnection& call, Lock& lock) {
     constexpr double kLongest = capture::CameraMonitor::kMemory;
-    const double duration = request.duration == 0.0 ? 1.0 : request.duration;
+    const double duration = call.request.duration == 0.0 ? 1.0 : call.request.duration;
     if (!(duration >= NodeContext::kShortestLook && duration <= kLongest))
       throw Refusal("the duration must be within 0.05 and 10 s");
     context_.discover(&lock);
     context_.status(lock).beginWalk();
     context_.waitUntil(&lock, NodeContext::now() + duration, [] { return false; });
-    response->cameras = context_.status(lock).cameras(duration);
-    if (response->cameras.empty())
+    call.response.cameras = context_.status(lock).cameras(duration);
+    if (call.response.cameras.empty())
       throw Refusal("no camera is there: start the drivers");
     std::vector<std::string> problems;
     for (const auto& [name, input] : context_.inputs().cameras()) {
@@ -96,32 +96,30 @@ class CaptureServices {
     if (!problems.empty())
       throw Refusal(joined(problems, "; "));
     context_.calibration(lock).preparation().connection_checked = true;
-    return {true,
-            "all " + std::to_string(response->cameras.size()) + " cameras see exactly one spot"};
+    return {true, "all " + std::to_string(call.response.cameras.size()) +
+                      " cameras see exactly one spot"};
   }
 
-  Reply start(const wiimote_tracker_msgs::StartCalibration::Request& request,
-              wiimote_tracker_msgs::StartCalibration::Response*,
-              Lock& lock) {
+  Reply start(wiimote_tracker_msgs::StartCalibration& call, Lock& lock) {
     context_.discover(&lock);
-    const std::vector<std::string> cameras = chooseCameras(request.cameras, lock);
+    const std::vector<std::string> cameras = chooseCameras(call.request.cameras, lock);
     const Parameters& parameters = context_.parameters(lock);
-    const bool given = request.side_x != 0.0 || request.side_y != 0.0;
-    const double side_x = given ? request.side_x : parameters.side_length;
-    const double second = given ? request.side_y : parameters.second_side_length;
+    const bool given = call.request.side_x != 0.0 || call.request.side_y != 0.0;
+    const double side_x = given ? call.request.side_x : parameters.side_length;
+    const double second = given ? call.request.side_y : parameters.second_side_length;
     const double side_y = second != 0.0 ? second : side_x;
-    if (!request.without_square && side_x == 0.0)
+    if (!call.request.without_square && side_x == 0.0)
       throw Refusal(
           "the side of the square is 0: measure it, and give side_x in the request or set " +
           ros::this_node::getName() + "/side_length, in metres");
-    const std::optional<wave::Wand> wand = wandOnFloor(request, parameters);
+    const std::optional<wave::Wand> wand = wandOnFloor(call.request, parameters);
     if (wand) {
       requireUp(cameras, &lock);
       context_.facts(cameras, lock);  // a wave that cannot begin must not drop what was captured
     }
     workflow::Calibration& calibration = context_.calibration(lock);
-    const Reply reply = request.without_square ? calibration.startWithoutSquare(cameras)
-                                               : calibration.start(side_x, side_y, cameras);
+    const Reply reply = call.request.without_square ? calibration.startWithoutSquare(cameras)
+                                                    : calibration.start(side_x, side_y, cameras);
     if (reply.success)
       context_.inputs().restartGravity();
     if (reply.success && wand)
@@ -148,31 +146,27 @@ class CaptureServices {
       throw Refusal(wave::Wand::kNoUp);
   }
 
-  Reply measureLength(const wiimote_tracker_msgs::MeasureLength::Request& request,
-                      wiimote_tracker_msgs::MeasureLength::Response*,
-                      Lock& lock) {
+  Reply measureLength(wiimote_tracker_msgs::MeasureLength& call, Lock& lock) {
     square::TapedLength taped;
-    taped.from = request.from_corner;
-    taped.to = request.to_corner;
-    taped.length = request.length;
-    if (request.stddev != 0.0)
-      taped.stddev = request.stddev;
+    taped.from = call.request.from_corner;
+    taped.to = call.request.to_corner;
+    taped.length = call.request.length;
+    if (call.request.stddev != 0.0)
+      taped.stddev = call.request.stddev;
     return context_.calibration(lock).measureLength(
         taped, context_.parameters(lock).solve.square.uncertainty.placement);
   }
 
-  Reply handsFree(const std_srvs::SetBool::Request& request,
-                  std_srvs::SetBool::Response*,
-                  Lock& lock) {
-    context_.calibration(lock).setHandsFree(request.data);
-    return {true, request.data
+  Reply handsFree(std_srvs::SetBool& call, Lock& lock) {
+    context_.calibration(lock).setHandsFree(call.request.data);
+    return {true, call.request.data
                       ? "a corner is captured automatically when the LED is still at a new place"
                       : "corners are captured on request only"};
   }
 
-  Reply undo(Lock& lock) { return context_.calibration(lock).undo(); }
+  Reply undo(Trigger&, Lock& lock) { return context_.calibration(lock).undo(); }
 
-  Reply cancel(Lock& lock) {
+  Reply cancel(Trigger&, Lock& lock) {
     const Reply reply = context_.calibration(lock).cancel();
     context_.notify();
     return reply;
@@ -254,7 +248,6 @@ class CaptureServices {
 
   NodeContext& context_;
   CaptureServer capture_server_;
-  std::vector<ros::ServiceServer> services_;
   // The first message is latched: a button that it shows was pressed earlier.
   bool button_was_pressed_ = true;
   ros::Subscriber button_;

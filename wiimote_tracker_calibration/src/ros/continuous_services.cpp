@@ -5,6 +5,7 @@
 #include "continuous/continuous_calibration.h"
 #include "continuous/rig_changes.h"
 
+#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -16,12 +17,12 @@
 namespace wiimote_tracker {
 
 using continuous::Cause;
+using std_srvs::Trigger;
 using workflow::Reply;
 using workflow::Step;
 
 namespace {
 
-constexpr double kUpdatePeriod = 0.5;  // [s]
 const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
                                   1000.0 * continuous::Approach::kLongestStep,
                                   continuous::Approach::kPeriod);
@@ -30,18 +31,15 @@ class ContinuousServices {
  public:
   explicit ContinuousServices(NodeContext* context) : context_(*context) {
     using Self = ContinuousServices;
-    services_ = {advertise(context, "calibration/continuous/apply", &Self::apply, this),
-                 advertise(context, "calibration/continuous/revert", &Self::revert, this)};
+    context->offer("continuous/apply", &Self::apply, this);
+    context->offer("continuous/revert", &Self::revert, this);
     const Lock lock(context_.mutex());
     policy_ = context_.parameters(lock).continuous_policy;
     options_.recalibrate = context_.parameters(lock).recalibrateOptions();
     if (policy_ == ContinuousPolicy::kOff)
       return;
     inputs_.emplace(&context_.inputs(), [this](const Lock& inner) { return isCalibrated(inner); });
-    timer_ = context_.nh().createWallTimer(
-        ros::WallDuration(kUpdatePeriod), [this](const ros::WallTimerEvent&) {
-          runCallback("continuous calibration", [this] { update(); });
-        });
+    timer_ = context_.everyHalfSecond("continuous calibration", [this] { update(); });
   }
 
  private:
@@ -81,7 +79,7 @@ class ContinuousServices {
     const std::string text = proposal->message + "; " + command("apply") + "  uses that";
     context_.status(lock).setProposal(proposal->cameras, text);
     if (applies) {
-      const Reply applied = apply(lock);
+      const Reply applied = applyProposal(lock);
       ROS_WARN_STREAM(applied.message);
     } else if (is_news) {
       ROS_WARN_STREAM(text);
@@ -173,8 +171,10 @@ class ContinuousServices {
            "others see it";
   }
 
+  Reply apply(Trigger&, Lock& lock) { return applyProposal(lock); }
+
   /// The rig before is kept for revert(), the new one in a file beside the rig file.
-  Reply apply(Lock& lock) {
+  Reply applyProposal(Lock& lock) {
     if (policy_ == ContinuousPolicy::kOff)
       throw Refusal(
           ros::this_node::getName() +
@@ -212,7 +212,7 @@ class ContinuousServices {
     }
   }
 
-  Reply revert(Lock& lock) {
+  Reply revert(Trigger&, Lock& lock) {
     requireCalibrated(lock);
     const auto before = changes_.revert(context_.existingRig("to change", lock));
     if (!before) {
@@ -246,7 +246,6 @@ class ContinuousServices {
   std::vector<std::string> new_clocks_;                          // Of the rig that is watched.
   std::optional<continuous::Proposal> proposal_;                 // The same.
   std::string contradiction_;                                    // That was logged.
-  std::vector<ros::ServiceServer> services_;
   ros::WallTimer timer_;
 };
 

@@ -60,18 +60,19 @@ class FileServices {
         ROS_ERROR_STREAM(reply.message << "; the node goes on without a rig");
     }
     using Self = FileServices;
-    services_ = {advertise(context, "calibration/save", &Self::save, this),
-                 advertise(context, "calibration/load", &Self::load, this),
-                 advertise(context, "calibration/save_samples", &Self::saveSamples, this),
-                 advertise(context, "calibration/load_samples", &Self::loadSamples, this),
-                 advertise(context, "calibration/join", &Self::join, this)};
+    context->offer("save", &Self::save, this);
+    context->offer("load", &Self::load, this);
+    context->offer("save_samples", &Self::saveSamples, this);
+    context->offer("load_samples", &Self::loadSamples, this);
+    context->offer("join", &Self::join, this);
   }
 
  private:
-  Reply save(const SaveRig::Request& request, SaveRig::Response* response, Lock& lock) {
+  Reply save(SaveRig& call, Lock& lock) {
     const geometry::Rig rig = context_.existingRig("to save", lock);
     const double timeout = context_.parameters(lock).set_camera_info_timeout;
-    const std::string path = response->path = rigPath(request.path, context_.parameters(lock));
+    const std::string path = call.response.path =
+        rigPath(call.request.path, context_.parameters(lock));
     const std::vector<std::string> warnings = context_.compute(&lock, [&] {
       std::vector<std::string> all = saveRig(rig, path);
       std::vector<geometry::Camera> cameras;
@@ -92,18 +93,18 @@ class FileServices {
     return {true, message};
   }
 
-  Reply load(const LoadRig::Request& request, LoadRig::Response* response, Lock& lock) {
-    const std::string path = response->path = rigPath(request.path, context_.parameters(lock));
+  Reply load(LoadRig& call, Lock& lock) {
+    const std::string path = call.response.path =
+        rigPath(call.request.path, context_.parameters(lock));
     Reply reply = loadRig(path, &lock);
     if (reply.success)
       reply.message += nextStart(path, context_.parameters(lock));
     return reply;
   }
 
-  Reply saveSamples(const SaveSamples::Request& request,
-                    SaveSamples::Response* response,
-                    Lock& lock) {
-    const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
+  Reply saveSamples(SaveSamples& call, Lock& lock) {
+    const std::string path = call.response.path =
+        samplesPath(call.request.path, context_.parameters(lock));
     const samples::Samples samples = context_.samples(lock);
     if (samples.recording.cameras.empty())
       throw Refusal("nothing was captured that could be saved: start a calibration first");
@@ -111,30 +112,29 @@ class FileServices {
     return {true, "what was captured is saved to " + path};
   }
 
-  Reply loadSamples(const LoadSamples::Request& request,
-                    LoadSamples::Response* response,
-                    Lock& lock) {
-    const std::string path = response->path = samplesPath(request.path, context_.parameters(lock));
+  Reply loadSamples(LoadSamples& call, Lock& lock) {
+    const std::string path = call.response.path =
+        samplesPath(call.request.path, context_.parameters(lock));
     const samples::Samples samples =
         context_.compute(&lock, [&] { return samples::readSamplesFile(path); });
     return context_.setSamples(samples, lock);
   }
 
-  Reply join(const JoinRig::Request& request, JoinRig::Response* response, Lock& lock) {
+  Reply join(JoinRig& call, Lock& lock) {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = replyOf([&] {
       context_.calibration(lock).requireIdle();
       const geometry::Rig second = context_.existingRig("to join", lock);
       const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).points();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
-      const std::string path = rigPath(request.path, context_.parameters(lock));
+      const std::string path = rigPath(call.request.path, context_.parameters(lock));
       rooms::JoinedRigs joined = context_.compute(&lock, [&] {
         return rooms::joinRigs(geometry::readRigFile(path), second, places, stddev);
       });
       context_.calibration(lock).requireIdle();
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();
-      response->rig = toMessage(joined.rig);
+      call.response.rig = toMessage(joined.rig);
       useMasks(joined.rig, &context_.inputs());
       context_.setRig(joined.rig, joined.message, lock);
       return Reply{true, joined.message};
@@ -158,7 +158,6 @@ class FileServices {
   }
 
   NodeContext& context_;
-  std::vector<ros::ServiceServer> services_;
 };
 
 }  // namespace

@@ -17,8 +17,6 @@ namespace wiimote_tracker {
 
 namespace {
 
-constexpr double kPeriod = 0.5;  // [s]
-
 const char kUnknownCamera[] = "is not in the rig and makes no points: calibrate again with it";
 
 class HealthMonitor {
@@ -28,10 +26,7 @@ class HealthMonitor {
         inputs_(&context_.inputs(), [this](const Lock&) { return watch_.has_value(); }) {
     diagnostics_.setHardwareID("none");
     diagnostics_.add("cameras", this, &HealthMonitor::report);
-    timer_ = context_.nh().createWallTimer(
-        ros::WallDuration(kPeriod), [this](const ros::WallTimerEvent&) {
-          runCallback("the health of the cameras", [this] { update(); });
-        });
+    timer_ = context_.everyHalfSecond("the health of the cameras", [this] { update(); });
   }
 
  private:

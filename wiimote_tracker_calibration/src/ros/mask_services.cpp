@@ -2,6 +2,7 @@
 
 #include "capture/mask_learner.h"
 
+#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/text.h>
 
@@ -26,21 +27,18 @@ constexpr double kSettle = 0.3;
 
 class MaskServices {
  public:
-  explicit MaskServices(NodeContext* context)
-      : context_(*context),
-        services_({advertise(context, "calibration/learn_masks", &MaskServices::learn, this),
-                   advertise(context, "calibration/clear_masks", &MaskServices::clear, this)}) {
-    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
+  explicit MaskServices(NodeContext* context) : context_(*context) {
+    context->offer("learn_masks", &MaskServices::learn, this);
+    context->offer("clear_masks", &MaskServices::clear, this);
+    context->inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
       if (learner_)
         learner_->add(image);
     });
   }
 
  private:
-  workflow::Reply learn(const LearnMasks::Request& request,
-                        LearnMasks::Response* response,
-                        Lock& lock) {
-    const double duration = request.duration == 0.0 ? 2.0 : request.duration;
+  workflow::Reply learn(LearnMasks& call, Lock& lock) {
+    const double duration = call.request.duration == 0.0 ? 2.0 : call.request.duration;
     if (!(duration >= NodeContext::kShortestLook && duration <= 60.0))
       throw Refusal("the duration must be within 0.05 and 60 s");
     context_.discover(&lock);
@@ -57,13 +55,13 @@ class MaskServices {
       return useMasks(learner_->result(), lock);
     });
     for (const auto& masks : context_.inputs().masks()) {
-      response->cameras.push_back(masks.first);
-      response->masks.push_back(static_cast<std::uint32_t>(masks.second.size()));
+      call.response.cameras.push_back(masks.first);
+      call.response.masks.push_back(static_cast<std::uint32_t>(masks.second.size()));
     }
     return reply;
   }
 
-  workflow::Reply clear(Lock& lock) {
+  workflow::Reply clear(std_srvs::Trigger&, Lock& lock) {
     context_.calibration(lock).requireIdle();
     const std::string saved = context_.setMasks({}, lock) ? kNoneToBeSaved : "";
     return {true, "no light is masked any more" + saved};
@@ -106,7 +104,6 @@ class MaskServices {
 
   NodeContext& context_;
   std::optional<capture::MaskLearner> learner_;  // while lights are being learned
-  std::vector<ros::ServiceServer> services_;
 };
 
 }  // namespace

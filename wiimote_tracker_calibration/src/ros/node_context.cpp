@@ -58,6 +58,17 @@ workflow::Reply NodeContext::handle(const std::function<workflow::Reply(Lock&)>&
   return shows_reply ? show(reply, lock) : reply;
 }
 
+ros::WallTimer NodeContext::everyHalfSecond(const std::string& name,
+                                            const std::function<void()>& call) {
+  return nh_.createWallTimer(ros::WallDuration(0.5),
+                             [=](const ros::WallTimerEvent&) { runCallback(name, call); });
+}
+
+void NodeContext::stop() {
+  inputs_.stop();
+  services_.clear();
+}
+
 workflow::Reply NodeContext::run(const Job& job,
                                  Lock* lock,
                                  const std::function<workflow::Reply()>& work) {

@@ -11,7 +11,6 @@
 #include "status_publisher.h"
 
 #include <ros/node_handle.h>
-#include <std_srvs/Trigger.h>
 #include <tf2_ros/static_transform_broadcaster.h>
 
 #include <condition_variable>
@@ -31,8 +30,8 @@ struct Job {
   bool is_waved = false;  ///< The LED is waved meanwhile.
 };
 
-/// What the node's units share. A unit is constructed from it, advertises its services, subscribes
-/// to inputs() and lives as long as the node. Nobody holds the mutex while solving, writing files,
+/// What the node's units share. A unit is constructed from it, offers its services, subscribes to
+/// inputs() and lives as long as the node. Nobody holds the mutex while solving, writing files,
 /// or calling a service.
 class NodeContext {
  public:
@@ -60,6 +59,33 @@ class NodeContext {
   /// the handler throws becomes a refusal.
   workflow::Reply handle(const std::function<workflow::Reply(Lock&)>& handler,
                          bool shows_reply = true);
+
+  /// Offers the service calibration/<name> of this type. Its handler has the mutex locked, returns
+  /// the reply, and fills the other fields of the response.
+  /// @param shows_reply whether the status shows the reply.
+  template <typename Unit, typename Service>
+  void offer(const std::string& name,
+             workflow::Reply (Unit::*handler)(Service&, Lock&),
+             Unit* unit,
+             bool shows_reply = true) {
+    services_.push_back(nh_.advertiseService<typename Service::Request, typename Service::Response>(
+        "calibration/" + name, [=](auto& request, auto& response) {
+          Service call{request, {}};
+          const workflow::Reply reply = replyOf([&] {
+            return handle([&](Lock& lock) { return (unit->*handler)(call, lock); }, shows_reply);
+          });
+          response = call.response;
+          response.success = reply.success;
+          response.message = reply.message;
+          return true;
+        }));
+  }
+
+  /// Calls twice a second, never two at a time of the same timer.
+  ros::WallTimer everyHalfSecond(const std::string& name, const std::function<void()>& call);
+
+  /// Before the units are destroyed: returns when no request and no image reaches them any more.
+  void stop();
 
   // --- All of the following with the mutex locked.
 
@@ -165,53 +191,8 @@ class NodeContext {
   tf2_ros::StaticTransformBroadcaster transforms_;
   CameraInputs inputs_;
   StatusPublisher status_;
+  std::vector<ros::ServiceServer> services_;
 };
-
-/// Offers a service. Its handler has the mutex locked, returns the reply, and fills the other
-/// fields of the response. @param shows_reply whether the status shows the reply.
-template <typename Request, typename Response, typename Handler>
-ros::ServiceServer offer(NodeContext* context,
-                         const std::string& name,
-                         bool shows_reply,
-                         const Handler& handler) {
-  return context->nh().advertiseService<Request, Response>(
-      name, [=](Request& request, Response& response) {
-        const workflow::Reply reply = replyOf([&] {
-          return context->handle([&](Lock& lock) { return handler(request, &response, lock); },
-                                 shows_reply);
-        });
-        response.success = reply.success;
-        response.message = reply.message;
-        return true;
-      });
-}
-
-/// Same for a function of a unit.
-template <typename Unit, typename Request, typename Response>
-ros::ServiceServer advertise(NodeContext* context,
-                             const std::string& name,
-                             workflow::Reply (Unit::*handler)(const Request&, Response*, Lock&),
-                             Unit* unit,
-                             bool shows_reply = true) {
-  return offer<Request, Response>(context, name, shows_reply,
-                                  [=](const Request& request, Response* response, Lock& lock) {
-                                    return (unit->*handler)(request, response, lock);
-                                  });
-}
-
-/// Same without fields in the request.
-template <typename Unit>
-ros::ServiceServer advertise(NodeContext* context,
-                             const std::string& name,
-                             workflow::Reply (Unit::*handler)(Lock&),
-                             Unit* unit,
-                             bool shows_reply = true) {
-  using std_srvs::Trigger;
-  return offer<Trigger::Request, Trigger::Response>(
-      context, name, shows_reply, [=](const Trigger::Request&, Trigger::Response*, Lock& lock) {
-        return (unit->*handler)(lock);
-      });
-}
 
 }  // namespace wiimote_tracker
 

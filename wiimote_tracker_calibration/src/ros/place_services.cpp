@@ -6,6 +6,7 @@
 #include "remap/measured_points.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
@@ -21,6 +22,7 @@
 
 namespace wiimote_tracker {
 
+using std_srvs::Trigger;
 using wiimote_tracker_msgs::AddKnownPlace;
 using wiimote_tracker_msgs::CheckPlace;
 using wiimote_tracker_msgs::FitRemap;
@@ -75,12 +77,12 @@ class PlaceServices {
  public:
   explicit PlaceServices(NodeContext* context) : context_(*context) {
     using Self = PlaceServices;
-    services_ = {advertise(context, "calibration/check", &Self::check, this),
-                 advertise(context, "calibration/measure_place", &Self::measurePlace, this),
-                 advertise(context, "calibration/known_places/add", &Self::add, this),
-                 advertise(context, "calibration/known_places/undo", &Self::undo, this),
-                 advertise(context, "calibration/known_places/clear", &Self::clear, this),
-                 advertise(context, "calibration/known_places/fit", &Self::fit, this)};
+    context->offer("check", &Self::check, this);
+    context->offer("measure_place", &Self::measurePlace, this);
+    context->offer("known_places/add", &Self::add, this);
+    context->offer("known_places/undo", &Self::undo, this);
+    context->offer("known_places/clear", &Self::clear, this);
+    context->offer("known_places/fit", &Self::fit, this);
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
       if (capture_)
         capture_->add(image);
@@ -88,47 +90,47 @@ class PlaceServices {
   }
 
  private:
-  Reply check(const CheckPlace::Request& request, CheckPlace::Response* response, Lock& lock) {
-    setUnknown(response);
+  Reply check(CheckPlace& call, Lock& lock) {
+    setUnknown(&call.response);
     const square::KnownPlace known =
-        knownPlace(request, context_.parameters(lock).solve.square.uncertainty.placement);
-    return measure(
-        known, request.duration, &lock, [&](const auto& measured, const auto& rig, const auto&) {
-          const place::MeasuredPlace place = place::corrected(rig, measured);
-          const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
-          fill(place, check, response);
-          return Reply{true, check.message};
-        });
+        knownPlace(call.request, context_.parameters(lock).solve.square.uncertainty.placement);
+    return measure(known, call.request.duration, &lock,
+                   [&](const auto& measured, const auto& rig, const auto&) {
+                     const place::MeasuredPlace place = place::corrected(rig, measured);
+                     const place::PlaceCheck check =
+                         place::checkPlace(place, known.position, known.stddev);
+                     fill(place, check, &call.response);
+                     return Reply{true, check.message};
+                   });
   }
 
-  Reply measurePlace(const CheckPlace::Request& request,
-                     CheckPlace::Response* response,
-                     Lock& lock) {
-    setUnknown(response);
+  Reply measurePlace(CheckPlace& call, Lock& lock) {
+    setUnknown(&call.response);
     // Before a person holds the LED still for nothing.
     if (const std::string reason = context_.calibration(lock).whyNoPlace(); !reason.empty())
       throw Refusal(reason);
-    const square::KnownPlace known = knownPlace(request, square::KnownPlace().stddev);
+    const square::KnownPlace known = knownPlace(call.request, square::KnownPlace().stddev);
     return measure(
-        known, request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
+        known, call.request.duration, &lock, [&](const auto& place, const auto&, const auto& seen) {
           const place::PlaceCheck check = place::checkPlace(place, known.position, known.stddev);
-          fill(place, check, response);
+          fill(place, check, &call.response);
           if (!place.rays_agree || check.error > kMostError * check.expected_stddev)
             throw Refusal(check.message);
           return context_.calibration(lock).addPlace(known, seen);
         });
   }
 
-  Reply add(const AddKnownPlace::Request& request, AddKnownPlace::Response* response, Lock& lock) {
-    response->measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
+  Reply add(AddKnownPlace& call, Lock& lock) {
+    call.response.measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     remap::MeasuredPoints& places = context_.knownPlaces(lock);
     Reply reply = replyOf([&] {
       square::KnownPlace known;
-      known.position = vectorOf(request.known);
+      known.position = vectorOf(call.request.known);
       places.requireNew(known.position);
       return measure(
-          known, request.duration, &lock, [&](const auto& place, const auto& rig, const auto&) {
+          known, call.request.duration, &lock,
+          [&](const auto& place, const auto& rig, const auto&) {
             if (!place.rays_agree)
               throw Refusal(place::checkPlace(place, known.position, 0.0).message);
             context_.requireSameRig(rig.id(), lock);
@@ -136,19 +138,19 @@ class PlaceServices {
             const remap::KnownPoint point{place.position, known.position};
             const std::string unmoved = places.describeUnmoved(point);
             places.add(point);
-            response->measured = pointOf(place.position);
+            call.response.measured = pointOf(place.position);
             return Reply{
                 true, format("place %zu measured at (%.3f, %.3f, %.3f) m", places.points().size(),
                              place.position.x(), place.position.y(), place.position.z()) +
                           distanceText(place.position, known.position) + unmoved};
           });
     });
-    response->places = static_cast<std::uint32_t>(places.points().size());
+    call.response.places = static_cast<std::uint32_t>(places.points().size());
     reply.message += dropped;
     return reply;
   }
 
-  Reply undo(Lock& lock) {
+  Reply undo(Trigger&, Lock& lock) {
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     remap::MeasuredPoints& places = context_.knownPlaces(lock);
     const bool success = places.undo();
@@ -158,21 +160,21 @@ class PlaceServices {
                          dropped};
   }
 
-  Reply clear(Lock& lock) {
+  Reply clear(Trigger&, Lock& lock) {
     context_.knownPlaces(lock).clear();
     return {true, "all known places were dropped"};
   }
 
-  Reply fit(const FitRemap::Request& request, FitRemap::Response* response, Lock& lock) {
-    response->uncorrected_error = kUnknown;
-    response->expected_error = kUnknown;
+  Reply fit(FitRemap& call, Lock& lock) {
+    call.response.uncorrected_error = kUnknown;
+    call.response.expected_error = kUnknown;
     const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
     Reply reply = replyOf([&] {
       context_.calibration(lock).requireIdle();
       const std::string rig_id = context_.existingRig("to correct", lock).id();
       const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).points();
       std::vector<remap::Model> allowed;
-      for (const std::string& name : request.models)
+      for (const std::string& name : call.request.models)
         allowed.push_back(remap::modelFromName(name));
       const remap::FitResult result =
           context_.compute(&lock, [&] { return remap::fitRemap(points, rig_id, allowed); });
@@ -180,12 +182,12 @@ class PlaceServices {
       context_.requireSameRig(rig_id, lock);
       geometry::Rig rig = *context_.rig(lock);
       rig.remap = result.remap;
-      response->model = remap::nameOf(result.remap.model);
-      response->uncorrected_error = result.uncorrected_error;
-      response->expected_error = result.expected_error;
-      response->table = remap::table(result);
+      call.response.model = remap::nameOf(result.remap.model);
+      call.response.uncorrected_error = result.uncorrected_error;
+      call.response.expected_error = result.expected_error;
+      call.response.table = remap::table(result);
       const std::string message =
-          "the volume is corrected (" + response->model + ")" +
+          "the volume is corrected (" + call.response.model + ")" +
           format(": known places were off by %.1f mm, expected now %.1f mm",
                  1e3 * result.uncorrected_error, 1e3 * result.expected_error) +
           appendix(result.warnings);
@@ -251,7 +253,6 @@ class PlaceServices {
 
   NodeContext& context_;
   std::optional<capture::CornerCapture> capture_;  // while a place is being measured
-  std::vector<ros::ServiceServer> services_;
 };
 
 }  // namespace

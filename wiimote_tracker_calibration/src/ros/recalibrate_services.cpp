@@ -20,12 +20,8 @@ constexpr double kLongestDuration = 300.0;  // [s]
 
 class RecalibrateServices {
  public:
-  explicit RecalibrateServices(NodeContext* context)
-      : context_(*context),
-        service_(advertise(context,
-                           "calibration/recalibrate_camera",
-                           &RecalibrateServices::recalibrate,
-                           this)) {
+  explicit RecalibrateServices(NodeContext* context) : context_(*context) {
+    context->offer("recalibrate_camera", &RecalibrateServices::recalibrate, this);
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
       if (recording_)
         recording_->images.push_back(image);
@@ -38,11 +34,9 @@ class RecalibrateServices {
   }
 
  private:
-  workflow::Reply recalibrate(const RecalibrateCamera::Request& request,
-                              RecalibrateCamera::Response* response,
-                              Lock& lock) {
-    const std::string& camera = request.camera;
-    const double duration = request.duration == 0.0 ? kUsualDuration : request.duration;
+  workflow::Reply recalibrate(RecalibrateCamera& call, Lock& lock) {
+    const std::string& camera = call.request.camera;
+    const double duration = call.request.duration == 0.0 ? kUsualDuration : call.request.duration;
     if (!(duration > 0.0 && duration <= kLongestDuration))
       throw Refusal("the duration must be within 0 and 300 s: correct it");
     const geometry::Rig rig = context_.existingRig("with this camera", lock);
@@ -70,8 +64,8 @@ class RecalibrateServices {
       if (context_.isCancelled(Step::kMeasuring, lock))
         return workflow::Reply{false, ""};
       context_.requireSameRig(rig.id(), lock);
-      response->moved = result.moved;
-      response->turned = result.turned;
+      call.response.moved = result.moved;
+      call.response.turned = result.turned;
       result.rig.solved_at = NodeContext::now();
       context_.setRig(result.rig, result.message, lock);
       return workflow::Reply{true, result.message};
@@ -82,7 +76,6 @@ class RecalibrateServices {
   // While an LED is waved:
   std::optional<recalibrate::Request> recording_;
   capture::RestGravity gravity_;
-  ros::ServiceServer service_;
 };
 
 }  // namespace

@@ -19,13 +19,12 @@ class SolveServices {
         trace_(context_.nh().advertise<wiimote_tracker_msgs::PrincipalPointTrace>(
             "calibration/principal_point_trace",
             1,
-            true)),
-        service_(advertise(context, "calibration/solve", &SolveServices::solve, this)) {}
+            true)) {
+    context->offer("solve", &SolveServices::solve, this);
+  }
 
  private:
-  workflow::Reply solve(const SolveCalibration::Request&,
-                        SolveCalibration::Response* response,
-                        Lock& lock) {
+  workflow::Reply solve(SolveCalibration& call, Lock& lock) {
     const Job job = {Step::kSolving, "solving", "what was captured stays"};
     return context_.run(job, &lock, [&] {
       const samples::Samples samples = context_.samples(lock);
@@ -43,8 +42,8 @@ class SolveServices {
       solution.rig.solved_at = NodeContext::now();
       const workflow::Reply reply = context_.calibration(lock).takeSolution(solution.rig);
       const geometry::Rig& rig = *context_.rig(lock);
-      response->rig = toMessage(rig);
-      response->verdict = toMessage(solution.verdict, rig);
+      call.response.rig = toMessage(rig);
+      call.response.verdict = toMessage(solution.verdict, rig);
       context_.publishRig(solution.verdict, lock);
       if (solution.trace)
         trace_.publish(toMessage(*solution.trace, rig));
@@ -55,7 +54,6 @@ class SolveServices {
 
   NodeContext& context_;
   ros::Publisher trace_;
-  ros::ServiceServer service_;
 };
 
 }  // namespace

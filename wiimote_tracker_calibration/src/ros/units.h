@@ -7,8 +7,8 @@
 
 namespace wiimote_tracker {
 
-/// A subject of the node: an object that advertises services and subscribes to the context's
-/// inputs. The context must outlive it.
+/// A subject of the node: an object that offers services and subscribes to the context's inputs.
+/// The context must outlive it.
 using Unit = std::shared_ptr<void>;
 
 /// Files: save and load (the rig), save_samples and load_samples (what was captured), and join (the

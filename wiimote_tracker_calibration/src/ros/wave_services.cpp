@@ -2,6 +2,7 @@
 
 #include "units.h"
 
+#include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/StartWave.h>
 
 #include <cstddef>
@@ -42,22 +43,21 @@ bool knownCameras(const wave::Recording& recording,
 
 class WaveServices {
  public:
-  explicit WaveServices(NodeContext* context)
-      : context_(*context),
-        services_({advertise(context, "calibration/start_wave", &WaveServices::start, this),
-                   advertise(context, "calibration/stop_wave", &WaveServices::stop, this)}) {}
-
- private:
-  workflow::Reply start(const wiimote_tracker_msgs::StartWave::Request& request,
-                        wiimote_tracker_msgs::StartWave::Response*,
-                        Lock& lock) {
-    return beginWave(wandOf(request.wand_length, request.wand_stddev), &context_, &lock);
+  explicit WaveServices(NodeContext* context) : context_(*context) {
+    context->offer("start_wave", &WaveServices::start, this);
+    context->offer("stop_wave", &WaveServices::stop, this);
   }
 
-  workflow::Reply stop(Lock& lock) { return context_.calibration(lock).endWave(); }
+ private:
+  workflow::Reply start(wiimote_tracker_msgs::StartWave& call, Lock& lock) {
+    return beginWave(wandOf(call.request.wand_length, call.request.wand_stddev), &context_, &lock);
+  }
+
+  workflow::Reply stop(std_srvs::Trigger&, Lock& lock) {
+    return context_.calibration(lock).endWave();
+  }
 
   NodeContext& context_;
-  std::vector<ros::ServiceServer> services_;
 };
 
 }  // namespace

@@ -40,7 +40,7 @@ TEST(CalibratePage, HidesTheRemarksOfANodeThatIsGone) {
 
 TEST(CalibratePage, AppliesAndRevertsWhatContinuousCalibrationProposes) {
   std::string sent;
-  CalibratePage page(nullptr, [&](const Request& request) { sent = request.service; });
+  CalibratePage page(nullptr, [&](const Request& request) { sent = request.name; });
   page.resize(440, 740);
   Guide guide;
   wiimote_tracker_msgs::CalibrationStatus status;

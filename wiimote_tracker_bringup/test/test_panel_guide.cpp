@@ -51,15 +51,15 @@ TEST_F(NextStep, IsWhatTheNodeSays) {
   EXPECT_EQ(advice.title, "Corner 3");
   EXPECT_EQ(advice.sentence, "Put the LED on corner 3 again.");
   EXPECT_EQ(advice.button, "Capture corner 3 again");
-  EXPECT_EQ(advice.request.service, "capture_corner");
-  EXPECT_EQ(advice.request.corner, 2);
+  EXPECT_EQ(advice.request, "capture_corner");
+  EXPECT_EQ(advice.corner, 2);
 }
 
 TEST_F(NextStep, OffersWhatContinuousCalibrationProposes) {
   status_.next_request = "continuous/apply";
   status_.next_label = "correct it";
   EXPECT_EQ(at(CalibrationStatus::SAVED).button, "Correct it");
-  EXPECT_EQ(guide_.advice(now_).request.service, "continuous/apply");
+  EXPECT_EQ(guide_.advice(now_).request, "continuous/apply");
 }
 
 TEST_F(NextStep, HasNoButtonWhereThereIsNothingToRequest) {

@@ -1,30 +1,44 @@
 #include "calibrate_page.h"
 
 #include "big_words.h"
-#include "figure.h"
 #include "number_box.h"
 #include "square_drawing.h"
+#include "table.h"
 
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFontMetrics>
 #include <QGridLayout>
-#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
-#include <QTableWidget>
 #include <QVBoxLayout>
 #include <QWheelEvent>
+
+#include <std_srvs/SetBool.h>
+#include <std_srvs/Trigger.h>
+#include <wiimote_tracker_msgs/CheckConnection.h>
+#include <wiimote_tracker_msgs/CheckPlace.h>
+#include <wiimote_tracker_msgs/LearnMasks.h>
+#include <wiimote_tracker_msgs/LoadRig.h>
+#include <wiimote_tracker_msgs/MeasureLength.h>
+#include <wiimote_tracker_msgs/SaveRig.h>
+#include <wiimote_tracker_msgs/SolveCalibration.h>
+#include <wiimote_tracker_msgs/StartCalibration.h>
+#include <wiimote_tracker_msgs/StartWave.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker::panel {
+
+using namespace wiimote_tracker_msgs;
+
 namespace {
 
 constexpr int kMostRemarks = 6;
@@ -128,26 +142,45 @@ void CalibratePage::addAdvice() {
   next_->setObjectName("next");
   next_->setFont(larger);
   next_->setMinimumHeight(44);
-  connect(next_, &QPushButton::clicked, this, [this] { sendFilled(advice_.request); });
+  connect(next_, &QPushButton::clicked, this, [this] { sendRequest(advice_.request); });
+  requests_["capture_corner"] = [this] {
+    return Request{"capture_corner", [corner = advice_.corner](Requests* requests) {
+                     return requests->captureCorner(corner);
+                   }};
+  };
   advice->addWidget(progress_ = new QProgressBar(this));
   progress_->setRange(0, 100);
   advice->addWidget(answer_ = wrappedLabel("answer", this));
 }
 
-QPushButton* CalibratePage::addButton(const QString& words, const std::string& service) {
+template <class Service>
+void CalibratePage::addRequest(const std::string& name,
+                               const std::function<void(typename Service::Request*)>& fill) {
+  requests_[name] = [name, fill] {
+    typename Service::Request arguments;
+    fill(&arguments);
+    return requestOf<Service>(name, arguments);
+  };
+}
+
+void CalibratePage::sendRequest(const std::string& name) {
+  const auto request = requests_.find(name);
+  send_(request != requests_.end() ? request->second() : requestOf<std_srvs::Trigger>(name));
+}
+
+QPushButton* CalibratePage::addButton(const QString& words, const std::string& request) {
   auto* button = new QPushButton(words, this);
   button->setObjectName(words);
-  connect(button, &QPushButton::clicked, this, [this, service] { sendFilled({service}); });
-  if (service != "cancel")
+  connect(button, &QPushButton::clicked, this, [this, request] { sendRequest(request); });
+  if (request != "cancel")
     buttons_.push_back(button);
   return button;
 }
 
 /// Quality of each camera.
 void CalibratePage::addTable(QVBoxLayout* layout) {
-  layout->addWidget(table_ = new QTableWidget(0, 6, this));
-  table_->setObjectName("table");
-  table_->setHorizontalHeaderLabels({"camera", "px", "mm", "fits %", "± mm", "± °"});
+  const QStringList columns = {"camera", "px", "mm", "fits %", "± mm", "± °"};
+  layout->addWidget(table_ = new Table("table", columns, this));
   const QStringList meanings = {"",
                                 "residual in the image [px]",
                                 "residual at the distance of the LED [mm]",
@@ -156,10 +189,8 @@ void CalibratePage::addTable(QVBoxLayout* layout) {
                                 "standard deviation of the camera's orientation"};
   for (int column = 0; column < meanings.size(); ++column)
     table_->horizontalHeaderItem(column)->setToolTip(meanings[column]);
-  table_->verticalHeader()->hide();
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
   table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 }
 
@@ -174,10 +205,19 @@ void CalibratePage::addLengths(QVBoxLayout* layout) {
   row->addWidget(without_square_, 2, 0, 1, 2);
   row->setColumnStretch(1, 1);
   layout->addLayout(row);
+  addRequest<StartCalibration>("start", [this](auto* start) {
+    start->side_x = side();
+    start->without_square = static_cast<std::uint8_t>(without_square_->isChecked());
+    start->wand_length = start->without_square ? wandLength() : 0.0;
+  });
+  addRequest<StartWave>("start_wave", [this](auto* wave) { wave->wand_length = wandLength(); });
 }
 
 void CalibratePage::addButtons(QVBoxLayout* layout) {
   auto* rows = new QGridLayout;
+  addRequest<LearnMasks>("learn_masks");
+  addRequest<CheckConnection>("check_connection");
+  addRequest<SolveCalibration>("solve");
   rows->addWidget(addButton("Learn the lights", "learn_masks"), 0, 0);
   rows->addWidget(addButton("Check the cameras", "check_connection"), 0, 1);
   rows->addWidget(addButton("Start again", "start"), 1, 0);
@@ -191,10 +231,9 @@ void CalibratePage::addButtons(QVBoxLayout* layout) {
   hands_free_ = new QCheckBox("Capture a corner when the LED is held still", this);
   hands_free_->setObjectName("hands_free");
   connect(hands_free_, &QCheckBox::clicked, this, [this](bool on) {
-    Request request;
-    request.service = "hands_free";
-    request.on = on;
-    send_(request);
+    std_srvs::SetBoolRequest switched;
+    switched.data = static_cast<std::uint8_t>(on);
+    send_(requestOf<std_srvs::SetBool>("hands_free", switched));
   });
   rows->addWidget(hands_free_, 3, 0, 1, 2);
   layout->addLayout(rows);
@@ -204,6 +243,9 @@ void CalibratePage::addFile(QVBoxLayout* layout) {
   auto* file = new QHBoxLayout;
   file->addWidget(path_ = new QLineEdit(this), 1);
   path_->setPlaceholderText("parameter rig_file");
+  const auto fillPath = [this](auto* file) { file->path = path().toStdString(); };
+  addRequest<SaveRig>("save", fillPath);
+  addRequest<LoadRig>("load", fillPath);
   file->addWidget(addButton("Save", "save"));
   file->addWidget(addButton("Load", "load"));
   QPushButton* revert = addButton("Revert", "continuous/revert");
@@ -216,17 +258,24 @@ void CalibratePage::addFile(QVBoxLayout* layout) {
 void CalibratePage::addPlace(QVBoxLayout* layout) {
   auto* row = new QGridLayout;
   row->addWidget(new QLabel("LED at", this), 0, 0);
+  std::array<NumberBox*, 3> known{};
   for (int i = 0; i < 3; ++i) {
-    known_[i] = new NumberBox(this);
-    known_[i]->setObjectName(QStringList({"x", "y", "z"})[i]);
-    known_[i]->setRange(-kFarthest, kFarthest);
-    known_[i]->setDecimals(3);
-    known_[i]->setPrefix(QStringList({"x ", "y ", "z "})[i]);
-    known_[i]->setToolTip("a place that you know, in the world [m]");
-    known_[i]->setMinimumWidth(60);
-    row->addWidget(known_[i], 0, i + 1);
+    auto* box = known[static_cast<std::size_t>(i)] = new NumberBox(this);
+    box->setObjectName(QStringList({"x", "y", "z"})[i]);
+    box->setRange(-kFarthest, kFarthest);
+    box->setDecimals(3);
+    box->setPrefix(box->objectName() + " ");
+    box->setToolTip("a place that you know, in the world [m]");
+    box->setMinimumWidth(60);
+    row->addWidget(box, 0, i + 1);
     row->setColumnStretch(i + 1, 1);
   }
+  for (const char* name : {"check", "measure_place"})
+    addRequest<CheckPlace>(name, [known](auto* place) {
+      place->known.x = known[0]->value();
+      place->known.y = known[1]->value();
+      place->known.z = known[2]->value();
+    });
   auto* buttons = new QHBoxLayout;
   buttons->addWidget(addButton("Check the LED there", "check"));
   buttons->addWidget(addButton("Take this place", "measure_place"));
@@ -238,34 +287,26 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
 void CalibratePage::addTape(QVBoxLayout* layout) {
   auto* row = new QHBoxLayout;
   row->addWidget(new QLabel("Corner", this));
+  std::array<CornerBox*, 2> ends{};
   for (int i = 0; i < 2; ++i) {
-    ends_[i] = new CornerBox(this);
-    ends_[i]->setObjectName(QStringList({"from", "to"})[i]);
-    ends_[i]->addItems({"1", "2", "3", "4"});
-    row->addWidget(ends_[i]);
+    auto* box = ends[static_cast<std::size_t>(i)] = new CornerBox(this);
+    box->setObjectName(QStringList({"from", "to"})[i]);
+    box->addItems({"1", "2", "3", "4"});
+    row->addWidget(box);
     row->addWidget(new QLabel(QStringList({"to", "is"})[i], this));
   }
-  ends_[1]->setCurrentIndex(2);  // a diagonal
-  row->addWidget(taped_ = lengthBox("taped", "drop it", this), 1);
-  taped_->setMaximum(M_SQRT2 * kLongestSide);
-  taped_->setDecimals(4);
+  ends[1]->setCurrentIndex(2);  // a diagonal
+  auto* length = lengthBox("taped", "drop it", this);
+  length->setMaximum(M_SQRT2 * kLongestSide);
+  length->setDecimals(4);
+  row->addWidget(length, 1);
+  addRequest<MeasureLength>("measure_length", [ends, length](auto* taped) {
+    taped->from_corner = static_cast<std::uint32_t>(ends[0]->currentIndex());
+    taped->to_corner = static_cast<std::uint32_t>(ends[1]->currentIndex());
+    taped->length = length->value();
+  });
   row->addWidget(addButton("Take length", "measure_length"));
   layout->addLayout(row);
-}
-
-/// Adds what was typed.
-void CalibratePage::sendFilled(Request request) {
-  request.side = side();
-  request.without_square = request.service == "start" && without_square_->isChecked();
-  if (request.service == "start_wave" || request.without_square)
-    request.wand_length = wandLength();
-  request.path = path().toStdString();
-  for (std::size_t i = 0; i < 3; ++i)
-    request.known[i] = known_[i]->value();
-  for (std::size_t i = 0; i < 2; ++i)
-    request.ends[i] = ends_[i]->currentIndex();
-  request.length = taped_->value();
-  send_(request);
 }
 
 double CalibratePage::side() const {
@@ -301,8 +342,8 @@ void CalibratePage::show(const Guide& guide, double now) {
   if (guide.status()) {
     const std::uint8_t step = guide.status()->step;
     square_->setVisible(step != guide.status()->SAVED &&
-                        (step != guide.status()->SOLVED || advice_.request.corner >= 0));
-    square_->show(*guide.status(), advice_.request.corner);
+                        (step != guide.status()->SOLVED || advice_.corner >= 0));
+    square_->show(*guide.status(), advice_.corner);
     if (!guide.isWaiting())
       hands_free_->setChecked(guide.status()->hands_free != 0);
   }
@@ -336,18 +377,13 @@ void CalibratePage::showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* 
   if (!verdict)
     return;
   verdict_->setText(text(verdict->text) + measurementWords(*verdict));
-  table_->setRowCount(static_cast<int>(verdict->cameras.size()));
-  for (int row = 0; row < table_->rowCount(); ++row) {
-    const auto& camera = verdict->cameras[static_cast<std::size_t>(row)];
-    const std::array<QString, 6> cells = {text(camera.name),
-                                          figure(camera.residual_px, 2),
-                                          figure(1e3 * camera.residual_m, 1),
-                                          figure(1e2 * camera.inlier_share, 0),
-                                          figure(1e3 * camera.position_stddev, 1),
-                                          figure(camera.rotation_stddev * 180.0 / M_PI, 3)};
-    for (int column = 0; column < 6; ++column)
-      table_->setItem(row, column, new QTableWidgetItem(cells[static_cast<std::size_t>(column)]));
-  }
+  std::vector<QStringList> rows;
+  for (const auto& camera : verdict->cameras)
+    rows.push_back({text(camera.name), figure(camera.residual_px, 2),
+                    figure(1e3 * camera.residual_m, 1), figure(1e2 * camera.inlier_share, 0),
+                    figure(1e3 * camera.position_stddev, 1),
+                    figure(camera.rotation_stddev * 180.0 / M_PI, 3)});
+  table_->show(rows);
   table_->resizeRowsToContents();
   int height = table_->horizontalHeader()->sizeHint().height() + 2 * table_->frameWidth();
   for (int row = 0; row < table_->rowCount(); ++row)

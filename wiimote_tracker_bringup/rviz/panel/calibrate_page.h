@@ -2,26 +2,28 @@
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CALIBRATE_PAGE_H
 
 #include "guide.h"
+#include "requests.h"
 
 #include <QWidget>
 
 #include <functional>
+#include <map>
+#include <string>
 #include <vector>
 
 class QCheckBox;
-class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
-class QTableWidget;
 class QVBoxLayout;
 
 namespace wiimote_tracker::panel {
 
 class BigWords;
 class SquareDrawing;
+class Table;
 
 /// Leads through a calibration: the one thing to do next, the square, what is missing, the verdict.
 class CalibratePage : public QWidget {
@@ -38,7 +40,14 @@ class CalibratePage : public QWidget {
   void restore(double side, double wand_length, const QString& path);
 
  private:
-  QPushButton* addButton(const QString& text, const std::string& service);
+  /// A button, or the next step, may ask for this service; `fill` then writes what is typed into
+  /// the request. Services without fields need not be added.
+  template <class Service>
+  void addRequest(
+      const std::string& name,
+      const std::function<void(typename Service::Request*)>& fill = [](auto*) {});
+  void sendRequest(const std::string& name);
+  QPushButton* addButton(const QString& text, const std::string& request);
   void addAdvice();
   void addTable(QVBoxLayout* layout);
   void addLengths(QVBoxLayout* layout);
@@ -46,11 +55,11 @@ class CalibratePage : public QWidget {
   void addFile(QVBoxLayout* layout);
   void addPlace(QVBoxLayout* layout);
   void addTape(QVBoxLayout* layout);
-  void sendFilled(Request request);
   void showWords(const Guide& guide, const Advice& advice);
   void showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* verdict);
 
   std::function<void(const Request&)> send_;
+  std::map<std::string, std::function<Request()>> requests_;  // by name, with what is typed
   Advice advice_;
   BigWords* title_;
   QLabel *sentence_, *answer_, *remarks_, *verdict_;
@@ -58,12 +67,9 @@ class CalibratePage : public QWidget {
   QPushButton* next_;
   SquareDrawing* square_;
   QDoubleSpinBox *side_, *wand_length_;
-  QDoubleSpinBox* known_[3];
-  QComboBox* ends_[2];
-  QDoubleSpinBox* taped_;
   QCheckBox *without_square_, *hands_free_;
   QLineEdit* path_;
-  QTableWidget* table_;
+  Table* table_;
   QPushButton* cancel_;
   std::vector<QPushButton*> buttons_;  // that wait for an answer
   std::string shown_rig_;

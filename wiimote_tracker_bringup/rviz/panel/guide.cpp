@@ -109,15 +109,14 @@ Advice Guide::advice(double now) const {
     return {"No node",
             "No calibration node answers: start it with  roslaunch wiimote_tracker_bringup "
             "tracker.launch cameras:=FILE, or start rviz with its ROS_NAMESPACE",
-            "",
-            {}};
-  Advice advice = {status_->next_title, status_->next_sentence, "", {}};
+            "", ""};
+  Advice advice = {status_->next_title, status_->next_sentence, "", ""};
   if (kNextRequests.count(status_->next_request) == 0 || status_->next_label.empty())
     return advice;
   advice.button = status_->next_label;
   advice.button[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(advice.button[0])));
-  advice.request.service = status_->next_request;
-  advice.request.corner = status_->next_corner;
+  advice.request = status_->next_request;
+  advice.corner = status_->next_corner;
   return advice;
 }
 

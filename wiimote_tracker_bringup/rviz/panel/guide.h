@@ -4,34 +4,19 @@
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
 
-#include <array>
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker::panel {
 
-/// What a person asks of the calibration node. Unused arguments keep their defaults, which stand
-/// for the node's own.
-struct Request {
-  std::string service;                      ///< Or action, below calibration/.
-  double side = 0.0;                        ///< Of the square [m].
-  bool without_square = false;              ///< For start: the wand, if any, is on the floor.
-  double wand_length = 0.0;                 ///< 0: one LED is waved [m].
-  int corner = -1;                          ///< To take again, 0..3; -1: the next one.
-  bool on = false;                          ///< For hands_free.
-  std::string path = {};                    ///< To save to or to load from.
-  std::array<double, 3> known = {0, 0, 0};  ///< Where the LED is, in the world [m].
-  std::array<int, 2> ends = {0, 0};         ///< Corners between which length was taped, 0..3.
-  double length = 0.0;                      ///< 0: drops that between these corners [m].
-};
-
 /// The one thing to do next.
 struct Advice {
   std::string title;     ///< In one or two words, to be read from afar.
   std::string sentence;  ///< The same in full.
   std::string button;    ///< What the button says that does it; empty: nothing to press.
-  Request request;       ///< What the button asks for.
+  std::string request;   ///< Service or action below calibration/ that the button asks for.
+  int corner = -1;       ///< To take again, 0..3; -1: the next one.
 };
 
 /// Where a person stands in the calibration; the node says what to do next. Times are of one steady

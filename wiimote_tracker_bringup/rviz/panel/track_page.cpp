@@ -1,30 +1,52 @@
 #include "track_page.h"
 
-#include "figure.h"
+#include "table.h"
 
 #include <QDir>
-#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QTableWidget>
 #include <QVBoxLayout>
 
-#include <array>
+#include <vector>
 
 namespace wiimote_tracker::panel {
+namespace {
+
+Table* tracksTable(const QString& name, const QString& led, const QString& seen_by, QWidget* page) {
+  auto* table = new Table(name, {led, "state", "x m", "y m", "z m", "± mm", "m/s", seen_by}, page);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setStretchLastSection(true);
+  // All columns fit into a panel beside the scene.
+  QFont font = table->font();
+  font.setPointSizeF(0.85 * font.pointSizeF());
+  table->setFont(font);
+  table->horizontalHeader()->setFont(font);
+  return table;
+}
+
+std::vector<QStringList> textsOf(const std::vector<TracksView::Row>& rows) {
+  std::vector<QStringList> texts;
+  for (const TracksView::Row& row : rows)
+    texts.push_back({QString::fromStdString(row.name), QString::fromStdString(row.state),
+                     figure(row.x, 3), figure(row.y, 3), figure(row.z, 3),
+                     figure(1e3 * row.stddev, 1), figure(row.speed, 2),
+                     QString::fromStdString(row.seen_by)});
+  return texts;
+}
+
+}  // namespace
 
 TrackPage::TrackPage(QWidget* parent)
     : QWidget(parent),
       summary_(new QLabel(this)),
       events_(new QLabel(this)),
       recording_(new QLabel(this)),
-      leds_(addTable("LED", "cameras", this)),
-      bodies_(addTable("body", "LEDs", this)),
+      leds_(tracksTable("leds", "LED", "cameras", this)),
+      bodies_(tracksTable("bodies", "body", "LEDs", this)),
       path_(new QLineEdit(QDir::homePath() + "/tracker", this)),
       record_(new QPushButton("Record", this)) {
   summary_->setObjectName("tracked");
-  leds_->setObjectName("leds");
   record_->setObjectName("record");
   path_->setObjectName("path");
   recording_->setObjectName("recording");
@@ -52,46 +74,11 @@ TrackPage::TrackPage(QWidget* parent)
   layout->addLayout(row);  // last: the button stays in its place
 }
 
-QTableWidget* TrackPage::addTable(const QString& name, const QString& seen_by, QWidget* parent) {
-  auto* table = new QTableWidget(0, 8, parent);
-  table->setHorizontalHeaderLabels({name, "state", "x m", "y m", "z m", "± mm", "m/s", seen_by});
-  table->verticalHeader()->hide();
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table->horizontalHeader()->setStretchLastSection(true);
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  // All columns fit into a panel beside the scene.
-  QFont font = table->font();
-  font.setPointSizeF(0.85 * font.pointSizeF());
-  table->setFont(font);
-  table->horizontalHeader()->setFont(font);
-  return table;
-}
-
-void TrackPage::fill(QTableWidget* table, const std::vector<TracksView::Row>& rows) {
-  table->setRowCount(static_cast<int>(rows.size()));
-  for (int i = 0; i < table->rowCount(); ++i) {
-    const TracksView::Row& row = rows[static_cast<std::size_t>(i)];
-    const std::array<QString, 8> cells = {QString::fromStdString(row.name),
-                                          QString::fromStdString(row.state),
-                                          figure(row.x, 3),
-                                          figure(row.y, 3),
-                                          figure(row.z, 3),
-                                          figure(1e3 * row.stddev, 1),
-                                          figure(row.speed, 2),
-                                          QString::fromStdString(row.seen_by)};
-    for (int column = 0; column < table->columnCount(); ++column) {
-      if (!table->item(i, column))
-        table->setItem(i, column, new QTableWidgetItem);
-      table->item(i, column)->setText(cells[static_cast<std::size_t>(column)]);
-    }
-  }
-}
-
 void TrackPage::show(const TracksView& tracks, double now) {
   summary_->setText(QString::fromStdString(tracks.summary(now)));
-  fill(leds_, tracks.leds(now));
+  leds_->show(textsOf(tracks.leds(now)));
   const auto bodies = tracks.bodies(now);
-  fill(bodies_, bodies);
+  bodies_->show(textsOf(bodies));
   bodies_->setVisible(!bodies.empty());
   QStringList events;
   for (const std::string& event : tracks.events())

@@ -6,14 +6,13 @@
 
 #include <QWidget>
 
-#include <vector>
-
 class QLabel;
 class QLineEdit;
 class QPushButton;
-class QTableWidget;
 
 namespace wiimote_tracker::panel {
+
+class Table;
 
 /// LEDs and bodies with their places and uncertainties, the latest events, and a record button.
 class TrackPage : public QWidget {
@@ -26,12 +25,9 @@ class TrackPage : public QWidget {
   void setRecordPath(const QString& path);
 
  private:
-  static QTableWidget* addTable(const QString& name, const QString& seen_by, QWidget* parent);
-  static void fill(QTableWidget* table, const std::vector<TracksView::Row>& rows);
-
   Recorder recorder_;
   QLabel *summary_, *events_, *recording_;
-  QTableWidget *leds_, *bodies_;
+  Table *leds_, *bodies_;
   QLineEdit* path_;
   QPushButton* record_;
 };

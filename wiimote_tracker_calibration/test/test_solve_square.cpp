@@ -330,6 +330,16 @@ TEST_F(FourCameras, IsDeterministic) {
   EXPECT_EQ(once.rig.id(), again.rig.id());
 }
 
+/// Else residuals of 0.00 px look like a measurement.
+TEST_F(FourCameras, TheVerdictSaysThatFittedCornersMakeResidualsSmall) {
+  const std::string fitted = "px (0.0 mm) with the corners fitted, points over the square";
+  SolveOptions options;
+  EXPECT_SAYS(solveSquare(layout_, simulated_.sightings, options).rig.verdict, fitted);
+  options.method = Method::kPerCamera;
+  EXPECT_EQ(solveSquare(layout_, simulated_.sightings, options).rig.verdict.find(fitted),
+            std::string::npos);
+}
+
 TEST_F(FourCameras, ResidualsAreInPixelsAndMetres) {
   SolveOptions options;
   options.method = Method::kPerCamera;

@@ -167,6 +167,8 @@ std::string verdict(const Solution& solution) {
       "(%.1f mm)",
       rig.cameras.size(), rig.square_sides[0], rig.square_sides[1], solution.z_up ? "up" : "down",
       worst_px, 1000.0 * worst_m);
+  if (solution.joint_covariance.size() > 0)  // else the corners were taken as exact
+    text += " with the corners fitted";
   if (std::isfinite(solution.expected_error))
     text += format(", points over the square expected within %.0f mm (RMS)",
                    1000.0 * solution.expected_error);

@@ -193,7 +193,7 @@ def test_simulated_rigs_share_no_files_with_another_rig(load, monkeypatch):
     # Beside the rig its cameras and samples are saved.
     assert usual['/calibration/rig_file'] == '/var/lib/lab/wiimote_tracker/simulated/rig.yaml'
     for rig_file, folder in (('planned_rig.yaml', 'planned_cameras'), ('my.yaml', 'my_cameras'),
-                             ('rig', 'rig_cameras')):
+                             ('rig', 'rig_cameras'), ('planned/rig.yaml', 'planned/rig_cameras')):
         parameters = load('simulated_rig.launch', 'rig_file:=' + rig_file)[1]
         assert parameters['/drivers/camera_info_directory'] == '/home/my lab/' + folder
 

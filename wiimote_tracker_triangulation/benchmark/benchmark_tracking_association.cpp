@@ -1,8 +1,8 @@
+#include "association/associate_views.h"
 #include "association/exhaustive.h"
 #include "association/shared_views.h"
 #include "association/simulated_views.h"
 #include "benchmark_sections.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 
 #include <algorithm>
 #include <limits>

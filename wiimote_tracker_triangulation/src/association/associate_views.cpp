@@ -1,6 +1,4 @@
-#include "wiimote_tracker_triangulation/association/associate_views.h"
-
-#include "point_search.h"
+#include "associate_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,33 +7,7 @@
 
 namespace wiimote_tracker::association {
 
-/// One of the two spots of an epipolar constraint.
-struct EpipolarSpot {
-  EpipolarSpot(const geometry::Sight& sight, double pixel_stddev)
-      : direction(sight.direction),
-        direction_by_pixel(sight.directionByPixel() * pixel_stddev),
-        spread(direction_by_pixel.squaredNorm()) {}
-
-  Eigen::Vector3d direction;
-  Eigen::Matrix<double, 3, 2> direction_by_pixel;  ///< For one standard deviation.
-  double spread;                                   ///< Upper bound of its squared length.
-};
-
 namespace {
-
-/// Squared distance of two spots from the constraint that their rays meet, over the variance of a
-/// pixel: f^2 / |d f / d (pixel a, pixel b)|^2 with f = baseline . (direction a x direction b)
-/// (Sampson's distance). normal_a = baseline x direction a, normal_b likewise; f = normal_a .
-/// direction b.
-double epipolarChiSquared(const EpipolarSpot& a,
-                          const Eigen::Vector3d& normal_a,
-                          const EpipolarSpot& b,
-                          const Eigen::Vector3d& normal_b,
-                          double f) {
-  const double by_a = (normal_b.transpose() * a.direction_by_pixel).squaredNorm();
-  const double by_b = (normal_a.transpose() * b.direction_by_pixel).squaredNorm();
-  return f * f / (by_a + by_b);
-}
 
 /// [px^2]
 double meanImageArea(const geometry::Rig& rig) {
@@ -65,147 +37,126 @@ AssociationOptions typicalCosts(const geometry::Rig& rig,
   return options;
 }
 
-struct ViewAssociator::Workspace {
-  Workspace(const geometry::Rig& rig,
-            std::vector<std::vector<std::size_t>> partners,
-            const AssociationOptions& association_options)
-      : options(association_options), search(rig, std::move(partners), association_options) {
-    constexpr std::size_t kUsual = 64;  // spots of all views; more allocate
-    component.spots.reserve(kUsual);
-    connected.reserve(kUsual);
-    pair_chi_squared.reserve(kUsual * kUsual);
-  }
-
-  void collectSpots(const std::vector<View>& views);
-  void findPairs(const std::vector<View>& views, std::size_t a, std::size_t b);
-  void solveComponents(const std::vector<View>& views);
-  void solveComponent(const std::vector<View>& views);
-
-  AssociationOptions options;
-  PointSearch search;
-  std::vector<std::size_t> first_spot;   // of each view, and one past the last of all
-  std::vector<Component::Spot> spots;    // of all views
-  std::vector<EpipolarSpot> epipolar;    // of all spots
-  std::vector<double> pair_chi_squared;  // see Component
-  std::vector<bool> is_solved;           // per spot
-  std::vector<std::size_t> connected;    // numbers of the spots of a component
-  std::vector<Eigen::Vector3d> normals;
-  Component component;
-  Association result;
-};
-
 ViewAssociator::ViewAssociator(const geometry::Rig& rig,
                                std::vector<std::vector<std::size_t>> partners,
                                const AssociationOptions& options)
-    : workspace_(std::make_unique<Workspace>(rig, std::move(partners), options)) {}
-
-ViewAssociator::~ViewAssociator() = default;
+    : options_(options), search_(rig, std::move(partners), options) {
+  constexpr std::size_t kUsual = 64;  // spots of all views; more allocate
+  component_.spots.reserve(kUsual);
+  connected_.reserve(kUsual);
+  pair_chi_squared_.reserve(kUsual * kUsual);
+}
 
 const Association& ViewAssociator::associate(const std::vector<View>& views) {
-  Workspace& w = *workspace_;
-  w.collectSpots(views);
+  collectSpots(views);
   for (std::size_t a = 0; a < views.size(); ++a) {
     if (views[a].count == 0)
       continue;
-    for (const std::size_t b : w.search.partners(a)) {
+    for (const std::size_t b : search_.partners(a)) {
       if (b > a && views[b].count > 0)
-        w.findPairs(views, a, b);
+        findPairs(views, a, b);
     }
   }
-  w.result.points.clear();
-  w.result.spots.clear();
-  w.result.cost = 0.0;
-  w.result.steps = 0;
-  w.result.proven = true;
-  w.solveComponents(views);
-  return w.result;
+  result_.points.clear();
+  result_.spots.clear();
+  result_.cost = 0.0;
+  result_.steps = 0;
+  result_.proven = true;
+  solveComponents(views);
+  return result_;
 }
 
-void ViewAssociator::Workspace::collectSpots(const std::vector<View>& views) {
-  first_spot.clear();
-  spots.clear();
-  epipolar.clear();
+void ViewAssociator::collectSpots(const std::vector<View>& views) {
+  first_spot_.clear();
+  spots_.clear();
+  epipolar_.clear();
   for (std::size_t view = 0; view < views.size(); ++view) {
-    first_spot.push_back(spots.size());
+    first_spot_.push_back(spots_.size());
     for (std::size_t i = 0; i < views[view].count; ++i) {
-      spots.push_back({view, i, spots.size(), &views[view].sights[i]});
-      epipolar.emplace_back(views[view].sights[i], options.pixel_stddev);
+      spots_.push_back({view, i, spots_.size(), &views[view].sights[i]});
+      const geometry::Sight& sight = views[view].sights[i];
+      const Eigen::Matrix<double, 3, 2> by_pixel = sight.directionByPixel() * options_.pixel_stddev;
+      epipolar_.push_back({sight.direction, by_pixel, by_pixel.squaredNorm()});
     }
   }
-  first_spot.push_back(spots.size());
-  pair_chi_squared.assign(spots.size() * spots.size(), std::numeric_limits<double>::infinity());
+  first_spot_.push_back(spots_.size());
+  pair_chi_squared_.assign(spots_.size() * spots_.size(), std::numeric_limits<double>::infinity());
 }
 
-/// Finds the pairs of spots of two views that can be one point.
-void ViewAssociator::Workspace::findPairs(const std::vector<View>& views,
-                                          std::size_t a,
-                                          std::size_t b) {
+/// Finds the pairs of spots of two views that can be one point, with the squared distance of both
+/// from the constraint that their rays meet, over the variance of a pixel: f^2 / |d f / d (pixel a,
+/// pixel b)|^2 with f = baseline . (direction a x direction b) (Sampson's distance). With normal a
+/// = baseline x direction a, and normal b likewise, f = normal a . direction b.
+void ViewAssociator::findPairs(const std::vector<View>& views, std::size_t a, std::size_t b) {
   const Eigen::Vector3d baseline = views[b].sights[0].origin - views[a].sights[0].origin;
   // A bound without derivatives rejects most pairs.
-  const double widest = options.maximum_pair_chi_squared * baseline.squaredNorm();
-  normals.clear();
-  for (std::size_t spot = first_spot[b]; spot < first_spot[b + 1]; ++spot)
-    normals.push_back(baseline.cross(epipolar[spot].direction));
-  for (std::size_t spot_a = first_spot[a]; spot_a < first_spot[a + 1]; ++spot_a) {
-    const EpipolarSpot& one = epipolar[spot_a];
+  const double widest = options_.maximum_pair_chi_squared * baseline.squaredNorm();
+  normals_.clear();
+  for (std::size_t spot = first_spot_[b]; spot < first_spot_[b + 1]; ++spot)
+    normals_.push_back(baseline.cross(epipolar_[spot].direction));
+  for (std::size_t spot_a = first_spot_[a]; spot_a < first_spot_[a + 1]; ++spot_a) {
+    const EpipolarSpot& one = epipolar_[spot_a];
     const Eigen::Vector3d normal = baseline.cross(one.direction);
-    for (std::size_t spot_b = first_spot[b]; spot_b < first_spot[b + 1]; ++spot_b) {
-      const EpipolarSpot& other = epipolar[spot_b];
+    for (std::size_t spot_b = first_spot_[b]; spot_b < first_spot_[b + 1]; ++spot_b) {
+      const EpipolarSpot& other = epipolar_[spot_b];
       const double f = normal.dot(other.direction);
       if (f * f > widest * (one.spread + other.spread))
         continue;
-      const double chi_squared =
-          epipolarChiSquared(one, normal, other, normals[spot_b - first_spot[b]], f);
-      if (!(chi_squared <= options.maximum_pair_chi_squared))
+      const Eigen::Vector3d& other_normal = normals_[spot_b - first_spot_[b]];
+      const double variance = (other_normal.transpose() * one.direction_by_pixel).squaredNorm() +
+                              (normal.transpose() * other.direction_by_pixel).squaredNorm();
+      const double chi_squared = f * f / variance;
+      if (!(chi_squared <= options_.maximum_pair_chi_squared))
         continue;
-      pair_chi_squared[spot_a * spots.size() + spot_b] = chi_squared;
-      pair_chi_squared[spot_b * spots.size() + spot_a] = chi_squared;
+      pair_chi_squared_[spot_a * spots_.size() + spot_b] = chi_squared;
+      pair_chi_squared_[spot_b * spots_.size() + spot_a] = chi_squared;
     }
   }
 }
 
 /// Solves each connected component of the graph of possible pairs.
-void ViewAssociator::Workspace::solveComponents(const std::vector<View>& views) {
-  component.pair_chi_squared = pair_chi_squared.data();
-  component.spots_of_all_views = spots.size();
-  is_solved.assign(spots.size(), false);
-  for (std::size_t first = 0; first < spots.size(); ++first) {
-    if (is_solved[first])
+void ViewAssociator::solveComponents(const std::vector<View>& views) {
+  component_.pair_chi_squared = pair_chi_squared_.data();
+  component_.spots_of_all_views = spots_.size();
+  is_solved_.assign(spots_.size(), false);
+  for (std::size_t first = 0; first < spots_.size(); ++first) {
+    if (is_solved_[first])
       continue;
-    connected.assign(1, first);
-    is_solved[first] = true;
-    for (std::size_t i = 0; i < connected.size(); ++i) {
-      for (std::size_t other = first + 1; other < spots.size(); ++other) {
-        if (is_solved[other] || std::isinf(pair_chi_squared[connected[i] * spots.size() + other]))
+    connected_.assign(1, first);
+    is_solved_[first] = true;
+    for (std::size_t i = 0; i < connected_.size(); ++i) {
+      for (std::size_t other = first + 1; other < spots_.size(); ++other) {
+        if (is_solved_[other] ||
+            std::isinf(pair_chi_squared_[connected_[i] * spots_.size() + other]))
           continue;
-        connected.push_back(other);
-        is_solved[other] = true;
+        connected_.push_back(other);
+        is_solved_[other] = true;
       }
     }
-    std::sort(connected.begin(), connected.end());
-    component.spots.clear();
-    for (const std::size_t spot : connected)
-      component.spots.push_back(spots[spot]);
+    std::sort(connected_.begin(), connected_.end());
+    component_.spots.clear();
+    for (const std::size_t spot : connected_)
+      component_.spots.push_back(spots_[spot]);
     solveComponent(views);
   }
 }
 
-void ViewAssociator::Workspace::solveComponent(const std::vector<View>& views) {
-  if (component.spots.size() == 1) {
-    result.cost += options.ghost;
+void ViewAssociator::solveComponent(const std::vector<View>& views) {
+  if (component_.spots.size() == 1) {
+    result_.cost += options_.ghost;
     return;
   }
-  if (!search.solveAsOnePoint(component, views)) {
-    result.steps += search.solve(component, views, options.maximum_steps - result.steps);
-    result.proven = result.proven && result.steps < options.maximum_steps;
+  if (!search_.solveAsOnePoint(component_, views)) {
+    result_.steps += search_.solve(component_, views, options_.maximum_steps - result_.steps);
+    result_.proven = result_.proven && result_.steps < options_.maximum_steps;
   }
-  result.cost += search.cost();
-  for (std::size_t i = 0; i < search.pointCount(); ++i) {
-    const PointSearch::Point& point = search.point(i);
-    result.points.push_back({point.location, result.spots.size(), point.spots.size()});
+  result_.cost += search_.cost();
+  for (std::size_t i = 0; i < search_.pointCount(); ++i) {
+    const PointSearch::Point& point = search_.point(i);
+    result_.points.push_back({point.location, result_.spots.size(), point.spots.size()});
     for (const std::size_t place : point.spots) {
-      const Component::Spot& spot = component.spots[place];
-      result.spots.push_back({spot.view, spot.index});
+      const Component::Spot& spot = component_.spots[place];
+      result_.spots.push_back({spot.view, spot.index});
     }
   }
 }

@@ -1,13 +1,42 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H
 
-#include "wiimote_tracker_triangulation/association/associate_views.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
+#include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace wiimote_tracker::association {
+
+/// Costs are -2 log likelihood, like chi^2. The defaults are about those of typicalCosts.
+struct AssociationOptions {
+  double pixel_stddev = 0.5;  ///< Of a pixel coordinate, including calibration [px].
+  double ghost = 31.0;        ///< Cost of a false detection: a spot of no point [> 0].
+  double point = 35.0;        ///< Cost of a point [>= 0].
+  double miss = 4.4;          ///< Cost of a missed detection [>= 0].
+
+  /// Gate for two spots of one point: the squared distance from the epipolar constraint, to first
+  /// order, over pixel_stddev^2 [> 0].
+  double maximum_pair_chi_squared = 30.0;
+
+  std::size_t minimum_rays = 2;  ///< Of a point [>= 2].
+  double minimum_angle = 0.02;   ///< The widest pair of rays spans at least this [rad].
+
+  /// The search stops after this many steps with the best association so far, proven optimal or
+  /// not.
+  std::size_t maximum_steps = 5000;
+};
+
+/// The spots of one camera.
+struct View {
+  const geometry::Sight* sights = nullptr;  ///< Not owned.
+  std::size_t count = 0;
+  bool watching = true;  ///< False: there is no image, so no detection is missed.
+  bool full = false;     ///< As many spots as the camera can report: no detection counts as missed.
+};
 
 /// A connected component of the graph of possible pairs: its spots in the order of their views.
 struct Component {

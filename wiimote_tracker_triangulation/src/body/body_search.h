@@ -1,12 +1,12 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SEARCH_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SEARCH_H
 
+#include "association/associate_views.h"
 #include "body/body_setup.h"
 #include "body/body_state.h"
 #include "body/body_update.h"
 #include "body/match_points.h"
 #include "body/solve_pose.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <Eigen/Core>

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H
 
+#include "association/associate_views.h"
 #include "synchronizer.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"

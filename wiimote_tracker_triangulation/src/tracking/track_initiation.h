@@ -1,12 +1,12 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
 
+#include "association/associate_views.h"
 #include "group_camera.h"
 #include "ids.h"
 #include "merged_pair.h"
 #include "stored_image.h"
 #include "track.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 

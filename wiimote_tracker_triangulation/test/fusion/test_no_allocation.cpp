@@ -1,10 +1,10 @@
 // Nothing on the way from a blob to a point allocates, once warm.
 #include "allocation_counter.h"
 #include "association/assign_spots.h"
+#include "association/associate_views.h"
 #include "association/shared_views.h"
 #include "association/simulated_views.h"
 #include "geometry/random_rigs.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 

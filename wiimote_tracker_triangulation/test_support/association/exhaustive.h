@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H
 
+#include "association/associate_views.h"
 #include "association/simulated_views.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 
 #include <map>
 #include <set>

@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_SIMULATED_VIEWS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_SIMULATED_VIEWS_H
 
+#include "association/associate_views.h"
 #include "geometry/random_rigs.h"
-#include "wiimote_tracker_triangulation/association/associate_views.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,34 +1,17 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ASSOCIATION_ASSOCIATE_VIEWS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ASSOCIATION_ASSOCIATE_VIEWS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_ASSOCIATE_VIEWS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_ASSOCIATE_VIEWS_H
 
+#include "association/point_search.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
+#include <Eigen/Core>
+
 #include <cstddef>
-#include <memory>
 #include <vector>
 
 namespace wiimote_tracker::association {
-
-/// Costs are -2 log likelihood, like chi^2. The defaults are about those of typicalCosts.
-struct AssociationOptions {
-  double pixel_stddev = 0.5;  ///< Of a pixel coordinate, including calibration [px].
-  double ghost = 31.0;        ///< Cost of a false detection: a spot of no point [> 0].
-  double point = 35.0;        ///< Cost of a point [>= 0].
-  double miss = 4.4;          ///< Cost of a missed detection [>= 0].
-
-  /// Gate for two spots of one point: the squared distance from the epipolar constraint, to first
-  /// order, over pixel_stddev^2 [> 0].
-  double maximum_pair_chi_squared = 30.0;
-
-  std::size_t minimum_rays = 2;  ///< Of a point [>= 2].
-  double minimum_angle = 0.02;   ///< The widest pair of rays spans at least this [rad].
-
-  /// The search stops after this many steps with the best association so far, proven optimal or
-  /// not.
-  std::size_t maximum_steps = 5000;
-};
 
 /// Costs for Poisson numbers of LEDs (0.25 per m^3) and of false detections (ghost_rate per image),
 /// and cameras that detect an LED in their view with detection_probability. With pixel_stddev = s
@@ -41,14 +24,6 @@ AssociationOptions typicalCosts(const geometry::Rig& rig,
                                 double pixel_stddev,
                                 double ghost_rate = 0.1,
                                 double detection_probability = 0.9);
-
-/// The spots of one camera.
-struct View {
-  const geometry::Sight* sights = nullptr;  ///< Not owned.
-  std::size_t count = 0;
-  bool watching = true;  ///< False: there is no image, so no detection is missed.
-  bool full = false;     ///< As many spots as the camera can report: no detection counts as missed.
-};
 
 struct SpotReference {
   std::size_t view;
@@ -85,16 +60,35 @@ class ViewAssociator {
                  std::vector<std::vector<std::size_t>> partners,
                  const AssociationOptions& options);
 
-  ~ViewAssociator();
-
   /// @param views one per camera of the rig, in its order. Valid until the next call.
   const Association& associate(const std::vector<View>& views);
 
  private:
-  struct Workspace;
-  std::unique_ptr<Workspace> workspace_;
+  /// One of the two spots of an epipolar constraint.
+  struct EpipolarSpot {
+    Eigen::Vector3d direction;
+    Eigen::Matrix<double, 3, 2> direction_by_pixel;  // for one standard deviation
+    double spread;                                   // upper bound of its squared length
+  };
+
+  void collectSpots(const std::vector<View>& views);
+  void findPairs(const std::vector<View>& views, std::size_t a, std::size_t b);
+  void solveComponents(const std::vector<View>& views);
+  void solveComponent(const std::vector<View>& views);
+
+  AssociationOptions options_;
+  PointSearch search_;
+  std::vector<std::size_t> first_spot_;   // of each view, and one past the last of all
+  std::vector<Component::Spot> spots_;    // of all views
+  std::vector<EpipolarSpot> epipolar_;    // of all spots
+  std::vector<double> pair_chi_squared_;  // see Component
+  std::vector<bool> is_solved_;           // per spot
+  std::vector<std::size_t> connected_;    // numbers of the spots of a component
+  std::vector<Eigen::Vector3d> normals_;
+  Component component_;
+  Association result_;
 };
 
 }  // namespace wiimote_tracker::association
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ASSOCIATION_ASSOCIATE_VIEWS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_ASSOCIATE_VIEWS_H

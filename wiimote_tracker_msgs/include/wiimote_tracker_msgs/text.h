@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_MSGS_TEXT_H
 #define WIIMOTE_TRACKER_MSGS_TEXT_H
 
+#include <boost/locale/utf.hpp>
+
 #include <algorithm>
 #include <cctype>
 #include <cstdarg>
@@ -66,37 +68,16 @@ inline std::string lowerCase(std::string text) {
 
 /// The text with U+FFFD in place of each byte that is not part of well-formed UTF-8 (RFC 3629).
 inline std::string validUtf8(const std::string& text) {
-  // Bytes of the character that begins there; 0: none does.
-  const auto lengthAt = [&text](std::size_t start) -> std::size_t {
-    const auto byte = [&](std::size_t i) -> unsigned {
-      return start + i < text.size() ? static_cast<unsigned char>(text[start + i]) : 0U;
-    };
-    const unsigned first = byte(0);
-    if (first < 0x80)
-      return 1;
-    if (first < 0xC2 || first > 0xF4)
-      return 0;
-    const std::size_t length = first < 0xE0 ? 2 : first < 0xF0 ? 3 : 4;
-    // Neither longer than needed, nor a surrogate, nor above U+10FFFF.
-    const unsigned lowest = first == 0xE0 ? 0xA0 : first == 0xF0 ? 0x90 : 0x80;
-    const unsigned highest = first == 0xED ? 0x9F : first == 0xF4 ? 0x8F : 0xBF;
-    if (byte(1) < lowest || byte(1) > highest)
-      return 0;
-    for (std::size_t i = 2; i < length; ++i) {
-      if (byte(i) < 0x80 || byte(i) > 0xBF)
-        return 0;
-    }
-    return length;
-  };
   std::string valid;
-  valid.reserve(text.size());
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = lengthAt(i);
-    if (length == 0)
+  for (auto at = text.begin(); at != text.end();) {
+    const auto start = at;
+    const auto character = boost::locale::utf::utf_traits<char>::decode(at, text.end());
+    if (boost::locale::utf::is_valid_codepoint(character)) {
+      valid.append(start, at);
+    } else {
       valid += "\xEF\xBF\xBD";
-    else
-      valid.append(text, i, length);
-    i += std::max<std::size_t>(length, 1);
+      at = start + 1;
+    }
   }
   return valid;
 }

@@ -132,7 +132,7 @@ Figures sum(const Figures& a, const Figures& b) {
 void ownModel(const BenchmarkSettings& settings, const RowCallback& row) {
   const Drawn drawn{2.0, 0.2, false, 1.0};
   MotionOptions options;
-  options.smooth = options.gentle = options.brisk = options.hard = {drawn.stddev, drawn.time};
+  options.moving.fill({drawn.stddev, drawn.time});
   options.sudden_random_walk = options.stop_rate = 0.0;
   options.initial_speed = 0.3;
   Random random(settings.seed);

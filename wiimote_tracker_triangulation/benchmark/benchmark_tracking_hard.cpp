@@ -91,8 +91,7 @@ void smooth(const std::map<std::uint32_t, Track>& tracks,
 /// time that was found best by a scan.
 motion::MotionOptions singleMode(double speed, double acceleration) {
   motion::MotionOptions options;
-  options.smooth = {acceleration / std::sqrt(3.0), 2.0 * speed / acceleration};
-  options.gentle = options.brisk = options.hard = options.smooth;
+  options.moving.fill({acceleration / std::sqrt(3.0), 2.0 * speed / acceleration});
   options.sudden_random_walk = options.stop_rate = 0.0;
   return options;
 }

@@ -16,16 +16,9 @@ int endOf(const MotionOptions& options) {
   return options.sudden_random_walk > 0.0 ? kModes : kSudden;
 }
 
-// In the order of ModeIndex.
-constexpr RestMode MotionOptions::*kRest[] = {&MotionOptions::fixed, &MotionOptions::swaying};
-constexpr SingerMode MotionOptions::*kSinger[] = {&MotionOptions::smooth, &MotionOptions::gentle,
-                                                  &MotionOptions::brisk, &MotionOptions::hard};
-static_assert(std::size(kRest) == kRestModes);
-static_assert(std::size(kRest) + std::size(kSinger) == kSudden);
-
 /// Null for the other modes.
 const SingerMode* singerMode(const MotionOptions& options, int mode) {
-  return isAtRest(mode) || mode == kSudden ? nullptr : &(options.*kSinger[mode - kRestModes]);
+  return isAtRest(mode) || mode == kSudden ? nullptr : &options.moving[mode - kRestModes];
 }
 
 /// From each mode (row) to another (column): rates [1/s] or probabilities.
@@ -118,8 +111,7 @@ Modes initialModes(const MotionOptions& options,
 
 void predict(const MotionOptions& options, int mode, double duration, KinematicState* state) {
   if (isAtRest(mode)) {  // velocity and acceleration are zero
-    const double drift = (options.*kRest[mode]).drift;
-    state->covariance.diagonal().head<3>().array() += square(drift) * duration;
+    state->covariance.diagonal().head<3>().array() += square(options.rest[mode].drift) * duration;
   } else if (const SingerMode* moving = singerMode(options, mode)) {
     state->predict(singer(moving->stddev, moving->time, duration));
   } else {
@@ -151,7 +143,7 @@ void mixChanges(const MotionOptions& options, double duration, Modes* modes) {
   ModeTransitions rates = ModeTransitions::Zero();
   for (int from = 0; from < kRestModes; ++from) {
     for (int to = kRestModes; to < end; ++to)
-      rates(from, to) = (options.*kRest[from]).start_rate / (end - kRestModes);
+      rates(from, to) = options.rest[from].start_rate / (end - kRestModes);
   }
   for (int from = kRestModes; from < end; ++from) {
     for (int to = kRestModes; to < from; ++to)

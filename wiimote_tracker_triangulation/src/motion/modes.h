@@ -10,10 +10,10 @@
 
 namespace wiimote_tracker::motion {
 
-/// The modes of MotionOptions: those at rest, then the moving ones by their agility.
-enum ModeIndex { kFixed, kSwaying, kSmooth, kGentle, kBrisk, kHard, kSudden };
+// The modes of MotionOptions: those at rest, then the moving ones by their agility.
+constexpr int kRestModes = kRestModeNames.size();
+constexpr int kSudden = kRestModes + kMovingModeNames.size();
 constexpr int kModes = kSudden + 1;
-constexpr int kRestModes = kSmooth;
 
 inline bool isAtRest(int mode) {
   return mode < kRestModes;

@@ -79,7 +79,7 @@ TEST(MotionFilter, ReachesThePosteriorCramerRaoBoundOfItsOwnModel) {
   constexpr int kRuns = 60;
   constexpr double kStddev = 2.0, kTime = 0.2;
   MotionOptions options;  // a single mode
-  options.smooth = options.gentle = options.brisk = options.hard = {kStddev, kTime};
+  options.moving.fill({kStddev, kTime});
   options.sudden_random_walk = options.stop_rate = 0.0;
   options.initial_speed = 0.3;
   const Matrix3d covariance = 4e-6 * Matrix3d::Identity();
@@ -192,7 +192,7 @@ TEST(MotionFilter, FollowsASuddenStartAtThreeMetresPerSecond) {
 TEST(MotionFilter, KeepsUpWithHardMotion) {
   constexpr double kSpeed = 3.0, kAcceleration = 38.0;
   MotionOptions single;  // the best single mode for this motion
-  single.smooth = single.gentle = single.brisk = single.hard = {22.0, 0.16};
+  single.moving.fill({22.0, 0.16});
   single.sudden_random_walk = single.stop_rate = 0.0;
   const std::vector<Camera> cameras = ring();
   Random random(16);

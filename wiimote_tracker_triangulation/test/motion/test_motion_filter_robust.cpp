@@ -102,7 +102,7 @@ TEST(MotionFilter, StaysFiniteForAnySpot) {
     if (run % 5 == 1)
       options.stop_rate = 0.0;
     if (run % 7 == 1)
-      options.rise_rate = options.settle_rate = options.fixed.start_rate = 0.0;
+      options.rise_rate = options.settle_rate = options.rest[0].start_rate = 0.0;
     const double stddev = std::pow(10.0, random.uniform(-4.0, 0.0));
     MotionFilter filter(options, 0.0, random.inBox(0.5), stddev * stddev * Matrix3d::Identity());
     double time = 0.0;

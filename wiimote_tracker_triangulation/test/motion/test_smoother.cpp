@@ -109,7 +109,7 @@ std::vector<KinematicState> batch(double stddev,
 TEST(Smoother, WithOneModeIsTheBatchSolution) {
   constexpr double kStddev = 2.0, kTime = 0.2, kSpeed = 30.0;
   MotionOptions options;
-  options.smooth = options.gentle = options.brisk = options.hard = {kStddev, kTime};
+  options.moving.fill({kStddev, kTime});
   options.sudden_random_walk = options.stop_rate = options.rise_rate = options.settle_rate = 0.0;
   options.initial_speed = kSpeed;
   const std::vector<Camera> cameras = test::ring();

@@ -45,7 +45,7 @@ inline bool takeIn(MotionFilter* filter,
 }
 
 inline double restProbability(const MotionFilter& filter) {
-  return filter.modes()[kFixed].probability + filter.modes()[kSwaying].probability;
+  return filter.modes()[0].probability + filter.modes()[1].probability;
 }
 
 inline double relative(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {

@@ -25,53 +25,30 @@ MatrixXd blocks(double pp, double vv, double aa) {
   return diagonal.asDiagonal();
 }
 
-std::array<RestMode, kResting> restModes(const MotionOptions& options) {
-  return {options.fixed, options.swaying};
-}
-
 /// Standard deviation of the acceleration of a moving mode; 0 of the others.
 double acceleration(const MotionOptions& options, int model) {
-  switch (model - kResting) {
-    case 0:
-      return options.smooth.stddev;
-    case 1:
-      return options.gentle.stddev;
-    case 2:
-      return options.brisk.stddev;
-    case 3:
-      return options.hard.stddev;
-    default:
-      return 0.0;
-  }
+  return model < kResting || model == kModes - 1 ? 0.0 : options.moving[model - kResting].stddev;
 }
 
 /// Of one axis.
 Transition transition(const MotionOptions& options, int model, double duration) {
   const MatrixXd zero = MatrixXd::Zero(3, 3);
   if (model < kResting) {
-    const double drift = restModes(options)[model].drift;
+    const double drift = options.rest[model].drift;
     MatrixXd density = zero;
     density(0, 0) = drift * drift;
     return {zero, density, duration};
   }
-  switch (model - kResting) {
-    case 0:
-      return singerTransition(options.smooth.stddev, options.smooth.time, duration);
-    case 1:
-      return singerTransition(options.gentle.stddev, options.gentle.time, duration);
-    case 2:
-      return singerTransition(options.brisk.stddev, options.brisk.time, duration);
-    case 3:
-      return singerTransition(options.hard.stddev, options.hard.time, duration);
-    default: {
-      MatrixXd A = zero, density = zero;
-      A(0, 1) = 1.0;
-      density(1, 1) = options.sudden_random_walk * options.sudden_random_walk;
-      Transition t(A, density, duration);
-      t.F(2, 2) = 0.0;
-      return t;
-    }
+  if (model < kModes - 1) {
+    const SingerMode& mode = options.moving[model - kResting];
+    return singerTransition(mode.stddev, mode.time, duration);
   }
+  MatrixXd A = zero, density = zero;
+  A(0, 1) = 1.0;
+  density(1, 1) = options.sudden_random_walk * options.sudden_random_walk;
+  Transition t(A, density, duration);
+  t.F(2, 2) = 0.0;
+  return t;
 }
 
 /// By its series, of a part so small that it converges at once.
@@ -174,7 +151,7 @@ void TextbookImm::stop(double duration) {
 void TextbookImm::change(double duration) {
   Rates rates = Rates::Zero();
   for (int i = 0; i < kResting; ++i)
-    rates.row(i).tail<kMoving>().setConstant(restModes(options_)[i].start_rate / kMoving);
+    rates.row(i).tail<kMoving>().setConstant(options_.rest[i].start_rate / kMoving);
   for (int i = 0; i < kMoving; ++i) {
     for (int j = 0; j < kMoving; ++j) {
       double& rate = rates(kResting + i, kResting + j);

@@ -1,6 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_OPTIONS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_OPTIONS_H
 
+#include <array>
+
 namespace wiimote_tracker::motion {
 
 /// A mode at rest: the position is a random walk.
@@ -15,15 +17,23 @@ struct SingerMode {
   double time;    ///< Autocorrelation time of the acceleration [s, > 0].
 };
 
+/// Names of the modes in the parameters, in the order of MotionOptions.
+constexpr std::array<const char*, 2> kRestModeNames = {"fixed", "swaying"};
+constexpr std::array<const char*, 4> kMovingModeNames = {"smooth", "gentle", "brisk", "hard"};
+
 /// The modes of the filter and the rates at which an LED changes between them. The moving modes are
-/// in the order of their agility: smooth, gentle, brisk, hard, sudden. Tuned: see doc/motion.md.
+/// in the order of their agility, of which the sudden one has most. Tuned: see doc/motion.md.
 struct MotionOptions {
-  RestMode fixed{5e-5, 0.2};        ///< An LED that lies or stands on something.
-  RestMode swaying{4e-3, 1.2};      ///< An LED that a person holds still, or on a foot that stands.
-  SingerMode smooth{0.0003, 20.0};  ///< Nearly constant acceleration: turning or swinging freely.
-  SingerMode gentle{0.5, 8.0};      ///< A hand that is moved with care.
-  SingerMode brisk{4.0, 0.2};       ///< A hand that gestures.
-  SingerMode hard{20.0, 0.15};      ///< A hand that strikes or shakes.
+  std::array<RestMode, kRestModeNames.size()> rest{{
+      {5e-5, 0.2},  // fixed: an LED that lies or stands on something
+      {4e-3, 1.2},  // swaying: one that a person holds still, or on a foot that stands
+  }};
+  std::array<SingerMode, kMovingModeNames.size()> moving{{
+      {0.0003, 20.0},  // smooth: nearly constant acceleration, turning or swinging freely
+      {0.5, 8.0},      // gentle: a hand that is moved with care
+      {4.0, 0.2},      // brisk: a hand that gestures
+      {20.0, 0.15},    // hard: a hand that strikes or shakes
+  }};
 
   /// Mode of nearly constant velocity, for LEDs that are thrown or bump into something: density of
   /// the random walk of the velocity [m/s/sqrt(s), >= 0]; 0: without this mode.

@@ -76,18 +76,16 @@ void readInstant(ParameterReader* reader, fusion::InstantFuserOptions* instant) 
 }
 
 void readMotion(ParameterReader* reader, motion::MotionOptions* motion) {
-  reader->read("motion/fixed/drift", &motion->fixed.drift, 0.0, 1.0);
-  reader->read("motion/fixed/start_rate", &motion->fixed.start_rate, 0.0, 1000.0);
-  reader->read("motion/swaying/drift", &motion->swaying.drift, 0.0, 1.0);
-  reader->read("motion/swaying/start_rate", &motion->swaying.start_rate, 0.0, 1000.0);
-  reader->read("motion/smooth/stddev", &motion->smooth.stddev, 1e-4, 1000.0);
-  reader->read("motion/smooth/time", &motion->smooth.time, 0.001, 1000.0);
-  reader->read("motion/gentle/stddev", &motion->gentle.stddev, 1e-4, 1000.0);
-  reader->read("motion/gentle/time", &motion->gentle.time, 0.001, 1000.0);
-  reader->read("motion/brisk/stddev", &motion->brisk.stddev, 1e-4, 1000.0);
-  reader->read("motion/brisk/time", &motion->brisk.time, 0.001, 1000.0);
-  reader->read("motion/hard/stddev", &motion->hard.stddev, 1e-4, 1000.0);
-  reader->read("motion/hard/time", &motion->hard.time, 0.001, 1000.0);
+  for (std::size_t i = 0; i < motion->rest.size(); ++i) {
+    const std::string mode = std::string("motion/") + motion::kRestModeNames[i];
+    reader->read(mode + "/drift", &motion->rest[i].drift, 0.0, 1.0);
+    reader->read(mode + "/start_rate", &motion->rest[i].start_rate, 0.0, 1000.0);
+  }
+  for (std::size_t i = 0; i < motion->moving.size(); ++i) {
+    const std::string mode = std::string("motion/") + motion::kMovingModeNames[i];
+    reader->read(mode + "/stddev", &motion->moving[i].stddev, 1e-4, 1000.0);
+    reader->read(mode + "/time", &motion->moving[i].time, 0.001, 1000.0);
+  }
   reader->read("motion/sudden_random_walk", &motion->sudden_random_walk, 0.0, 1000.0);
   reader->read("motion/stop_rate", &motion->stop_rate, 0.0, 1000.0);
   reader->read("motion/rise_rate", &motion->rise_rate, 0.0, 1000.0);

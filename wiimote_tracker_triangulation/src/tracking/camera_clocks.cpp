@@ -25,9 +25,7 @@ double squared(double x) {
 
 }  // namespace
 
-ClockRegression::Estimate CameraClocks::correctionOf(std::size_t camera,
-                                                     std::uint32_t epoch,
-                                                     bool is_known) {
+ClockError CameraClocks::correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known) {
   Clock& clock = clocks_[camera];
   if (clock.epoch != epoch || clock.is_known != is_known) {
     clock = clock.in(epoch, is_known);
@@ -49,9 +47,7 @@ CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t another_epoch,
           {0.0, is_known_there ? 0.0 : squared(kUnknown)}};
 }
 
-ClockRegression::Estimate CameraClocks::errorIn(std::size_t camera,
-                                                std::uint32_t epoch,
-                                                bool is_known) const {
+ClockError CameraClocks::errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
   return clocks_[camera].in(epoch, is_known).correction();
 }
 
@@ -67,7 +63,7 @@ bool CameraClocks::isReference(const Clock& clock) const {
 }
 
 /// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
-ClockRegression::Estimate CameraClocks::commonRemainder() {
+ClockError CameraClocks::commonRemainder() {
   offsets_.clear();
   double variances = 0.0;
   for (std::size_t i = 0; i < clocks_.size(); ++i) {
@@ -77,7 +73,7 @@ ClockRegression::Estimate CameraClocks::commonRemainder() {
     variances += remainders_[i]->variance + remainders_[i]->bias;
   }
   if (offsets_.empty())
-    return {0.0, 0.0};
+    return {};
   return {medianOf(&offsets_), variances / squared(static_cast<double>(offsets_.size()))};
 }
 
@@ -88,12 +84,12 @@ void CameraClocks::update(const std::vector<CameraFit>& fits,
     return;
   for (std::size_t i = 0; i < fits.size(); ++i)
     remainders_[i] = fits[i].isMisfit() ? std::nullopt : regressions[i].estimate(turn_stddevs_[i]);
-  const ClockRegression::Estimate common = commonRemainder();
+  const ClockError common = commonRemainder();
   for (std::size_t i = 0; i < fits.size(); ++i) {
     const auto& remainder = remainders_[i];
     if (!remainder)
       continue;
-    ClockRegression::Estimate& offset = clocks_[i].offset;
+    ClockError& offset = clocks_[i].offset;
     const double seen = clocks_[i].correction().offset + remainder->offset - common.offset;
     const double innovation = seen - offset.offset;
     if (squared(innovation) <= 4.0 * remainder->bias)

@@ -3,6 +3,7 @@
 
 #include "camera_fit.h"
 #include "clock_regression.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -28,10 +29,10 @@ class CameraClocks {
 
   /// To be subtracted from the times of a camera's images; its variance is for their deviation.
   /// @param is_known whether the rig's time offset holds in this epoch of the clock
-  ClockRegression::Estimate correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
+  ClockError correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
 
   /// What correctionOf would return.
-  ClockRegression::Estimate errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const;
+  ClockError errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const;
 
   /// By how much the times of a camera with a known offset are too late [s]; 0 if it is little.
   double errorOf(std::size_t camera) const;
@@ -48,16 +49,14 @@ class CameraClocks {
     std::uint32_t epoch = 0;
     bool is_known = true;
     bool is_used = false;  // the offset corrects the images: it is unknown or large
-    ClockRegression::Estimate offset{0.0, 0.0};
-    ClockRegression::Estimate correction() const {
-      return is_used ? offset : ClockRegression::Estimate{0.0, 0.0};
-    }
+    ClockError offset;
+    ClockError correction() const { return is_used ? offset : ClockError(); }
     Clock in(std::uint32_t another_epoch, bool is_known_there) const;
   };
 
   using Remainders = std::vector<std::optional<ClockRegression::Estimate>>;
   bool isReference(const Clock& clock) const;
-  ClockRegression::Estimate commonRemainder();
+  ClockError commonRemainder();
 
   std::vector<double> turn_stddevs_;  // per camera
   std::vector<Clock> clocks_;         // the same

@@ -155,7 +155,7 @@ void Tracker::reset() {
 StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double exposure) {
   const CameraState& state = cameras_[camera];
   CameraGroup& group = *groups_[state.group];
-  const ClockRegression::Estimate clock = group.clocks().correctionOf(
+  const ClockError clock = group.clocks().correctionOf(
       state.member, image.clock_epoch, !rig_.cameras[camera].hasNewClock(image.clock_epoch));
   const double stamp_stddev =
       std::isnan(image.stamp_stddev) ? options_.stamp_stddev : image.stamp_stddev;
@@ -280,9 +280,8 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
 
 ClockError Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
   const CameraState& state = cameras_.at(camera);
-  const ClockRegression::Estimate error = groups_[state.group]->clocks().errorIn(
-      state.member, clock_epoch, !rig_.cameras[camera].hasNewClock(clock_epoch));
-  return {error.offset, error.variance};
+  return groups_[state.group]->clocks().errorIn(state.member, clock_epoch,
+                                                !rig_.cameras[camera].hasNewClock(clock_epoch));
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -67,8 +67,10 @@ std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std:
 CameraGroup::CameraGroup(const geometry::Rig& rig,
                          const std::vector<std::size_t>& members,
                          const std::vector<std::vector<std::size_t>>& partners,
-                         const TrackerOptions& options)
-    : options_(options), members_(members), clocks_(members.size()) {
+                         const TrackerOptions& options,
+                         Ids* ids,
+                         std::vector<CameraView>* views)
+    : options_(options), ids_(ids), views_(views), members_(members), clocks_(members.size()) {
   state_.fits.resize(members_.size(),
                      {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo});
   state_.clock_regressions.resize(members_.size());
@@ -83,10 +85,10 @@ void CameraGroup::useRig(const geometry::Rig& rig,
   for (const std::size_t member : members_)
     cameras_.emplace_back(rig, member, options_);
   update_.emplace(rig, members_, options_);
-  initiation_.emplace(rigOf(rig, members_), partnersOf(partners, members_), options_);
+  initiation_.emplace(rigOf(rig, members_), partnersOf(partners, members_), options_, ids_);
   clocks_.setTurnStddevs(turnStddevs(rig, members_));
   // The rays of unassigned spots are those of the former cameras.
-  const auto forgetRays = [](State* state) {
+  const auto forgetRays = [](GroupState* state) {
     std::fill(state->unassigned.begin(), state->unassigned.end(), UnassignedSpots());
   };
   forgetRays(&state_);
@@ -97,9 +99,7 @@ bool CameraGroup::isDoubtful() const {
   return state_.fits.size() == 2 && (isMisfit(0) || isMisfit(1));
 }
 
-CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
-                                      Ids* ids,
-                                      std::vector<CameraView>* views) {
+CameraGroup::Outcome CameraGroup::add(const StoredImage& image) {
   const auto& images = history_.images();
   if (!images.empty() && image.time < images.back().time - options_.history)
     return Outcome::kDropped;
@@ -121,15 +121,15 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image,
   history_.insert(mistimed ? *place - 1 : *place, image);
   if (is_late)
     return Outcome::kLate;
-  update(ids, views);
+  update();
   history_.forgetBefore(images.back().time - options_.history);
   return Outcome::kAdded;
 }
 
-void CameraGroup::update(Ids* ids, std::vector<CameraView>* views) {
+void CameraGroup::update() {
   for (; next_step_ < history_.images().end(); ++next_step_) {
     history_.keep(next_step_, state_);
-    step(history_.images().at(next_step_), ids, views);
+    step(history_.images().at(next_step_));
   }
   if (state_.clocks == clocks_.version())
     clocks_.update(state_.fits, state_.clock_regressions);
@@ -151,22 +151,20 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
   return std::nullopt;
 }
 
-void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views) {
-  const GroupCamera& camera = cameras_[image.camera];
+void CameraGroup::step(const StoredImage& image) {
   std::vector<Track>& tracks = state_.tracks;
   if (image.clocks != state_.clocks) {
     std::fill(state_.clock_regressions.begin(), state_.clock_regressions.end(), ClockRegression());
     state_.clocks = image.clocks;
   }
-  update_->apply(camera, image, &state_.fits, &state_.clock_regressions[image.camera], &tracks,
-                 &state_.pairs);
+  update_->apply(cameras_[image.camera], image, &state_);
   removeMergedPairs(image.time);
   // With two cameras, nobody would ever be confirmed in a crowd.
   const bool in_crowd = noteCrowd(image) && members_.size() > 2;
-  show(image, views);
+  show(image);
   collectUnassigned(image);
-  initiation_->apply(cameras_, image.camera, &state_.unassigned, &tracks, ids);
-  showStarts(views);
+  initiation_->apply(cameras_, image.camera, &state_);
+  showStarts();
   for (Track& track : tracks) {
     const bool was_confirmed = track.isConfirmed();
     track.updateStatus(image.time, options_, in_crowd);
@@ -174,7 +172,7 @@ void CameraGroup::step(const StoredImage& image, Ids* ids, std::vector<CameraVie
       doubtPartnerOf(track.id);
     if (was_confirmed || !track.mayContinue())
       continue;
-    if (Track* former = initiation_->formerTrackOf(track, state_.pairs, &tracks)) {
+    if (Track* former = initiation_->formerTrackOf(track, &state_)) {
       former->continueAs(track);
       track.finish();
     }
@@ -282,8 +280,8 @@ void CameraGroup::collectUnassigned(const StoredImage& image) {
   }
 }
 
-void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views) const {
-  CameraView& view = (*views)[members_[image.camera]];
+void CameraGroup::show(const StoredImage& image) const {
+  CameraView& view = (*views_)[members_[image.camera]];
   view.time = image.time;
   view.stamp_stddev = image.stamp_stddev;
   view.full = image.full;
@@ -303,9 +301,9 @@ void CameraGroup::show(const StoredImage& image, std::vector<CameraView>* views)
 
 /// Writes which spots began a track, also in the views of older images. A view of a newer image is
 /// left alone: the steps are being repeated, and its own one follows.
-void CameraGroup::showStarts(std::vector<CameraView>* views) const {
+void CameraGroup::showStarts() const {
   for (const StartSpot& start : initiation_->starts()) {
-    CameraView& view = (*views)[members_[start.camera]];
+    CameraView& view = (*views_)[members_[start.camera]];
     if (view.time != state_.unassigned[start.camera].time)
       continue;
     view.spots[start.spot].use = SpotUse::kStart;

@@ -2,14 +2,10 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
 #include "camera_clocks.h"
-#include "camera_fit.h"
-#include "crowd.h"
 #include "group_camera.h"
-#include "ids.h"
+#include "group_state.h"
 #include "image_update.h"
-#include "merged_pair.h"
 #include "stored_image.h"
-#include "track.h"
 #include "track_initiation.h"
 #include "tracking/history.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -32,18 +28,20 @@ class CameraGroup {
   /// @param members indices of the cameras in the rig, ascending.
   /// @param partners of all cameras of the rig, see association::sharedViews.
   /// @param options must outlive the group and the tracks, also those that another group adopts.
+  /// @param ids, views must live longer; `views`, one per camera of the rig, get the use of spots.
   CameraGroup(const geometry::Rig& rig,
               const std::vector<std::size_t>& members,
               const std::vector<std::vector<std::size_t>>& partners,
-              const TrackerOptions& options);
+              const TrackerOptions& options,
+              Ids* ids,
+              std::vector<CameraView>* views);
 
   /// Steps follow with the next image in order, or update(): a late image may come after others.
   /// @param image of the member image.camera.
-  /// @param views one per camera of the rig; the use of the image's spots is written to its view.
-  Outcome add(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+  Outcome add(const StoredImage& image);
 
   /// Carries out the steps of all images.
-  void update(Ids* ids, std::vector<CameraView>* views);
+  void update();
 
   /// Whether a camera's images do not fit the others'. With more than two cameras they are left
   /// out.
@@ -76,36 +74,27 @@ class CameraGroup {
   void clear();
 
  private:
-  /// Everything that a late image may change.
-  struct State {
-    std::vector<Track> tracks;
-    std::vector<MergedPair> pairs;
-    Crowd crowd{0};
-    std::vector<UnassignedSpots> unassigned;         // per camera
-    std::vector<CameraFit> fits;                     // per camera
-    std::vector<ClockRegression> clock_regressions;  // per camera, since the last correction
-    std::uint32_t clocks = 0;                        // version of the corrections of their clocks
-  };
-
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
-  void step(const StoredImage& image, Ids* ids, std::vector<CameraView>* views);
+  void step(const StoredImage& image);
   bool noteCrowd(const StoredImage& image);
   void removeMergedPairs(double time);
   void doubtPartnerOf(std::uint32_t ended);
   Track* continuing(std::uint32_t id, double since);
   void collectUnassigned(const StoredImage& image);
-  void show(const StoredImage& image, std::vector<CameraView>* views) const;
-  void showStarts(std::vector<CameraView>* views) const;
+  void show(const StoredImage& image) const;
+  void showStarts() const;
 
   const TrackerOptions& options_;
+  Ids* ids_;
+  std::vector<CameraView>* views_;
   std::vector<std::size_t> members_;
   std::vector<GroupCamera> cameras_;
   std::optional<ImageUpdate> update_;          // never empty
   std::optional<TrackInitiation> initiation_;  // never empty
   CameraClocks clocks_;
-  State state_;  // before the image of index next_step_
+  GroupState state_;  // before the image of index next_step_
   std::uint64_t next_step_ = 0;
-  History<StoredImage, State> history_;
+  History<StoredImage, GroupState> history_;
 };
 
 /// Divides the cameras of a rig into groups that share no view.

@@ -17,27 +17,22 @@ ImageUpdate::ImageUpdate(const geometry::Rig& rig,
   candidates_.reserve(association::kMaximumTracks);
 }
 
-void ImageUpdate::apply(const GroupCamera& camera,
-                        const StoredImage& image,
-                        std::vector<CameraFit>* fits,
-                        ClockRegression* clock,
-                        std::vector<Track>* tracks,
-                        std::vector<MergedPair>* pairs) {
+void ImageUpdate::apply(const GroupCamera& camera, const StoredImage& image, GroupState* state) {
   camera_ = &camera;
   image_ = &image;
-  tracks_ = tracks;
+  state_ = state;
   noise_ = camera.noise(image.stamp_stddev);
   collectCandidates();
   assign();
-  measureFit(fits);
-  measureClock(clock);
-  if ((*fits)[image.camera].isMisfit() && fits->size() > 2) {
+  measureFit();
+  measureClock();
+  if (state->fits[image.camera].isMisfit() && state->fits.size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
     return;
   }
-  updateMergedPairs(pairs);
+  updateMergedPairs();
   findMergedSpots();
-  addMergedPairs(pairs);
+  addMergedPairs();
   for (const Candidate& candidate : candidates_) {
     if (candidate.updated)
       continue;
@@ -58,7 +53,7 @@ void ImageUpdate::apply(const GroupCamera& camera,
 void ImageUpdate::collectCandidates() {
   constexpr double kEdge = 8.0;  // where a spot may be cut off, or just outside [px]
   candidates_.clear();
-  for (Track& track : *tracks_) {
+  for (Track& track : state_->tracks) {
     if (candidates_.size() == association::kMaximumTracks)
       return;
     if (!camera_->mayShow(track.approximatePosition(image_->time)))
@@ -96,15 +91,15 @@ CameraList ImageUpdate::othersSeeing(const Track& track) const {
 /// Compares the image with the LEDs that other cameras see. While two cameras do not fit each
 /// other, an LED counts as shown only if its rays meet, and unassigned spots that both have count
 /// as missing LEDs.
-void ImageUpdate::measureFit(std::vector<CameraFit>* fits) const {
-  const bool is_pair = fits->size() == 2;
-  CameraFit& fit = (*fits)[image_->camera];
+void ImageUpdate::measureFit() const {
+  std::vector<CameraFit>& fits = state_->fits;
+  const bool is_pair = fits.size() == 2;
+  CameraFit& fit = fits[image_->camera];
   const bool is_tested = is_pair && fit.isMisfit();
   const auto end = track_of_spot_.begin() + image_->spot_count;
   std::size_t unassigned = std::count(track_of_spot_.begin(), end, association::kFalseDetection);
   std::size_t shown = 0;
-  std::size_t missing =
-      is_tested ? std::min(unassigned, (*fits)[1 - image_->camera].unassigned()) : 0;
+  std::size_t missing = is_tested ? std::min(unassigned, fits[1 - image_->camera].unassigned()) : 0;
   std::size_t explained = 0;
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
@@ -145,7 +140,7 @@ bool ImageUpdate::isExplained(const Candidate& candidate) const {
 }
 
 /// Compares the image with the motion of LEDs that two other cameras see.
-void ImageUpdate::measureClock(ClockRegression* clock) const {
+void ImageUpdate::measureClock() const {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
@@ -154,7 +149,8 @@ void ImageUpdate::measureClock(ClockRegression* clock) const {
     const auto residual = residualOf(candidate);
     if (!residual || !(track.filter.velocity().norm() >= kLeastSpeed))
       continue;
-    clock->add(candidate.prediction.pixel(), candidate.prediction.velocity(), *residual);
+    state_->clock_regressions[image_->camera].add(candidate.prediction.pixel(),
+                                                  candidate.prediction.velocity(), *residual);
   }
 }
 
@@ -220,7 +216,7 @@ void ImageUpdate::updateTrack(const Candidate& candidate, const Candidate* other
 
 void ImageUpdate::assignSpot(std::size_t spot, Candidate* candidate) {
   candidate->spot = spot;
-  track_of_spot_[spot] = static_cast<int>(candidate->track - tracks_->data());
+  track_of_spot_[spot] = static_cast<int>(candidate->track - state_->tracks.data());
 }
 
 ImageUpdate::Candidate* ImageUpdate::find(std::uint32_t id) {

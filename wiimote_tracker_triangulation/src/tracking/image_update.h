@@ -2,12 +2,9 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 
 #include "association/assign_spots.h"
-#include "camera_fit.h"
-#include "clock_regression.h"
 #include "group_camera.h"
-#include "merged_pair.h"
+#include "group_state.h"
 #include "stored_image.h"
-#include "track.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <array>
@@ -30,14 +27,7 @@ class ImageUpdate {
 
   /// If the image does not fit, all its spots are false detections; but those of one of only two
   /// cameras are used, or it would never be known to fit again.
-  /// @param fits one per camera of the group; that of the image's is updated
-  /// @param clock of the image's camera
-  void apply(const GroupCamera& camera,
-             const StoredImage& image,
-             std::vector<CameraFit>* fits,
-             ClockRegression* clock,
-             std::vector<Track>* tracks,
-             std::vector<MergedPair>* pairs);
+  void apply(const GroupCamera& camera, const StoredImage& image, GroupState* state);
 
   /// For each spot of that image its index in `tracks`, or association::kFalseDetection.
   const std::array<int, association::kMaximumSpots>& trackOfSpot() const { return track_of_spot_; }
@@ -62,9 +52,9 @@ class ImageUpdate {
   CameraList othersSeeing(const Track& track) const;
   void assign();
   void assignSpot(std::size_t spot, Candidate* candidate);
-  void measureFit(std::vector<CameraFit>* fits) const;
+  void measureFit() const;
   bool isExplained(const Candidate& candidate) const;
-  void measureClock(ClockRegression* clock) const;
+  void measureClock() const;
   bool isBeside(const Candidate& candidate, double distance) const;
   std::optional<Eigen::Vector2d> residualOf(const Candidate& candidate) const;
   std::optional<std::size_t> nearestUnassigned(const Eigen::Vector2d& pixel, double distance) const;
@@ -75,8 +65,8 @@ class ImageUpdate {
   const Candidate* mergedWith(const Candidate& candidate) const;
   void updateMerged(const Candidate& candidate, const Candidate& other) const;
   void findMergedSpots();
-  void addMergedPairs(std::vector<MergedPair>* pairs) const;
-  void updateMergedPairs(std::vector<MergedPair>* pairs);
+  void addMergedPairs() const;
+  void updateMergedPairs();
   Candidate* find(std::uint32_t id);
 
   geometry::Rig rig_;
@@ -85,7 +75,7 @@ class ImageUpdate {
   // Of the last apply(); the pointers are valid while it runs.
   const GroupCamera* camera_ = nullptr;
   const StoredImage* image_ = nullptr;
-  std::vector<Track>* tracks_ = nullptr;
+  GroupState* state_ = nullptr;
   motion::PixelNoise noise_;
   std::vector<Candidate> candidates_;  // at most kMaximumTracks
   association::SpotCosts costs_;

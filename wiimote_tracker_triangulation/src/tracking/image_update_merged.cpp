@@ -117,25 +117,26 @@ void ImageUpdate::findMergedSpots() {
   }
 }
 
-void ImageUpdate::addMergedPairs(std::vector<MergedPair>* pairs) const {
+void ImageUpdate::addMergedPairs() const {
+  std::vector<MergedPair>& pairs = state_->pairs;
   for (const Candidate& candidate : candidates_) {
     const Candidate* other = candidate.spot ? mergedWith(candidate) : nullptr;
     if (!other || !candidate.track->isConfirmed())
       continue;
     const Track& a = *candidate.track;
     const Track& b = *other->track;
-    const bool is_known = std::any_of(pairs->begin(), pairs->end(), [&](const MergedPair& pair) {
+    const bool is_known = std::any_of(pairs.begin(), pairs.end(), [&](const MergedPair& pair) {
       return pair.has(a.id) || pair.has(b.id);
     });
     if (!is_known && !a.isShownBeside(b, image_->time - options_.birth_window))
-      pairs->emplace_back(a.id, b.id, MergedPair::Filters{a.filter, b.filter});
+      pairs.emplace_back(a.id, b.id, MergedPair::Filters{a.filter, b.filter});
   }
 }
 
 /// Lets each pair choose the spots of its two LEDs in an image that shows both. Other images update
 /// the two as any other track.
-void ImageUpdate::updateMergedPairs(std::vector<MergedPair>* pairs) {
-  for (MergedPair& pair : *pairs) {
+void ImageUpdate::updateMergedPairs() {
+  for (MergedPair& pair : state_->pairs) {
     const std::array<Candidate*, 2> both = {find(pair.ids()[0]), find(pair.ids()[1])};
     if (!both[0] || !both[1])
       continue;

@@ -22,20 +22,20 @@ association::AssociationOptions associationOptions(const geometry::Rig& rig,
 
 TrackInitiation::TrackInitiation(const geometry::Rig& rig,
                                  const std::vector<std::vector<std::size_t>>& partners,
-                                 const TrackerOptions& options)
+                                 const TrackerOptions& options,
+                                 Ids* ids)
     : options_(options),
+      ids_(ids),
       partners_(partners),
       associator_(rig, partners, associationOptions(rig, options)),
       views_(rig.cameras.size()) {}
 
 void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
                             std::size_t newest,
-                            std::vector<UnassignedSpots>* unassigned,
-                            std::vector<Track>* tracks,
-                            Ids* ids) {
+                            GroupState* state) {
   starts_.clear();
   cameras_ = &cameras;
-  unassigned_ = unassigned;
+  state_ = state;
   if (!collectViews(newest))
     return;
   const association::Association& found = associator_.associate(views_);
@@ -46,7 +46,7 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
         !isAllowed(point) || mayShowInAnother(point, first))
       continue;
-    start(point, first, (*unassigned)[newest].time, tracks, ids);
+    start(point, first, state->unassigned[newest].time);
     used_.insert(used_.end(), first, last);
   }
   removeUsed();
@@ -55,20 +55,18 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
 /// Starts a track from the spots of a point, at the time of the newest of them.
 void TrackInitiation::start(const association::AssociatedPoint& point,
                             const association::SpotReference* spots,
-                            double time,
-                            std::vector<Track>* tracks,
-                            Ids* ids) {
+                            double time) {
   const auto* end = spots + point.spot_count;
   initial_spots_.clear();
   for (const auto* spot = spots; spot != end; ++spot)
     initial_spots_.push_back(spotAt(*spot).key);
-  const std::uint32_t id = ids->idFor(initial_spots_, time, [&](std::uint32_t candidate) {
-    return std::any_of(tracks->begin(), tracks->end(),
+  const std::uint32_t id = ids_->idFor(initial_spots_, time, [&](std::uint32_t candidate) {
+    return std::any_of(state_->tracks.begin(), state_->tracks.end(),
                        [&](const Track& track) { return track.id == candidate; });
   });
-  Track& track = tracks->emplace_back(filterOf(point, spots), id);
+  Track& track = state_->tracks.emplace_back(filterOf(point, spots), id);
   for (const auto* spot = spots; spot != end; ++spot) {
-    track.addInitialSpot(spot->view, (*unassigned_)[spot->view].time,
+    track.addInitialSpot(spot->view, state_->unassigned[spot->view].time,
                          point.point.reprojection_error);
     starts_.push_back({spot->view, spotAt(*spot).key.spot, id});
   }
@@ -78,7 +76,7 @@ void TrackInitiation::start(const association::AssociatedPoint& point,
 void TrackInitiation::removeUsed() {
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
   for (const association::SpotReference& spot : used_) {
-    UnassignedSpots& rest = (*unassigned_)[spot.view];
+    UnassignedSpots& rest = state_->unassigned[spot.view];
     rest.spots.erase(rest.spots.begin() + spot.spot);
     rest.sights.erase(rest.sights.begin() + spot.spot);
   }
@@ -91,12 +89,12 @@ motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoin
   constexpr double kVague = 100.0;  // times the point's covariance
   by_time_.assign(spots, spots + point.spot_count);
   std::sort(by_time_.begin(), by_time_.end(), [&](auto& a, auto& b) {
-    return (*unassigned_)[a.view].time < (*unassigned_)[b.view].time;
+    return state_->unassigned[a.view].time < state_->unassigned[b.view].time;
   });
-  motion::MotionFilter filter(options_.motion, (*unassigned_)[by_time_.front().view].time,
+  motion::MotionFilter filter(options_.motion, state_->unassigned[by_time_.front().view].time,
                               point.point.position, kVague * point.point.covariance);
   for (const association::SpotReference& spot : by_time_) {
-    const UnassignedSpots& image = (*unassigned_)[spot.view];
+    const UnassignedSpots& image = state_->unassigned[spot.view];
     const GroupCamera& camera = (*cameras_)[spot.view];
     filter.predict(image.time);
     const auto prediction = filter.predictPixel(camera.forRays(), camera.noise(image.stamp_stddev));
@@ -110,14 +108,12 @@ motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoin
 /// a MergedPair is about to decide; or one of a blinking LED that may be dark. The LED may have
 /// moved as no mode describes, as when it is caught, or its track may have followed a false
 /// detection: initial_speed allows for that.
-Track* TrackInitiation::formerTrackOf(const Track& found,
-                                      const std::vector<MergedPair>& pairs,
-                                      std::vector<Track>* tracks) const {
+Track* TrackInitiation::formerTrackOf(const Track& found, GroupState* state) const {
   const double time = found.filter.time();
   const double since = found.startedAt();
   Track* result = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (Track& track : *tracks) {
+  for (Track& track : state->tracks) {
     const auto decidesIt = [&](const MergedPair& pair) {
       return pair.areSeparate(time) && pair.has(track.id);
     };
@@ -125,7 +121,7 @@ Track* TrackInitiation::formerTrackOf(const Track& found,
         time - track.lastObserved() < options_.dark_time ||
         track.camerasShowing(since) > found.camerasShowing(since) ||
         track.isShownBeside(found, -std::numeric_limits<double>::infinity()) ||
-        std::any_of(pairs.begin(), pairs.end(), decidesIt))
+        std::any_of(state->pairs.begin(), state->pairs.end(), decidesIt))
       continue;
     motion::MotionFilter expected = track.filter;
     expected.predict(time);
@@ -146,9 +142,9 @@ Track* TrackInitiation::formerTrackOf(const Track& found,
 
 /// Fills views_ with the recent unassigned spots. False when no two cameras have any.
 bool TrackInitiation::collectViews(std::size_t newest) {
-  const double since = (*unassigned_)[newest].time - options_.birth_window;
+  const double since = state_->unassigned[newest].time - options_.birth_window;
   const auto viewOf = [&](std::size_t camera) -> association::View {
-    const UnassignedSpots& rest = (*unassigned_)[camera];
+    const UnassignedSpots& rest = state_->unassigned[camera];
     const bool is_recent = rest.time >= since;
     return {rest.sights.data(), is_recent ? rest.sights.size() : 0, is_recent, rest.full};
   };
@@ -171,9 +167,9 @@ bool TrackInitiation::mayShowInAnother(const association::AssociatedPoint& point
                                        const association::SpotReference* spots) const {
   double since = std::numeric_limits<double>::infinity();
   for (const auto* spot = spots; spot != spots + point.spot_count; ++spot)
-    since = std::min(since, (*unassigned_)[spot->view].since);
+    since = std::min(since, state_->unassigned[spot->view].since);
   for (std::size_t camera = 0; camera < cameras_->size(); ++camera) {
-    if (views_[camera].watching && (*unassigned_)[camera].time < since &&
+    if (views_[camera].watching && state_->unassigned[camera].time < since &&
         (*cameras_)[camera].forRays().sees(point.point.position))
       return true;
   }

@@ -3,36 +3,15 @@
 
 #include "association/associate_views.h"
 #include "group_camera.h"
+#include "group_state.h"
 #include "ids.h"
-#include "merged_pair.h"
-#include "stored_image.h"
-#include "track.h"
-#include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
-
-#include <Eigen/Core>
-#include <boost/container/static_vector.hpp>
 
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
-
-/// The spots of a camera's newest image that are assigned to no track and have a ray.
-struct UnassignedSpots {
-  struct Spot {
-    Eigen::Vector2d pixel;
-    SpotKey key;
-  };
-
-  double time = -1e300;       // [s]
-  double since = 0.0;         // first image of the latest ones that all have some [s]
-  double stamp_stddev = 0.0;  // StoredImage::stamp_stddev
-  bool full = false;          // StoredImage::full
-  boost::container::static_vector<Spot, association::kMaximumSpots> spots;
-  boost::container::static_vector<geometry::Sight, association::kMaximumSpots> sights;  // theirs
-};
 
 /// A spot that began a track.
 struct StartSpot {
@@ -47,44 +26,39 @@ class TrackInitiation {
  public:
   /// @param rig the group's cameras only. @param partners see association::sharedViews.
   /// @param options must outlive the tracks: their filters refer to options.motion.
+  /// @param ids must live longer.
   TrackInitiation(const geometry::Rig& rig,
                   const std::vector<std::vector<std::size_t>>& partners,
-                  const TrackerOptions& options);
+                  const TrackerOptions& options,
+                  Ids* ids);
 
-  /// Searches for LEDs at the time of camera `newest`'s image, and removes their spots from
-  /// `unassigned`.
-  void apply(const std::vector<GroupCamera>& cameras,
-             std::size_t newest,
-             std::vector<UnassignedSpots>* unassigned,
-             std::vector<Track>* tracks,
-             Ids* ids);
+  /// Searches for LEDs at the time of camera `newest`'s image, and removes their spots from the
+  /// unassigned ones.
+  void apply(const std::vector<GroupCamera>& cameras, std::size_t newest, GroupState* state);
 
   /// Of the tracks that the last apply() started.
   const std::vector<StartSpot>& starts() const { return starts_; }
 
   /// The most likely track of the LED of a track that is ready; null: it is a new LED.
-  Track* formerTrackOf(const Track& found,
-                       const std::vector<MergedPair>& pairs,
-                       std::vector<Track>* tracks) const;
+  Track* formerTrackOf(const Track& found, GroupState* state) const;
 
  private:
   bool collectViews(std::size_t newest);
   const UnassignedSpots::Spot& spotAt(const association::SpotReference& spot) const {
-    return (*unassigned_)[spot.view].spots[spot.spot];
+    return state_->unassigned[spot.view].spots[spot.spot];
   }
   bool isAllowed(const association::AssociatedPoint& point) const;
   bool mayShowInAnother(const association::AssociatedPoint& point,
                         const association::SpotReference* spots) const;
   void start(const association::AssociatedPoint& point,
              const association::SpotReference* spots,
-             double time,
-             std::vector<Track>* tracks,
-             Ids* ids);
+             double time);
   motion::MotionFilter filterOf(const association::AssociatedPoint& point,
                                 const association::SpotReference* spots);
   void removeUsed();
 
   const TrackerOptions& options_;
+  Ids* ids_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
   std::vector<association::View> views_;
@@ -94,7 +68,7 @@ class TrackInitiation {
   std::vector<StartSpot> starts_;
   // Of the last apply(); valid while it runs.
   const std::vector<GroupCamera>* cameras_ = nullptr;
-  std::vector<UnassignedSpots>* unassigned_ = nullptr;
+  GroupState* state_ = nullptr;
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -82,7 +82,8 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
   for (const std::vector<std::size_t>& members : groupsOf(partners)) {
     for (std::size_t i = 0; i < members.size(); ++i)
       cameras_[members[i]] = CameraState{groups_.size(), i};
-    groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, options_));
+    groups_.push_back(
+        std::make_unique<CameraGroup>(rig_, members, partners, options_, ids_.get(), &views_));
   }
   arrival_clocks_ = std::make_unique<ArrivalClocks>(
       rig_.cameras.size(), arrival_clocks_ ? arrival_clocks_->newestUsed() : kNever);
@@ -120,7 +121,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     reset();
   const StoredImage stored_image = stored(camera, image, times.exposure);
   CameraState& state = cameras_[camera];
-  switch (groups_[state.group]->add(stored_image, ids_.get(), &views_)) {
+  switch (groups_[state.group]->add(stored_image)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
       return;
@@ -183,7 +184,7 @@ StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double
 
 void Tracker::updateGroups() {
   for (const auto& group : groups_)
-    group->update(ids_.get(), &views_);
+    group->update();
 }
 
 const Snapshot* Tracker::next() {

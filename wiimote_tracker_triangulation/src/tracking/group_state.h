@@ -1,0 +1,49 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_STATE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_STATE_H
+
+#include "association/assign_spots.h"
+#include "camera_fit.h"
+#include "clock_regression.h"
+#include "crowd.h"
+#include "ids.h"
+#include "merged_pair.h"
+#include "track.h"
+#include "wiimote_tracker_triangulation/geometry/sight.h"
+
+#include <Eigen/Core>
+#include <boost/container/static_vector.hpp>
+
+#include <cstdint>
+#include <vector>
+
+namespace wiimote_tracker::tracking {
+
+/// The spots of a camera's newest image that are assigned to no track and have a ray.
+struct UnassignedSpots {
+  struct Spot {
+    Eigen::Vector2d pixel;
+    SpotKey key;
+  };
+
+  double time = -1e300;       // [s]
+  double since = 0.0;         // first image of the latest ones that all have some [s]
+  double stamp_stddev = 0.0;  // StoredImage::stamp_stddev
+  bool full = false;          // StoredImage::full
+  boost::container::static_vector<Spot, association::kMaximumSpots> spots;
+  boost::container::static_vector<geometry::Sight, association::kMaximumSpots> sights;  // theirs
+};
+
+/// Everything of a group of cameras that a late image may change.
+struct GroupState {
+  std::vector<Track> tracks;
+  std::vector<MergedPair> pairs;
+  Crowd crowd{0};
+  std::vector<UnassignedSpots> unassigned;         // per camera
+  std::vector<CameraFit> fits;                     // per camera
+  std::vector<ClockRegression> clock_regressions;  // per camera, since the last correction
+  std::uint32_t clocks = 0;                        // version of the corrections of their clocks
+};
+
+}  // namespace wiimote_tracker::tracking
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_STATE_H

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 namespace wiimote_tracker::association {
@@ -31,7 +32,6 @@ void PointSearch::reserve(std::size_t spots) {
     draft.spots.reserve(cameras_.size());
   for (Point& point : best_)
     point.spots.reserve(cameras_.size());
-  view_ends_.reserve(spots);
   partner_spots_.reserve(spots);
   least_costs_.reserve(spots);
   costs_.reserve(spots);
@@ -89,26 +89,19 @@ void PointSearch::begin(const Component& component, const std::vector<View>& vie
 
 void PointSearch::prepare() {
   const std::size_t size = component_->spots.size();
-  view_ends_.resize(size);
-  for (std::size_t spot = size; spot-- > 0;) {
-    const bool is_last =
-        spot + 1 == size || component_->spots[spot + 1].view != component_->spots[spot].view;
-    view_ends_[spot] = is_last ? spot + 1 : view_ends_[spot + 1];
-  }
   partner_spots_.assign(size, 0);
   least_costs_.resize(size);
   for (std::size_t spot = 0; spot < size; ++spot) {
     std::size_t rays = 1;
-    for (std::size_t begin = 0; begin < size; begin = view_ends_[begin]) {
-      bool has_partner = false;
-      for (std::size_t other = begin; other < view_ends_[begin]; ++other) {
-        if (component_->pair(spot, other) == kInfinity)
-          continue;
-        has_partner = true;
-        if (other < kMaskSize)
-          partner_spots_[spot] |= Mask{1} << other;
-      }
-      rays += has_partner;
+    std::optional<std::size_t> last_view;  // with a partner; the spots are in the order of views
+    for (std::size_t other = 0; other < size; ++other) {
+      if (component_->pair(spot, other) == kInfinity)
+        continue;
+      if (other < kMaskSize)
+        partner_spots_[spot] |= Mask{1} << other;
+      const std::size_t view = component_->spots[other].view;
+      rays += last_view != view;
+      last_view = view;
     }
     least_costs_[spot] = std::min(options_.ghost, options_.point / rays);
   }
@@ -181,26 +174,7 @@ bool PointSearch::isWorthwhile(std::size_t next_spot, std::size_t ghosts) const 
   double cost = options_.ghost * ghosts;
   for (std::size_t i = 0; i < draft_count_; ++i)
     cost += options_.point + drafts_[i].fit.chi_squared;
-  return cost < best_cost_ && cost + leastCostOfSurplus(next_spot) < best_cost_ &&
-         cost + leastCostOfUnjoinable(next_spot) < best_cost_;
-}
-
-/// A lower bound: where a view has more spots left than there are points, each surplus spot is a
-/// ghost or begins a point, which then takes a spot of every view. The least over the number of new
-/// points.
-double PointSearch::leastCostOfSurplus(std::size_t next_spot) const {
-  double least = kInfinity;
-  for (std::size_t begun = 0;; ++begun) {
-    std::size_t ghosts = 0;
-    for (std::size_t spot = next_spot; spot < view_ends_.size(); spot = view_ends_[spot]) {
-      const std::size_t left = view_ends_[spot] - spot;
-      if (left > draft_count_ + begun)
-        ghosts += left - draft_count_ - begun;
-    }
-    least = std::min(least, options_.point * begun + options_.ghost * ghosts);
-    if (ghosts == 0)
-      return least;
-  }
+  return cost + leastCostOfUnjoinable(next_spot) < best_cost_;
 }
 
 /// A lower bound: a spot that can join no draft is a ghost or in a new point, and shares that cost

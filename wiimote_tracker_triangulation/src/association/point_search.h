@@ -112,7 +112,6 @@ class PointSearch {
   void tryBeginning(std::size_t spot, std::size_t ghosts);
   void finish(std::size_t ghosts);
   bool isWorthwhile(std::size_t next_spot, std::size_t ghosts) const;
-  double leastCostOfSurplus(std::size_t next_spot) const;
   double leastCostOfUnjoinable(std::size_t next_spot) const;
   bool isPoint(const Draft& draft) const;
   double meanPairCost(const Draft& draft, std::size_t spot) const;
@@ -126,9 +125,8 @@ class PointSearch {
 
   const Component* component_ = nullptr;
   const std::vector<View>* views_ = nullptr;
-  std::vector<std::size_t> view_ends_;  // per spot: one past the last spot of its view
-  std::vector<Mask> partner_spots_;     // per spot: spots that can share a point with it
-  std::vector<double> least_costs_;     // per spot: as a false detection, or its share of a point
+  std::vector<Mask> partner_spots_;  // per spot: spots that can share a point with it
+  std::vector<double> least_costs_;  // per spot: as a false detection, or its share of a point
   std::size_t steps_ = 0;
   std::size_t maximum_steps_ = 0;
   std::vector<Draft> drafts_;  // the first draft_count_ are in use; the others keep their buffers

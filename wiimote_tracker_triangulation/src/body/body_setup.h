@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SETUP_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SETUP_H
 
-#include "wiimote_tracker_triangulation/body/body_tracker_options.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"

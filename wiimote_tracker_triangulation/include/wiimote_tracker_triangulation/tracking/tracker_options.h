@@ -9,18 +9,23 @@
 
 namespace wiimote_tracker::tracking {
 
+/// What the tracking of LEDs and that of bodies assume of images.
+struct ImageOptions {
+  double pixel_stddev = 0.5;       ///< Measurement noise of a coordinate [px, 0.001..100].
+  bool learnt_noise = true;        ///< Updates use that of the calibration, if it tells it.
+  double stamp_stddev = 0.0005;    ///< Of images without one of their own [s, 0..0.1].
+  double merging_distance = 24.0;  ///< Closer LEDs may merge into one spot [px, 0..100].
+  double maximum_range = 20.0;     ///< Of an LED from a camera [m, 0.1..1000].
+  double history = 0.2;            ///< Later images are dropped [s, 0.01..2].
+};
+
 /// Options of the tracker. The ranges are not checked here.
-struct TrackerOptions {
+struct TrackerOptions : ImageOptions {
   motion::MotionOptions motion;
 
   // Measurements.
-  double pixel_stddev = 0.5;           ///< Measurement noise of a coordinate [px, 0.001..100].
-  bool learnt_noise = true;            ///< Updates use that of the calibration, if it tells it.
-  double stamp_stddev = 0.0005;        ///< Of images without one of their own [s, 0..0.1].
   double detection_probability = 0.9;  ///< Of an LED in a camera's view [0.01..0.999].
   double ghost_rate = 0.5;             ///< Mean number of false detections per image [0.001..16].
-  double merging_distance = 24.0;      ///< Closer LEDs may merge into one spot [px, 0..100].
-  double maximum_range = 20.0;         ///< Of an LED from a camera [m, 0.1..1000].
   double gate = 25.0;                  ///< Squared Mahalanobis distance of a spot [1, 4..100].
 
   // Tracks.
@@ -42,9 +47,6 @@ struct TrackerOptions {
   /// outside the room.
   Eigen::Vector3d minimum_corner = Eigen::Vector3d::Constant(-1e6);
   Eigen::Vector3d maximum_corner = Eigen::Vector3d::Constant(1e6);
-
-  // Time.
-  double history = 0.2;  ///< Later images are dropped [s, 0.01..2].
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -28,7 +28,7 @@ std::vector<body::Constellation> readKnown(const std::string& file,
 }  // namespace
 
 BodyParameters BodyParameters::read(ParameterReader* reader,
-                                    const tracking::TrackerOptions& tracks,
+                                    const tracking::ImageOptions& images,
                                     const std::vector<std::string>& labels) {
   BodyParameters p;
   reader->read("bodies/file", &p.file);
@@ -38,12 +38,7 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
     throw ParameterError(reader->nameOf("bodies/file") + ": " + error.what());
   }
   body::BodyTrackerOptions& o = p.options;
-  o.pixel_stddev = tracks.pixel_stddev;
-  o.learnt_noise = tracks.learnt_noise;
-  o.stamp_stddev = tracks.stamp_stddev;
-  o.merging_distance = tracks.merging_distance;
-  o.history = tracks.history;
-  o.maximum_range = tracks.maximum_range;
+  static_cast<tracking::ImageOptions&>(o) = images;
   reader->read("bodies/gate", &o.gate, 4.0, 100.0);
   reader->read("bodies/tracked_time", &o.tracked_time, 0.001, 1.0);
   reader->read("bodies/prediction_time", &o.prediction_time, 0.01, 10.0);

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 
-#include "wiimote_tracker_triangulation/body/body_tracker_options.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
@@ -18,11 +18,11 @@ struct BodyParameters {
   body::BodyTrackerOptions options;
   std::vector<body::Constellation> known;  ///< Of the file; empty when it does not exist.
 
-  /// @param tracks camera model and time limits, used for bodies too.
+  /// @param images used for bodies too.
   /// @param labels names that a body must not have.
   /// @throws ParameterError naming the key, or the file and what is wrong with it.
   static BodyParameters read(ParameterReader* reader,
-                             const tracking::TrackerOptions& tracks,
+                             const tracking::ImageOptions& images,
                              const std::vector<std::string>& labels);
 };
 

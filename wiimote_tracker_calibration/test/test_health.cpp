@@ -5,6 +5,7 @@
 
 #include "health/drift_watch.h"
 #include "health/health_watch.h"
+#include "health/remedy.h"
 #include "health/tilt_watch.h"
 
 #include <gtest/gtest.h>
@@ -322,7 +323,8 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   const std::string text = watch.healths().at("camera_3").text;
   EXPECT_SAYS(text, "tilted by");
   EXPECT_SAYS(text, "; drifted");
-  EXPECT_EQ(watch.healths().at("camera_3").advice, "put it back, or recalibrate this camera");
+  EXPECT_EQ(watch.healths().at("camera_3").advice,
+            "put it back, or recalibrate it (r in calibrate)");
   EXPECT_EQ(watch.healths().at("camera_1").text, "");
 
   scene.truth[2] = before;
@@ -339,6 +341,25 @@ TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   }
   EXPECT_GT(named, 0);
   EXPECT_EQ(watch.healths().at("camera_3").text, "");
+}
+
+TEST(HealthWatch, OffersToRecalibrateOnlyWhereThatCanWork) {
+  geometry::Rig rig = paperRigWith(calibratedByWave());
+  EXPECT_EQ(putBack(rig, true), "put it back, or recalibrate it (r in calibrate)");
+  EXPECT_EQ(putBack(rig, false),
+            "see which was moved, put it back, or recalibrate it (r in calibrate)");
+  geometry::Rig of_centers = rig;
+  of_centers.ray_model = geometry::RayModel::kImageCenter;
+  geometry::Rig of_square = rig;
+  of_square.cameras[3].time_offset_rule = geometry::TimeOffsetRule::kNone;
+  for (const geometry::Rig& other : {of_centers, of_square})
+    EXPECT_EQ(putBack(other, true), "put it back, or calibrate all cameras again");
+  rig.cameras.resize(2);
+  rig.covariance.resize(0, 0);
+  rig.cameras[0].camera.identity = "00:1e:35:00:00:01";
+  HealthWatch watch(rig, {});
+  watch.addImage({rig.cameras[0].camera.name, 0.0, 0, {}, {}, "00:1e:35:00:00:02"});
+  EXPECT_EQ(watch.healths().at(rig.cameras[0].camera.name).advice, "calibrate all cameras again");
 }
 
 TEST(HealthWatch, FindingsStayWhenTheRigIsAdjustedAndEndWhenItIsSolvedAnew) {

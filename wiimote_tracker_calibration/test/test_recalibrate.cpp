@@ -252,7 +252,7 @@ TEST(Recalibrate, RefusesWithTheReason) {
   for (capture::Image& image : request.images)
     image.clock_epoch += image.camera == "camera_1" ? 1 : 0;
   EXPECT_SAYS(refusal(rig, request), "those of camera_1 are not known since a reconnection; move");
-  EXPECT_SAYS(refusal(rig, request), "call calibration/continuous/apply");
+  EXPECT_SAYS(refusal(rig, request), "apply what is then proposed (A in calibrate)");
 
   Options options;
   options.maximum_offset_stddev = 1e-6;

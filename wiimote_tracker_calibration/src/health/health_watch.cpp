@@ -1,5 +1,7 @@
 #include "health/health_watch.h"
 
+#include "health/remedy.h"
+
 #include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
@@ -11,8 +13,6 @@
 namespace wiimote_tracker::health {
 
 namespace {
-
-const char kAdvice[] = "put it back, or recalibrate this camera";
 
 std::string degrees(double radians) {
   return format("%.1f degrees", radians * 180.0 / M_PI);
@@ -32,14 +32,6 @@ std::string driftText(const Drift& drift) {
   if (drift.or_others)
     return "drifted, or others did: " + off;
   return "drifted: " + off;
-}
-
-std::string driftAdvice(const Drift& drift) {
-  if (!drift.or_camera.empty())
-    return "see which of both was moved, put it back or recalibrate it";
-  if (drift.or_others)
-    return "see which cameras were moved, put them back or recalibrate them";
-  return kAdvice;
 }
 
 /// Whether what was found of a camera holds with another calibration of it, too.
@@ -62,7 +54,7 @@ HealthWatch::Watched::Watched(const geometry::RigCamera& rig_camera, const TiltO
 }
 
 HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
-    : options_(options), drift_(rig, options.drift) {
+    : options_(options), rig_(rig), drift_(rig, options.drift) {
   for (const geometry::RigCamera& camera : rig.cameras)
     cameras_.emplace_back(camera, options.tilt);
 }
@@ -79,6 +71,7 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
     if (!isStillCalibratedAs(cameras_[i].calibrated, rig.cameras[i]))
       cameras_[i] = Watched(rig.cameras[i], options_.tilt);
   }
+  rig_ = rig;
   drift_ = DriftWatch(rig, options_.drift);
   return true;
 }
@@ -157,11 +150,12 @@ void HealthWatch::describe(Watched* camera) {
   if (!camera->other_device.empty())
     add("is another device (" + camera->other_device + ") than was calibrated (" +
             camera->calibrated.camera.identity + ")",
-        "recalibrate this camera");
+        calibrateAgain(rig_));
   if (camera->tilt_alarm.on())
-    add(tiltText(*health.tilt), kAdvice);
+    add(tiltText(*health.tilt), putBack(rig_, true));
+  const Drift& drift = camera->drift_finding;
   if (camera->drift_alarm.on())
-    add(driftText(camera->drift_finding), driftAdvice(camera->drift_finding));
+    add(driftText(drift), putBack(rig_, drift.or_camera.empty() && !drift.or_others));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
     news_.push_back(camera->calibrated.camera.name + " " + health.text + "; " + health.advice);

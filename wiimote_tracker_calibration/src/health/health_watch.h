@@ -71,6 +71,7 @@ class HealthWatch {
   void describe(Watched* camera);
 
   HealthOptions options_;
+  geometry::Rig rig_;
   std::vector<Watched> cameras_;  // In the rig's order.
   DriftWatch drift_;
   std::vector<std::string> news_;

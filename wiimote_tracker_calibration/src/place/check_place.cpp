@@ -17,12 +17,13 @@ std::string contradiction(const MeasuredPlace& measured) {
   if (!measured.suspects.empty())
     return joined(measured.suspects, " or ") +
            " contradicts the other cameras: it was moved, or sees another light; clear that up, "
-           "then recalibrate this camera";
+           "then " +
+           measured.remedy;
   std::vector<std::string> misses;
   for (const CameraResidual& each : measured.residuals)
     misses.push_back(each.camera + format(" by %.1f px", each.residual.norm()));
   return "the rays of the cameras miss each other (" + joined(misses) +
-         "): one was moved, or they see different lights; clear that up, then recalibrate it";
+         "): one was moved, or they see different lights; clear that up, then " + measured.remedy;
 }
 
 std::string advice(const MeasuredPlace& measured, bool consistent) {

@@ -1,6 +1,7 @@
 #include "place/measure_place.h"
 
 #include "adjust/chi_squared.h"
+#include "health/remedy.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -146,6 +147,7 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
   place.rays_agree = disagreement(rig, *measurement, pixel_stddev) <= 1.0;
   if (!place.rays_agree)
     place.suspects = suspectsOf(rig, views, pixel_stddev);
+  place.remedy = health::calibrateAgain(rig);
   return place;
 }
 

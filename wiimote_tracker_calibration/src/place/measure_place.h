@@ -31,6 +31,7 @@ struct MeasuredPlace {
   /// Cameras whose removal makes the others agree: one of them was moved, or sees another light.
   /// Empty: all agree, there are only two cameras, or no single camera explains it.
   std::vector<std::string> suspects;
+  std::string remedy;  ///< How to calibrate such a camera again.
 };
 
 /// Triangulates a still LED by maximum likelihood from all cameras of the rig that saw it, as the

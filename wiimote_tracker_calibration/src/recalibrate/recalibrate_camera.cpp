@@ -235,7 +235,7 @@ void checkCertainty(const Fit& fit,
              ? "wave longer and faster"
              : "those of " + joined(unclocked) + " are not known" +
                    (were_known ? " since a reconnection; move one LED where all cameras see it, "
-                                 "call calibration/continuous/apply, and recalibrate " +
+                                 "apply what is then proposed (A in calibrate), and recalibrate " +
                                      name + " again"
                                : "; calibrate all cameras again, with a waved LED")));
   const double error = imageError(fit, covariance);

@@ -11,6 +11,7 @@
 #include <wiimote_tracker_msgs/FitRemap.h>
 #include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
+#include <wiimote_tracker_msgs/SaveRig.h>
 
 #include <filesystem>
 #include <future>
@@ -301,7 +302,7 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
   EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/revert").message,
-              "the newest that was kept is " + folder_ + "/versions/");
+              "load the one that you want, such as " + folder_);
 
   EXPECT_TRUE(waitUntil([&] { return applied.get()->id != other.id(); }));
   EXPECT_LT(
@@ -361,8 +362,9 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
       waitUntil([] { return health("camera_3").find("continuous/apply") != std::string::npos; }));
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
   ASSERT_TRUE(reply.success) << reply.message;
-  for (const char* text : {"approached in steps of 0.2 mm", "camera_3", "once it is reached"})
+  for (const char* text : {"approached in steps of 0.2 mm", "camera_3", "save keeps it"})
     EXPECT_SAYS(reply.message, text);
+  EXPECT_TRUE(waitUntil([] { return status_->get()->next_title == "Wait"; }));
   Latest<RigCalibration> published("calibration/rig");
   ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
   const geometry::Rig result = fromMessage(*published.get());
@@ -373,6 +375,12 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   const std::vector<Eigen::Vector3d> middle = {{1.25, 1.25, 1.0}};
   EXPECT_GT(continuous::movementOf(rig, result, middle), 0.00001);
   EXPECT_LT(continuous::movementOf(rig, result, middle), 0.00022);
+  // What is saved meanwhile is what is approached.
+  wiimote_tracker_msgs::SaveRig::Request save;
+  save.path = folder_ + "/approached.yaml";
+  EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", save).message,
+              "the corrected rig, which the one in use still approaches");
+  EXPECT_GT(continuous::movementOf(result, geometry::readRigFile(save.path), middle), 0.0003);
   EXPECT_EQ(result.cameras[2].time_offset_epoch, 1U);
   EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.002);
   // What was measured stays.

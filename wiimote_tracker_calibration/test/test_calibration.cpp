@@ -22,7 +22,7 @@ TEST_F(Workflow, FourCornersMakeARig) {
   EXPECT_EQ(rig.cameras[2].camera.identity, "00:00:00:00:00:02");
   for (std::size_t i = 0; i < 4; ++i)
     EXPECT_LT((rig.cameras[i].camera.center() - cameras_[i].center()).norm(), 1e-6);
-  calibration_.saved();
+  calibration_.saved(*calibration_.rig());
   EXPECT_EQ(calibration_.step(), Step::kSaved);
 }
 

@@ -79,7 +79,7 @@ TEST_F(Workflow, ACancelAfterTheSolverEndedDropsNothing) {
   // Once something else was done it is the run that is meant.
   captureAll();
   ASSERT_TRUE(solve(1.0).success);
-  calibration_.saved();
+  calibration_.saved(*calibration_.rig());
   calibration_.cancel();
   EXPECT_EQ(calibration_.step(), Step::kIdle);
 }

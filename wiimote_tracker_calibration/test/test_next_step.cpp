@@ -81,7 +81,7 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
   verdict_.grade = samples::Grade::kGood;
   EXPECT_EQ(next().request, "save");
-  calibration_.saved();
+  calibration_.saved(*calibration_.rig());
   EXPECT_EQ(next().title, "Ready");
   EXPECT_TRUE(next().request.empty());
 }
@@ -94,30 +94,73 @@ TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {
   ASSERT_TRUE(calibration_.load(rig).success);
   EXPECT_EQ(next().title, "Ready");
   findings_.changed = {"wiimote_2"};
+  findings_.remedy = "put it back";
   EXPECT_EQ(next().title, "Check wiimote_2");
-  EXPECT_SAYS(next().sentence, "put it back, or recalibrate it");
+  EXPECT_EQ(next().sentence, "wiimote_2 no longer fits the calibration: put it back.");
   EXPECT_TRUE(next().request.empty());
   findings_.correctable = {"wiimote_2"};
+  findings_.cause = continuous::Cause::kKnock;
   EXPECT_EQ(next().title, "Correct wiimote_2");
   EXPECT_EQ(next().request, "continuous/apply");
   EXPECT_EQ(next().label, "correct it");
   findings_.correctable = {"wiimote_2", "wiimote_3"};
   EXPECT_EQ(next().title, "Correct cameras");
-  EXPECT_SAYS(next().sentence, "most of all wiimote_2, wiimote_3");
+  EXPECT_EQ(next().sentence, "wiimote_2, wiimote_3 were moved. How far is known.");
 }
 
-TEST_F(NextStepTest, ACameraOfTwoOrOfASquareAloneIsNotRecalibrated) {
-  geometry::Rig two;
-  two.cameras.resize(2);
-  for (geometry::RigCamera& camera : two.cameras)
-    camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
-  geometry::Rig of_square;
-  of_square.cameras.resize(3);
-  findings_.changed = {"wiimote_1", "wiimote_2"};
-  for (const geometry::Rig& rig : {two, of_square}) {
-    ASSERT_TRUE(calibration_.load(rig).success);
-    EXPECT_SAYS(next().sentence, "see which was moved, put it back, or calibrate again");
-  }
+TEST_F(NextStepTest, DriftAndClocksAreNotCalledMoved) {
+  ASSERT_TRUE(calibration_.load(geometry::Rig()).success);
+  findings_.correctable = {"wiimote_2"};
+  findings_.cause = continuous::Cause::kDrift;
+  EXPECT_EQ(next().title, "Correct drift");
+  EXPECT_SAYS(next().sentence, "have drifted since they were calibrated, most of all wiimote_2");
+  findings_.cause = continuous::Cause::kReconnect;
+  EXPECT_EQ(next().title, "Correct clocks");
+  EXPECT_SAYS(next().sentence, "other clocks since they reconnected, most of all wiimote_2");
+  EXPECT_EQ(next().request, "continuous/apply");
+}
+
+TEST_F(NextStepTest, ACameraThatWasMovedIsNextAlsoAfterACancel) {
+  ASSERT_TRUE(calibration_.load(geometry::Rig()).success);
+  calibration_.cancel();
+  ASSERT_EQ(calibration_.step(), Step::kIdle);
+  EXPECT_EQ(next().request, "learn_masks");
+  findings_.changed = {"wiimote_2"};
+  EXPECT_EQ(next().title, "Check wiimote_2");
+  findings_.correctable = {"wiimote_2"};
+  EXPECT_EQ(next().title, "Correct wiimote_2");
+}
+
+TEST_F(NextStepTest, ARigOnTheWayIsWaitedForAndSavedAsItWillBe) {
+  verdict_.grade = samples::Grade::kGood;
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  ASSERT_TRUE(calibration_.load(rig).success);
+  geometry::Rig goal = rig;
+  goal.cameras[0].time_offset = 0.002;
+  geometry::Rig step = rig;
+  step.cameras[0].time_offset = 0.001;
+  calibration_.setGoal(goal);
+  EXPECT_EQ(next().title, "Wait");
+  calibration_.setRig(step, "a step");
+  calibration_.setGoal(goal);
+  findings_.changed = {"wiimote_2"};
+  EXPECT_EQ(next().title, "Wait") << "what is corrected is still found";
+  EXPECT_TRUE(next().request.empty());
+  findings_.changed.clear();
+  calibration_.setRig(goal, "reached");
+  EXPECT_FALSE(calibration_.goal());
+  EXPECT_EQ(next().request, "save");
+
+  calibration_.setRig(step, "a step");
+  calibration_.setGoal(goal);
+  calibration_.saved(goal);
+  EXPECT_EQ(calibration_.step(), Step::kSolved) << "no file has the step in use";
+  calibration_.setRig(goal, "reached");
+  EXPECT_EQ(calibration_.step(), Step::kSaved);
+  goal.remap.emplace();
+  calibration_.setRig(goal, "a correction of the volume");
+  EXPECT_EQ(calibration_.step(), Step::kSolved);
 }
 
 TEST_F(NextStepTest, ACorrectionIsBeforeTheSavingButAfterABadCorner) {
@@ -125,9 +168,9 @@ TEST_F(NextStepTest, ACorrectionIsBeforeTheSavingButAfterABadCorner) {
   ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
   calibration_.takeSolution(geometry::Rig());
   calibration_.end();
-  findings_ = {{"wiimote_2"}, {}};
+  findings_.changed = {"wiimote_2"};
   verdict_.grade = samples::Grade::kGood;
-  EXPECT_EQ(next().request, "save");
+  EXPECT_EQ(next().title, "Check wiimote_2");
   findings_.correctable = {"wiimote_2"};
   EXPECT_EQ(next().request, "continuous/apply");
   verdict_.grade = samples::Grade::kRedo;

@@ -84,7 +84,6 @@ TEST_F(RigStorage, TheNewestVersionsAreKept) {
   geometry::Rig rig;
   rig.cameras.resize(1);
   rig.cameras[0].camera.name = "camera_1";
-  EXPECT_EQ(newestVersion(folder_ + "/kept/rig.yaml"), "");
   std::vector<std::string> paths;
   for (int i = 0; i < 5; ++i)
     paths.push_back(keepVersion(rig, 1.7e9 + i, folder_ + "/kept/rig.yaml", 3));
@@ -95,7 +94,6 @@ TEST_F(RigStorage, TheNewestVersionsAreKept) {
   for (std::size_t i = 0; i < paths.size(); ++i)
     EXPECT_EQ(std::filesystem::exists(paths[i]), i >= 3) << paths[i];
   EXPECT_TRUE(std::filesystem::exists(own));
-  EXPECT_EQ(newestVersion(folder_ + "/kept/rig.yaml"), paths.back());
 }
 
 }  // namespace

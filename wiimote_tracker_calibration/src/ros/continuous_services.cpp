@@ -55,6 +55,7 @@ class ContinuousServices {
     Lock lock(context_.mutex());
     const std::vector<Input> inputs = inputs_->take(lock);
     watchRig(lock);
+    tellGoal(lock);
     if (!continuous_ || inputs.empty())
       return;
     if (isCalibrated(lock))
@@ -77,7 +78,7 @@ class ContinuousServices {
     const bool is_news = !proposal_ || proposal_->cameras != proposal->cameras;
     proposal_ = proposal;
     const std::string text = proposal->message + "; " + command("apply") + "  uses that";
-    context_.status(lock).setProposal(proposal->cameras, text);
+    context_.status(lock).setProposal(*proposal, text);
     if (applies) {
       const Reply applied = applyProposal(lock);
       ROS_WARN_STREAM(applied.message);
@@ -142,11 +143,20 @@ class ContinuousServices {
                     changes_.isApproaching() ? "the adjusted rig is approached " + kSteps
                                              : "the adjusted rig is in use",
                     lock);
+    tellGoal(lock);
+  }
+
+  /// So that a person waits, and `save` keeps it.
+  void tellGoal(const Lock& lock) {
+    std::optional<geometry::Rig> goal;
+    if (const auto& rig = context_.rig(lock); rig && changes_.isApproaching())
+      goal = continuous::appliedRig(changes_.goal(*rig), *rig);
+    context_.calibration(lock).setGoal(goal);
   }
 
   void forgetProposal(const Lock& lock) {
     proposal_.reset();
-    context_.status(lock).setProposal({}, "");
+    context_.status(lock).forgetProposal();
   }
 
   std::optional<continuous::Proposal> newestProposal(const std::vector<Input>& inputs) {
@@ -194,10 +204,11 @@ class ContinuousServices {
         context_.knownPlaces(lock).renameRig(before.id(), rig->id());
       context_.setRig(*rig, proposal.message, lock);
     }
+    tellGoal(lock);
     const geometry::Rig goal = changes_.goal(*context_.rig(lock));
     return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
                       keepVersion(goal, &lock) + "; " + command("revert") +
-                      "  goes back, and save keeps it" + (rig ? "" : " once it is reached")};
+                      "  goes back, and save keeps it"};
   }
 
   /// Writes a rig beside the rig file. @returns where, or why not.
@@ -215,14 +226,11 @@ class ContinuousServices {
   Reply revert(Trigger&, Lock& lock) {
     requireCalibrated(lock);
     const auto before = changes_.revert(context_.existingRig("to change", lock));
-    if (!before) {
-      const std::string rig_file = context_.parameters(lock).rig_file;
-      const std::string newest = context_.compute(&lock, [&] { return newestVersion(rig_file); });
+    if (!before)
       throw Refusal(
           "the rig in use is not one that continuous calibration has made since the node "
-          "started: load the one that you want" +
-          (newest.empty() ? "" : "; the newest that was kept is " + newest));
-    }
+          "started: load the one that you want, such as " +
+          context_.parameters(lock).rig_file + ".bak, or one of versions/ beside it");
     const std::string message = "rig " + before->id() +
                                 " from before the last change is in use again; until there is "
                                 "another one, changes are only proposed";

@@ -15,6 +15,7 @@
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -69,7 +70,8 @@ class FileServices {
 
  private:
   Reply save(SaveRig& call, Lock& lock) {
-    const geometry::Rig rig = context_.existingRig("to save", lock);
+    const std::optional<geometry::Rig> goal = context_.calibration(lock).goal();
+    const geometry::Rig rig = goal ? *goal : context_.existingRig("to save", lock);
     const double timeout = context_.parameters(lock).set_camera_info_timeout;
     const std::string path = call.response.path =
         rigPath(call.request.path, context_.parameters(lock));
@@ -83,13 +85,12 @@ class FileServices {
       return all;
     });
     const std::string message =
-        "saved to " + path + nextStart(path, context_.parameters(lock)) + appendix(warnings);
+        "saved to " + path +
+        (goal ? ": the corrected rig, which the one in use still approaches" : "") +
+        nextStart(path, context_.parameters(lock)) + appendix(warnings);
     if (!warnings.empty())
       ROS_WARN_STREAM(message);
-    // A correction of the volume, which may have come meanwhile, leaves the id.
-    if (const auto& now = context_.rig(lock);
-        now && now->id() == rig.id() && now->remap == rig.remap)
-      context_.calibration(lock).saved();
+    context_.calibration(lock).saved(rig);
     return {true, message};
   }
 

@@ -140,11 +140,6 @@ std::string keepVersion(const geometry::Rig& rig,
   return path;
 }
 
-std::string newestVersion(const std::string& rig_file) {
-  const std::vector<std::filesystem::path> versions = versionsOf(rig_file);
-  return versions.empty() ? "" : versions.back().string();
-}
-
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,
                                         double timeout) {

@@ -26,9 +26,6 @@ std::string keepVersion(const geometry::Rig& rig,
                         const std::string& rig_file,
                         std::size_t most = 1000);
 
-/// @returns the path of the newest file that keepVersion() wrote; empty: there is none.
-std::string newestVersion(const std::string& rig_file);
-
 /// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
 /// `timeout` [s], even if a driver never answers. Hold no mutex.
 /// @returns warnings: one for each camera that did not accept it, one for all without that service.

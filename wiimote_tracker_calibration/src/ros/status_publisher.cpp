@@ -1,5 +1,6 @@
 #include "status_publisher.h"
 
+#include "health/remedy.h"
 #include "square_frame.h"
 
 #include <std_msgs/String.h>
@@ -145,19 +146,24 @@ bool StatusPublisher::isWalked() const {
 
 std::string StatusPublisher::health(const std::string& camera) const {
   const auto found = health_.find(camera);
-  const bool is_proposed = std::count(proposal_.first.begin(), proposal_.first.end(), camera) > 0;
+  const bool is_proposed = std::count(correctable_.begin(), correctable_.end(), camera) > 0;
   if (found == health_.end() || found->second.text.empty())
-    return is_proposed ? proposal_.second : "";
-  return found->second.text + "; " + (is_proposed ? proposal_.second : found->second.advice);
+    return is_proposed ? proposal_text_ : "";
+  return found->second.text + "; " + (is_proposed ? proposal_text_ : found->second.advice);
 }
 
 workflow::Findings StatusPublisher::findings() const {
   workflow::Findings findings;
   for (const auto& [name, health] : health_) {
-    if (!health.text.empty())
-      findings.changed.push_back(name);
+    if (health.text.empty())
+      continue;
+    findings.changed.push_back(name);
+    findings.remedy = health.advice;
   }
-  findings.correctable = proposal_.first;
+  if (findings.changed.size() > 1)
+    findings.remedy = health::putBack(*calibration_.rig(), false);
+  findings.correctable = correctable_;
+  findings.cause = cause_;
   return findings;
 }
 

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_STATUS_PUBLISHER_H
 
 #include "capture/walk.h"
+#include "continuous/proposal.h"
 #include "health/health_watch.h"
 #include "samples/verdict.h"
 #include "workflow/calibration.h"
@@ -18,7 +19,6 @@
 
 #include <map>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -47,9 +47,12 @@ class StatusPublisher {
 
   /// What continuous calibration proposes to change, and how; instead of other advice it is shown
   /// with the health of these cameras.
-  void setProposal(const std::vector<std::string>& cameras, const std::string& text) {
-    proposal_ = {cameras, text};
+  void setProposal(const continuous::Proposal& proposal, const std::string& text) {
+    correctable_ = proposal.cameras;
+    cause_ = proposal.cause;
+    proposal_text_ = text;
   }
+  void forgetProposal() { correctable_.clear(); }
   /// CalibrationCameraStatus.health of a camera.
   std::string health(const std::string& camera) const;
 
@@ -80,7 +83,9 @@ class StatusPublisher {
   capture::Walk walk_;
   bool walk_is_wanted_ = false;  // though there is a rig
   std::map<std::string, health::CameraHealth> health_;
-  std::pair<std::vector<std::string>, std::string> proposal_;  // Cameras and text.
+  std::vector<std::string> correctable_;  // By what is proposed.
+  continuous::Cause cause_{};
+  std::string proposal_text_;
 };
 
 }  // namespace wiimote_tracker

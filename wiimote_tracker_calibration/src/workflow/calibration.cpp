@@ -13,6 +13,18 @@ namespace {
 
 constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
 
+void setMasksOf(std::optional<geometry::Rig>* rig, const capture::Masks& masks) {
+  if (!*rig)
+    return;
+  const std::string id = (*rig)->id();
+  for (geometry::RigCamera& camera : (*rig)->cameras) {
+    const auto found = masks.find(camera.camera.name);
+    camera.masks = found != masks.end() ? found->second : std::vector<geometry::ImageMask>();
+  }
+  if ((*rig)->remap && (*rig)->remap->rig_id == id)
+    (*rig)->remap->rig_id = (*rig)->id();
+}
+
 }  // namespace
 
 Reply Calibration::start(double side_x, double side_y, const std::vector<std::string>& cameras) {
@@ -247,7 +259,8 @@ void Calibration::end() {
 
 Reply Calibration::takeSolution(const geometry::Rig& rig) {
   Reply reply = {true, rig.verdict};
-  const std::optional<geometry::Rig> before = std::exchange(rig_, rig);
+  const std::optional<geometry::Rig> before = rig_;
+  use(rig);
   if (before && before->world_frame == rig.world_frame && !before->zones.empty()) {
     rig_->zones = before->zones;
     reply.message +=
@@ -275,7 +288,8 @@ Reply Calibration::restore(const samples::Samples& samples) {
 Reply Calibration::load(const geometry::Rig& rig) {
   if (busy_)
     return refusal(occupied());
-  rig_ = rig;
+  use(rig);
+  in_file_ = rig;
   for (const geometry::RigCamera& camera : rig.cameras)
     preparation_.lights_learned |= !camera.masks.empty();
   if (captured_.cameras.empty() || step_ == Step::kSolved)
@@ -286,30 +300,39 @@ Reply Calibration::load(const geometry::Rig& rig) {
 }
 
 void Calibration::setRig(const geometry::Rig& rig, const std::string& message) {
-  rig_ = rig;
-  if (captured_.cameras.empty() || step_ == Step::kSaved)
-    step_ = Step::kSolved;
+  use(rig);
+  if (captured_.cameras.empty() || step_ == Step::kSolved || step_ == Step::kSaved)
+    step_ = stepOfRig();
   message_ = message;
+}
+
+void Calibration::use(const geometry::Rig& rig) {
+  rig_ = rig;
+  goal_.reset();
+}
+
+Step Calibration::stepOfRig() const {
+  // A correction of the volume leaves the id.
+  const bool is_in_file =
+      in_file_ && in_file_->id() == rig_->id() && in_file_->remap == rig_->remap;
+  return is_in_file ? Step::kSaved : Step::kSolved;
 }
 
 bool Calibration::setMasks(const capture::Masks& masks) {
   if (!rig_)
     return false;
   const std::string id = rig_->id();
-  for (geometry::RigCamera& camera : rig_->cameras) {
-    const auto found = masks.find(camera.camera.name);
-    camera.masks = found != masks.end() ? found->second : std::vector<geometry::ImageMask>();
-  }
-  if (rig_->remap && rig_->remap->rig_id == id)
-    rig_->remap->rig_id = rig_->id();
+  setMasksOf(&rig_, masks);
+  setMasksOf(&goal_, masks);
   if (captured_.solved_to == id)
     captured_.solved_to = rig_->id();
   return rig_->id() != id;
 }
 
-void Calibration::saved() {
+void Calibration::saved(const geometry::Rig& rig) {
+  in_file_ = rig;
   if (step_ == Step::kSolved)
-    step_ = Step::kSaved;
+    step_ = stepOfRig();
   just_solved_ = false;
 }
 

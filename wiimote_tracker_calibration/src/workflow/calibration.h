@@ -162,8 +162,13 @@ class Calibration {
   /// @returns whether there is a rig and it changed; then it differs from its file.
   bool setMasks(const capture::Masks& masks);
 
-  /// Notes that the rig was written to a file.
-  void saved();
+  /// Says which rig the one in use approaches in steps, until another one is used: setRig() is to
+  /// use each step. Nothing: none.
+  void setGoal(const std::optional<geometry::Rig>& goal) { goal_ = goal; }
+  const std::optional<geometry::Rig>& goal() const { return goal_; }
+
+  /// Notes that a rig was written to a file: the one in use, or its goal.
+  void saved(const geometry::Rig& rig);
 
   /// Makes a reply the message(), and counts it if it is a refusal. @returns it.
   Reply shown(const Reply& reply);
@@ -199,6 +204,10 @@ class Calibration {
   std::string occupied() const;
   /// Updates the step after what changes the captured data. @returns the reply.
   Reply changed(const Reply& reply);
+  /// Replaces the rig in use.
+  void use(const geometry::Rig& rig);
+  /// kSolved or kSaved, by whether a file has the rig in use.
+  Step stepOfRig() const;
   /// The step between two requests, by what is captured.
   void updateStep() { step_ = captured_.isComplete() ? Step::kComplete : Step::kReady; }
 
@@ -217,6 +226,8 @@ class Calibration {
   bool hands_free_on_ = false;
   std::optional<capture::HandsFree> hands_free_;
   std::optional<geometry::Rig> rig_;
+  std::optional<geometry::Rig> goal_;
+  std::optional<geometry::Rig> in_file_;  // as it was saved or loaded
 };
 
 }  // namespace wiimote_tracker::workflow

@@ -87,28 +87,48 @@ NextStep complete(const Calibration& calibration) {
           "start_wave", "begin the wave"};
 }
 
-NextStep correct(const std::vector<std::string>& cameras) {
+NextStep correct(const std::vector<std::string>& cameras, continuous::Cause cause) {
+  const std::string names = joined(cameras);
+  const std::string request = "continuous/apply";
+  if (cause == continuous::Cause::kDrift)
+    return {"Correct drift",
+            "Cameras have drifted since they were calibrated, most of all " + names +
+                ". How far is known.",
+            request, "correct them"};
+  if (cause == continuous::Cause::kReconnect)
+    return {"Correct clocks",
+            "Cameras have other clocks since they reconnected, most of all " + names +
+                ". Which is known.",
+            request, "correct them"};
   const bool is_one = cameras.size() == 1;
-  return {"Correct " + (is_one ? cameras.front() : "cameras"),
-          "Cameras have changed since they were calibrated, most of all " + joined(cameras) +
-              ". How is known.",
-          "continuous/apply", is_one ? "correct it" : "correct them"};
+  return {"Correct " + (is_one ? names : "cameras"),
+          names + (is_one ? " was" : " were") + " moved. How far is known.", request,
+          is_one ? "correct it" : "correct them"};
 }
 
-NextStep check(const std::vector<std::string>& cameras, bool can_recalibrate) {
-  const bool is_one = cameras.size() == 1;
-  const std::string fit =
-      joined(cameras) + (is_one ? " no longer fits" : " no longer fit") + " the calibration: ";
-  const std::string remedy =
-      can_recalibrate ? "recalibrate it (r in calibrate)." : "calibrate again.";
-  if (is_one)
-    return {"Check " + cameras.front(), fit + "put it back, or " + remedy};
-  return {"Check cameras", fit + "see which was moved, put it back, or " + remedy};
+NextStep check(const Findings& findings) {
+  const bool is_one = findings.changed.size() == 1;
+  const std::string names = joined(findings.changed);
+  return {"Check " + (is_one ? names : "cameras"),
+          names + (is_one ? " no longer fits" : " no longer fit") +
+              " the calibration: " + findings.remedy + "."};
 }
 
-NextStep solved(const samples::Verdict& verdict, const Findings& findings) {
-  if (verdict.grade != samples::Grade::kRedo && !findings.correctable.empty())
-    return correct(findings.correctable);
+/// What the rig in use needs; nothing: it is well.
+std::optional<NextStep> inUse(const Calibration& calibration, const Findings& findings) {
+  if (!findings.correctable.empty())
+    return correct(findings.correctable, findings.cause);
+  // Until then, what is corrected is still found.
+  if (calibration.goal())
+    return NextStep{"Wait",
+                    "The corrected rig is approached in small steps, so that points do not jump: "
+                    "go on, and save when it is reached."};
+  if (!findings.changed.empty())
+    return check(findings);
+  return std::nullopt;
+}
+
+NextStep solved(const samples::Verdict& verdict) {
   if (verdict.grade != samples::Grade::kRedo)
     return {verdict.grade == samples::Grade::kGood ? "Good" : "Usable",
             "Read the verdict, then save.", "save", "save"};
@@ -120,28 +140,17 @@ NextStep solved(const samples::Verdict& verdict, const Findings& findings) {
           "capture " + name + " again", verdict.redo_corner};
 }
 
-/// Whether one camera can be solved against the others: two at least, with clocks that a wave told.
-bool canRecalibrate(const geometry::Rig& rig) {
-  return rig.cameras.size() >= 3 &&
-         std::none_of(rig.cameras.begin(), rig.cameras.end(), [](const auto& camera) {
-           return camera.time_offset_rule == geometry::TimeOffsetRule::kNone;
-         });
-}
-
-NextStep saved(const Calibration& calibration, const Findings& findings) {
-  if (!findings.correctable.empty())
-    return correct(findings.correctable);
-  if (!findings.changed.empty())
-    return check(findings.changed, calibration.rig() && canRecalibrate(*calibration.rig()));
-  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
-}
-
 }  // namespace
 
 NextStep nextStep(const Calibration& calibration,
                   const samples::Verdict& verdict,
                   const Findings& findings) {
-  switch (calibration.step()) {
+  const Step step = calibration.step();
+  const bool is_in_use = step == Step::kIdle || step == Step::kSaved ||
+                         (step == Step::kSolved && verdict.grade != samples::Grade::kRedo);
+  if (const auto needed = is_in_use ? inUse(calibration, findings) : std::nullopt)
+    return *needed;
+  switch (step) {
     case Step::kIdle:
       return beforeStart(calibration.preparation());
     case Step::kReady:
@@ -151,7 +160,7 @@ NextStep nextStep(const Calibration& calibration,
     case Step::kComplete:
       return complete(calibration);
     case Step::kSolved:
-      return solved(verdict, findings);
+      return solved(verdict);
     case Step::kSolving:
       return {"Solving", "Computing the cameras: wait."};
     case Step::kMasking:
@@ -165,7 +174,7 @@ NextStep nextStep(const Calibration& calibration,
     case Step::kSaved:
       break;
   }
-  return saved(calibration, findings);
+  return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
 }
 
 }  // namespace wiimote_tracker::workflow

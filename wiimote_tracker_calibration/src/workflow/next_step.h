@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
 #define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
 
+#include "continuous/proposal.h"
 #include "samples/verdict.h"
 #include "workflow/calibration.h"
 
@@ -23,7 +24,9 @@ struct NextStep {
 /// Cameras that are no longer as the rig in use has them.
 struct Findings {
   std::vector<std::string> changed;      ///< What is found of them is in their health.
+  std::string remedy{};                  ///< What to do about these.
   std::vector<std::string> correctable;  ///< By what continuous calibration proposes.
+  continuous::Cause cause{};             ///< Of that proposal.
 };
 
 /// @param verdict of the rig in use, if there is one.

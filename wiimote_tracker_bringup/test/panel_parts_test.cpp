@@ -64,6 +64,32 @@ TEST(CalibratePage, AppliesAndRevertsWhatContinuousCalibrationProposes) {
   EXPECT_EQ(sent, "continuous/revert");
 }
 
+TEST(CalibratePage, ItsButtonWaitsWhenAProposalChangesIt) {
+  std::string sent;
+  CalibratePage page(nullptr, [&](const Request& request) { sent = request.service; });
+  Guide guide;
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.step = status.SOLVED;
+  status.next_label = "do it";
+  auto* next = page.findChild<QPushButton*>("next");
+  double now = 0.0;
+  status.next_request = "save";
+  guide.onStatus(status, now);
+  page.show(guide, now);
+  EXPECT_TRUE(next->isEnabled());
+  for (const char* request : {"continuous/apply", "save"}) {
+    status.next_request = request;
+    guide.onStatus(status, now += 1.0);
+    page.show(guide, now);
+    next->click();
+    EXPECT_EQ(sent, "") << request;
+    page.show(guide, now + 0.6);
+    next->click();
+    EXPECT_EQ(sent, request);
+    sent.clear();
+  }
+}
+
 TEST(CameraTile, KeepsLongWordsToThreeLinesAndItsTooltipHasAll) {
   CameraTile tile(nullptr);
   tile.resize(200, 190);

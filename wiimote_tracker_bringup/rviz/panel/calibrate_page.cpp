@@ -43,7 +43,9 @@ namespace {
 
 constexpr int kMostRemarks = 6;
 constexpr int kSentenceLines = 3;
-constexpr int kAdviceMargin = 9;  // around the advice [px of the screen]
+// Whoever presses the button sooner means what was next before.
+constexpr double kReadWithin = 0.5;  // [s]
+constexpr int kAdviceMargin = 9;     // around the advice [px of the screen]
 // In metres. So wide that a number in cm can be typed whole: the node then doubts it.
 constexpr double kLongestSide = 9999.0;
 constexpr double kFarthest = 9999.0;
@@ -326,7 +328,7 @@ void CalibratePage::restore(double side, double wand_length, const QString& path
 }
 
 void CalibratePage::show(const Guide& guide, double now) {
-  advice_ = guide.advice(now);
+  const Advice before = std::exchange(advice_, guide.advice(now));
   showWords(guide, advice_);
   const bool is_there = !guide.isSilent(now);
   if (!is_there)
@@ -334,7 +336,12 @@ void CalibratePage::show(const Guide& guide, double now) {
   const bool is_free = is_there && !guide.isWaiting();
   next_->setVisible(!advice_.button.empty());
   next_->setText(text(advice_.button));
-  next_->setEnabled(is_free);
+  // A correction may be proposed, or withdrawn, at any time.
+  const std::string proposed = "continuous/apply";
+  const bool was_proposed = before.request.service == proposed;
+  if (!before.button.empty() && was_proposed != (advice_.request.service == proposed))
+    proposed_at_ = now;
+  next_->setEnabled(is_free && now >= proposed_at_ + kReadWithin);
   for (QPushButton* button : buttons_)
     button->setEnabled(is_free && !guide.isBusy());
   cancel_->setEnabled(is_there && (guide.isBusy() || !guide.running().empty()));

@@ -61,6 +61,7 @@ class CalibratePage : public QWidget {
   std::function<void(const Request&)> send_;
   std::map<std::string, std::function<Request()>> requests_;  // by name, with what is typed
   Advice advice_;
+  double proposed_at_ = -1.0;  // When a correction was proposed, or withdrawn [s].
   BigWords* title_;
   QLabel *sentence_, *answer_, *remarks_, *verdict_;
   QProgressBar* progress_;

@@ -10,6 +10,8 @@ from .dialogue import Dialogue
 
 PERIOD = 0.1         # [s] Between two drawings.
 BETWEEN_RINGS = 0.3  # [s] So that two are heard.
+READ_WITHIN = 0.5    # [s] Whoever presses SPACE sooner means what was next before.
+PROPOSED = 'apply'   # What becomes the next command, or no longer is it, at any time.
 # Codes of keys, of which terminals have several for one.
 ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
 
@@ -36,6 +38,8 @@ class Terminal:
         self._page = 0
         self._asking = None  # the command whose arguments are being typed
         self._typed = ''
+        self._next = None          # the command that SPACE stands for
+        self._proposed_at = -1e9   # when PROPOSED became that, or ceased to be [s]
 
     def run(self) -> None:
         """Until q or Ctrl-C."""
@@ -61,6 +65,10 @@ class Terminal:
                 return
 
     def _show(self, window) -> None:
+        word = self._dialogue.advice().word
+        if word != self._next and PROPOSED in (word, self._next):
+            self._proposed_at = time.monotonic()
+        self._next = word
         rows, columns = window.getmaxyx()
         prompt = (self._asking.ask, self._typed) if self._asking else None
         lines = self._draw(time.monotonic(), self._view, self._page, rows, columns, prompt)
@@ -81,7 +89,9 @@ class Terminal:
         command = find(self._dialogue.command_list, sign)
         if sign == 'q':
             return False
-        if sign == ' ':
+        if sign == ' ' and time.monotonic() < self._proposed_at + READ_WITHIN:
+            self._dialogue.guide.say('What is next has just changed: read it, then press SPACE')
+        elif sign == ' ':
             self._dialogue.next()
         elif sign == '\t':
             self._page += 1

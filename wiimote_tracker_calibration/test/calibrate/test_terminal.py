@@ -63,6 +63,44 @@ def test_all_is_dropped_only_after_a_question():
     assert pressed('x', status(CalibrationStatus.CAPTURING))[0] == [('cancel', {})]
 
 
+def test_the_rig_before_is_used_again_only_after_a_question():
+    saved = status(CalibrationStatus.SAVED)
+    assert pressed('b' + ESCAPE, saved)[0] == []
+    assert pressed('b' + ENTER, saved)[0] == [('continuous/revert', {})]
+
+
+class Proposes(Window):
+    """Here a correction is proposed, or withdrawn, just before the second key."""
+
+    def __init__(self, keys, node, newer):
+        super().__init__(keys)
+        self._node, self._newer = node, newer
+
+    def getch(self):
+        self._node.events.put(('status', self._newer))
+        return super().getch()
+
+
+def test_space_does_not_do_what_was_not_read_yet(monkeypatch):
+    save = status(CalibrationStatus.SOLVED, 'save', 'save')
+    apply = status(CalibrationStatus.SOLVED, 'continuous/apply', 'correct it')
+    for before, newer, late in ((save, apply, 'continuous/apply'), (apply, save, 'save')):
+        node = FakeNode({})
+        dialogue = dialogue_with(node, before)
+        terminal = Terminal(dialogue, lambda *_: [''] * 24, {})
+        now = [100.0]
+        monkeypatch.setattr('guide.terminal.time.monotonic', lambda: now[0])
+        terminal._loop(Window(''))
+        now[0] += 10.0
+        terminal._loop(Proposes('  ', node, newer))
+        # The first SPACE was for what was next before.
+        assert node.sent[0].name == before.next_request
+        assert len(node.sent) == 1 and 'has just changed' in dialogue.guide.answer
+        now[0] += 1.0
+        terminal._loop(Window(' '))
+        assert node.sent[1].name == late
+
+
 def test_what_is_typed_is_sent_with_enter():
     complete = status(CalibrationStatus.COMPLETE)
     sent, drawn = pressed('w0.56' + BACKSPACE + ENTER, complete)

@@ -46,6 +46,14 @@ void Rig::runUntil(double time) {
   }
 }
 
+VirtualCamera* Rig::findCamera(const std::string& name) {
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (description_.cameras[i].camera.name == name)
+      return &cameras_[i].optics;
+  }
+  return nullptr;
+}
+
 bool Rig::isInRoom(const LedDescription& led) const {
   if (led.turns)
     return isInRoom(*findNamed(description_.leds, led.turns->around));

@@ -44,8 +44,8 @@ class Rig {
   /// Time of the next event [s].
   double nextEvent() const { return events_.top().time; }
 
-  /// These may be changed in how they move, and whether they are lit or present; null: there is no
-  /// such thing. Call runUntil() with the time of a change first.
+  /// These may be changed in how they move or look, and whether they are lit or present; null:
+  /// there is no such thing. Call runUntil() with the time of a change first.
   LedDescription* findLed(const std::string& name) { return findNamed(description_.leds, name); }
   PersonDescription* findPerson(const std::string& name) {
     return findNamed(description_.people, name);
@@ -56,6 +56,7 @@ class Rig {
   ReflectionDescription* findReflection(const std::string& name) {
     return findNamed(description_.reflections, name);
   }
+  VirtualCamera* findCamera(const std::string& name);
   LedBoard* board() { return board_ ? &*board_ : nullptr; }
 
  private:

@@ -93,8 +93,8 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
     response.message = set(request, &arrival);
     response.arrival = stamp(arrival);
     response.success = true;
-  } catch (const Refusal& refusal) {
-    response.message = refusal.what();
+  } catch (const Error& error) {
+    response.message = error.what();
   }
   return true;
 }
@@ -106,6 +106,8 @@ std::string SimulatedRig::set(const SetLed::Request& request, double* time) {
     return setBoard(request);
   if (ReflectionDescription* reflection = rig_.findReflection(request.led))
     return setReflection(request, reflection);
+  if (VirtualCamera* camera = rig_.findCamera(request.led))
+    return turnCamera(request, camera);
   const double begin = *time;
   const char* state = request.on ? "is there" : "is away";
   if (LedDescription* led = rig_.findLed(request.led)) {
@@ -123,7 +125,7 @@ std::string SimulatedRig::set(const SetLed::Request& request, double* time) {
     *time = move(request, begin, &body->motion);
     body->present = request.on;
   } else {
-    throw Refusal("there is no LED, person, body or reflection '" + request.led +
+    throw Refusal("there is no LED, person, body, camera or reflection '" + request.led +
                   "' in the rig's description");
   }
   return format("'%s' %s, arrives in %g s", request.led.c_str(), state, *time - begin);
@@ -155,6 +157,13 @@ std::string SimulatedRig::setReflection(const SetLed::Request& request,
     throw Refusal("reflection '" + request.led + "' can only be switched (HOLD)");
   reflection->lit = request.on;
   return "reflection '" + request.led + (request.on ? "' shines" : "' is dark");
+}
+
+std::string SimulatedRig::turnCamera(const SetLed::Request& request, VirtualCamera* camera) const {
+  if (request.motion != SetLed::Request::LINE)
+    throw Refusal("camera '" + request.led + "' can only be turned to a target (LINE)");
+  camera->lookAt({request.target.x, request.target.y, request.target.z});
+  return "camera '" + request.led + "' looks at the target";
 }
 
 std::string SimulatedRig::setBoard(const SetLed::Request& request) {

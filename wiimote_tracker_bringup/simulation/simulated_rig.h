@@ -37,6 +37,8 @@ class SimulatedRig {
   std::string setBoard(const wiimote_tracker_msgs::SetLed::Request& request);
   std::string setReflection(const wiimote_tracker_msgs::SetLed::Request& request,
                             ReflectionDescription* reflection) const;
+  std::string turnCamera(const wiimote_tracker_msgs::SetLed::Request& request,
+                         VirtualCamera* camera) const;
   double move(const wiimote_tracker_msgs::SetLed::Request& request,
               double time,
               LedMotion* motion) const;

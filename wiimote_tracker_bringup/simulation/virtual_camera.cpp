@@ -18,11 +18,11 @@ Eigen::Matrix3d opticalFromImu() {
 }  // namespace
 
 VirtualCamera::VirtualCamera(const geometry::Camera& camera, double pixel_noise, std::uint32_t seed)
-    : camera_(camera),
-      pixel_noise_(pixel_noise),
-      random_(seed),
-      acceleration_(opticalFromImu().transpose() * camera.world_from_camera.linear().transpose() *
-                    Eigen::Vector3d::UnitZ()) {}
+    : camera_(camera), pixel_noise_(pixel_noise), random_(seed) {}
+
+void VirtualCamera::lookAt(const Eigen::Vector3d& target) {
+  camera_.world_from_camera = geometry::lookAt(camera_.center(), target, Eigen::Vector3d::UnitZ());
+}
 
 virtual_wiimote::Light VirtualCamera::lightAt(const Eigen::Vector2d& pixel,
                                               const Eigen::Vector2d& noise,
@@ -41,7 +41,11 @@ virtual_wiimote::Senses VirtualCamera::sense(
     const std::vector<Cylinder>& bodies,
     const std::vector<ReflectionDescription>& reflections) {
   virtual_wiimote::Senses senses;
-  senses.acceleration = {acceleration_.x(), acceleration_.y(), acceleration_.z()};
+  // Specific force at rest in the remote's own axes [g].
+  const Eigen::Vector3d up = opticalFromImu().transpose() *
+                             camera_.world_from_camera.linear().transpose() *
+                             Eigen::Vector3d::UnitZ();
+  senses.acceleration = {up.x(), up.y(), up.z()};
   std::normal_distribution<double> normal;
   const auto draw = [&] {
     const double noise_u = pixel_noise_ * normal(random_);

@@ -36,6 +36,10 @@ class VirtualCamera {
   /// `pixel_noise`: standard deviation of each coordinate [px].
   VirtualCamera(const geometry::Camera& camera, double pixel_noise, std::uint32_t seed);
 
+  /// Turns it where it stands, as by a knock, so that its optical axis passes through a place [m].
+  /// @throws geometry::InvalidRigError: the axis would be vertical.
+  void lookAt(const Eigen::Vector3d& target);
+
   /// The lights of visible lamps and of the lit reflections in this camera, with noise; and
   /// gravity.
   virtual_wiimote::Senses sense(const std::vector<Lamp>& lamps,
@@ -51,7 +55,6 @@ class VirtualCamera {
   geometry::Camera camera_;
   double pixel_noise_;
   std::mt19937 random_;
-  Eigen::Vector3d acceleration_;  ///< Specific force at rest in the remote's own axes [g].
 };
 
 }  // namespace wiimote_tracker::simulation

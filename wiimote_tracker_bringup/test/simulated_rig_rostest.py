@@ -79,6 +79,21 @@ class SimulatedRig(NodeTest):
                 np.testing.assert_allclose(mean, camera.project(np.array([target]))[0],
                                            atol=tolerance)
 
+    def test_a_camera_that_is_turned_sees_the_led_elsewhere(self):
+        put = self.move((1.25, 1.25, 1.0))
+        image = self.images_after(put.arrival.to_sec(), 1)['wiimote_2'][0]
+        turn = SetLedRequest(led='wiimote_2', motion=SetLedRequest.LINE)
+        try:
+            turn.target.x, turn.target.y, turn.target.z = 1.35, 1.15, 1.0
+            turned = self.set_led(turn)
+            self.assertTrue(turned.success, turned.message)
+            later = self.images_after(turned.arrival.to_sec(), 1)['wiimote_2'][0]
+        finally:  # as in the description
+            turn.target.x, turn.target.y = 1.25, 1.25
+            self.set_led(turn)
+        # 0.14 m, 6.3 m away.
+        self.assertGreater(abs(later.blobs[0].x - image.blobs[0].x), 20.0)
+
     def test_identities_match_the_description(self):
         images = self.images_after(rospy.get_time(), 1)
         for number, camera in enumerate(self.scene.cameras, 1):
@@ -170,7 +185,8 @@ class SimulatedRig(NodeTest):
             (dict(led='led', motion=SetLedRequest.WAVE, speed=1.0), 'sides of the box'),
             (dict(led='led', motion=SetLedRequest.WAVE, box=Vector3(1, 1, 1)), 'speed'),
             (dict(led='led', motion=SetLedRequest.DRAW, drawing='face'), "no drawing 'face'"),
-            (dict(led='wand_end', motion=SetLedRequest.LINE), "where 'led' goes")]
+            (dict(led='wand_end', motion=SetLedRequest.LINE), "where 'led' goes"),
+            (dict(led='wiimote_1', motion=SetLedRequest.HOLD), 'can only be turned to a target')]
         for fields, word in refused:
             response = self.set_led(SetLedRequest(on=True, **fields))
             self.assertFalse(response.success, fields)

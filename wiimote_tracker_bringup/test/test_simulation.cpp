@@ -93,6 +93,20 @@ TEST(VirtualCamera, feels_gravity_as_it_is_mounted) {
   EXPECT_NEAR(down[2], std::sqrt(0.75), 1e-12);
 }
 
+TEST(VirtualCamera, sees_and_feels_where_it_was_turned_to) {
+  const Vector3d position(0, 0, 1);
+  const Vector3d target(5, 0.3, 0.8);
+  VirtualCamera knocked(cameraAt(position, Vector3d(5, 0, 1)), 0.0, 1);
+  VirtualCamera there(cameraAt(position, target), 0.0, 1);
+  knocked.lookAt(target);
+  const std::vector<Lamp> lamps = {{Vector3d(4, 0.2, 1.1), 3.0, 1.0}};
+  const auto seen = knocked.sense(lamps);
+  const auto expected = there.sense(lamps);
+  EXPECT_EQ(seen.lights.at(0).x, expected.lights.at(0).x);
+  EXPECT_EQ(seen.lights.at(0).y, expected.lights.at(0).y);
+  EXPECT_EQ(seen.acceleration, expected.acceleration);
+}
+
 // --- The whole
 
 const Rig::Truth kNoTruth = [](std::size_t, double, const Vector3d&) {};

@@ -84,7 +84,7 @@ class SimulatedRig(NodeTest):
         image = self.images_after(put.arrival.to_sec(), 1)['wiimote_2'][0]
         turn = SetLedRequest(led='wiimote_2', motion=SetLedRequest.LINE)
         try:
-            turn.target.x, turn.target.y, turn.target.z = 1.35, 1.15, 1.0
+            turn.target.x, turn.target.y, turn.target.z = 1.35, 1.35, 1.0
             turned = self.set_led(turn)
             self.assertTrue(turned.success, turned.message)
             later = self.images_after(turned.arrival.to_sec(), 1)['wiimote_2'][0]

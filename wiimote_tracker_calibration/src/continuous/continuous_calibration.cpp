@@ -1,9 +1,9 @@
 #include "continuous/continuous_calibration.h"
 
 #include "continuous/adjust_rig.h"
-#include "continuous/drifts.h"
 #include "continuous/knocked_cameras.h"
 #include "continuous/propose_adjustment.h"
+#include "health/drift_watch.h"
 
 #include <algorithm>
 #include <cstddef>
@@ -44,7 +44,7 @@ std::optional<std::size_t> turnedAlone(const geometry::Rig& before,
 /// The camera that contradicts the others, if there is one alone.
 std::optional<std::size_t> offAlone(const geometry::Rig& rig,
                                     const std::vector<capture::Image>& images) {
-  const Drifts drifts = driftsOf(rig, images);
+  const health::Drifts drifts = health::driftsOf(rig, images);
   const auto isOff = [](const auto& drift) { return drift && drift->ratio >= 1.0; };
   if (std::count_if(drifts.begin(), drifts.end(), isOff) != 1)
     return std::nullopt;

@@ -1,7 +1,7 @@
 #include "continuous/knocked_cameras.h"
 
 #include "continuous/adjust_rig.h"
-#include "continuous/drifts.h"
+#include "health/drift_watch.h"
 #include "health/tilt_watch.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -73,8 +73,8 @@ std::string sentenceOf(const std::string& camera,
 double misfitWithout(const geometry::Rig& rig,
                      const Cameras& cameras,
                      const std::vector<capture::Image>& images) {
-  const Drifts drifts = driftsOf(rig, without(rig, cameras, images));
-  if (!allFit(drifts, static_cast<std::ptrdiff_t>(rig.cameras.size() - cameras.size())))
+  const health::Drifts drifts = health::driftsOf(rig, without(rig, cameras, images));
+  if (!health::allFit(drifts, static_cast<std::ptrdiff_t>(rig.cameras.size() - cameras.size())))
     return std::numeric_limits<double>::infinity();
   double worst = 0.0;
   for (const auto& drift : drifts) {
@@ -115,17 +115,17 @@ std::optional<SolvedCameras> solveAgainstOthers(const geometry::Rig& rig,
   } catch (const geometry::Error&) {
     return std::nullopt;
   }
-  const Drifts after = driftsOf(results.back().rig, check);
-  Drifts before;
+  const health::Drifts after = health::driftsOf(results.back().rig, check);
+  health::Drifts before;
   for (std::size_t i = 0; i < cameras.size(); ++i) {
     const std::size_t camera = cameras[i];
-    before.push_back(driftsOf(rig, without(rig, othersOf(camera, cameras), check))[camera]);
+    before.push_back(health::driftsOf(rig, without(rig, othersOf(camera, cameras), check))[camera]);
     const bool was_off =
         evidence.new_clock || evidence.has_turned || (before[i] && before[i]->ratio >= 1.0);
     if (results[i].moved > kFarthest || !was_off || !after[camera])
       return std::nullopt;
   }
-  if (!allFit(after))
+  if (!health::allFit(after))
     return std::nullopt;
   // The same poses; their covariance includes the drift of the others, which the checks do not
   // grant.
@@ -147,7 +147,7 @@ std::vector<Cameras> pairsToSolve(const geometry::Rig& rig, const Evidence& evid
   images.insert(images.end(), evidence.images.to_check.begin(), evidence.images.to_check.end());
   std::vector<std::pair<double, Cameras>> misfits;
   const std::size_t count = rig.cameras.size();
-  const Drifts drifts = driftsOf(rig, images);
+  const health::Drifts drifts = health::driftsOf(rig, images);
   if (!std::all_of(drifts.begin(), drifts.end(),
                    [](const auto& drift) { return drift.has_value(); }))
     return {};

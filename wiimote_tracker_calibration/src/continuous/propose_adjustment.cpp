@@ -1,7 +1,7 @@
 #include "continuous/propose_adjustment.h"
 
 #include "continuous/adjust_rig.h"
-#include "continuous/drifts.h"
+#include "health/drift_watch.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -78,8 +78,8 @@ std::optional<Correction> correctionOf(const geometry::Rig& before,
 bool camerasFit(const geometry::Rig& before,
                 const geometry::Rig& now,
                 const std::vector<capture::Image>& later) {
-  const Drifts drifts = driftsOf(now, later);
-  if (!allFit(drifts))
+  const health::Drifts drifts = health::driftsOf(now, later);
+  if (!health::allFit(drifts))
     return false;
   for (std::size_t i = 0; i < now.cameras.size(); ++i) {
     if (before.cameras[i].hasNewClock(now.cameras[i].time_offset_epoch) && !drifts[i])

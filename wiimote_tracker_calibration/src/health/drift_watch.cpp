@@ -24,6 +24,25 @@ constexpr double kJudgements = 12.0;
 
 }  // namespace
 
+Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
+  DriftOptions options;
+  // So long that nothing is judged before the end.
+  options.window = 100.0 * (images.back().stamp - images.front().stamp);
+  DriftWatch watch(rig, options);
+  for (const capture::Image& image : images)
+    watch.add(image);
+  watch.judge();
+  return watch.drifts();
+}
+
+bool allFit(const Drifts& drifts, std::ptrdiff_t cameras) {
+  const auto judged = std::count_if(drifts.begin(), drifts.end(),
+                                    [](const auto& drift) { return drift.has_value(); });
+  return judged >= cameras && std::none_of(drifts.begin(), drifts.end(), [](const auto& drift) {
+           return drift && drift->ratio >= 1.0;
+         });
+}
+
 DriftWatch::DriftWatch(const geometry::Rig& rig, const DriftOptions& options)
     : rig_(rig), options_(options), drifts_(rig.cameras.size()) {
   for (const geometry::RigCamera& camera : rig_.cameras)

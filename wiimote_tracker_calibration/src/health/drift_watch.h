@@ -44,6 +44,15 @@ struct Drift {
   bool or_others = false;  ///< Several drifted, perhaps not this one.
 };
 
+/// Per camera of a rig; nothing: it was not judged.
+using Drifts = std::vector<std::optional<Drift>>;
+
+/// How far each camera of a rig is off in these images, by the default limit.
+Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
+
+/// Whether so many cameras at least were judged, and none contradicts the others.
+bool allFit(const Drifts& drifts, std::ptrdiff_t cameras = 3);
+
 /// Watches the median of a rig's residuals while one LED is tracked. Images of several spots take
 /// no part. A rig with RayModel::kImageCenter is not judged: its rays differ from its calibration.
 class DriftWatch {
@@ -57,9 +66,9 @@ class DriftWatch {
   /// Judges the window now; add() does so twelve times in it.
   void judge();
 
-  /// Per camera of the rig, at the time of the latest judgement. Nothing for cameras that shared
-  /// too little motion with others in the window.
-  const std::vector<std::optional<Drift>>& drifts() const { return drifts_; }
+  /// At the time of the latest judgement. Nothing for cameras that shared too little motion with
+  /// others in the window.
+  const Drifts& drifts() const { return drifts_; }
 
  private:
   struct Frame {
@@ -90,7 +99,7 @@ class DriftWatch {
   double newest_ = -std::numeric_limits<double>::infinity();  // Latest exposure [s].
   double next_sample_ = 0.0;                                  // [s]
   double next_judgement_ = 0.0;                               // [s]
-  std::vector<std::optional<Drift>> drifts_;
+  Drifts drifts_;
 };
 
 }  // namespace wiimote_tracker::health

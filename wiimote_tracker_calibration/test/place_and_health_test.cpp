@@ -321,6 +321,17 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   }));
 }
 
+TEST_F(CalibratedNode, SaysThatTwoCamerasAreNotCorrected) {
+  geometry::Rig rig = trueRig();
+  rig.cameras.resize(2);
+  rig.covariance = Eigen::MatrixXd::Zero(32, 32);
+  load(rig);
+  EXPECT_TRUE(waitUntil([] {  // what was proposed for the rig before is forgotten
+    return call<std_srvs::Trigger>("calibration/continuous/apply")
+               .message.find("put it back, or calibrate all cameras again") != std::string::npos;
+  }));
+}
+
 TEST_F(CalibratedNode, DoesNotApplyWhatPairsOfCamerasContradict) {
   geometry::Rig rig = trueRig();
   // About the vertical: the accelerometer does not tell which pair was moved.

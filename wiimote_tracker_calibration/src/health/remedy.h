@@ -7,8 +7,10 @@
 
 namespace wiimote_tracker::health {
 
-/// How to calibrate a camera again: alone, if two others with clocks that a wave told can hold it,
-/// else with all cameras.
+/// Whether one camera can be solved against the others: two at least, with clocks that a wave told.
+bool isCorrectable(const geometry::Rig& rig);
+
+/// How to calibrate a camera again: alone, or else with all cameras.
 std::string calibrateAgain(const geometry::Rig& rig);
 
 /// What to do about cameras that were moved. @param is_known which ones they are.

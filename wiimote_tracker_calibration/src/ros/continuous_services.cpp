@@ -4,6 +4,7 @@
 
 #include "continuous/continuous_calibration.h"
 #include "continuous/rig_changes.h"
+#include "health/remedy.h"
 
 #include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -170,7 +171,10 @@ class ContinuousServices {
     return newest;
   }
 
-  std::string whatIsNeeded() const {
+  std::string whatIsNeeded(const geometry::Rig& rig) const {
+    if (!health::isCorrectable(rig))
+      return "no camera of this rig can be solved against the others: if one was moved, " +
+             health::putBack(rig, true);
     if (!contradiction_.empty())
       return contradiction_;
     if (new_clocks_.size() > 1)
@@ -191,9 +195,9 @@ class ContinuousServices {
           "/continuous_policy is off, so nothing is proposed: set it to propose, and start "
           "the node again");
     requireCalibrated(lock);
-    if (!proposal_)
-      throw Refusal("nothing is proposed: " + whatIsNeeded());
     const geometry::Rig before = context_.existingRig("to change", lock);
+    if (!proposal_)
+      throw Refusal("nothing is proposed: " + whatIsNeeded(before));
     if (!changes_.isInUse(before))
       throw Refusal(NodeContext::kReplaced);
     const continuous::Proposal proposal = *proposal_;

@@ -338,8 +338,8 @@ void CalibratePage::show(const Guide& guide, double now) {
   next_->setText(text(advice_.button));
   // A correction may be proposed, or withdrawn, at any time.
   const std::string proposed = "continuous/apply";
-  const bool was_proposed = before.request.service == proposed;
-  if (!before.button.empty() && was_proposed != (advice_.request.service == proposed))
+  const bool was_proposed = before.request == proposed;
+  if (!before.button.empty() && was_proposed != (advice_.request == proposed))
     proposed_at_ = now;
   next_->setEnabled(is_free && now >= proposed_at_ + kReadWithin);
   for (QPushButton* button : buttons_)

@@ -47,7 +47,6 @@ constexpr int kSentenceLines = 3;
 constexpr double kReadWithin = 0.5;  // [s]
 constexpr int kAdviceMargin = 9;     // around the advice [px of the screen]
 // In metres. So wide that a number in cm can be typed whole: the node then doubts it.
-constexpr double kLongestSide = 9999.0;
 constexpr double kFarthest = 9999.0;
 
 QString text(const std::string& words) {
@@ -86,7 +85,7 @@ class CornerBox : public QComboBox {
 QDoubleSpinBox* lengthBox(const QString& name, const QString& none, QWidget* parent) {
   auto* box = new NumberBox(parent);
   box->setObjectName(name);
-  box->setRange(0.0, kLongestSide);
+  box->setRange(0.0, kFarthest);
   box->setDecimals(3);
   box->setMinimumWidth(60);
   box->setSingleStep(0.1);
@@ -299,7 +298,7 @@ void CalibratePage::addTape(QVBoxLayout* layout) {
   }
   ends[1]->setCurrentIndex(2);  // a diagonal
   auto* length = lengthBox("taped", "drop it", this);
-  length->setMaximum(M_SQRT2 * kLongestSide);
+  length->setMaximum(M_SQRT2 * kFarthest);
   length->setDecimals(4);
   row->addWidget(length, 1);
   addRequest<MeasureLength>("measure_length", [ends, length](auto* taped) {

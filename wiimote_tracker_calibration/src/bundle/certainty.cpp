@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kPoseSize = 6;
 constexpr int kIntrinsicsSize = 9;
-// Points whose joint covariance tells that of all of them.
+// So many points or up to twice as many, at equal intervals, stand for all of them.
 constexpr std::size_t kSample = 100;
 
 /// Plain least squares, weighted by the noise, without the prior of the focal length.

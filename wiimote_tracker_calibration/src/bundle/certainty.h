@@ -31,8 +31,8 @@ class Certainty {
   Eigen::VectorXd lensStep(std::size_t camera) const;
 
   /// Expected RMS distance of the points from the truth after the best similarity [unit of the
-  /// points], from the errors of cameras, lenses and pixels together. Nothing when some parameter
-  /// is open.
+  /// points], from the errors of cameras, lenses and pixels together; of a sample of the points.
+  /// Nothing when some parameter is open.
   std::optional<double> expectedShapeError();
 
  private:

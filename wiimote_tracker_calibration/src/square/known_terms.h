@@ -14,7 +14,7 @@
 namespace wiimote_tracker::square {
 
 /// What is known of cameras besides a wave, as residuals: the square, the accelerometers, and
-/// priors. Must outlive the problem.
+/// priors. Parameter blocks of the problem are in it: solve and evaluate only while it lives.
 class KnownTerms {
  public:
   /// @param stated, cameras, problem not owned.

@@ -34,6 +34,8 @@ OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
         'roslaunch takes socket_directory:=true for True: write socket_directory:=./true']),
     (['wiimote_tracker_triangulation', 'gestures.launch', 'file:=1e3'], [
         'roslaunch takes file:=1e3 for 1000.0: write file:=./1e3']),
+    (['wiimote_tracker_bringup', 'record.launch', 'gigabytes:=1.50'], []),  # numbers
+    (['wiimote_tracker_bringup', 'mavros_vision.launch', 'rate:=30.50'], []),
     (OURS + ['cemeras:=mine.launch'], [
         'tracker.launch has no argument cemeras, so cemeras:= has no effect: write cameras:=']),
     (['wiimote_tracker_bringup', 'diagnostics.launch', 'rviz:=1'], [

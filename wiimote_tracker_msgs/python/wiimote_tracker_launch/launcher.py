@@ -73,9 +73,9 @@ def arguments_of(path: str) -> Dict[str, str]:
 
 
 def paths_of(path: str) -> Set[str]:
-    """Arguments that are paths: those that $(eval) in these files makes a text of."""
+    """Arguments that are paths: those whose first sign $(eval) in these files looks at."""
     with open(path, encoding='utf-8') as file:
-        found = set(re.findall(r"\bstr\((?:arg\(')?(\w+)", file.read()))
+        found = set(re.findall(r"\bstr\((?:arg\(')?(\w+)(?:'\))?\)\[:1\]", file.read()))
     return found.union(*map(paths_of, included(path)))
 
 

@@ -135,6 +135,6 @@ def test_cameras_on_their_own_clocks_need_estimated_times(results):
     by_arrival, estimated = (results.value('circles', f'exact_{name}_whole')
                              for name in ('arrivals', 'tracks'))
     # The jitter of arrivals, 2.4 ms, is 2.4 mm per m/s in each camera. The mean of four cameras and
-    # of a few images of each reduces it.
+    # of a few images of each reduces it. Noise of the pixels is in both.
     assert by_arrival > 0.5 * 2.4 * 2.0
     assert estimated < 0.65 * by_arrival

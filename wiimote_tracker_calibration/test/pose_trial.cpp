@@ -248,8 +248,6 @@ void PoseTally::add(const PoseTrial& trial,
                     const square::PlanarPoses& found,
                     const std::vector<square::PlanarPose>& minima) {
   ++poses;
-  two += found.size() > 1;
-  two_multi_start += minima.size() > 1;
   if (found.empty() || !std::isfinite(found[0].cost)) {
     worst_excess = std::numeric_limits<double>::infinity();
     return;

@@ -58,9 +58,7 @@ struct PoseTally {
   int judged = 0;
   double nees = 0.0;
   double worst_excess = 0.0;  ///< Of the best cost over the multi-start's [chi^2].
-  int two = 0;                ///< Two branches found.
-  int two_multi_start = 0;
-  int missed = 0;  ///< Second minima within 80 in chi^2 that only the multi-start found.
+  int missed = 0;             ///< Second minima within 80 in chi^2 that only the multi-start found.
 
   void add(const PoseTrial& trial,
            const square::PlanarPoses& found,

@@ -220,7 +220,7 @@ int main(int argc, char** argv) {
       "evaluate_arrivals",
       "Tracks a simulated LED by images that arrive as reports of real remotes did. RIG: a "
       "description\nof a rig. FILE: arrivals of the reports of a remote [ms], in order, one file "
-      "for each camera.\nThe exposures are those of a smoother that knows the whole recording.");
+      "for each camera.\nThe exposures are those by Bayes' rule with the whole recording.");
   BenchmarkTables tables;
   tables.addOptions(&parser);
   parser.positional("RIG", &rig);

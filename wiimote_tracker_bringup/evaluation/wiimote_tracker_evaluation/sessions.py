@@ -7,8 +7,7 @@ import numpy as np
 
 from wiimote_tracker_bringup import programs
 
-UNITS = {'_mm': 'mm', '_m': 'm', '_m_per_s': 'm/s', '_rad_per_s': 'rad/s', '_deg': 'deg',
-         '_ms': 'ms', '_s': 's'}
+UNITS = {'_mm': 'mm', '_m': 'm', '_m_per_s': 'm/s', '_ms': 'ms', '_s': 's'}
 
 
 def parts_of(sessions, parts):

@@ -22,6 +22,7 @@ class KnownTerms {
              std::vector<adjust::CameraBlocks>* cameras,
              ceres::Problem* problem)
       : stated_(stated), cameras_(*cameras), problem_(*problem) {}
+  KnownTerms(const KnownTerms&) = delete;  // the problem holds blocks of this one
 
   /// @param blocks of the residual. @param cost owned by the problem.
   template <typename... Blocks>

@@ -5,10 +5,7 @@
 
 #include "wiimote_tracker_calibration/square/square_model.h"
 
-#include <ceres/problem.h>
-
 #include <cmath>
-#include <optional>
 
 namespace wiimote_tracker::square {
 

@@ -71,7 +71,9 @@ BodySnapshot BodyFollower::setBodies(const std::vector<Constellation>& constella
 
 void BodyFollower::take(std::size_t camera,
                         const tracking::ClockError& clock,
-                        tracking::CameraImage* image) {
+                        tracking::CameraImage* image,
+                        bool is_doubtful) {
+  image->bodies = {};
   if (constellations_.empty())
     return;
   const geometry::RigCamera& calibration = rig_.cameras[camera];
@@ -98,9 +100,10 @@ void BodyFollower::take(std::size_t camera,
   const double stamp_stddev =
       std::isnan(image->stamp_stddev) ? options_.stamp_stddev : image->stamp_stddev;
   if (!tracker_->add(camera, times.exposure - clock.offset,
-                     std::hypot(stamp_stddev, std::sqrt(clock.variance)), pixels_))
+                     std::hypot(stamp_stddev, std::sqrt(clock.variance)), pixels_, is_doubtful))
     return;
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
+  image->bodies = tracker_->fit();
   auto taken = tracker_->taken().begin();  // of each spot that is not masked
   std::size_t kept = 0;
   for (const tracking::Spot& spot : image->spots) {

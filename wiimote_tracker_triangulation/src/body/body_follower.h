@@ -43,8 +43,11 @@ class BodyFollower {
   const std::vector<Constellation>& constellations() const { return constellations_; }
 
   /// Tracks bodies in an image and removes their spots from it. Requires a rig.
-  /// @param clock see Estimator::clockError().
-  void take(std::size_t camera, const tracking::ClockError& clock, tracking::CameraImage* image);
+  /// @param clock see Estimator::clockError(). @param is_doubtful see Estimator::isDoubtful().
+  void take(std::size_t camera,
+            const tracking::ClockError& clock,
+            tracking::CameraImage* image,
+            bool is_doubtful = false);
 
   /// See BodyTracker.
   void addInertial(std::size_t body, const InertialSample& sample);

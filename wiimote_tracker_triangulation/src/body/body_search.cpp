@@ -1,7 +1,5 @@
 #include "body/body_search.h"
 
-#include "association/shared_views.h"
-
 #include <algorithm>
 #include <cmath>
 
@@ -23,9 +21,7 @@ BodySearch::BodySearch(const BodySetup& setup, BodyState* state, BodyUpdate* upd
     : setup_(setup),
       state_(*state),
       update_(*update),
-      associator_(setup.rig,
-                  association::sharedViews(setup.rig, setup.options.maximum_range),
-                  associationOptions(setup.options)),
+      associator_(setup.rig, setup.partners, associationOptions(setup.options)),
       candidates_(setup.cameras.size()),
       sights_(setup.cameras.size()),
       views_(setup.cameras.size()) {}

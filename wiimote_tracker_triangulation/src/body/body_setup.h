@@ -7,6 +7,7 @@
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace wiimote_tracker::body {
@@ -27,7 +28,8 @@ struct BodyModel {
 struct BodySetup {
   BodyTrackerOptions options;
   geometry::Rig rig;
-  std::vector<geometry::Camera> cameras;  ///< As Rig::rayCamera.
+  std::vector<geometry::Camera> cameras;           ///< As Rig::rayCamera.
+  std::vector<std::vector<std::size_t>> partners;  ///< See association::sharedViews.
   std::vector<BodyModel> bodies;
 };
 

@@ -84,6 +84,7 @@ struct BodyImage {
   double time;          ///< [s]
   double stamp_stddev;  ///< [s]
   std::vector<Eigen::Vector2d> pixels;
+  bool is_doubtful = false;        ///< Of a camera that does not fit the others.
   std::vector<LabelStart> starts;  ///< Of bodies that were unknown after this image.
 
   bool operator<(const BodyImage& other) const {

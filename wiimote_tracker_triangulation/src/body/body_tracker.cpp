@@ -1,5 +1,6 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
+#include "association/shared_views.h"
 #include "body/body_search.h"
 #include "body/body_setup.h"
 #include "body/body_state.h"
@@ -36,6 +37,7 @@ BodyTracker::~BodyTracker() = default;
 void BodyTracker::useRig(const geometry::Rig& rig) {
   setup_->rig = rig;
   setup_->cameras = rig.rayCameras();
+  setup_->partners = association::sharedViews(rig, setup_->options.maximum_range);
   search_ = std::make_unique<BodySearch>(*setup_, state_.get(), update_.get());
   state_->images.assign(rig.cameras.size(), {});
 }
@@ -112,12 +114,15 @@ void BodyTracker::reset() {
 bool BodyTracker::add(std::size_t camera,
                       double time,
                       double stamp_stddev,
-                      const std::vector<Eigen::Vector2d>& pixels) {
+                      const std::vector<Eigen::Vector2d>& pixels,
+                      bool is_doubtful) {
   taken_.assign(pixels.size(), false);
+  fit_ = {};
   image_->camera = camera;
   image_->time = time;
   image_->stamp_stddev = stamp_stddev;
   image_->pixels = pixels;
+  image_->is_doubtful = is_doubtful;
   const auto place = history_->placeOf(*image_);
   if (!place || time < time_ - setup_->options.history)
     return false;
@@ -128,8 +133,10 @@ bool BodyTracker::add(std::size_t camera,
   history_->insert(*place, *image_);
   for (; next < images.end(); ++next) {
     step(next);
-    if (next == *place)
+    if (next == *place) {
       taken_ = update_->taken();
+      fit_ = update_->fit();
+    }
   }
   time_ = std::max(time_, time);
   history_->forgetBefore(time_ - setup_->options.history);

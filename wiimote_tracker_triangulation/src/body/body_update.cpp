@@ -1,6 +1,5 @@
 #include "body/body_update.h"
 
-#include "association/assign_spots.h"
 #include "led_groups.h"
 
 #include <algorithm>
@@ -21,14 +20,15 @@ void BodyUpdate::follow(const BodyImage& image) {
   }
   assign(image);
   leaveToSearch(image.time);
+  measureFit(image);
   LastImage& last = state_.images[image.camera];
   last.time = image.time;
   last.taken.clear();
   last.free.clear();
   taken_.assign(image.pixels.size(), false);
   for (std::size_t s = 0; s < image.pixels.size(); ++s) {
-    taken_[s] = led_of_spot_[s] && take(s, image);
-    if (!taken_[s])
+    taken_[s] = led_of_spot_[s] && (image.is_doubtful || take(s, image));
+    if (!taken_[s] && !image.is_doubtful)
       last.free.push_back(image.pixels[s]);
   }
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
@@ -41,29 +41,29 @@ void BodyUpdate::follow(const BodyImage& image) {
 void BodyUpdate::assign(const BodyImage& image) {
   const std::vector<Eigen::Vector2d>& pixels = image.pixels;
   association::SpotCosts costs;
-  std::array<SpotLed, association::kMaximumTracks> columns;
   const std::size_t spots = std::min(pixels.size(), association::kMaximumSpots);
   // Which LEDs the body itself hides is unknown: a missed LED costs nothing, so that as many spots
   // as possible are assigned.
   costs.reset(spots, association::kMaximumTracks, kGhostCost, 0.0);
-  costs.tracks = 0;
+  candidates_.clear();
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (!state_.bodies[b])
       continue;
     const LedGroups groups = groupsOf(b, image, 1.0);
     for (std::size_t led = 0; led < setup_.bodies[b].constellation.leds.size(); ++led) {
-      if (costs.tracks == association::kMaximumTracks)
+      if (candidates_.size() == association::kMaximumTracks)
         break;
       for (std::size_t s = 0; s < spots; ++s)
-        costs.pair[s][costs.tracks] = groups.cost(led, pixels[s]);
-      columns[costs.tracks++] = {b, led};
+        costs.pair[s][candidates_.size()] = groups.cost(led, pixels[s]);
+      candidates_.push_back({{b, led}, groups.single(led)});
     }
   }
+  costs.tracks = candidates_.size();
   const auto track_of_spot = association::assignSpots(costs);
   led_of_spot_.assign(pixels.size(), std::nullopt);
   for (std::size_t s = 0; s < spots; ++s) {
     if (track_of_spot[s] != association::kFalseDetection)
-      led_of_spot_[s] = columns[track_of_spot[s]];
+      led_of_spot_[s] = candidates_[track_of_spot[s]];
   }
 }
 

@@ -40,6 +40,9 @@ class LedGroups {
             double merging_distance,
             double gate);
 
+  /// The prediction of one LED, unless it is too uncertain.
+  const std::optional<LedPrediction>& single(std::size_t led) const { return singles_[led]; }
+
   /// Least cost of a pixel over the groups with this LED; infinity where none fits.
   double cost(std::size_t led, const Eigen::Vector2d& pixel) const;
 

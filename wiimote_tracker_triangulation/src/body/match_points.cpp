@@ -18,9 +18,9 @@ bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
 
 namespace {
 
-constexpr double kUnseenCost = 25.0;  // of an LED without a point [chi^2]
-constexpr double kGate = 4.0;         // of a distance between two LEDs [standard deviations]
-constexpr std::size_t kFewest = 3;    // LEDs
+constexpr double kUnseenCost = 25.0;    // of an LED without a point [chi^2]
+constexpr double kGate = 4.0;           // of a distance between two LEDs [standard deviations]
+constexpr std::size_t kFewestLeds = 3;  // LEDs
 
 /// Depth-first search: each LED takes a point consistent with those before it, or none.
 class MatchSearch {
@@ -41,14 +41,14 @@ class MatchSearch {
  private:
   void extend(std::size_t led, std::size_t seen) {
     if (led == leds_.size()) {
-      if (seen >= kFewest)
+      if (seen >= kFewestLeds)
         judge(seen);
       return;
     }
     const std::size_t left = leds_.size() - led;
     const double unseen = (led - seen) * kUnseenCost;
     // Costlier branches than the runner-up change nothing.
-    if (seen + left < kFewest || unseen > runner_up_cost_)
+    if (seen + left < kFewestLeds || unseen > runner_up_cost_)
       return;
     for (std::size_t p = 0; p < points_.size(); ++p) {
       if (points_[p].taken || !agrees(led, p))

@@ -1,6 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
 
+#include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
+
+#include <Eigen/Core>
+
 #include <algorithm>
 #include <cstddef>
 
@@ -20,26 +25,23 @@ class CameraFit {
   /// @param ghost_rate expected false detections per image.
   CameraFit(double ghost_rate, const Limits& limits) : limits_(limits), usual_(ghost_rate) {}
 
-  /// @param shown LEDs that have a spot in the image.
-  /// @param missing LEDs that have none although two other cameras see them, or the only other one.
   /// @param unassigned spots of no LED.
-  /// @param explained how many of the missing errors of the calibration explain.
-  void add(std::size_t shown, std::size_t missing, std::size_t unassigned, std::size_t explained) {
+  void add(const LedFit& leds, std::size_t unassigned) {
     constexpr double kMemoryOfUsual = 150.0;  // images
     constexpr double kRatio = 1.5;            // misfits per fit of a camera that does not fit
     unassigned_ = unassigned;
     const double surplus = unassigned - usual_;
-    if (shown > 0 && missing == 0) {
+    if (leds.shown > 0 && leds.missing == 0) {
       complete_images_ = std::min(complete_images_ + 1.0, kMemoryOfUsual);
       usual_ += surplus / complete_images_;
     }
     // Forgets exponentially. An LED that is hidden makes no other spot: only as many are misfits as
     // there are more unassigned spots than usual.
-    const double kept = std::max(0.0, 1.0 - (shown + missing) / limits_.memory);
-    fits_ = kept * fits_ + shown;
-    missing_ = kept * missing_ + missing;
-    explained_ = kept * explained_ + explained;
-    misfits_ = std::max(0.0, kept * misfits_ + std::min<double>(missing, surplus));
+    const double kept = std::max(0.0, 1.0 - (leds.shown + leds.missing) / limits_.memory);
+    fits_ = kept * fits_ + leds.shown;
+    missing_ = kept * missing_ + leds.missing;
+    explained_ = kept * explained_ + leds.explained;
+    misfits_ = std::max(0.0, kept * misfits_ + std::min<double>(leds.missing, surplus));
     misfit_ = misfit_ ? misfits_ > limits_.tolerated * fits_
                       : misfits_ >= limits_.least * limits_.memory && misfits_ > kRatio * fits_;
   }
@@ -65,6 +67,22 @@ class CameraFit {
   std::size_t unassigned_ = 0;     // of the newest image
   bool misfit_ = false;
 };
+
+/// Greatest distance of a spot that errors of the calibration explain, however vague that is [px].
+constexpr double kFarthestByCalibration = 64.0;
+
+/// Whether errors of the calibration, within three standard deviations, may have moved a spot away
+/// from the prediction of its LED. Does not allocate.
+/// @param led its position [m]. @param camera that of the spot, in the rig.
+/// @param others in the rig, `count`, that see the LED.
+/// @param residual spot less prediction [px]. @param covariance of this without such errors [px^2].
+bool isByCalibration(const geometry::Rig& rig,
+                     const Eigen::Vector3d& led,
+                     std::size_t camera,
+                     const std::size_t* others,
+                     std::size_t count,
+                     const Eigen::Vector2d& residual,
+                     const Eigen::Matrix2d& covariance);
 
 }  // namespace wiimote_tracker::tracking
 

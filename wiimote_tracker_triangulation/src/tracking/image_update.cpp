@@ -1,9 +1,5 @@
 #include "image_update.h"
 
-#include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
-
-#include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -98,9 +94,9 @@ void ImageUpdate::measureFit() const {
   const bool is_tested = is_pair && fit.isMisfit();
   const auto end = track_of_spot_.begin() + image_->spot_count;
   std::size_t unassigned = std::count(track_of_spot_.begin(), end, association::kFalseDetection);
-  std::size_t shown = 0;
-  std::size_t missing = is_tested ? std::min(unassigned, fits[1 - image_->camera].unassigned()) : 0;
-  std::size_t explained = 0;
+  LedFit leds = image_->bodies;
+  if (is_tested)
+    leds.missing += std::min(unassigned, fits[1 - image_->camera].unassigned());
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
     const std::size_t others = othersSeeing(track).size();
@@ -109,34 +105,27 @@ void ImageUpdate::measureFit() const {
     const bool is_astray = candidate.spot && is_tested && !track.raysMeet();
     const bool is_absent =
         !candidate.spot && others >= (is_pair ? 1 : 2) && !mayBeMerged(candidate);
-    shown += candidate.spot && !is_astray;
-    missing += is_astray || is_absent;
-    explained += is_absent && isExplained(candidate);
+    leds.shown += candidate.spot && !is_astray;
+    leds.missing += is_astray || is_absent;
+    leds.explained += is_absent && isExplained(candidate);
     unassigned += is_astray;
   }
-  fit.add(shown, missing, unassigned, explained);
+  fit.add(leds, unassigned);
 }
 
 /// Whether errors of the calibration may have moved an LED's spot out of its gate: to the nearest
 /// spot that is unassigned.
 bool ImageUpdate::isExplained(const Candidate& candidate) const {
-  constexpr double kFarthest = 64.0;        // however vague the calibration is [px]
-  constexpr double kSquaredDistance = 9.0;  // three standard deviations
   const Eigen::Vector2d& predicted = candidate.prediction.pixel();
-  const auto spot = nearestUnassigned(predicted, kFarthest);
+  const auto spot = nearestUnassigned(predicted, kFarthestByCalibration);
   if (!spot)
     return false;
   CameraList others = othersSeeing(*candidate.track);
   for (std::size_t& other : others)
     other = members_[other];
-  const auto of_calibration =
-      geometry::disagreementCovariance(rig_, candidate.track->filter.position(),
-                                       members_[image_->camera], others.data(), others.size());
-  if (!of_calibration)
-    return false;
-  const Eigen::Matrix2d covariance = candidate.prediction.covariance() + *of_calibration;
-  const Eigen::Vector2d residual = image_->pixels[*spot] - predicted;
-  return residual.dot(covariance.inverse() * residual) <= kSquaredDistance;
+  return isByCalibration(rig_, candidate.track->filter.position(), members_[image_->camera],
+                         others.data(), others.size(), image_->pixels[*spot] - predicted,
+                         candidate.prediction.covariance());
 }
 
 /// Compares the image with the motion of LEDs that two other cameras see.

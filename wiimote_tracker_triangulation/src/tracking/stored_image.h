@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_STORED_IMAGE_H
 
 #include "association/assign_spots.h"
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
 
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
@@ -22,6 +23,7 @@ struct StoredImage {
   std::uint64_t number = 0;    // counts all images in the order of add()
   std::size_t spot_count = 0;  // usable spots, which come first; then the masked ones
   boost::container::static_vector<Eigen::Vector2d, association::kMaximumSpots> pixels;
+  LedFit bodies;  // see CameraImage
 
   /// The order in which images update the tracks, whatever the order of their arrival.
   bool operator<(const StoredImage& other) const {

@@ -168,6 +168,7 @@ StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double
   result.clocks = group.clocks().version();
   result.number = images_++;
   result.full = image.spots.size() >= image.maximum_spots;
+  result.bodies = image.bodies;
   const GroupCamera& view = group.camera(state.member);
   const auto collect = [&](bool masked) {
     for (const Spot& spot : image.spots) {
@@ -277,6 +278,12 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
   if (std::abs(error) >= kNoticeable)
     return CameraFault{CameraFault::Kind::kCorrectedClock, error};
   return std::nullopt;
+}
+
+bool Tracker::isDoubtful(std::size_t camera) const {
+  const CameraState& state = cameras_[camera];
+  const CameraGroup& group = *groups_[state.group];
+  return group.isDoubtful() || group.isMisfit(state.member);
 }
 
 ClockError Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {

@@ -7,6 +7,7 @@
 #include "wiimote_tracker_triangulation/body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
+#include "wiimote_tracker_triangulation/tracking/camera_image.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <Eigen/Core>
@@ -79,11 +80,13 @@ class BodyTracker {
   /// Adds the spots of a camera's image.
   /// @param time exposure [s]. @param stamp_stddev of that time [s, >= 0].
   /// @param pixels distorted, finite [px].
+  /// @param is_doubtful the camera does not fit the others: no body is located by this image.
   /// @returns false, and does nothing, if the image is too old.
   bool add(std::size_t camera,
            double time,
            double stamp_stddev,
-           const std::vector<Eigen::Vector2d>& pixels);
+           const std::vector<Eigen::Vector2d>& pixels,
+           bool is_doubtful = false);
 
   /// Adds a sample of the IMU of a body, whose constellation has one. A late sample changes the
   /// estimates from the next image on.
@@ -91,6 +94,9 @@ class BodyTracker {
 
   /// For each spot of the image added last: whether it was assigned to a body.
   const std::vector<bool>& taken() const { return taken_; }
+
+  /// How that image fits the bodies; each counts as one LED.
+  const tracking::LedFit& fit() const { return fit_; }
 
   /// Starts bodies that are unknown, if at least three of their LEDs are among these points at
   /// time() and agree with the constellation.
@@ -124,6 +130,7 @@ class BodyTracker {
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
   std::vector<bool> taken_;           // see taken()
+  tracking::LedFit fit_;              // see fit()
   std::unique_ptr<BodyImage> image_;  // of add(), reused
 };
 

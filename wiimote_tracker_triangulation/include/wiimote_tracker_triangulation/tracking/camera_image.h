@@ -16,6 +16,13 @@ struct Spot {
   int slot = -1;                                    ///< Index in the report; -1: unknown.
 };
 
+/// How an image fits LEDs that other cameras see.
+struct LedFit {
+  std::size_t shown = 0;      ///< LEDs that have a spot in the image.
+  std::size_t missing = 0;    ///< Those without, which two others see, or the only other camera.
+  std::size_t explained = 0;  ///< How many of the missing errors of the calibration explain.
+};
+
 /// An image as it comes from a camera; fields as in IrBlobArray.msg.
 struct CameraImage {
   double stamp = 0.0;    ///< Middle of the exposure, without the rig's time offset [s].
@@ -24,6 +31,7 @@ struct CameraImage {
   std::uint32_t clock_epoch = 0;
   std::size_t maximum_spots = 4;  ///< With so many spots, more LEDs may be visible.
   std::vector<Spot> spots;
+  LedFit bodies;  ///< As if each body were an LED; their spots are not among `spots`.
 };
 
 }  // namespace wiimote_tracker::tracking

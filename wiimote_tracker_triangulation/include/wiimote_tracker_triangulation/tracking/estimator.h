@@ -67,6 +67,10 @@ class Estimator {
     return std::nullopt;
   }
 
+  /// Whether a camera does not fit the others (kMisfit, kInaccurate), or it and its only other one
+  /// do not: then no LED and no body is located by its images.
+  virtual bool isDoubtful(std::size_t /*camera*/) const { return false; }
+
   /// Of a camera's clock in one of its epochs.
   virtual ClockError clockError(std::size_t /*camera*/, std::uint32_t /*clock_epoch*/) const {
     return {};

@@ -44,6 +44,7 @@ class Tracker : public Estimator {
   const Snapshot* next() override;
   const Counters& counters() const override { return counters_; }
   std::optional<CameraFault> cameraFault(std::size_t camera) const override;
+  bool isDoubtful(std::size_t camera) const override;
   ClockError clockError(std::size_t camera, std::uint32_t clock_epoch) const override;
 
   /// Without lost LEDs.

@@ -97,7 +97,7 @@ void MessageTracker::takeImage(const std::string& camera,
 
   const tracking::ClockError clock = estimator_->clockError(index, image_.clock_epoch);
   statistics_.setClock(index, clock);
-  bodies_.take(index, clock, &image_);
+  bodies_.take(index, clock, &image_, estimator_->isDoubtful(index));
   if (const body::BodySnapshot* snapshot = bodies_.next())
     publishBodies(*snapshot);
   points_.takeArrival(index, image_.arrival);

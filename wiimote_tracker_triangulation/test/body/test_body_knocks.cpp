@@ -17,7 +17,7 @@ namespace {
 using test::Motion;
 
 constexpr std::size_t kKnocked = 1;
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double kForever = std::numeric_limits<double>::infinity();
 
 struct Knock {
   double degrees;
@@ -130,10 +130,10 @@ void expectLeftOut(std::size_t cameras,
                            std::to_string(knock.begin) + " s, seed " + std::to_string(seed);
   const Result result = follow(rig, bodies, motions, knock, seed);
   const Result without =
-      follow(withoutKnocked(rig), bodies, motions, {0.0, knock.begin, kNever}, seed);
+      follow(withoutKnocked(rig), bodies, motions, {0.0, knock.begin, kForever}, seed);
   ASSERT_TRUE(result.out) << what;
   EXPECT_LE(*result.out, 1.0) << what;
-  if (knock.end < kNever) {
+  if (knock.end < kForever) {
     ASSERT_TRUE(result.used) << what;
     EXPECT_LE(*result.used, 1.0) << what;
   }
@@ -154,7 +154,7 @@ TEST(BodyKnocks, ACameraKnockedBeforeTheStartIsLeftOut) {
   for (const std::size_t cameras : {3u, 4u}) {
     for (const double degrees : {1.0, 3.5, 10.0}) {
       for (const Motion& motion : {Motion(test::handheld), Motion(test::held)})
-        expectLeftOut(cameras, {test::fourLeds()}, {motion}, {degrees, 0.0, kNever}, 2);
+        expectLeftOut(cameras, {test::fourLeds()}, {motion}, {degrees, 0.0, kForever}, 2);
     }
   }
 }
@@ -162,13 +162,13 @@ TEST(BodyKnocks, ACameraKnockedBeforeTheStartIsLeftOut) {
 TEST(BodyKnocks, ItIsLeftOutForTwoBodies) {
   const std::vector<Constellation> bodies = {test::fourLeds(), test::threeLeds()};
   for (const double begin : {0.0, 3.0})
-    expectLeftOut(4, bodies, {test::handheld, besideIt}, {3.5, begin, kNever}, 3);
+    expectLeftOut(4, bodies, {test::handheld, besideIt}, {3.5, begin, kForever}, 3);
 }
 
 /// Nobody knows which of two cameras was moved.
 TEST(BodyKnocks, OfTwoCamerasNoBodyIsTrackedUntilTheyFitAgain) {
   const Result turned =
-      follow(firstOfPaperRig(2), {test::fourLeds()}, {test::handheld}, {3.5, 3.0, kNever}, 4);
+      follow(firstOfPaperRig(2), {test::fourLeds()}, {test::handheld}, {3.5, 3.0, kForever}, 4);
   ASSERT_TRUE(turned.out);
   EXPECT_LE(*turned.out, 1.0);
   EXPECT_LE(turned.tracked, 0.5 * turned.bodies) << "only before";

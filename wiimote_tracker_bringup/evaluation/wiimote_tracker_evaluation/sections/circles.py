@@ -43,8 +43,8 @@ def tell(run, laps):
         'estimates. *Instant by instant* is the paper\'s method (spots interpolated to one time, '
         'rays intersected), *tracks* is ours. *By arrivals*: when a report arrived is taken for '
         'when its image was exposed, less the median lateness. *Radial*: distance from the '
-        'circle\'s axis minus the radius. *Height*: above the circle\'s plane. The circle itself is exact: the paper\'s '
-        'placement error of 3 cm is not included.'
+        'circle\'s axis minus the radius. *Height*: above the circle\'s plane. The circle itself '
+        'is exact: the paper\'s placement error of 3 cm is not included.'
         % (len(np.unique(laps['session'])), ', '.join(f'{speed:g}' for speed in speeds)))
     rows, estimates = [], {}
     for (cameras, words), (method, explained, _), speed in itertools.product(SETS, METHODS, speeds):

@@ -276,12 +276,16 @@ void Track::report(double time,
   const Visibility now = visibilityAt(time, options);
   led->rays_possible = now.expected;
   led->residual = std::sqrt(now.squared_residuals / now.detected);  // NaN: none
-  led->cameras.clear();
-  for (const CameraRecord& record : records_) {
-    if (record.last_detected >= time - options.tracked_time)
-      led->cameras.push_back(rig_index[record.camera]);
-  }
-  std::sort(led->cameras.begin(), led->cameras.end());
+  const auto seen_since = [&](double since, CameraList* cameras) {
+    cameras->clear();
+    for (const CameraRecord& record : records_) {
+      if (record.last_detected >= since)
+        cameras->push_back(rig_index[record.camera]);
+    }
+    std::sort(cameras->begin(), cameras->end());
+  };
+  seen_since(time - options.tracked_time, &led->cameras);
+  seen_since(std::min(time, last_located_) - options.tracked_time, &led->located_by);
   // Predicted: one camera alone does not measure the distance; the two cameras that see it may see
   // different lights; or no spot is near its prediction, as of a track that follows another light.
   const bool is_located = now.detected >= 2 && !isDoubtful(now.detected, now.in_view) &&

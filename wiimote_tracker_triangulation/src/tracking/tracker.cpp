@@ -196,8 +196,8 @@ const Snapshot* Tracker::next() {
   report(newest_time_, &snapshot_);
   addLost();
   for (TrackedLed& led : snapshot_.leds) {
-    if (const auto covariance =
-            uncertainty_->covarianceNear(led.position, led.cameras.data(), led.cameras.size()))
+    if (const auto covariance = uncertainty_->covarianceNear(led.position, led.located_by.data(),
+                                                             led.located_by.size()))
       led.position_covariance += *covariance;
   }
   return &snapshot_;
@@ -210,7 +210,7 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) {
   report(time, snapshot);
   for (TrackedLed& led : snapshot->leds) {
     if (const auto covariance =
-            uncertainty_->covarianceOf(led.position, led.cameras.data(), led.cameras.size()))
+            uncertainty_->covarianceOf(led.position, led.located_by.data(), led.located_by.size()))
       led.position_covariance += *covariance;
   }
   return true;

@@ -229,6 +229,31 @@ TEST(Tracker, TheCovarianceContainsTheCalibrations) {
   EXPECT_EQ(known.velocity_covariance, led.velocity_covariance);
 }
 
+TEST(Tracker, APredictionIsNotMoreCertainThanWhatItBeginsWith) {
+  geometry::Rig rig = paperRig();
+  rig.covariance = 1e-6 * Eigen::MatrixXd::Identity(64, 64);
+  SceneOptions scene;
+  scene.hidden = [](std::size_t camera, std::size_t, double t) {
+    return t > (camera == 2 ? 1001.2 : 1001.0);  // one camera alone sees it at last
+  };
+  Tracker tracker(rig, exactOptions());
+  double tracked = 0.0;
+  std::size_t predictions = 0;
+  for (const Snapshot& s : track(&tracker, imagesOf(rig, {still({1.25, 1.25, 1.0})}, scene, 500))) {
+    if (s.time < 1000.5 || s.leds.empty())
+      continue;
+    const TrackedLed& led = s.leds[0];
+    const double variance = led.position_covariance.trace();
+    if (led.state == TrackState::kTracked)
+      tracked = variance;
+    if (led.state != TrackState::kPredicted)
+      continue;
+    ++predictions;
+    EXPECT_GE(variance, 0.99 * tracked) << s.time;
+  }
+  EXPECT_GT(predictions, 50u);
+}
+
 /// Mean NEES per dimension of an LED that wanders, in cameras of this noise, which they learnt
 /// [px].
 double neesWith(double noise, bool learnt_noise) {

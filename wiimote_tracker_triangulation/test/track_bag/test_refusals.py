@@ -117,6 +117,17 @@ def test_a_rig_of_other_cameras(tmp_path):
         tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag', '--csv', tmp_path / 'out.csv')
 
 
+def test_images_of_other_devices_of_these_names(tmp_path):
+    entries = recorded()
+    for camera in entries[0][1].cameras:
+        camera.identity = '00:1f:32:00:00:01'
+    for _, image, _ in entries[1:]:
+        image.identity = '00:1f:32:00:00:02'
+    write(tmp_path / 'in.bag', entries)
+    assert 'no image could be used, as said above: name the rig of its cameras' in refused(
+        tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+
+
 def test_a_rig_after_all_images(tmp_path):
     entries = recorded()
     write(tmp_path / 'in.bag', entries[1:] + [entries[0][:2] + (9.0,)])

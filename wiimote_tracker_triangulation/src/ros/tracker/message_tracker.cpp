@@ -81,18 +81,18 @@ MessageTracker::RigChange MessageTracker::takeRig(
   return change;
 }
 
-void MessageTracker::takeImage(const std::string& camera,
+bool MessageTracker::takeImage(const std::string& camera,
                                const wiimote_tracker_msgs::IrBlobArray& message) {
   const geometry::RigCamera* found = rig_.find(camera);
   if (!found)
-    return;
+    return false;
   const std::size_t index = found - rig_.cameras.data();
   const ImageFault fault = readImage(message, found->camera, &image_);
   if (fault != ImageFault::kNone)
     reportProblem(index, describe(fault, message, found->camera),
                   reported_faults_.isNew(index, fault));
   if (!isUsable(fault))
-    return;
+    return false;
   statistics_.addImage(index, image_, message.frame);
 
   const tracking::ClockError clock = estimator_->clockError(index, image_.clock_epoch);
@@ -111,6 +111,7 @@ void MessageTracker::takeImage(const std::string& camera,
   points_.noteUse(index, image_.arrival, estimator_->counters().dropped == dropped);
   while (const tracking::Snapshot* snapshot = estimator_->next())
     takeSnapshot(*snapshot);
+  return true;
 }
 
 void MessageTracker::setBodies(const std::vector<body::Constellation>& bodies) {

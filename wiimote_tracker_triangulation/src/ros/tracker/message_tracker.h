@@ -50,8 +50,8 @@ class MessageTracker {
   const VolumeCorrection& correction() const { return points_.correction(); }
 
   /// Calls the sink with all results of the image. An image that cannot be used, or of a camera
-  /// that the rig does not have, is ignored.
-  void takeImage(const std::string& camera, const wiimote_tracker_msgs::IrBlobArray& message);
+  /// that the rig does not have, is ignored. @returns whether it was not.
+  bool takeImage(const std::string& camera, const wiimote_tracker_msgs::IrBlobArray& message);
 
   /// The rigid bodies to track from now on, instead of those of the parameters. Their spots do not
   /// become LEDs. @throws Error; then the previous bodies stay.

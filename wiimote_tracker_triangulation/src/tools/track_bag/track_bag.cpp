@@ -58,7 +58,7 @@ class Player {
 
   /// Where a rig is given, with that one instead of the recorded ones.
   /// @param before called with each message before it is played.
-  /// @throws BagError: the tracker got no rig or no image. Interrupted.
+  /// @throws BagError: the tracker got no rig or could use no image. Interrupted.
   void play(const Recording& recording,
             const std::optional<RigCalibration>& own_rig,
             const std::function<void(const rosbag::MessageInstance&)>& before) {
@@ -78,7 +78,7 @@ class Player {
   const tracking::Counters& counters() const { return tracker_.counters(); }
 
   /// Of the rigs' cameras.
-  std::size_t images() const { return images_used_ + before_rig_; }
+  std::size_t images() const { return images_ + before_rig_; }
 
   /// Those of them that came before the first rig: they give no points.
   std::size_t imagesBeforeRig() const { return before_rig_; }
@@ -112,8 +112,8 @@ class Player {
         tracker_.takeTrigger(*trigger);
     } else if (const auto camera = cameras_.find(topic); camera != cameras_.end()) {
       if (const auto image = read<IrBlobArray>(message)) {
-        tracker_.takeImage(camera->second, *image);
-        ++images_used_;
+        any_usable_ |= tracker_.takeImage(camera->second, *image);
+        ++images_;
       }
     } else if (const auto bodies = imus_.equal_range(topic); bodies.first != bodies.second) {
       if (const auto imu = read<sensor_msgs::Imu>(message)) {
@@ -131,12 +131,16 @@ class Player {
                          ? "no rig is on " + topics_("calibration/rig") +
                                ": say where with --namespace"
                          : "no rig can be used, name another one with --rig: " + refusal_);
-    if (images_used_ == 0 && before_rig_ > 0)
+    if (images_ == 0 && before_rig_ > 0)
       throw BagError("the rig comes after all images of its cameras: name a rig with --rig");
-    if (images_used_ == 0)
+    if (images_ == 0)
       throw BagError("no image is of a camera of the rig, such as on " +
                      topics_("CAMERA/ir_blobs") +
                      ": name its rig with --rig, or the topics' namespace with --namespace");
+    if (!any_usable_)
+      throw BagError(
+          "no image could be used, as said above: name the rig of its cameras with "
+          "--rig");
     tracker_.finish();
   }
 
@@ -145,7 +149,8 @@ class Player {
   MessageSink* sink_;
   std::map<std::string, std::string> cameras_;    // by image topic
   std::multimap<std::string, std::string> imus_;  // bodies by their IMU's topic
-  std::size_t images_used_ = 0;
+  std::size_t images_ = 0;
+  bool any_usable_ = false;
   std::map<std::string, std::size_t> early_images_;  // before the first rig, by topic
   std::size_t before_rig_ = 0;
   std::string refusal_;  // of the last rig that was refused

@@ -32,7 +32,8 @@ def remote(address=A, usable=True, problems=()):
 
 NO_PERMISSION = ['permission denied on /dev/hidraw3: install the rule']
 CAMERAS = 'cameras:\n  door: "%s"\n'
-RIG = 'cameras:\n  door:\n    identity: "%s"\n    extrinsics: {}\ncomplete: true\n'
+RIG = ('version: 1\ncameras:\n  door:\n    identity: "%s"\n    extrinsics: {}\n'
+       '    camera_matrix: {data: [1300, 0, 512, 0, 1300, 384, 0, 0, 1]}\ncomplete: true\n')
 
 
 class Master:
@@ -119,6 +120,8 @@ def test_all_is_well(check, cameras):
     ({'rig': 'cameras:\n'}, 'no complete rig file'),
     ({'rig': 'cameras:\ncomplete: true\n'}, 'no complete rig file'),
     ({'rig': CAMERAS % A + 'complete: true\n'}, 'no complete rig file'),
+    ({'rig': (RIG % A).replace('version: 1', 'version: 2')}, 'rig file of this version: start the'),
+    ({'rig': (RIG % A).replace('1300', '-1300', 1)}, 'rig file of this version: start the tracker'),
     ({'rig': (RIG % A).replace('door', 'window')}, 'lacks door'),
     ({'rig': RIG % B}, f'door was {B}, but now is {A}'),
     ({'master': [], 'parameters': {'/use_sim_time': True}}, 'a replay has left its simulated time'),
@@ -203,6 +206,20 @@ def test_a_driver_that_cannot_be_reached_is_named(check, monkeypatch):
 def test_a_master_elsewhere_must_answer(check, monkeypatch):
     monkeypatch.setenv('ROS_MASTER_URI', 'http://192.0.2.1:11311')
     assert 'http://192.0.2.1:11311 does not answer' in check()[1][-1]
+
+
+@pytest.mark.parametrize('variable, value', [
+    ('ROS_HOSTNAME', 'nohost.invalid'), ('ROS_IP', '203.0.113.1')])
+def test_a_computer_must_reach_itself(check, monkeypatch, variable, value):
+    monkeypatch.setattr(check_setup, 'MASTER_TIMEOUT', 0.5)
+    monkeypatch.setenv(variable, value)
+    assert f'network: this computer cannot reach itself as {value}' in check()[1][-1]
+
+
+def test_only_a_backup_that_is_there_is_to_be_restored(check, tmp_path):
+    assert '.bak' not in check(rig='cameras:\n')[1][-1]
+    (tmp_path / 'rig.yaml.bak').write_text(RIG % A)
+    assert 'restore it from' in check(rig='cameras:\n')[1][-1]
 
 
 def test_a_computer_without_ros(check, monkeypatch, tmp_path):

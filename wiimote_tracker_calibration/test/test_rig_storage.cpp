@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <exception>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -44,6 +45,21 @@ TEST_F(RigStorage, ALensDoesNotReplaceARigThatWasSavedBefore) {
     EXPECT_SAYS(warnings[0], "rig.yaml is for rigs, so the lens of rig has none: rename");
   }
   EXPECT_EQ(geometry::readRigFile(folder + "/rig.yaml").id(), rig.id());
+}
+
+TEST_F(RigStorage, ARigDoesNotReplaceALens) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "camera_1";
+  const std::string folder = folder_ + "/lenses";
+  EXPECT_TRUE(saveRig(rig, folder + "/rig.yaml").empty());
+  try {
+    saveRig(rig, folder + "/camera_1.yaml");
+    ADD_FAILURE();
+  } catch (const std::exception& error) {
+    EXPECT_SAYS(error.what(), "camera_1.yaml is for the lens of camera_1: save the rig by another");
+  }
+  EXPECT_TRUE(saveRig(rig, folder + "/rig.yaml").empty());
 }
 
 TEST_F(RigStorage, ZonesThatWereWrittenButNotLoadedAreNotLostWithoutAWord) {

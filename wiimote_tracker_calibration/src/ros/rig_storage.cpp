@@ -1,6 +1,7 @@
 #include "rig_storage.h"
 
 #include "file_paths.h"
+#include "requests.h"
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
@@ -27,6 +28,10 @@ namespace {
 
 std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
+}
+
+std::string lensFile(const std::string& rig_file, const std::string& camera) {
+  return beside(rig_file, geometry::withoutSlashes(camera) + ".yaml");
 }
 
 /// Paths of the rigs that keepVersion() wrote, as far as they can be listed, the oldest first.
@@ -101,20 +106,20 @@ std::string callDriver(const std::string& name,
 }  // namespace
 
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path) {
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    if (lensFile(path, camera.camera.name) == path && path != beside(path, kRigFile))
+      throw Refusal(path + " is for the lens of " + camera.camera.name +
+                    ": save the rig by another name");
+  }
   std::vector<std::string> warnings = describeLost(rig, path);
   geometry::writeRigFile(rig, path);
   for (const geometry::RigCamera& rig_camera : rig.cameras) {
     const geometry::Camera& camera = rig_camera.camera;
-    const std::string file = beside(path, geometry::withoutSlashes(camera.name) + ".yaml");
+    const std::string file = lensFile(path, camera.name);
     const bool is_for_rigs = file == beside(path, kRigFile);
     if (is_for_rigs || file == beside(path, kSamplesFile)) {
       warnings.push_back(file + (is_for_rigs ? " is for rigs" : " is for samples") +
                          ", so the lens of " + camera.name + " has none: rename the camera");
-      continue;
-    }
-    if (file == path) {
-      warnings.push_back(file + " is the rig's file, so the lens of " + camera.name +
-                         " has none: save the rig by another name");
       continue;
     }
     try {

@@ -15,7 +15,8 @@ namespace wiimote_tracker {
 /// camera, named after the camera. Only rig.yaml is read back by this package.
 /// @returns warnings: of zones or cameras that only the file before has, and one for each camera
 /// file that could not be written, or that would replace a rig or samples.
-/// @throws Error: rig.yaml could not be written; nothing has changed then.
+/// @throws Error: rig.yaml could not be written, or `path` is that of a camera file; nothing has
+/// changed then.
 std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
 
 /// Writes a rig into the folder `versions` beside the rig file, named by a time [s] and its id. Of

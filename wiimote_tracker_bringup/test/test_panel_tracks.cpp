@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker::panel {
 namespace {
@@ -43,6 +45,16 @@ TEST(Tracks, ShowAnLedUntilHalfASecondAfterTheLastMessage) {
   EXPECT_DOUBLE_EQ(rows[0].stddev, 0.002);
   EXPECT_DOUBLE_EQ(rows[0].speed, 5.0);
   EXPECT_TRUE(view.leds(10.5).empty());
+}
+
+TEST(Tracks, ALabelThatMayBeWrongIsMarked) {
+  TracksView view;
+  TrackedPointArray message = points(1, TrackedPoint::TRACKED);
+  for (const auto& [confidence, name] : {std::pair(0.7F, "led?"), {0.9F, "led"}, {NAN, "led"}}) {
+    message.points[0].label_confidence = confidence;
+    view.onPoints(message, 10.0);
+    EXPECT_EQ(view.leds(10.0)[0].name, name);
+  }
 }
 
 TEST(Tracks, AnLedThatWasGivenUpIsNotShown) {

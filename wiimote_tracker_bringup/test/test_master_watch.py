@@ -81,6 +81,14 @@ def test_a_master_that_ends_and_comes_back(programs):
     assert programs.address() == second
 
 
+def test_a_replay_beside_the_tracker(programs):
+    programs.master()
+    programs.watch()
+    programs.wait(programs.address)
+    rosgraph.Master('/test').setParam('/use_sim_time', True)
+    programs.wait(lambda: programs.says('use_sim_time is true, as a replay'))
+
+
 def test_a_misspelt_argument_is_told(programs):
     programs.master()
     programs.watch('wiimote_tracker_bringup', 'tracker.launch', 'cemeras:=cameras.yaml')

@@ -197,9 +197,12 @@ void Triangulation::onProblem(const std::string& sentence) {
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
     ROS_WARN_THROTTLE(10.0,
-                      "Waiting for a calibrated rig on %s: run  rosrun "
+                      "Waiting for a calibrated rig on %s: run  %srosrun "
                       "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
-                      rig_subscriber_.getTopic().c_str());
+                      rig_subscriber_.getTopic().c_str(),
+                      nh_.getNamespace() == "/"
+                          ? ""
+                          : ("ROS_NAMESPACE=" + nh_.getNamespace().substr(1) + " ").c_str());
     markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
   for (const auto& [camera, images] : image_subscribers_) {

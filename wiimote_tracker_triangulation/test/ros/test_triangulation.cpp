@@ -521,6 +521,17 @@ TEST(Triangulation, SaysThatTwoNodesPublishTheImagesOfACamera) {
   pclose(replay);
 }
 
+TEST(TriangulationNode, AdvisesWithItsNamespace) {
+  FILE* second = popen(
+      "ROS_NAMESPACE=second exec timeout 60 rosrun wiimote_tracker_triangulation "
+      "triangulation_node",
+      "r");
+  ASSERT_NE(second, nullptr);
+  EXPECT_TRUE(g_bench->waitForLog("run  ROS_NAMESPACE=second rosrun wiimote_tracker_calibration"));
+  EXPECT_FALSE(run("rosnode kill /second/triangulation").second);
+  pclose(second);
+}
+
 TEST(TriangulationNode, LeavesWithAnErrorThatNamesTheParameter) {
   const auto [output, failed] =
       run("rosrun wiimote_tracker_triangulation triangulation_node __name:=wrong "

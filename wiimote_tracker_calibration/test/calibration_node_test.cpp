@@ -366,6 +366,18 @@ TEST_F(Node, ADamagedRigAtStartDoesNotStopTheNode) {
   EXPECT_TRUE(status.get()->rig_id.empty());
 }
 
+TEST_F(Node, ALoadedRigOfCamerasWithoutImagesIsNamed) {
+  ASSERT_TRUE(exists(folder_ + "/rig.yaml"));  // from a test before
+  const Process process("/silent", {"_rig_file:=" + folder_ + "/none.yaml"});
+  LoadRig::Request request;
+  request.path = folder_ + "/rig.yaml";
+  ASSERT_TRUE(ros::service::waitForService("/silent/calibration/load", ros::Duration(60.0)));
+  const auto loaded = call<LoadRig>("/silent/calibration/load", request);
+  ASSERT_TRUE(loaded.success) << loaded.message;
+  EXPECT_SAYS(loaded.message, "no image has come yet from ");
+  EXPECT_EQ(call<LoadRig>("calibration/load").message.find("no image has come"), std::string::npos);
+}
+
 TEST_F(Node, WithARigInUseTheConnectionCheckBeginsTheWalk) {
   ASSERT_FALSE(status_->get()->rig_id.empty());  // from a test before
   EXPECT_TRUE(waitUntil([] {

@@ -99,7 +99,7 @@ class FileServices {
         rigPath(call.request.path, context_.parameters(lock));
     Reply reply = loadRig(path, &lock);
     if (reply.success)
-      reply.message += nextStart(path, context_.parameters(lock));
+      reply.message += withoutImages(lock) + nextStart(path, context_.parameters(lock));
     return reply;
   }
 
@@ -142,6 +142,20 @@ class FileServices {
     });
     reply.message += dropped;
     return reply;
+  }
+
+  /// Which cameras of the rig have sent no image since the start, and what to do; empty: none.
+  std::string withoutImages(const Lock& lock) {
+    std::vector<std::string> silent;
+    for (const geometry::RigCamera& camera : context_.existingRig("to load", lock).cameras) {
+      const auto input = context_.inputs().cameras().find(camera.camera.name);
+      if (input == context_.inputs().cameras().end() || input->second.width < 0)
+        silent.push_back(camera.camera.name);
+    }
+    return silent.empty() ? ""
+                          : "; no image has come yet from " + joined(silent) +
+                                ": check that this is the rig of your cameras, and start their "
+                                "drivers";
   }
 
   Reply loadRig(const std::string& path, Lock* lock) {

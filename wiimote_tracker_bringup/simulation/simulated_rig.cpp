@@ -100,7 +100,7 @@ bool SimulatedRig::setLed(SetLed::Request& request, SetLed::Response& response) 
 }
 
 /// Does what is requested. @param time now [s]; output: when the motion arrives.
-/// @returns a sentence. @throws Refusal.
+/// @returns a sentence. @throws Error: it cannot be done.
 std::string SimulatedRig::set(const SetLed::Request& request, double* time) {
   if (request.led == "board" && rig_.board())
     return setBoard(request);

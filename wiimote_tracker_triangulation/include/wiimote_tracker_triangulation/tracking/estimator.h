@@ -26,7 +26,7 @@ struct CameraFault {
     kWrongClock,      ///< Its images are left out.
     kLate,            ///< Its images are older than the history, and are left out.
     kCorrectedClock,  ///< The times of its images are corrected.
-    kMisfit,          ///< Its spots are not where the others see LEDs; its images are left out.
+    kMisfit,          ///< Its spots are not where others see LEDs or bodies; it is left out.
     kInaccurate,      ///< The same, by no more than errors of the calibration explain.
   };
   Kind kind;

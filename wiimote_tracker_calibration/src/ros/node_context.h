@@ -167,7 +167,7 @@ class NodeContext {
   /// @throws Refusal: the rig in use has another id.
   void requireSameRig(const std::string& id, const Lock&) const;
   /// Replaces the rig by a changed one, such as with a recalibrated camera or a correction of the
-  /// volume, and publishes it. It is not saved yet.
+  /// volume, and publishes it.
   void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
   /// Publishes the current rig, the transforms of its cameras, and its verdict.
   void publishRig(const samples::Verdict& verdict, const Lock&);

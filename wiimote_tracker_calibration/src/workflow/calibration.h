@@ -155,7 +155,7 @@ class Calibration {
   /// Uses a rig that was read from a file. Refused while a step is running.
   Reply load(const geometry::Rig& rig);
 
-  /// Uses a changed rig that is not saved yet.
+  /// Uses a changed rig. It is saved if the newest file that was saved or loaded has it.
   void setRig(const geometry::Rig& rig, const std::string& message);
 
   /// Gives the rig these masks. They move no point: a correction of the volume stays valid.

@@ -66,7 +66,7 @@ TEST(CalibratePage, AppliesAndRevertsWhatContinuousCalibrationProposes) {
 
 TEST(CalibratePage, ItsButtonWaitsWhenAProposalChangesIt) {
   std::string sent;
-  CalibratePage page(nullptr, [&](const Request& request) { sent = request.service; });
+  CalibratePage page(nullptr, [&](const Request& request) { sent = request.name; });
   Guide guide;
   wiimote_tracker_msgs::CalibrationStatus status;
   status.step = status.SOLVED;

@@ -120,9 +120,9 @@ class SimulatedRig(NodeTest):
         os.kill(process, signal.SIGSTOP)
         try:
             rospy.sleep(1.0)
+            end = rospy.get_time()
         finally:
             os.kill(process, signal.SIGCONT)
-        end = rospy.get_time()
         self.wait(lambda: exposures[-1].header.stamp.to_sec() > end, 'images after the pause')
         after = [(image.arrival - image.header.stamp).to_sec() for image in list(exposures)
                  if image.arrival.to_sec() > end]

@@ -105,7 +105,7 @@ TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {
   EXPECT_EQ(next().label, "correct it");
   findings_.correctable = {"wiimote_2", "wiimote_3"};
   EXPECT_EQ(next().title, "Correct cameras");
-  EXPECT_EQ(next().sentence, "wiimote_2, wiimote_3 were moved. How far is known.");
+  EXPECT_EQ(next().sentence, "wiimote_2, wiimote_3 were moved. Their new poses are known.");
 }
 
 TEST_F(NextStepTest, DriftAndClocksAreNotCalledMoved) {

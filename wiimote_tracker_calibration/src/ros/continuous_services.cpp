@@ -143,16 +143,19 @@ class ContinuousServices {
     context_.setRig(*rig,
                     changes_.isApproaching() ? "the adjusted rig is approached " + kSteps
                                              : "the adjusted rig is in use",
-                    lock);
-    tellGoal(lock);
+                    lock, goalFrom(*rig));
   }
 
-  /// So that a person waits, and `save` keeps it.
+  /// The rig that this one approaches, so that a person waits, and `save` keeps it; nothing: none.
+  std::optional<geometry::Rig> goalFrom(const geometry::Rig& rig) const {
+    if (!changes_.isApproaching())
+      return std::nullopt;
+    return continuous::appliedRig(changes_.goal(rig), rig);
+  }
+
   void tellGoal(const Lock& lock) {
-    std::optional<geometry::Rig> goal;
-    if (const auto& rig = context_.rig(lock); rig && changes_.isApproaching())
-      goal = continuous::appliedRig(changes_.goal(*rig), *rig);
-    context_.calibration(lock).setGoal(goal);
+    const auto& rig = context_.rig(lock);
+    context_.calibration(lock).setGoal(rig ? goalFrom(*rig) : std::nullopt);
   }
 
   void forgetProposal(const Lock& lock) {
@@ -206,9 +209,10 @@ class ContinuousServices {
     if (rig) {
       if (proposal.cause == Cause::kDrift)  // too little for what was measured to change
         context_.knownPlaces(lock).renameRig(before.id(), rig->id());
-      context_.setRig(*rig, proposal.message, lock);
+      context_.setRig(*rig, proposal.message, lock, goalFrom(*rig));
+    } else {
+      tellGoal(lock);
     }
-    tellGoal(lock);
     const geometry::Rig goal = changes_.goal(*context_.rig(lock));
     return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
                       keepVersion(goal, &lock) + "; " + command("revert") +

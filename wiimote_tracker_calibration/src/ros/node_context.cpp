@@ -170,8 +170,12 @@ void NodeContext::requireSameRig(const std::string& id, const Lock&) const {
     throw Refusal(kReplaced);
 }
 
-void NodeContext::setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock) {
+void NodeContext::setRig(const geometry::Rig& rig,
+                         const std::string& message,
+                         const Lock& lock,
+                         const std::optional<geometry::Rig>& goal) {
   calibration_.setRig(rig, message);
+  calibration_.setGoal(goal);
   publishRig(samples::verdictOf(rig), lock);
   publishStatus(lock);
 }

@@ -168,7 +168,11 @@ class NodeContext {
   void requireSameRig(const std::string& id, const Lock&) const;
   /// Replaces the rig by a changed one, such as with a recalibrated camera or a correction of the
   /// volume, and publishes it.
-  void setRig(const geometry::Rig& rig, const std::string& message, const Lock& lock);
+  /// @param goal which rig that one approaches, see workflow::Calibration::setGoal().
+  void setRig(const geometry::Rig& rig,
+              const std::string& message,
+              const Lock& lock,
+              const std::optional<geometry::Rig>& goal = std::nullopt);
   /// Publishes the current rig, the transforms of its cameras, and its verdict.
   void publishRig(const samples::Verdict& verdict, const Lock&);
 

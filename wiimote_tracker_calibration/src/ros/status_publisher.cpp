@@ -157,11 +157,10 @@ workflow::Findings StatusPublisher::findings() const {
   for (const auto& [name, health] : health_) {
     if (health.text.empty())
       continue;
+    const bool is_same = findings.changed.empty() || findings.remedy == health.advice;
     findings.changed.push_back(name);
-    findings.remedy = health.advice;
+    findings.remedy = is_same ? health.advice : health::putBack(*calibration_.rig(), false);
   }
-  if (findings.changed.size() > 1)
-    findings.remedy = health::putBack(*calibration_.rig(), false);
   findings.correctable = correctable_;
   findings.cause = cause_;
   return findings;

@@ -93,17 +93,18 @@ NextStep correct(const std::vector<std::string>& cameras, continuous::Cause caus
   if (cause == continuous::Cause::kDrift)
     return {"Correct drift",
             "Cameras have drifted since they were calibrated, most of all " + names +
-                ". How far is known.",
+                ". The correction is known.",
             request, "correct them"};
   if (cause == continuous::Cause::kReconnect)
     return {"Correct clocks",
             "Cameras have other clocks since they reconnected, most of all " + names +
-                ". Which is known.",
+                ". The new clocks are known.",
             request, "correct them"};
   const bool is_one = cameras.size() == 1;
   return {"Correct " + (is_one ? names : "cameras"),
-          names + (is_one ? " was" : " were") + " moved. How far is known.", request,
-          is_one ? "correct it" : "correct them"};
+          names + (is_one ? " was moved. Its new pose is" : " were moved. Their new poses are") +
+              " known.",
+          request, is_one ? "correct it" : "correct them"};
 }
 
 NextStep check(const Findings& findings) {
@@ -122,7 +123,7 @@ std::optional<NextStep> inUse(const Calibration& calibration, const Findings& fi
   if (calibration.goal())
     return NextStep{"Wait",
                     "The corrected rig is approached in small steps, so that points do not jump: "
-                    "go on, and save when it is reached."};
+                    "go on. A save keeps the corrected rig already now."};
   if (!findings.changed.empty())
     return check(findings);
   return std::nullopt;

@@ -18,9 +18,9 @@ bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
 
 namespace {
 
-constexpr double kUnseenCost = 25.0;    // of an LED without a point [chi^2]
-constexpr double kGate = 4.0;           // of a distance between two LEDs [standard deviations]
-constexpr std::size_t kFewestLeds = 3;  // LEDs
+constexpr double kUnseenCost = 25.0;  // of an LED without a point [chi^2]
+constexpr double kGate = 4.0;         // of a distance between two LEDs [standard deviations]
+constexpr std::size_t kFewestLeds = 3;
 
 /// Depth-first search: each LED takes a point consistent with those before it, or none.
 class MatchSearch {

@@ -9,9 +9,9 @@ using namespace wiimote_tracker;
 
 int main(int argc, char** argv) {
   const std::vector<BenchmarkSection> sections = {
-      waveSection(),   floorSection(),      paperSection(), remapSection(),
-      roomsSection(),  continuousSection(), knockSection(), twoKnocksSection(),
-      misledSection(), restSection(),       monthSection()};
+      waveSection(),      floorSection(),  measureSection(),    paperSection(),
+      remapSection(),     roomsSection(),  continuousSection(), knockSection(),
+      twoKnocksSection(), misledSection(), restSection(),       monthSection()};
   std::vector<std::string> names;
   names.reserve(sections.size());
   for (const BenchmarkSection& section : sections)

@@ -19,6 +19,7 @@ struct BenchmarkSection {
 // What each measures is in its explanation.
 BenchmarkSection waveSection();
 BenchmarkSection floorSection();
+BenchmarkSection measureSection();
 BenchmarkSection paperSection();
 BenchmarkSection remapSection();
 BenchmarkSection roomsSection();

@@ -1,4 +1,5 @@
 #include "benchmark_calibration_sections.h"
+#include "rms.h"
 #include "wave_trial.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -13,21 +14,6 @@ namespace wiimote_tracker {
 namespace {
 
 using namespace wave;
-
-/// Root of the mean square of what `value` gives of each item, without NaN; NaN: nothing is left.
-template <typename Items, typename Value>
-double rms(const Items& items, const Value& value) {
-  double sum = 0.0;
-  int count = 0;
-  for (const auto& item : items) {
-    const double x = value(item);
-    if (std::isnan(x))
-      continue;
-    sum += x * x;
-    ++count;
-  }
-  return std::sqrt(sum / count);
-}
 
 double percent(const Share& share) {
   return share.all > 0 ? 100.0 * share.inside / share.all

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_MEASURE_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_MEASURE_TRIAL_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H
+#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H
 
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
@@ -15,11 +15,12 @@ namespace wiimote_tracker::samples {
 struct MeasureStep {
   double expected = 0.0;                ///< RMS error as the verdict says [m].
   double error = 0.0;                   ///< RMS error [m].
+  double shape = 0.0;                   ///< Expected after the best rigid motion, RMS [m].
   std::optional<NextMeasurement> next;  ///< That was done for the following step.
 };
 
 /// A simulated session in which a person follows the verdict's advice up to `measurements` times,
-/// as exact as TapedLength and KnownPlace say.
+/// as exact as TapedLength and KnownPlace say. A scene of 0 s has no wave.
 /// @throws geometry::Error: a solution was refused.
 std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
                                          std::uint64_t seed,
@@ -27,4 +28,4 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
 
 }  // namespace wiimote_tracker::samples
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_MEASURE_TRIAL_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H

@@ -3,6 +3,7 @@
 #include "wave_trial.h"
 
 #include "samples/solve_samples.h"
+#include "square/expected_error.h"
 
 #include <cmath>
 #include <random>
@@ -27,6 +28,7 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
                                          std::uint64_t seed,
                                          int measurements) {
   std::mt19937_64 random(seed);
+  wave::WaveScene waved = scene;
   wave::SimulatedWave truth = wave::simulateWave(scene, seed);
   SolveOptions options;
   options.wave = wave::optionsFor(scene);
@@ -37,7 +39,8 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
     samples.recording = truth.recording;
     const Solution solution = solveSamples(samples, options);
     const Verdict& verdict = solution.verdict;
-    steps.push_back({verdict.expected_error, rms(truth, solution), verdict.next});
+    steps.push_back({verdict.expected_error, rms(truth, solution),
+                     square::expectedShapeError(solution.rig, verdict.predicted_at), verdict.next});
     if (!verdict.next || done == measurements)
       return steps;
     if (const auto& corners = verdict.next->corners) {
@@ -45,7 +48,7 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
       taped.length = (truth.corners[taped.to] - truth.corners[taped.from]).norm() +
                      std::normal_distribution<double>(0.0, taped.stddev)(random);
       truth.recording.square->lengths.push_back(taped);
-    } else {
+    } else if (verdict.next->place) {
       square::KnownPlace known;
       std::normal_distribution<double> noise(0.0, 1.0);
       const auto normal = [&] { return noise(random); };
@@ -59,6 +62,9 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
           seen.back() = *truth.cameras[i].project(led) +
                         scene.uncertainty.pixel * Eigen::Vector2d(normal(), normal());
       }
+    } else {
+      waved.duration *= 2.0;
+      truth = wave::waveAgain(waved, truth, random());
     }
   }
 }

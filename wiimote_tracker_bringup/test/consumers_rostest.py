@@ -130,7 +130,8 @@ class Consumers(LiveRigTest):
     def test_diagnostics_are_in_one_group_each(self):
         nodes, parameters = load('diagnostics.launch')
         self.assertEqual([(n.package, n.type) for n in nodes.values()],
-                         [('diagnostic_aggregator', 'aggregator_node')])
+                         [('diagnostic_aggregator', 'aggregator_node'),
+                          ('wiimote_tracker_msgs', 'check_arguments')])
         groups = {key.split('/')[-2]: value for key, value in parameters.items()
                   if key.endswith('/regex')}
         self.assertEqual(set(groups), {'cameras', 'calibration', 'tracker', 'network'})

@@ -27,6 +27,12 @@ constexpr std::uint32_t kImageQueue = 1000;
 // After a longer time nobody expects the same labels.
 constexpr std::chrono::minutes kLongestRestart{10};
 
+/// What a command in a terminal begins with, so that it runs in a namespace.
+std::string shellPrefix(std::string name_space) {
+  name_space.erase(0, name_space.find_first_not_of('/'));  // all of it: the root
+  return name_space.empty() ? "" : "ROS_NAMESPACE=" + name_space + " ";
+}
+
 }  // namespace
 
 Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
@@ -199,10 +205,7 @@ void Triangulation::onTimer() {
     ROS_WARN_THROTTLE(10.0,
                       "Waiting for a calibrated rig on %s: run  %srosrun "
                       "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
-                      rig_subscriber_.getTopic().c_str(),
-                      nh_.getNamespace() == "/"
-                          ? ""
-                          : ("ROS_NAMESPACE=" + nh_.getNamespace().substr(1) + " ").c_str());
+                      rig_subscriber_.getTopic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
     markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
   for (const auto& [camera, images] : image_subscribers_) {

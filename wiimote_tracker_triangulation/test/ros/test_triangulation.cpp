@@ -51,7 +51,7 @@ void expectOnPath(const TrackedPointArray& array, std::size_t rays) {
 }
 
 TEST(Triangulation, AdvisesWithoutARig) {
-  EXPECT_TRUE(g_bench->waitForLog("rosrun wiimote_tracker_calibration calibrate"));
+  EXPECT_TRUE(g_bench->waitForLog("run  rosrun wiimote_tracker_calibration calibrate"));
   ASSERT_TRUE(Bench::waitFor([] { return !g_bench->markers_.empty(); }));
   ASSERT_EQ(1u, g_bench->markers_.back().markers.size());
   EXPECT_EQ("Not calibrated: open Calibrate", g_bench->markers_.back().markers[0].text);

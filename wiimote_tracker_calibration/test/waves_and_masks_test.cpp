@@ -8,6 +8,7 @@
 #include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/PrincipalPointTrace.h>
 #include <wiimote_tracker_msgs/StartWave.h>
+#include <wiimote_tracker_msgs/error.h>
 
 #include <thread>
 
@@ -270,11 +271,13 @@ TEST_F(WavesAndMasks, ADriverThatDoesNotAnswerDoesNotDelaySaving) {
     return saved.message.find("camera_2") == std::string::npos;
   }));
 
-  // The lens of a camera does not replace a rig that has the camera's name.
+  // A rig does not replace the file of a camera's lens.
   SaveRig::Request request;
   request.path = folder_ + "/camera_1.yaml";
-  EXPECT_SAYS(call<SaveRig>("calibration/save", request).message, "save the rig by another name");
-  EXPECT_EQ(geometry::readRigFile(request.path).id(), solved.rig.id);
+  const auto refused = call<SaveRig>("calibration/save", request);
+  EXPECT_FALSE(refused.success);
+  EXPECT_SAYS(refused.message, "save the rig by another name");
+  EXPECT_THROW(geometry::readRigFile(request.path), Error);
 }
 
 TEST_F(WavesAndMasks, ACaptureThatEndsWithItsServerSaysWhy) {

@@ -312,7 +312,7 @@ void Calibration::use(const geometry::Rig& rig) {
 }
 
 Step Calibration::stepOfRig() const {
-  // A correction of the volume leaves the id.
+  // A correction of the volume does not change the id.
   const bool is_in_file =
       in_file_ && in_file_->id() == rig_->id() && in_file_->remap == rig_->remap;
   return is_in_file ? Step::kSaved : Step::kSolved;

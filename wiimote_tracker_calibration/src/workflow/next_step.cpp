@@ -119,7 +119,7 @@ NextStep check(const Findings& findings) {
 std::optional<NextStep> inUse(const Calibration& calibration, const Findings& findings) {
   if (!findings.correctable.empty())
     return correct(findings.correctable, findings.cause);
-  // Until then, what is corrected is still found.
+  // Until the corrected rig is reached, the health still finds what it corrects.
   if (calibration.goal())
     return NextStep{"Wait",
                     "The corrected rig is approached in small steps, so that points do not jump: "

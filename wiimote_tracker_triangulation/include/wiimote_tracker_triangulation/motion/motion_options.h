@@ -22,7 +22,7 @@ constexpr std::array<const char*, 2> kRestModeNames = {"fixed", "swaying"};
 constexpr std::array<const char*, 4> kMovingModeNames = {"smooth", "gentle", "brisk", "hard"};
 
 /// The modes of the filter and the rates at which an LED changes between them. The moving modes are
-/// in the order of their agility, of which the sudden one has most. Tuned: see doc/motion.md.
+/// in the order of their agility; the sudden one is the most agile. Tuned: see doc/motion.md.
 struct MotionOptions {
   std::array<RestMode, kRestModeNames.size()> rest{{
       {5e-5, 0.2},  // fixed: an LED that lies or stands on something

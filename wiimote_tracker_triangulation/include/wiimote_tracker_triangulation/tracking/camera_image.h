@@ -20,7 +20,7 @@ struct Spot {
 struct LedFit {
   std::size_t shown = 0;      ///< LEDs that have a spot in the image.
   std::size_t missing = 0;    ///< Those without, which two others see, or the only other camera.
-  std::size_t explained = 0;  ///< How many of the missing errors of the calibration explain.
+  std::size_t explained = 0;  ///< Of the missing, those that the calibration's errors explain.
 };
 
 /// An image as it comes from a camera; fields as in IrBlobArray.msg.
@@ -31,7 +31,7 @@ struct CameraImage {
   std::uint32_t clock_epoch = 0;
   std::size_t maximum_spots = 4;  ///< With so many spots, more LEDs may be visible.
   std::vector<Spot> spots;
-  LedFit bodies;  ///< As if each body were an LED; their spots are not among `spots`.
+  LedFit bodies;  ///< Each body counts as one LED; its spots are not among `spots`.
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -30,7 +30,7 @@ struct TrackedLed {
   std::optional<Eigen::Vector3d> velocity;                        ///< World [m/s].
   Eigen::Matrix3d velocity_covariance = Eigen::Matrix3d::Zero();  ///< [m^2/s^2]; with a velocity.
   CameraList cameras;             ///< In the rig; whose rays were used, ascending.
-  CameraList located_by;          ///< The same, or those when two cameras last saw it at once.
+  CameraList located_by;          ///< Those that saw it when two cameras last did, in the rig.
   std::size_t rays_possible = 0;  ///< Cameras that should see it, or whose rays were used.
 
   /// sqrt(mean(du^2 + dv^2)) over the rays used [px]; NaN without any.

@@ -50,7 +50,7 @@ class MessageTracker {
   const VolumeCorrection& correction() const { return points_.correction(); }
 
   /// Calls the sink with all results of the image. An image that cannot be used, or of a camera
-  /// that the rig does not have, is ignored. @returns whether it was not.
+  /// that the rig does not have, is ignored. @returns whether it was used.
   bool takeImage(const std::string& camera, const wiimote_tracker_msgs::IrBlobArray& message);
 
   /// The rigid bodies to track from now on, instead of those of the parameters. Their spots do not

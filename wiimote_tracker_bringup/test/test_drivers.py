@@ -215,18 +215,3 @@ def test_parameters_without_effect_are_refused(given, complaint):
     with pytest.raises(Refusal, match=complaint):
         drivers.check_parameters(given)
     drivers.check_parameters({'file': 'f', 'driver': {'ir_sensitivity': 'wii_3'}})
-
-
-@pytest.mark.parametrize('text, warned', [
-    ('calibration: {}\ncoverage: {}\ndrivers: {}\ntriangulation/mode: instant\n', []),
-    ('simulated_hand: {calibrate: false}\n/calibraton: {}\nmanager: {}\n', []),
-    ('calibration: {yaw: !degrees 90}\n', []), ('coverage: {}\n---\ncalibration: {}\n', []),
-    ('calibraton: {yaw: 1.0}\ndrivrs/driver: {}\n', ['"calibraton" is no node', '"drivrs" is no']),
-    ('', ['has no parameters']), ('# none\n', ['has no parameters'])])
-def test_parameters_that_no_node_reads_are_warned_of(tmp_path, text, warned):
-    path = tmp_path / 'my.yaml'
-    path.write_text(text)
-    warnings = drivers.without_effect(str(path))
-    assert len(warnings) == len(warned)
-    for warning, words in zip(warnings, warned):
-        assert warning.startswith(str(path)) and words in warning

@@ -112,7 +112,6 @@ def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):
     monkeypatch.setenv('PWD', str(tmp_path))
     parameters = load('tracker.launch', 'parameters:=my lab.yaml')[1]
     assert parameters['/triangulation/mode'] == 'instant'
-    assert parameters['/drivers/parameters_file'] == str(tmp_path / 'my lab.yaml')
 
 
 @pytest.mark.parametrize('name', ['tracker.launch', 'several_machines.launch',

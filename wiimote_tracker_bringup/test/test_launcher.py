@@ -1,10 +1,12 @@
 """Misspelt arguments of roslaunch, which says nothing of them."""
 
 import os
+import shlex
 import subprocess
 import sys
 
 import pytest
+import roslaunch.config
 from wiimote_tracker_launch import launcher
 
 TRACKER = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/tracker.launch')
@@ -71,3 +73,44 @@ def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, me
         cwd=f'{packages}{package}/launch' if here else None)
     assert done.stderr == (f'[WARN] {file}.launch has no argument {given}, so {given}:= has no '
                            f'effect: write {meant}:=.\n')
+
+
+@pytest.mark.parametrize('text, warned', [
+    ('calibration: {}\ncoverage: {}\ndrivers: {}\ntriangulation/mode: instant\n', []),
+    ('simulated_hand: {calibrate: false}\n/calibraton: {}\nmanager: {}\n', []),
+    ('calibration: {yaw: !degrees 90}\n', []),
+    ('calibraton: {yaw: 1.0}\ndrivrs/driver: {}\n', ['is called "calibraton", "drivrs": write']),
+    ('triangulation: {mode: instant}\npixel_stddev: 0.2\n', ['is called "pixel_stddev": write']),
+    ('a: 1\nb: 2\nc: 3\nd: 4\ne: 5\n', ['is called "a", "b", "c" and 2 more: write']),
+    ('calibraton: [', []), ('calibraton', []),  # after roslaunch took it
+    ('', ['has no parameters']), ('---\n', ['has no parameters']),
+    ('# none\n', ['has no parameters'])])
+def test_parameters_that_no_node_reads_are_warned_of(tmp_path, text, warned):
+    path = tmp_path / 'my.yaml'
+    path.write_text(text)
+    nodes = ['calibration', 'coverage', 'drivers', 'triangulation']
+    warnings = list(launcher.unread(str(path), nodes))
+    assert len(warnings) == len(warned)
+    for warning, words in zip(warnings, warned):
+        assert warning.startswith(str(path)) and words in warning
+
+
+# Those with drivers and without, and those that the others are part of.
+@pytest.mark.parametrize('words, read', [
+    ('tracker.launch', ['calibration', 'coverage', 'drivers', 'triangulation']),
+    ('tracker.launch drivers:=false', ['calibration', 'coverage', 'drivers', 'triangulation']),
+    ('calibrate.launch', ['calibration', 'drivers']),
+    ('triangulation.launch', ['coverage', 'triangulation']),
+    ('replay.launch bag:=x', ['coverage', 'triangulation']),
+    ('several_machines.launch', ['calibration', 'first_drivers', 'second_drivers']),
+    ('robot_localization.launch', ['ekf_odom', 'ekf_map'])])
+def test_launch_files_warn_of_parameters_that_no_node_reads(tmp_path, words, read):
+    (tmp_path / 'my file.yaml').write_text(''.join(name + ': {a: 1}\n' for name in read + ['b']))
+    name, *arguments = words.split()
+    config = roslaunch.config.load_config_default(
+        [(os.path.join(os.path.dirname(TRACKER), name),
+          arguments + [f'parameters:={tmp_path}/my file.yaml'])], 11311, verbose=False)
+    args, = [node.args for node in config.nodes
+             if node.type in ('master_watch', 'check_arguments')]
+    said, = launcher.warnings(*shlex.split(args))
+    assert said.startswith(f'{tmp_path}/my file.yaml: no node of this launch file is called "b": ')

@@ -13,7 +13,7 @@ WATCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/mas
 PATIENCE = 60.0  # on a busy computer [s]
 
 # Stands in for roslaunch, which its master_watch ends.
-LAUNCHER = 'import subprocess, sys; subprocess.call([sys.executable, sys.argv[1]])'
+LAUNCHER = 'import subprocess, sys; subprocess.call([sys.executable] + sys.argv[1].split("|"))'
 
 
 class Programs:
@@ -29,9 +29,11 @@ class Programs:
     def master(self):
         return self.processes.start_master(self._port, str(self.output), PATIENCE)
 
-    def watch(self, *arguments):
-        return self.processes.start('roslaunch', [sys.executable, str(self._launcher), WATCH,
-                                                  *arguments], str(self.output))
+    def watch(self, *arguments, parameters=()):
+        """arguments: of its roslaunch; parameters: its own."""
+        return self.processes.start(
+            'roslaunch', [sys.executable, str(self._launcher), '|'.join((WATCH, *parameters)),
+                          *arguments], str(self.output))
 
     def wait(self, condition):
         wait_until(condition, PATIENCE, self.output.read_text)
@@ -93,3 +95,10 @@ def test_a_misspelt_argument_is_told(programs):
     programs.master()
     programs.watch('wiimote_tracker_bringup', 'tracker.launch', 'cemeras:=cameras.yaml')
     programs.wait(lambda: programs.says('cemeras:= has no effect: write cameras:='))
+
+
+def test_parameters_that_nobody_reads_are_told(programs, tmp_path):
+    (tmp_path / 'my.yaml').write_text('calibraton: {yaw: 1.0}\n')
+    programs.master()
+    programs.watch(parameters=(str(tmp_path / 'my.yaml'), 'calibration'))
+    programs.wait(lambda: programs.says('no node of this launch file is called "calibraton"'))

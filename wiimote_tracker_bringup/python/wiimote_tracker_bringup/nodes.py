@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from typing import Dict, Set
+from typing import Dict, List, Set
 
 from wiimote_tracker_bringup.errors import Refusal
 
@@ -19,17 +19,21 @@ def master_problem(advice: str) -> str:
     return '' if is_online else f'there is no ROS master at {address}: {advice}'
 
 
-def start(name: str, documentation: str) -> None:
+def start(name: str, documentation: str, arguments: str = '') -> List[str]:
     """Makes the program a node. Answers --help; ends the program, with what to do, if there is no
-    ROS master: rospy would wait for one for ever, even where none can be."""
+    ROS master: rospy would wait for one for ever, even where none can be. Returns its arguments,
+    which are refused where they have no name here."""
     import rospy
-    argparse.ArgumentParser(
-        prog=name, description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter,
-    ).parse_args(rospy.myargv()[1:])
+    parser = argparse.ArgumentParser(
+        prog=name, description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)
+    if arguments:
+        parser.add_argument(arguments, nargs='*')
+    given = parser.parse_args(rospy.myargv()[1:])
     problem = master_problem('start roscore or use roslaunch')
     if problem:
         sys.exit(f'{name}: {problem}')
     rospy.init_node(name)
+    return getattr(given, arguments, [])
 
 
 def refuse_unknown(given: Dict, known: Set[str]) -> None:

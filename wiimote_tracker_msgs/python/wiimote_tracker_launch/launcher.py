@@ -1,12 +1,17 @@
-"""The roslaunch that started this node, and its arguments that have no effect."""
+"""The roslaunch that started this node, and what it was given without effect."""
 
 import difflib
+import importlib
 import os
 import re
 import xml.etree.ElementTree as ElementTree
-from typing import Dict, Iterator, List, Optional, Set
+from typing import Dict, Iterable, Iterator, List, Optional, Set
 
 import rospkg
+import yaml
+
+# May have parameters in a file of parameters:=, too, but are not proposed.
+OTHER_NODES = {'manager', 'simulated_hand', 'simulated_rig'}
 
 
 def command_line() -> Optional[List[str]]:
@@ -17,6 +22,33 @@ def command_line() -> Optional[List[str]]:
         if os.path.basename(word) == 'roslaunch':
             return words[number + 1:]
     return None
+
+
+def warnings(parameters: str = '', *nodes: str) -> Iterator[str]:
+    """What has no effect, a sentence each: arguments of this node's roslaunch, and what in the file
+    of parameters:= belongs to none of these nodes."""
+    yield from without_effect(command_line() or [])
+    if parameters:
+        yield from unread(os.path.join(os.environ.get('PWD', '.'), parameters), nodes)
+
+
+def unread(path: str, nodes: Iterable[str]) -> Iterator[str]:
+    """Not an error: the parameters may be for other nodes."""
+    importlib.import_module('rosparam')  # teaches yaml !degrees
+    try:
+        with open(path, encoding='utf-8') as file:
+            content = dict(yaml.safe_load(file) or {})
+    except (OSError, ValueError, yaml.YAMLError):  # changed since roslaunch took it
+        return
+    if not content:
+        yield f'{path} has no parameters: write them as "node: {{parameter: value}}"'
+    names = sorted({str(key).split('/')[0] for key in content if not str(key).startswith('/')})
+    unknown = [f'"{name}"' for name in names if name not in OTHER_NODES.union(nodes)]
+    if unknown:
+        more = f' and {len(unknown) - 3} more' if len(unknown) > 3 else ''
+        yield (f'{path}: no node of this launch file is called {", ".join(unknown[:3])}{more}: '
+               f'write parameters below one of {", ".join(sorted(nodes))}, unless a node of your '
+               'own is called so')
 
 
 def without_effect(words: List[str]) -> Iterator[str]:

@@ -139,7 +139,9 @@ def test_parameters_that_the_node_would_refuse(bag, tmp_path):
     for text, words in [('lables: [led]\n', 'unknown parameter'), ('mode: guess\n', 'one of'),
                         ('zones: {hysteresis: -1}\n', 'zones/hysteresis is -1'),
                         ('triangulation: {mod: x}\n', 'p.yaml/triangulation/mod'),
-                        ('calibration: {sounds: true}\n', 'p.yaml/calibration/sounds'),
+                        ('calibraton: {sounds: true}\n', 'p.yaml/calibraton/sounds'),
+                        ('tracks: 1\ntracks/gat: 2\n', 'p.yaml/tracks/gat'),
+                        ('mode: tracks\n---\nmode: x\n', 'holds several YAML documents'),
                         ('a: [\n', 'cannot be read as YAML'), ('mode:\n', 'without a value')]:
         (tmp_path / 'p.yaml').write_text(text)
         errors = refused(tmp_path, bag, tmp_path / 'out.bag', '--params', tmp_path / 'p.yaml')

@@ -232,7 +232,23 @@ def test_parameters_are_the_nodes(bag, tmp_path):
 
 
 def test_parameters_may_be_those_of_the_launch_file(bag, tmp_path):
-    (tmp_path / 'p.yaml').write_text('triangulation: {mode: instant, labels: [anna]}\n'
-                                     'calibration: {side_length: 2.0}\n')
-    track(bag, tmp_path / 'out.bag', '--params', tmp_path / 'p.yaml')
-    assert len(arrays(tmp_path / 'out.bag', '/anna/point')) > 300
+    for number, text in enumerate((
+            'triangulation: {mode: instant, labels: [anna]}\n', 'triangulation/labels: [anna]\n',
+            '/triangulation: {labels: [anna]}\ntriangulation: {output/rate: 20}\n')):
+        (tmp_path / 'p.yaml').write_text('calibration: {side_length: 2.0}\n' + text)
+        status, _, errors = run(bag, tmp_path / f'{number}.bag', '--params', tmp_path / 'p.yaml')
+        assert status == 0 and errors == ''
+        assert len(arrays(tmp_path / f'{number}.bag', '/anna/point')) > 300
+
+
+def test_parameters_that_nobody_reads_are_told(bag, tmp_path):
+    for text, words in [
+            ('triangulation: {mode: instant}\npixel_stddev: 0.2\nb: {c: 1}\n',
+             'no node is called b, pixel_stddev: write parameters of triangulation below that'),
+            ('calibration: {side_length: 2.0}\n', 'has no parameters of triangulation: write them'),
+            ('calibration: {}\ntriangulation: 5\n', 'has no parameters of triangulation'),
+            ('# none\n', 'has no parameters of triangulation')]:
+        (tmp_path / 'p.yaml').write_text(text)
+        status, _, errors = run(bag, tmp_path / 'out.bag', '--params', tmp_path / 'p.yaml')
+        assert status == 0 and len(errors.splitlines()) == 1
+        assert 'p.yaml' in errors and words in errors

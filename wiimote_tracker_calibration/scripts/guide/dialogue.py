@@ -9,6 +9,9 @@ from typing import Callable, List, Sequence
 from .commands import Command, UsageError, find
 from .guide import Advice, Guide
 
+PROPOSED = 'apply'  # What becomes the next command, or no longer is it, at any time.
+CHANGED = 'What is next has just changed: read it, then ask for it again'
+
 
 class Dialogue:
     def __init__(self, guide: Guide, node, command_list: List[Command],
@@ -19,6 +22,7 @@ class Dialogue:
         self.command_list = command_list
         self.advice = advice
         self._next_is_wanted = False
+        self._next_shown = None  # the command when it was asked for
 
     def command(self, word_or_key: str, arguments: Sequence[str] = ()) -> None:
         """Sends a command to the node."""
@@ -44,6 +48,7 @@ class Dialogue:
     def next(self) -> None:
         """Does what SPACE stands for, as soon as a status is newer than the last answer."""
         self._next_is_wanted = True
+        self._next_shown = self.advice().word
         self._do_next()
 
     def is_busy(self) -> bool:
@@ -90,7 +95,9 @@ class Dialogue:
             return
         self._next_is_wanted = False
         advice = self.advice()
-        if advice.word is not None:
+        if advice.word == PROPOSED and self._next_shown != PROPOSED:
+            guide.say(CHANGED)
+        elif advice.word is not None:
             self.command(advice.word, advice.arguments)
         else:
             guide.say(advice.sentence)

@@ -6,12 +6,11 @@ import time
 from typing import Callable, Dict, List
 
 from .commands import Command, find
-from .dialogue import Dialogue
+from .dialogue import CHANGED, PROPOSED, Dialogue
 
 PERIOD = 0.1         # [s] Between two drawings.
 BETWEEN_RINGS = 0.3  # [s] So that two are heard.
 READ_WITHIN = 0.5    # [s] Whoever presses SPACE sooner means what was next before.
-PROPOSED = 'apply'   # What becomes the next command, or no longer is it, at any time.
 # Codes of keys, of which terminals have several for one.
 ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
 
@@ -90,7 +89,7 @@ class Terminal:
         if sign == 'q':
             return False
         if sign == ' ' and time.monotonic() < self._proposed_at + READ_WITHIN:
-            self._dialogue.guide.say('What is next has just changed: read it, then press SPACE')
+            self._dialogue.guide.say(CHANGED)
         elif sign == ' ':
             self._dialogue.next()
         elif sign == '\t':

@@ -60,6 +60,20 @@ def test_space_waits_for_what_the_latest_answer_has_led_to():
     assert [r.name for r in node.sent] == ['capture_corner']
 
 
+def test_space_takes_no_proposal_that_came_after_it():
+    node = FakeNode()
+    dialogue = dialogue_with(node, status(CalibrationStatus.SOLVED, 'save'))
+    proposal = status(CalibrationStatus.SAVED, 'continuous/apply', 'use it')
+    node.events.put(('answer', 'solve', True, 'good'))
+    dialogue.take_events(1.0)
+    dialogue.next()
+    node.events.put(('status', proposal))
+    dialogue.take_events(2.0)
+    assert not node.sent and 'has just changed' in dialogue.guide.answer
+    dialogue.next()
+    assert [r.name for r in node.sent] == ['continuous/apply']
+
+
 def test_what_is_typed_wrongly_reaches_no_node():
     node = FakeNode()
     dialogue = dialogue_with(node, status(CalibrationStatus.READY))

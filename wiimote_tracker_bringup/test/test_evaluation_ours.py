@@ -8,6 +8,7 @@ import subprocess
 
 import numpy as np
 import pytest
+import rospy
 import yaml
 
 from point_bounds import point_bound
@@ -217,6 +218,20 @@ def test_a_live_measurement_needs_a_master(monkeypatch):
     monkeypatch.setenv('ROS_MASTER_URI', 'http://localhost:1')
     with pytest.raises(Refusal, match='at http://localhost:1: start the tracker first'):
         running_tracker.RunningTracker()
+
+
+@pytest.mark.parametrize('namespace, command', [
+    ('/', 'rosrun wiimote_tracker_calibration calibrate'),
+    ('/hall/second', 'ROS_NAMESPACE=/hall/second rosrun wiimote_tracker_calibration calibrate')])
+def test_the_advice_to_calibrate_names_the_namespace(monkeypatch, namespace, command):
+    monkeypatch.setattr(running_tracker, 'THERE', 0.0)
+    monkeypatch.setattr(rospy, 'get_namespace', lambda: namespace)
+    tracker = object.__new__(running_tracker.RunningTracker)
+    tracker._rospy, tracker._rig, tracker._seen = rospy, None, []
+    with pytest.raises(Refusal, match=rf'calibrate first \({command}\)'):
+        tracker.rig()
+    with pytest.raises(Refusal, match=f'no points come; see {command} for'):
+        tracker.wait_for_points()
 
 
 def test_a_number_is_requested_until_it_is_valid():

@@ -71,8 +71,7 @@ class RunningTracker:
 
     def rig(self):
         wait_until(lambda: self._rig is not None, THERE,
-                   'the tracker has no calibration: calibrate first '
-                   '(rosrun wiimote_tracker_calibration calibrate)')
+                   f'the tracker has no calibration: calibrate first ({self._calibrate()})')
         return self._rig
 
     def side(self):
@@ -92,8 +91,13 @@ class RunningTracker:
 
     def wait_for_points(self):
         wait_until(lambda: self._seen, THERE,
-                   'no points come; see rosrun wiimote_tracker_calibration calibrate for what the '
-                   'cameras see')
+                   f'no points come; see {self._calibrate()} for what the cameras see')
+
+    def _calibrate(self):
+        """The command, in this program's namespace."""
+        namespace = self._rospy.get_namespace().rstrip('/')
+        return (f'ROS_NAMESPACE={namespace} ' if namespace else '') + (
+            'rosrun wiimote_tracker_calibration calibrate')
 
     def since(self, begin):
         """Points that arrived after a time [s since 1970]."""

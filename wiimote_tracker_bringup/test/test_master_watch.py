@@ -1,6 +1,7 @@
 """master_watch tells of a master that is gone or was started again, and makes way for the next."""
 
 import os
+import subprocess
 import sys
 
 import pytest
@@ -10,6 +11,7 @@ from wiimote_tracker_bringup.processes import Processes, free_port
 from wiimote_tracker_bringup.waiting import wait_until
 
 WATCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/master_watch')
+REPLAY = os.path.join(os.path.dirname(WATCH), 'replay.launch')
 PATIENCE = 60.0  # on a busy computer [s]
 
 # Stands in for roslaunch, which its master_watch ends.
@@ -102,3 +104,38 @@ def test_parameters_that_nobody_reads_are_told(programs, tmp_path):
     programs.master()
     programs.watch(parameters=(str(tmp_path / 'my.yaml'), 'calibration'))
     programs.wait(lambda: programs.says('no node of this launch file is called "calibraton"'))
+
+
+# A tracker, for a replay: no recording has this topic.
+STATUS = """
+import rospy, time
+from wiimote_tracker_msgs.msg import CalibrationStatus
+rospy.init_node('calibration')
+publisher = rospy.Publisher('calibration/status', CalibrationStatus, queue_size=1)
+while not rospy.is_shutdown():
+    time.sleep(0.1)
+"""
+
+
+def test_a_replay_is_refused_beside_a_tracker(programs):
+    def replay():
+        return subprocess.run(['roslaunch', '--nodes', REPLAY, 'bag:=x'], capture_output=True,
+                              text=True, timeout=PATIENCE)
+    assert replay().returncode == 0, 'without a master'
+    programs.master()
+    assert replay().returncode == 0, 'without a tracker'
+    tracker = programs.processes.start('tracker', [sys.executable, '-c', STATUS, '__ns:=/second'],
+                                       str(programs.output))
+    master = rosgraph.Master('/test')
+    programs.wait(lambda: ['/second/calibration/status', ['/second/calibration']]
+                  in master.getSystemState()[0])
+    refused = replay()
+    assert refused.returncode == 1
+    assert ('a tracker runs at this ROS master (/second/calibration) and would take the time of '
+            'the replay: end it') in refused.stderr
+    master.setParam('/use_sim_time', True)
+    assert replay().returncode == 0, 'the tracker is one for the replay'
+    master.setParam('/use_sim_time', False)
+    tracker.kill()
+    programs.processes.stop(tracker)
+    assert replay().returncode == 0, 'a killed tracker'

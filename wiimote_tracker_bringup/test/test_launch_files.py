@@ -187,8 +187,10 @@ def test_what_is_recorded_is_an_input_or_kept_apart_in_a_replay(load):
 def test_simulated_rigs_share_no_files_with_another_rig(load, monkeypatch):
     monkeypatch.setenv('ROS_HOME', '/var/lib/lab')
     usual, real = (load(name)[1] for name in ('simulated_rig.launch', 'tracker.launch'))
-    for name in ('/drivers/camera_info_directory', '/triangulation/label_places'):
-        assert usual[name].startswith('/var/lib/lab/wiimote_tracker/') and usual[name] != real[name]
+    for name in ('/drivers/camera_info_directory', '/triangulation/label_places',
+                 '/triangulation/bodies/file'):
+        assert usual[name].startswith('/var/lib/lab/wiimote_tracker/simulated/')
+        assert not real[name].startswith('/var/lib/lab/wiimote_tracker/simulated/')
     # Beside the rig its cameras and samples are saved.
     assert usual['/calibration/rig_file'] == '/var/lib/lab/wiimote_tracker/simulated/rig.yaml'
     for rig_file, folder in (('planned_rig.yaml', 'planned_cameras'), ('my.yaml', 'my_cameras'),

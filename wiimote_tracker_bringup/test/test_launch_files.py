@@ -149,8 +149,9 @@ def test_relative_paths_begin_where_the_user_is(load, name, argument, parameter)
 
 @pytest.mark.parametrize('given, found', [
     ('replay:a.wiirec', 'replay:/home/my lab/a.wiirec'), ('replay:/a.wiirec', 'replay:/a.wiirec'),
-    ('virtual:/tmp/x', 'virtual:/tmp/x'), ('00:1f:32:00:00:01', '00:1f:32:00:00:01')])
-def test_a_recording_of_a_driver_is_where_the_user_says(load, given, found):
+    ('virtual:/tmp/x', 'virtual:/tmp/x'), ('virtual:x', 'virtual:/home/my lab/x'),
+    ('virtual:', 'virtual:'), ('5', '5'), ('00:1f:32:00:00:01', '00:1f:32:00:00:01')])
+def test_a_recording_or_socket_of_a_driver_is_where_the_user_says(load, given, found):
     parameters = load(OTHERS + 'driver/launch/driver.launch', 'device:=' + given)[1]
     assert parameters['/wiimote_1/driver/device'] == found
 

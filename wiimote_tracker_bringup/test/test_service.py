@@ -4,6 +4,7 @@ import os
 import shlex
 import shutil
 import subprocess
+import sys
 
 import pytest
 import roslaunch.arg_dump
@@ -35,6 +36,17 @@ def test_the_launch_file_has_the_arguments_of_the_unit():
     known = roslaunch.arg_dump.get_args([os.path.join(BRINGUP, 'launch', 'tracker.launch')])
     given = [word.split(':=')[0] for word in words if ':=' in word]
     assert 'tracker.launch' in words and given == ['cameras'] and set(given) <= set(known)
+
+
+def test_relative_paths_begin_in_the_home_folder(tmp_path):
+    assert values_of('WorkingDirectory') == ['~']
+    roslaunch_stand_in = [sys.executable, '-c', 'import os; print(os.environ["PWD"])']
+    words = [word.replace('${HOME}', str(tmp_path))
+             for word in shlex.split(values_of('ExecStart')[0])]
+    place = words.index('/usr/bin/roslaunch')
+    done = subprocess.run(words[:place] + roslaunch_stand_in, capture_output=True, text=True,
+                          env={'HOME': str(tmp_path)}, timeout=60)
+    assert (done.stdout, done.stderr) == (f'{tmp_path}\n', '')
 
 
 def test_a_tracker_without_its_master_is_started_again():

@@ -41,18 +41,8 @@ void alignToCenters(const Recording& recording, Reconstruction* reconstruction) 
 /// The residuals are as measured, to compare them with those of others: smaller than the noise,
 /// since the points were fitted to it. Those of a wave are corrected for that.
 geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& method) {
-  geometry::Rig rig;
+  geometry::Rig rig = bundle::rigOf(reconstruction);
   rig.method = method;
-  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i) {
-    const bundle::Statistics figures = bundle::statistics(reconstruction, i);
-    geometry::RigCamera camera;
-    camera.camera = reconstruction.cameras[i];
-    camera.residual_px = figures.rms;
-    camera.residual_m = figures.rms_m;
-    camera.observations = static_cast<std::uint32_t>(figures.observations);
-    camera.inliers = static_cast<std::uint32_t>(figures.inliers);
-    rig.cameras.push_back(camera);
-  }
   const bundle::Statistics all = bundle::statistics(reconstruction);
   rig.verdict = format(
       "%zu of %zu observations fit; their reprojection error: median %.2f px, mean %.2f "

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <numeric>
 
 namespace wiimote_tracker::bundle {
@@ -59,6 +60,27 @@ Statistics statistics(const Reconstruction& reconstruction, std::optional<std::s
   if (result.inliers > 0)
     result.rms_m = std::sqrt(squares_m / static_cast<double>(result.inliers));
   return result;
+}
+
+std::vector<Statistics> statisticsOfCameras(const Reconstruction& reconstruction) {
+  std::vector<Statistics> result;
+  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i)
+    result.push_back(statistics(reconstruction, i));
+  return result;
+}
+
+geometry::Rig rigOf(const Reconstruction& reconstruction, double factor) {
+  geometry::Rig rig;
+  for (const Statistics& errors : statisticsOfCameras(reconstruction)) {
+    geometry::RigCamera camera;
+    camera.camera = reconstruction.cameras[rig.cameras.size()];
+    camera.residual_px = factor * errors.rms;
+    camera.residual_m = factor * errors.rms_m;
+    camera.observations = static_cast<std::uint32_t>(errors.observations);
+    camera.inliers = static_cast<std::uint32_t>(errors.inliers);
+    rig.cameras.push_back(camera);
+  }
+  return rig;
 }
 
 }  // namespace wiimote_tracker::bundle

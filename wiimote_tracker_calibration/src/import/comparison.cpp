@@ -165,13 +165,6 @@ std::optional<bundle::Reconstruction> withLenses(const Recording& recording,
 
 }  // namespace
 
-std::vector<Statistics> errorsOf(const bundle::Reconstruction& reconstruction) {
-  std::vector<Statistics> errors;
-  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i)
-    errors.push_back(bundle::statistics(reconstruction, i));
-  return errors;
-}
-
 std::optional<Comparison> compare(const Recording& recording,
                                   const bundle::SelfCalibration& solution,
                                   const bundle::Options& options) {
@@ -183,8 +176,8 @@ std::optional<Comparison> compare(const Recording& recording,
   const bundle::Reconstruction& own = solution.reconstruction;
   Comparison comparison;
   const auto compareWith = [&](const bundle::Reconstruction& shipped) {
-    comparison.own = errorsOf(own);
-    comparison.shipped = errorsOf(shipped);
+    comparison.own = bundle::statisticsOfCameras(own);
+    comparison.shipped = bundle::statisticsOfCameras(shipped);
     comparePoints(own, shipped, solution.expected_shape_error, &comparison);
   };
   if (all([](const RecordedCamera& camera) { return camera.projection.has_value(); })) {

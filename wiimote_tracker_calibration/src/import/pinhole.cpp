@@ -89,22 +89,17 @@ ShippedCameras shippedCameras(const Recording& recording, const bundle::Options&
   std::size_t most = 0;
   for (const bool mirrored : {false, true}) {
     ShippedCameras shipped;
-    shipped.frames = recording.frames;
-    bundle::Reconstruction& reconstruction = shipped.reconstruction;
-    reconstruction.points.resize(recording.frames.size());
+    Recording rectified = recording;
     for (std::size_t camera = 0; camera < recording.cameras.size(); ++camera) {
-      shipped.rectifications.emplace_back(recording, camera, mirrored);
-      reconstruction.cameras.push_back(shipped.rectifications.back().camera());
+      const Rectification& rectify =
+          shipped.rectifications.emplace_back(recording, camera, mirrored);
+      for (Pixels& pixels : rectified.frames)
+        pixels[camera] = pixels[camera] ? rectify(*pixels[camera]) : std::nullopt;
     }
-    for (std::size_t frame = 0; frame < shipped.frames.size(); ++frame) {
-      for (std::size_t camera = 0; camera < recording.cameras.size(); ++camera) {
-        auto& pixel = shipped.frames[frame][camera];
-        if (pixel)
-          pixel = shipped.rectifications[camera](*pixel);
-        if (pixel)
-          reconstruction.observations.push_back({camera, frame, *pixel});
-      }
-    }
+    bundle::Reconstruction& reconstruction = shipped.reconstruction = observedBy(rectified);
+    for (std::size_t camera = 0; camera < recording.cameras.size(); ++camera)
+      reconstruction.cameras[camera] = shipped.rectifications[camera].camera();
+    shipped.frames = std::move(rectified.frames);
     bundle::triangulatePoints(&reconstruction, options.maximum_error);
     const auto inliers = static_cast<std::size_t>(
         std::count(reconstruction.inliers.begin(), reconstruction.inliers.end(), true));

@@ -169,7 +169,7 @@ void print(const Report& report, bool points, std::FILE* file) {
   std::fprintf(file, "Noise of a pixel coordinate: %.3f px\n", solution.pixel_stddev);
   std::fprintf(file, "\n%-20s %16s %9s %9s %9s\n", "reprojection [px]", "inliers", "median", "mean",
                "p95");
-  const std::vector<bundle::Statistics> errors = import::errorsOf(reconstruction);
+  const std::vector<bundle::Statistics> errors = bundle::statisticsOfCameras(reconstruction);
   for (std::size_t i = 0; i < errors.size(); ++i)
     printErrors(reconstruction.cameras[i].name, errors[i], file);
   printOutliers(reconstruction, file);
@@ -190,7 +190,7 @@ std::string jsonText(const Report& report) {
   const bundle::SelfCalibration& solution = report.solution;
   const bundle::Reconstruction& reconstruction = solution.reconstruction;
   std::vector<std::string> cameras;
-  for (const bundle::Statistics& errors : import::errorsOf(reconstruction))
+  for (const bundle::Statistics& errors : bundle::statisticsOfCameras(reconstruction))
     cameras.push_back(jsonCamera(report, cameras.size(), errors));
   std::vector<std::string> points;
   for (const auto& point : reconstruction.points)

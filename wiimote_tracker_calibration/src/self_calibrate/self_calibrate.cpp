@@ -104,24 +104,13 @@ void writeJson(const Report& report, const std::string& path) {
 /// The cameras as a rig, whose scale is arbitrary.
 geometry::Rig rigOf(const Report& report) {
   const bundle::Reconstruction& reconstruction = report.solution.reconstruction;
-  const std::vector<bundle::Statistics> errors = import::errorsOf(reconstruction);
   // The fit follows the noise in part: corrected, the residuals tell all of it.
   const double rms = bundle::statistics(reconstruction).rms;
   const double correction = rms > 0.0 ? std::sqrt(2.0) * report.solution.pixel_stddev / rms : 1.0;
-  geometry::Rig rig;
-  rig.world_frame = "world";
+  geometry::Rig rig = bundle::rigOf(reconstruction, correction);
   rig.method = "self_calibrate";
   rig.verdict = samples::nameOf(samples::Grade::kUsable) +
                 ": the scale is arbitrary, so that distances and speeds are not in metres";
-  for (std::size_t i = 0; i < reconstruction.cameras.size(); ++i) {
-    geometry::RigCamera camera;
-    camera.camera = reconstruction.cameras[i];
-    camera.residual_px = correction * errors[i].rms;
-    camera.residual_m = correction * errors[i].rms_m;
-    camera.observations = static_cast<std::uint32_t>(errors[i].observations);
-    camera.inliers = static_cast<std::uint32_t>(errors[i].inliers);
-    rig.cameras.push_back(camera);
-  }
   return rig;
 }
 

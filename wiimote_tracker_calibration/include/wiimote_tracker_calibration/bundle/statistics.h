@@ -3,6 +3,8 @@
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -30,6 +32,12 @@ Statistics statisticsOf(std::vector<double> errors);
 /// Of all cameras, or of one.
 Statistics statistics(const Reconstruction& reconstruction,
                       std::optional<std::size_t> camera = std::nullopt);
+
+/// Of each camera.
+std::vector<Statistics> statisticsOfCameras(const Reconstruction& reconstruction);
+
+/// The cameras as a rig, with their residuals times a factor; without method and verdict.
+geometry::Rig rigOf(const Reconstruction& reconstruction, double factor = 1.0);
 
 }  // namespace wiimote_tracker::bundle
 

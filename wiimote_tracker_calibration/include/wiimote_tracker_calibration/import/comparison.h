@@ -12,9 +12,6 @@
 
 namespace wiimote_tracker::import {
 
-/// Statistics of each camera of a reconstruction.
-std::vector<bundle::Statistics> errorsOf(const bundle::Reconstruction& reconstruction);
-
 /// A solution compared with the calibration that was shipped with the recording.
 struct Comparison {
   std::string what;                         ///< What was shipped, and the errors' pixels.

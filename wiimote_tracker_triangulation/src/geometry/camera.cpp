@@ -3,6 +3,8 @@
 #include "distortion.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <Eigen/LU>
+
 #include <cmath>
 #include <string>
 
@@ -17,40 +19,71 @@ void require(bool good, const std::string& what, double value) {
     throw InvalidRigError(what + " (is " + std::to_string(value) + "); calibrate again");
 }
 
-// No switch over the models has a default, so that the compiler finds where a new one is missing.
-// GCC wants a return after the switch: that of the case that breaks.
-
-Vector2 distort(const Intrinsics& lens, const Vector2& normalized, Matrix2* jacobian) {
-  switch (lens.distortion_model) {
+/// The switch has no default, so that the compiler finds a new model that is missing here. GCC
+/// wants a return after it: that of the case that breaks.
+const LensFormulas& formulasOf(DistortionModel model) {
+  switch (model) {
     case DistortionModel::kPlumbBob:
       break;
     case DistortionModel::kEquidistant:
-      return equidistant::distort(lens.distortion, normalized, jacobian);
+      return equidistant::kFormulas;
   }
-  return plumb_bob::distort(lens.distortion, normalized, jacobian);
+  return plumb_bob::kFormulas;
 }
 
-/// @param jacobian d pixel / d normalized, there.
-bool isBeforeFold(const Intrinsics& lens, const Vector2& normalized, const Matrix2& jacobian) {
-  switch (lens.distortion_model) {
-    case DistortionModel::kPlumbBob:
-      break;
-    case DistortionModel::kEquidistant:
-      return equidistant::isBeforeFold(lens.distortion, normalized);
+/// Newton's method from inside the fold; steps are halved until they stay inside and improve.
+/// @returns nothing where no point before the fold has this image. @param target finite.
+std::optional<Vector2> undistort(const LensFormulas& lens,
+                                 const Coefficients& k,
+                                 const Vector2& target) {
+  constexpr int kMaximumSteps = 50;
+  constexpr int kMaximumHalvings = 30;
+  struct Trial {
+    Vector2 n;
+    Vector2 error;
+    Matrix2 jacobian;
+    bool is_inside;
+  };
+  const auto at = [&](const Vector2& n) {
+    Trial trial;
+    trial.n = n;
+    trial.error = lens.distort(k, n, &trial.jacobian) - target;
+    trial.is_inside = lens.isBeforeFold(k, n, trial.jacobian);
+    return trial;
+  };
+  Trial best = at(lens.undistortIdeal(target));
+  for (int i = 0; i < kMaximumHalvings && !best.is_inside; ++i)
+    best = at(0.5 * best.n);
+  const auto isBetter = [&](const Trial& trial) { return trial.error.norm() < best.error.norm(); };
+  const double unit = 1.0 + target.norm();
+  for (int i = 0; i < kMaximumSteps && best.error.norm() > 1e-14 * unit; ++i) {
+    Vector2 step = best.jacobian.inverse() * best.error;
+    Trial next = at(best.n - step);
+    for (int j = 0; j < kMaximumHalvings && !(isBetter(next) && next.is_inside); ++j) {
+      step *= 0.5;
+      next = at(best.n - step);
+    }
+    if (!isBetter(next))
+      break;  // rounding or the fold allow no further step
+    best = next;
   }
-  return plumb_bob::isBeforeFold(lens.distortion, normalized, jacobian);
+  if (!best.is_inside || !(best.error.norm() <= 1e-12 * unit))
+    return std::nullopt;
+  return best.n;
 }
 
 }  // namespace
 
 const char* nameOf(DistortionModel model) {
-  switch (model) {
-    case DistortionModel::kPlumbBob:
-      break;
-    case DistortionModel::kEquidistant:
-      return "equidistant";
-  }
-  return "plumb_bob";
+  return formulasOf(model).name;
+}
+
+const char* coefficientNames(DistortionModel model) {
+  return formulasOf(model).coefficient_names;
+}
+
+std::size_t coefficientCount(DistortionModel model) {
+  return formulasOf(model).coefficient_count;
 }
 
 std::optional<DistortionModel> distortionModelFromName(const std::string& name) {
@@ -59,26 +92,6 @@ std::optional<DistortionModel> distortionModelFromName(const std::string& name) 
       return model;
   }
   return std::nullopt;
-}
-
-const char* coefficientNames(DistortionModel model) {
-  switch (model) {
-    case DistortionModel::kPlumbBob:
-      break;
-    case DistortionModel::kEquidistant:
-      return "k1, k2, k3, k4";
-  }
-  return "k1, k2, p1, p2, k3";
-}
-
-std::size_t coefficientCount(DistortionModel model) {
-  switch (model) {
-    case DistortionModel::kPlumbBob:
-      break;
-    case DistortionModel::kEquidistant:
-      return 4;
-  }
-  return 5;
 }
 
 std::string describeDistortionModels() {
@@ -90,7 +103,7 @@ std::string describeDistortionModels() {
 }
 
 Vector2 Intrinsics::pixelFromNormalized(const Vector2& normalized, Matrix2* jacobian) const {
-  const Vector2 distorted = distort(*this, normalized, jacobian);
+  const Vector2 distorted = formulasOf(distortion_model).distort(distortion, normalized, jacobian);
   if (jacobian) {
     jacobian->row(0) *= fx;
     jacobian->row(1) *= fy;
@@ -102,13 +115,7 @@ std::optional<Vector2> Intrinsics::normalizedFromPixel(const Vector2& pixel) con
   const Vector2 target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   if (!target.allFinite())
     return std::nullopt;
-  switch (distortion_model) {
-    case DistortionModel::kPlumbBob:
-      break;
-    case DistortionModel::kEquidistant:
-      return equidistant::undistort(distortion, target);
-  }
-  return plumb_bob::undistort(distortion, target);
+  return undistort(formulasOf(distortion_model), distortion, target);
 }
 
 bool Intrinsics::isInImage(const Vector2& pixel, double margin) const {
@@ -143,7 +150,8 @@ std::optional<Vector2> Camera::project(const Eigen::Vector3d& point,
     return std::nullopt;
   Matrix2 pixel_by_normalized;
   const Vector2 pixel = intrinsics.pixelFromNormalized(normalized, &pixel_by_normalized);
-  if (!isBeforeFold(intrinsics, normalized, pixel_by_normalized))
+  if (!formulasOf(intrinsics.distortion_model)
+           .isBeforeFold(intrinsics.distortion, normalized, pixel_by_normalized))
     return std::nullopt;
   if (!jacobian)
     return pixel;

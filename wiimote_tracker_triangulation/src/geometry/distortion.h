@@ -6,10 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <optional>
-
-// The lens models on the image plane of depth 1, between undistorted and distorted points. None of
-// them allocates.
 
 namespace wiimote_tracker::geometry {
 
@@ -46,32 +42,32 @@ inline bool growsUpTo(const std::array<double, 4>& k, double s) {
                     kHalvings);
 }
 
-/// k1, k2, p1, p2, k3.
+/// The formulas of a lens model, on the image plane of depth 1. None of them allocates.
+struct LensFormulas {
+  const char* name;
+  const char* coefficient_names;
+  std::size_t coefficient_count;
+
+  /// The distorted point of an undistorted one, n. `jacobian`: d result / d n, when it is not null.
+  Eigen::Vector2d (*distort)(const Coefficients& k,
+                             const Eigen::Vector2d& n,
+                             Eigen::Matrix2d* jacobian);
+
+  /// The undistorted point of a distorted one if all coefficients are 0.
+  Eigen::Vector2d (*undistortIdeal)(const Eigen::Vector2d& distorted);
+
+  /// @param jacobian of distort() at n, perhaps with rows scaled by positive numbers.
+  bool (*isBeforeFold)(const Coefficients& k,
+                       const Eigen::Vector2d& n,
+                       const Eigen::Matrix2d& jacobian);
+};
+
 namespace plumb_bob {
-
-/// `jacobian`: d result / d n, when it is not null.
-Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::Matrix2d* jacobian);
-
-/// Nothing where no point before the fold has this image. The target must be finite.
-std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
-
-/// @param jacobian of distort() at n, perhaps with rows scaled by positive numbers.
-bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n, const Eigen::Matrix2d& jacobian);
-
-}  // namespace plumb_bob
-
-/// k1, k2, k3, k4, and a zero. With a, the angle from the axis, the radius becomes
-/// a (1 + k1 a^2 + k2 a^4 + k3 a^6 + k4 a^8).
+extern const LensFormulas kFormulas;
+}
 namespace equidistant {
-
-Eigen::Vector2d distort(const Coefficients& k, const Eigen::Vector2d& n, Eigen::Matrix2d* jacobian);
-
-std::optional<Eigen::Vector2d> undistort(const Coefficients& k, const Eigen::Vector2d& target);
-
-/// Not beyond 1.55 rad from the axis either.
-bool isBeforeFold(const Coefficients& k, const Eigen::Vector2d& n);
-
-}  // namespace equidistant
+extern const LensFormulas kFormulas;
+}
 
 }  // namespace wiimote_tracker::geometry
 

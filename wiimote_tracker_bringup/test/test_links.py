@@ -1,4 +1,5 @@
-"""Every link between the documents leads to a file, and to a heading if it names one."""
+"""Every link between the documents leads to a file, and to a heading if it names one; and what
+CONTRIBUTING.md names is in the sources."""
 
 import pathlib
 import re
@@ -26,6 +27,19 @@ def test_links_lead_somewhere(document):
         target = (document.parent / path).resolve() if path else document
         assert target.exists(), link
         assert not anchor or anchor in anchors_of(target), link
+
+
+def test_what_contributing_names_exists():
+    """Each `name` or `path` is that of a file or folder, or a word of some source."""
+    files = sorted(TOP.glob('wiimote_tracker_*/**/*'))
+    paths = '\n'.join(str(path.relative_to(TOP)) for path in files)
+    words = '\n'.join(path.read_text(encoding='utf-8') for path in files
+                      if path.suffix in ('.cmake', '.cpp', '.h', '.msg', '.py', '.txt'))
+    names = re.findall(r'`([\w./]+)`', (TOP / 'CONTRIBUTING.md').read_text(encoding='utf-8'))
+    assert len(names) > 100
+    lacking = [name for name in names if name not in words and name not in paths
+               and f'wiimote_tracker_{name}' not in paths and not (TOP / name).exists()]
+    assert lacking == []
 
 
 def test_there_are_documents_with_links():

@@ -8,7 +8,8 @@ import types
 
 import pytest
 
-from wiimote_tracker_evaluation.faults import fault, matrix
+from wiimote_tracker_bringup.errors import Refusal
+from wiimote_tracker_evaluation.faults import fault, matrix, room
 
 PROGRAM = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../evaluation/fault_matrix')
 LIMIT = 600.0  # on a busy computer [s]
@@ -22,6 +23,13 @@ def test_a_fault_that_cannot_be_caused_does_not_end_the_others():
     tried._room = types.SimpleNamespace(wait_until_tracked=cannot_be_tracked, stop=lambda: None)
     result = tried.run(fault.Fault('full_disk', 'The disk is full', None))
     assert len(result.problems) == 1 and 'mount' in result.problems[0]
+
+
+def test_a_problem_says_how_to_keep_what_the_nodes_said():
+    """The room's own folder is gone when the sentence is read."""
+    empty = types.SimpleNamespace(nodes=dict, log='/tmp/gone/nodes.log')
+    with pytest.raises(Refusal, match='the node /driver does not run; with --log FILE'):
+        room.Room.pid(empty, '/driver')
 
 
 @pytest.mark.parametrize('option', ['--json', '--log'])

@@ -24,6 +24,7 @@ from wiimote_tracker_evaluation.faults.rig_writer import write_rig
 
 START = 90.0      # longest time until all LEDs are tracked, on a busy computer [s]
 SETTLED = 2.0     # that the LEDs must be tracked at the start [s]
+KEEP_LOG = "with --log FILE the nodes' output is kept"  # this folder goes with the room
 LATENCY = 0.0094  # as in simulated_rig.launch [s]
 
 # Each LED waves through its own part of the room; any two stay apart.
@@ -118,7 +119,7 @@ class Room:
             newest = self.window(time.time() - SETTLED, time.time())
             return figures.is_tracked(newest, SETTLED, len(LEDS), self.cameras)
         wait_until(is_tracked, START,
-                   f'the LEDs are not tracked by all cameras within {START:.0f} s; see {self.log}',
+                   f'the LEDs are not tracked by all cameras within {START:.0f} s; {KEEP_LOG}',
                    period=SETTLED / 2.0)
 
     # --- Processes
@@ -144,7 +145,7 @@ class Room:
         try:
             return self.nodes()[node]
         except KeyError:
-            raise Refusal(f'the node {node} does not run; see {self.log}')
+            raise Refusal(f'the node {node} does not run; {KEEP_LOG}')
 
     def kill(self, node):
         """node: as of pid()."""

@@ -155,7 +155,7 @@ Samples expectedSamples() {
 }
 
 /// 0 is not -0.
-void expectSameSamples(double a, double b) {
+void expectSameNumber(double a, double b) {
   EXPECT_EQ(a, b);
   EXPECT_EQ(std::signbit(a), std::signbit(b)) << a << " " << b;
 }
@@ -163,19 +163,19 @@ void expectSameSamples(double a, double b) {
 template <typename A, typename B>
 void expectSameVector(const Eigen::MatrixBase<A>& a, const Eigen::MatrixBase<B>& b) {
   for (Eigen::Index i = 0; i < a.size(); ++i)
-    expectSameSamples(a(i), b(i));
+    expectSameNumber(a(i), b(i));
 }
 
 void expectSameLens(const geometry::Intrinsics& a, const geometry::Intrinsics& b) {
   EXPECT_EQ(a.width, b.width);
   EXPECT_EQ(a.height, b.height);
-  expectSameSamples(a.fx, b.fx);
-  expectSameSamples(a.fy, b.fy);
-  expectSameSamples(a.cx, b.cx);
-  expectSameSamples(a.cy, b.cy);
+  expectSameNumber(a.fx, b.fx);
+  expectSameNumber(a.fy, b.fy);
+  expectSameNumber(a.cx, b.cx);
+  expectSameNumber(a.cy, b.cy);
   EXPECT_EQ(a.distortion_model, b.distortion_model);
   for (std::size_t i = 0; i < a.distortion.size(); ++i)
-    expectSameSamples(a.distortion[i], b.distortion[i]);
+    expectSameNumber(a.distortion[i], b.distortion[i]);
 }
 
 void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecording& b) {
@@ -193,7 +193,7 @@ void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecordin
   EXPECT_EQ(a.clock_epoch, b.clock_epoch);
   ASSERT_EQ(a.frames.size(), b.frames.size());
   for (std::size_t i = 0; i < a.frames.size(); ++i) {
-    expectSameSamples(a.frames[i].stamp, b.frames[i].stamp);
+    expectSameNumber(a.frames[i].stamp, b.frames[i].stamp);
     ASSERT_EQ(a.frames[i].spots.size(), b.frames[i].spots.size());
     for (std::size_t s = 0; s < a.frames[i].spots.size(); ++s)
       expectSameVector(a.frames[i].spots[s], b.frames[i].spots[s]);
@@ -201,7 +201,7 @@ void expectSameCamera(const wave::CameraRecording& a, const wave::CameraRecordin
   ASSERT_EQ(a.masks.size(), b.masks.size());
   for (std::size_t i = 0; i < a.masks.size(); ++i) {
     expectSameVector(a.masks[i].center, b.masks[i].center);
-    expectSameSamples(a.masks[i].radius, b.masks[i].radius);
+    expectSameNumber(a.masks[i].radius, b.masks[i].radius);
   }
 }
 
@@ -209,16 +209,16 @@ void expectSameSamples(const Samples& a, const Samples& b) {
   EXPECT_EQ(a.world_frame, b.world_frame);
   ASSERT_EQ(a.recording.square.has_value(), b.recording.square.has_value());
   if (a.recording.square) {
-    expectSameSamples(a.recording.square->side_x, b.recording.square->side_x);
-    expectSameSamples(a.recording.square->side_y, b.recording.square->side_y);
-    expectSameSamples(a.recording.square->led_height, b.recording.square->led_height);
+    expectSameNumber(a.recording.square->side_x, b.recording.square->side_x);
+    expectSameNumber(a.recording.square->side_y, b.recording.square->side_y);
+    expectSameNumber(a.recording.square->led_height, b.recording.square->led_height);
     expectSameVector(a.recording.square->origin, b.recording.square->origin);
-    expectSameSamples(a.recording.square->yaw, b.recording.square->yaw);
+    expectSameNumber(a.recording.square->yaw, b.recording.square->yaw);
   }
   ASSERT_EQ(a.recording.wand.has_value(), b.recording.wand.has_value());
   if (a.recording.wand) {
-    expectSameSamples(a.recording.wand->length, b.recording.wand->length);
-    expectSameSamples(a.recording.wand->stddev, b.recording.wand->stddev);
+    expectSameNumber(a.recording.wand->length, b.recording.wand->length);
+    expectSameNumber(a.recording.wand->stddev, b.recording.wand->stddev);
     EXPECT_EQ(a.recording.wand->led_height, b.recording.wand->led_height);
   }
   ASSERT_EQ(a.recording.cameras.size(), b.recording.cameras.size());
@@ -253,7 +253,7 @@ TEST_F(SamplesFile, KeepsKnownPlaces) {
   const std::vector<square::KnownPlace> places = read.square.value().places;
   ASSERT_EQ(places.size(), 2U);
   expectSameVector(places[1].position, Eigen::Vector3d(1.0, 1.0, 1e-7));
-  expectSameSamples(places[1].stddev, 0.002);
+  expectSameNumber(places[1].stddev, 0.002);
   ASSERT_EQ(read.cameras[0].sightings.places.size(), 2U);
   EXPECT_FALSE(read.cameras[0].sightings.places[0]);
   expectSameVector(*read.cameras[0].sightings.places[1], Eigen::Vector2d(5.0, 6.25));
@@ -269,8 +269,8 @@ TEST_F(SamplesFile, KeepsLengthsByTape) {
   ASSERT_EQ(lengths.size(), 2U);
   EXPECT_EQ(lengths[0].from, 0U);
   EXPECT_EQ(lengths[0].to, 2U);
-  expectSameSamples(lengths[0].length, 3.2015621187164243);
-  expectSameSamples(lengths[0].stddev, 0.001);
+  expectSameNumber(lengths[0].length, 3.2015621187164243);
+  expectSameNumber(lengths[0].stddev, 0.001);
   EXPECT_EQ(lengths[1].from, 3U);
   const std::string text = geometry::readFile(path_);
   for (const auto& [from, to, part] :

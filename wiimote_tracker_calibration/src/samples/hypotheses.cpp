@@ -66,8 +66,8 @@ void addTapedLengths(const Hypothesis& as_is, Hypotheses* all) {
   }
 }
 
-/// The ratio of the sides by free corners, and the scale by the wand.
-void addLengths(const Hypothesis& as_is, const std::optional<Attempt>& free, Hypotheses* all) {
+/// Other sides, in the ratio of free corners, and another length of the wand.
+void addSidesAndWand(const Hypothesis& as_is, const std::optional<Attempt>& free, Hypotheses* all) {
   const square::SquareLayout layout = *as_is.recording.square;
   square::Corners at = layout.corners(!free || free->z_up);
   for (std::size_t c = 0; c < 4 && free; ++c)
@@ -155,7 +155,7 @@ Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<Attempt>&
   if (as_is.recording.square) {
     addCorners(as_is, &all);
     addTapedLengths(as_is, &all);
-    addLengths(as_is, free, &all);
+    addSidesAndWand(as_is, free, &all);
   }
   for (std::size_t i = 0; i < as_is.recording.cameras.size(); ++i) {
     addGravity(as_is, i, &all);

@@ -1,7 +1,5 @@
 #include "motion/textbook_imm.h"
 
-#include "motion/modes.h"
-
 #include <Eigen/LU>
 
 #include <algorithm>
@@ -14,10 +12,10 @@ namespace {
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int kResting = 2;  // fixed, swaying; then the moving modes
-constexpr int kMoving = 5;
+// In the order of TextbookImm::models().
+constexpr int kResting = kRestModeNames.size();
+constexpr int kMoving = kMovingModeNames.size() + 1;  // and the sudden one
 constexpr int kModes = kResting + kMoving;
-static_assert(kModes == motion::kModes, "this reference needs each mode of the filter, too");
 
 MatrixXd blocks(double pp, double vv, double aa) {
   VectorXd diagonal(9);
@@ -143,15 +141,15 @@ void TextbookImm::predict(double time) {
 }
 
 void TextbookImm::stop(double duration) {
-  Rates rates = Rates::Zero();
-  rates.bottomLeftCorner<kMoving, kResting>().setConstant(options_.stop_rate / kResting);
+  MatrixXd rates = MatrixXd::Zero(kModes, kModes);
+  rates.bottomLeftCorner(kMoving, kResting).setConstant(options_.stop_rate / kResting);
   interact(rates, duration);
 }
 
 void TextbookImm::change(double duration) {
-  Rates rates = Rates::Zero();
+  MatrixXd rates = MatrixXd::Zero(kModes, kModes);
   for (int i = 0; i < kResting; ++i)
-    rates.row(i).tail<kMoving>().setConstant(options_.rest[i].start_rate / kMoving);
+    rates.row(i).tail(kMoving).setConstant(options_.rest[i].start_rate / kMoving);
   for (int i = 0; i < kMoving; ++i) {
     for (int j = 0; j < kMoving; ++j) {
       double& rate = rates(kResting + i, kResting + j);
@@ -164,8 +162,8 @@ void TextbookImm::change(double duration) {
   interact(rates, duration);
 }
 
-void TextbookImm::interact(const Rates& rates, double duration) {
-  Rates p;  // probabilities
+void TextbookImm::interact(const MatrixXd& rates, double duration) {
+  MatrixXd p(kModes, kModes);  // probabilities
   for (int i = 0; i < kModes; ++i) {
     p.row(i) = rates.row(i) * duration / (1.0 + rates.row(i).sum() * duration);
     p(i, i) = 1.0 - p.row(i).sum();

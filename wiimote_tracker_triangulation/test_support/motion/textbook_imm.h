@@ -58,12 +58,12 @@ class TextbookImm {
 
   Eigen::VectorXd mean() const;
   Eigen::MatrixXd covariance() const;
-  /// Fixed, swaying, smooth, gentle, brisk, hard, sudden.
+  /// Those at rest and the moving ones of MotionOptions, then the sudden one.
   const std::vector<Model>& models() const { return models_; }
 
  private:
-  using Rates = Eigen::Matrix<double, 7, 7>;  // from row to column [1/s]
-  void interact(const Rates& rates, double duration);
+  /// @param rates from row to column [1/s]
+  void interact(const Eigen::MatrixXd& rates, double duration);
 
   MotionOptions options_;
   double time_;

@@ -100,7 +100,7 @@ TEST_F(Workflow, ABadStartKeepsTheRun) {
   EXPECT_SAYS(calibration_.start(250.0, 250.0, names_).message, "in metres");
   EXPECT_SAYS(calibration_.start(2.5, 2.5, {"a", "a"}).message, "at least two cameras");
   EXPECT_EQ(calibration_.square().corners().size(), 1U);
-  EXPECT_EQ(calibration_.sides(), std::vector<double>({2.5, 2.0}));
+  EXPECT_EQ(calibration_.layout().value().side_y, 2.0);
   ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);
   EXPECT_EQ(calibration_.square().corners().size(), 0U);
 }
@@ -302,7 +302,7 @@ TEST_F(Workflow, ACameraThatReconnectsLeavesTheVolumeOfTheOthers) {
 
 TEST_F(Workflow, WithoutASquareItTakesAWand) {
   ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
-  EXPECT_TRUE(calibration_.sides().empty());
+  EXPECT_FALSE(calibration_.layout());
   EXPECT_SAYS(calibration_.beginCapture(std::nullopt, now_).message, "without a square");
   EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "no wand was waved");
   EXPECT_SAYS(calibration_.beginWave(cameras_, false, std::nullopt, now_).message, "no scale");

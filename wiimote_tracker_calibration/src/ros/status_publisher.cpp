@@ -96,7 +96,8 @@ CalibrationStatus calibrationStatus(const workflow::Calibration& calibration,
   status.next_corner = next.corner ? static_cast<std::int32_t>(*next.corner) : -1;
   status.progress = calibration.progress();
   status.corners_captured = static_cast<std::uint32_t>(calibration.square().corners().size());
-  status.square_sides = calibration.sides();
+  if (const auto& square = calibration.layout())
+    status.square_sides = {square->side_x, square->side_y};
   status.corners_needed = isWithoutSquare(calibration) ? 0 : workflow::SquareRun::kCorners;
   status.missing = calibration.missing();
   status.hands_free = calibration.isHandsFree();

@@ -341,8 +341,7 @@ double Calibration::progress() const {
     case Step::kIdle:
       return 0.0;
     case Step::kReady:
-      return static_cast<double>(captured_.square.corners().size()) /
-             static_cast<double>(SquareRun::kCorners);
+      return static_cast<double>(captured_.square.corners().size()) / SquareRun::kCorners;
     case Step::kCapturing:
       return captured_.square.capture() ? captured_.square.capture()->progress() : 0.0;
     case Step::kWaving:
@@ -367,11 +366,6 @@ std::vector<std::string> Calibration::missing() const {
     missing.insert(missing.end(), report.missing.begin(), report.missing.end());
   }
   return missing;
-}
-
-std::vector<double> Calibration::sides() const {
-  return captured_.layout ? std::vector<double>{captured_.layout->side_x, captured_.layout->side_y}
-                          : std::vector<double>();
 }
 
 std::string Calibration::occupied() const {

@@ -190,8 +190,6 @@ class Calibration {
   const SquareRun& square() const { return captured_.square; }
   /// Nothing when nothing is started, or without a square.
   const std::optional<square::SquareLayout>& layout() const { return captured_.layout; }
-  /// Along x, along y [m]; empty without a square.
-  std::vector<double> sides() const;
   /// The wave that is being recorded, or was.
   const std::optional<WaveRecorder>& wave() const { return captured_.wave; }
   const std::optional<geometry::Rig>& rig() const { return rig_; }

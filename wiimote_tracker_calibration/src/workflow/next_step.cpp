@@ -37,21 +37,21 @@ NextStep beforeStart(const Preparation& done) {
 }
 
 /// Asks back for sides that are hardly meant; empty for usual ones.
-std::string doubtAbout(const std::vector<double>& sides) {
-  const auto [shortest, longest] = std::minmax_element(sides.begin(), sides.end());
-  if (*shortest >= kUsualShortest && *longest <= kUsualLongest)
+std::string doubtAbout(const square::SquareLayout& square) {
+  const auto [shortest, longest] = std::minmax(square.side_x, square.side_y);
+  if (shortest >= kUsualShortest && longest <= kUsualLongest)
     return "";
-  return format("The square is %g m x %g m: if that is wrong, start again. ", sides[0], sides[1]);
+  return format("The square is %g m x %g m: if that is wrong, start again. ", square.side_x,
+                square.side_y);
 }
 
 NextStep nextCorner(const Calibration& calibration) {
-  const std::vector<double> sides = calibration.sides();
-  if (sides.empty())
+  if (!calibration.layout())
     return {"Wand",
             "Take the wand and give its length to begin, or start again with it on the floor.",
             "start_wave", "begin the wave"};
   const std::size_t corner = calibration.square().corners().size();
-  const std::string doubt = corner == 0 ? doubtAbout(sides) : "";
+  const std::string doubt = corner == 0 ? doubtAbout(*calibration.layout()) : "";
   const std::string place = SquareRun::nameOf(corner) + " (" + kCornerHints.at(corner) + ")";
   if (calibration.isHandsFree())
     return {cornerTitle(corner),
@@ -69,7 +69,7 @@ NextStep waving(const Calibration& calibration) {
   if (!wave.report().enough())
     return {"Wave", "Wave through the whole volume, high and low, near and far."};
   const char* const enough = "All cameras have seen enough.";
-  if (calibration.sides().empty())  // without a square nothing else is needed
+  if (!calibration.layout())  // without a square nothing else is needed
     return {"Enough", enough, "solve", "end the wave and solve"};
   return {"Enough", enough, "stop_wave", "end the wave"};
 }

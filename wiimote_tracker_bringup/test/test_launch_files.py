@@ -292,6 +292,12 @@ def test_nodes_that_are_respawned_know_it(load, name):
         assert ('WIIMOTE_TRACKER_RESPAWNS', '1') in node.env_args
 
 
+@pytest.mark.parametrize('given, name', [([], 'triangulation'), (['one_manager:=true'], 'manager')])
+def test_the_tracker_is_started_again_soon(load, given, name):
+    node = load('tracker.launch', *given)[0][name]
+    assert node.respawn and node.respawn_delay <= 0.2
+
+
 def test_the_hand_is_started_again(load):
     assert load('simulated_rig.launch', 'hand:=true')[0]['simulated_hand'].respawn
 

@@ -375,6 +375,9 @@ TEST_F(Node, ALoadedRigOfCamerasWithoutImagesIsNamed) {
   const auto loaded = call<LoadRig>("/silent/calibration/load", request);
   ASSERT_TRUE(loaded.success) << loaded.message;
   EXPECT_SAYS(loaded.message, "no image has come yet from ");
+  Latest<CalibrationStatus> status("/silent/calibration/status");
+  EXPECT_TRUE(waitUntil([&] { return status.get() && status.get()->next_title == "No images"; }));
+  EXPECT_SAYS(status.get()->next_sentence, "no image has come yet from camera_1, camera_2, ");
   EXPECT_EQ(call<LoadRig>("calibration/load").message.find("no image has come"), std::string::npos);
 }
 

@@ -84,6 +84,10 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   calibration_.saved(*calibration_.rig());
   EXPECT_EQ(next().title, "Ready");
   EXPECT_TRUE(next().request.empty());
+  findings_.silent = {"wiimote_1", "wiimote_2"};
+  EXPECT_EQ(next().title, "No images");
+  EXPECT_NE(next().sentence.find("no image has come yet from wiimote_1, wiimote_2: check"),
+            std::string::npos);
 }
 
 TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {

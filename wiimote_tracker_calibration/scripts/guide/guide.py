@@ -204,7 +204,8 @@ class Guide:
             return f' {self.asking["solve"]} solves.'
         if status.step == status.SOLVED and request != 'save':
             return f' {self.asking["save"]} saves.'
-        is_well = status.step == status.SAVED and not any(c.health for c in status.cameras)
+        is_well = (status.step == status.SAVED and status.next_title != 'No images'
+                   and not any(c.health for c in status.cameras))
         return f' {self.asking["check"]} checks it.' if is_well else ''
 
     def _keep_time(self, before, status, now: float) -> None:

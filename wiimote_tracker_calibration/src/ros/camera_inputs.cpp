@@ -122,6 +122,16 @@ std::vector<std::string> CameraInputs::names() const {
   return names;
 }
 
+std::vector<std::string> CameraInputs::withoutImages(const geometry::Rig& rig) const {
+  std::vector<std::string> silent;
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    const auto input = cameras_.find(camera.camera.name);
+    if (input == cameras_.end() || input->second.width < 0)
+      silent.push_back(camera.camera.name);
+  }
+  return silent;
+}
+
 void CameraInputs::restartGravity() {
   for (auto& camera : cameras_)
     camera.second.gravity = capture::RestGravity();

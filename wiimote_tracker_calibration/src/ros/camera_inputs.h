@@ -17,6 +17,7 @@
 #include <tf2_ros/buffer.h>
 #include <tf2_ros/transform_listener.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
+#include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <Eigen/Core>
 
@@ -88,6 +89,9 @@ class CameraInputs {
   const std::map<std::string, CameraInput>& cameras() const { return cameras_; }
 
   std::vector<std::string> names() const;
+
+  /// Cameras of a rig that have sent no image since the start.
+  std::vector<std::string> withoutImages(const geometry::Rig& rig) const;
 
   /// Light in these regions is ignored from the next image on. Lock the mutex.
   void setMasks(const capture::Masks& masks) { masks_ = masks; }

@@ -5,6 +5,7 @@
 #include "rooms/join_rigs.h"
 #include "samples/judge.h"
 #include "samples/samples_file.h"
+#include "workflow/next_step.h"
 
 #include <wiimote_tracker_msgs/JoinRig.h>
 #include <wiimote_tracker_msgs/LoadRig.h>
@@ -98,8 +99,12 @@ class FileServices {
     const std::string path = call.response.path =
         rigPath(call.request.path, context_.parameters(lock));
     Reply reply = loadRig(path, &lock);
-    if (reply.success)
-      reply.message += withoutImages(lock) + nextStart(path, context_.parameters(lock));
+    if (!reply.success)
+      return reply;
+    const auto silent = context_.inputs().withoutImages(*context_.rig(lock));
+    if (!silent.empty())
+      reply.message += "; " + workflow::describeSilent(silent);
+    reply.message += nextStart(path, context_.parameters(lock));
     return reply;
   }
 
@@ -142,20 +147,6 @@ class FileServices {
     });
     reply.message += dropped;
     return reply;
-  }
-
-  /// Which cameras of the rig have sent no image since the start, and what to do; empty: none.
-  std::string withoutImages(const Lock& lock) {
-    std::vector<std::string> silent;
-    for (const geometry::RigCamera& camera : context_.existingRig("to load", lock).cameras) {
-      const auto input = context_.inputs().cameras().find(camera.camera.name);
-      if (input == context_.inputs().cameras().end() || input->second.width < 0)
-        silent.push_back(camera.camera.name);
-    }
-    return silent.empty() ? ""
-                          : "; no image has come yet from " + joined(silent) +
-                                ": check that this is the rig of your cameras, and start their "
-                                "drivers";
   }
 
   Reply loadRig(const std::string& path, Lock* lock) {

@@ -164,6 +164,8 @@ workflow::Findings StatusPublisher::findings() const {
   }
   findings.correctable = correctable_;
   findings.cause = cause_;
+  if (calibration_.rig())
+    findings.silent = inputs_.withoutImages(*calibration_.rig());
   return findings;
 }
 

@@ -143,6 +143,11 @@ NextStep solved(const samples::Verdict& verdict) {
 
 }  // namespace
 
+std::string describeSilent(const std::vector<std::string>& cameras) {
+  return "no image has come yet from " + joined(cameras) +
+         ": check that this is the rig of your cameras, and start their drivers";
+}
+
 NextStep nextStep(const Calibration& calibration,
                   const samples::Verdict& verdict,
                   const Findings& findings) {
@@ -173,7 +178,8 @@ NextStep nextStep(const Calibration& calibration,
     case Step::kCapturing:
       return {"Hold still", "Keep the LED still."};
     case Step::kSaved:
-      break;
+      if (!findings.silent.empty())
+        return {"No images", "The rig is in use, but " + describeSilent(findings.silent) + "."};
   }
   return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
 }

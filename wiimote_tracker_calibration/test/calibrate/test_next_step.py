@@ -145,3 +145,8 @@ def test_at_the_end_it_says_what_the_node_goes_on_with():
     guide.on_answer('cancel', True, '', 9.0)
     guide.on_answer('recalibrate', False, '', 9.0)
     assert 'goes on' not in guide.took(9.0)
+
+
+def test_a_rig_whose_cameras_send_no_images_is_not_to_be_checked():
+    silent = status(CalibrationStatus.SAVED, next_title='No images', next_sentence='Start them.')
+    assert guide_at(silent).advice().sentence == 'Start them.'

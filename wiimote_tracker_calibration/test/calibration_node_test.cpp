@@ -381,6 +381,19 @@ TEST_F(Node, ALoadedRigOfCamerasWithoutImagesIsNamed) {
   EXPECT_EQ(call<LoadRig>("calibration/load").message.find("no image has come"), std::string::npos);
 }
 
+TEST_F(Node, CamerasOfATrackerInANamespaceBelowAreNotItsOwn) {
+  const Process process("/second", {"_rig_file:=" + folder_ + "/none.yaml"});
+  Latest<CalibrationStatus> second("/second/calibration/status");
+  ASSERT_TRUE(waitUntil([&] { return second.get() != nullptr; }));
+  const ros::Publisher camera = ros::NodeHandle().advertise<wiimote_tracker_msgs::IrBlobArray>(
+      "/second/camera_9/ir_blobs", 1);
+  ASSERT_TRUE(waitUntil([&] { return second.get()->cameras.size() == 1; }));
+  EXPECT_EQ(second.get()->cameras[0].name, "camera_9");
+  const auto before = status_->get()->header.seq;
+  ASSERT_TRUE(waitUntil([&] { return status_->get()->header.seq > before + 4; }));
+  EXPECT_EQ(status_->get()->cameras.size(), 4u);
+}
+
 TEST_F(Node, WithARigInUseTheConnectionCheckBeginsTheWalk) {
   ASSERT_FALSE(status_->get()->rig_id.empty());  // from a test before
   EXPECT_TRUE(waitUntil([] {

@@ -3,6 +3,7 @@
 #include <ros/master.h>
 #include <ros/this_node.h>
 #include <sensor_msgs/BatteryState.h>
+#include <wiimote_tracker_msgs/camera_topics.h>
 #include <wiimote_tracker_msgs/log_exceptions.h>
 
 #include <algorithm>
@@ -95,17 +96,10 @@ std::optional<std::set<std::string>> RosInput::findCameras() const {
   arguments[1] = "";
   if (!ros::master::execute("getPublishedTopics", arguments, result, topics, false))
     return std::nullopt;
-  const std::string own = nh_.getNamespace() == "/" ? "/" : nh_.getNamespace() + "/";
-  std::set<std::string> cameras;
-  for (int i = 0; i < topics.size(); ++i) {
-    const std::string name = topics[i][0];
-    const std::string type = topics[i][1];
-    const std::size_t end = name.size() - std::min(name.size(), kImages.size());
-    if (type == "wiimote_tracker_msgs/IrBlobArray" && end > own.size() &&
-        name.compare(end, kImages.size(), kImages) == 0 && name.compare(0, own.size(), own) == 0)
-      cameras.insert(name.substr(own.size(), end - own.size()));
-  }
-  return cameras;
+  std::map<std::string, std::string> types;
+  for (int i = 0; i < topics.size(); ++i)
+    types[topics[i][0]] = std::string(topics[i][1]);
+  return camerasBelow(nh_.getNamespace(), types);
 }
 
 template <class Message>

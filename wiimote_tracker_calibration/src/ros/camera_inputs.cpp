@@ -2,16 +2,11 @@
 
 #include <ros/master.h>
 #include <tf2_eigen/tf2_eigen.h>
+#include <wiimote_tracker_msgs/camera_topics.h>
 
 #include <utility>
 
 namespace wiimote_tracker {
-
-namespace {
-
-const char kSuffix[] = "/ir_blobs";
-
-}  // namespace
 
 capture::Image imageOf(const wiimote_tracker_msgs::IrBlobArray& message) {
   capture::Image image;
@@ -79,17 +74,10 @@ void CameraInputs::discover() {
   ros::master::V_TopicInfo topics;
   if (!discovers_ || !ros::master::getTopics(topics))
     return;
-  const std::string own_namespace = nh_.getNamespace() == "/" ? "/" : nh_.getNamespace() + "/";
-  const std::string suffix = kSuffix;
-  for (const ros::master::TopicInfo& topic : topics) {
-    const std::string& name = topic.name;
-    if (topic.datatype != "wiimote_tracker_msgs/IrBlobArray" ||
-        name.size() <= own_namespace.size() + suffix.size() ||
-        name.compare(name.size() - suffix.size(), suffix.size(), suffix) != 0 ||
-        name.compare(0, own_namespace.size(), own_namespace) != 0)
-      continue;
-    const std::string camera =
-        name.substr(own_namespace.size(), name.size() - suffix.size() - own_namespace.size());
+  std::map<std::string, std::string> types;
+  for (const ros::master::TopicInfo& topic : topics)
+    types[topic.name] = topic.datatype;
+  for (const std::string& camera : camerasBelow(nh_.getNamespace(), types)) {
     if (camera != ignored_)
       watch(camera);
   }
@@ -104,7 +92,7 @@ void CameraInputs::watch(const std::string& name) {
   const std::lock_guard<std::mutex> lock(subscribers_mutex_);
   // Capturing needs every image: the queue holds one second of them.
   subscribers_.push_back(nh_.subscribe<wiimote_tracker_msgs::IrBlobArray>(
-      name + kSuffix, 100,
+      name + "/ir_blobs", 100,
       [this, name](const wiimote_tracker_msgs::IrBlobArrayConstPtr& message) {
         runCallback("an image of " + name, [&] { onBlobs(name, *message); });
       },

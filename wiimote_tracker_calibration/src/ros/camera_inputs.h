@@ -62,7 +62,7 @@ class CameraInputs {
                                        const Eigen::Vector3d& specific_force,
                                        const Lock& lock)>;
 
-  /// @param names cameras to watch; empty: every topic that ends in /ir_blobs.
+  /// @param names cameras to watch; empty: those that camerasBelow() finds.
   /// @param ignored a device whose images are not used; empty: none.
   /// @param mutex guards everything this class hands out; @param changed notified at each image.
   CameraInputs(const ros::NodeHandle& nh,

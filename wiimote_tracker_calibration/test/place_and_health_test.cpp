@@ -302,7 +302,7 @@ TEST_F(CalibratedNode, BringsBackAKnockedCamera) {
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
   EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/revert").message,
-              "load the one that you want, such as " + folder_);
+              "load the one that you want: one of " + folder_ + "/versions/");
 
   EXPECT_TRUE(waitUntil([&] { return applied.get()->id != other.id(); }));
   EXPECT_LT(

@@ -112,5 +112,21 @@ TEST_F(RigStorage, TheNewestVersionsAreKept) {
   EXPECT_TRUE(std::filesystem::exists(own));
 }
 
+TEST_F(RigStorage, OnlyRigsThatAreThereAreOffered) {
+  geometry::Rig rig;
+  rig.cameras.resize(1);
+  rig.cameras[0].camera.name = "camera_1";
+  const std::string folder = folder_ + "/offered", path = folder + "/rig.yaml";
+  EXPECT_EQ(describeEarlierRigs(path),
+            "no earlier one is kept beside " + path + ": calibrate again");
+  keepVersion(rig, 1.7e9, path);
+  EXPECT_EQ(describeEarlierRigs(path),
+            "load the one that you want: one of " + folder + "/versions/");
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  EXPECT_TRUE(saveRig(rig, path).empty());
+  EXPECT_EQ(describeEarlierRigs(path),
+            "load the one that you want: " + path + ".bak or one of " + folder + "/versions/");
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

@@ -237,8 +237,8 @@ class ContinuousServices {
     if (!before)
       throw Refusal(
           "the rig in use is not one that continuous calibration has made since the node "
-          "started: load the one that you want, such as " +
-          context_.parameters(lock).rig_file + ".bak, or one of versions/ beside it");
+          "started; " +
+          describeEarlierRigs(context_.parameters(lock).rig_file));
     const std::string message = "rig " + before->id() +
                                 " from before the last change is in use again; until there is "
                                 "another one, changes are only proposed";

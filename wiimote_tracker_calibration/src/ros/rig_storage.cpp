@@ -145,6 +145,17 @@ std::string keepVersion(const geometry::Rig& rig,
   return path;
 }
 
+std::string describeEarlierRigs(const std::string& rig_file) {
+  std::vector<std::string> kept;
+  std::error_code error;
+  if (std::filesystem::exists(rig_file + ".bak", error))
+    kept.push_back(rig_file + ".bak");
+  if (!versionsOf(rig_file).empty())
+    kept.push_back("one of " + beside(rig_file, "versions/"));
+  return kept.empty() ? "no earlier one is kept beside " + rig_file + ": calibrate again"
+                      : "load the one that you want: " + joined(kept, " or ");
+}
+
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,
                                         const ros::NodeHandle& nh,
                                         double timeout) {

@@ -27,6 +27,9 @@ std::string keepVersion(const geometry::Rig& rig,
                         const std::string& rig_file,
                         std::size_t most = 1000);
 
+/// Which earlier rigs beside the rig file can be loaded, for a refusal to go back.
+std::string describeEarlierRigs(const std::string& rig_file);
+
 /// Calls set_camera_info of all these cameras at once, and waits for the answers for at most
 /// `timeout` [s], even if a driver never answers. Hold no mutex.
 /// @returns warnings: one for each camera that did not accept it, one for all without that service.

@@ -3,11 +3,13 @@
 
 #include "node_fixture.h"
 
+#include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/CheckPlace.h>
 
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <cstdint>
 #include <string>
 
 namespace wiimote_tracker {
@@ -32,6 +34,26 @@ class CalibratedNode : public Node {
     rig.method = "test";
     rig.covariance = Eigen::MatrixXd::Zero(64, 64);
     return rig;
+  }
+
+  /// Measures eight known places of a world that is 2 % larger. @param places known before
+  static void measureLargerWorld(std::uint32_t places) {
+    for (const double x : {0.4, 2.1}) {
+      for (const double y : {0.4, 2.1}) {
+        for (const double z : {0.1, 1.6}) {
+          const Eigen::Vector3d place(x, y, z);
+          putLed(place);
+          wiimote_tracker_msgs::AddKnownPlace::Request request;
+          request.known = pointOf(1.02 * place);
+          const auto response =
+              call<wiimote_tracker_msgs::AddKnownPlace>("calibration/known_places/add", request);
+          ASSERT_TRUE(response.success) << response.message;
+          EXPECT_EQ(response.places, ++places);
+          EXPECT_NEAR(response.measured.x, x, 0.005);
+          EXPECT_SAYS(response.message, " m from the known place");
+        }
+      }
+    }
   }
 
   static void load(const geometry::Rig& rig, const std::string& service = "calibration/load") {

@@ -103,23 +103,7 @@ TEST_F(CalibratedNode, CorrectsTheVolumeFromKnownPlaces) {
   EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message,
               "only 0 known points, too few");
 
-  // The known places are those of a world that is 2 % larger.
-  std::uint32_t places = 0;
-  for (const double x : {0.4, 2.1}) {
-    for (const double y : {0.4, 2.1}) {
-      for (const double z : {0.1, 1.6}) {
-        const Eigen::Vector3d place(x, y, z);
-        putLed(place);
-        AddKnownPlace::Request request;
-        request.known = pointOf(1.02 * place);
-        const auto response = call<AddKnownPlace>("calibration/known_places/add", request);
-        ASSERT_TRUE(response.success) << response.message;
-        EXPECT_EQ(response.places, ++places);
-        EXPECT_NEAR(response.measured.x, x, 0.005);
-        EXPECT_SAYS(response.message, " m from the known place");
-      }
-    }
-  }
+  measureLargerWorld(0);
   AddKnownPlace::Request request;
   request.known = pointOf({2100.0, 2100.0, 1600.0});
   EXPECT_SAYS(call<AddKnownPlace>("calibration/known_places/add", request).message, "millimetres");
@@ -364,7 +348,7 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   putLed(place);
   cameras_->blind({"camera_2"});  // whose pose in the rig is wrong
   AddKnownPlace::Request known;
-  known.known = pointOf(place);
+  known.known = pointOf(1.02 * place);
   const auto measured = call<AddKnownPlace>("calibration/known_places/add", known);
   ASSERT_TRUE(measured.success) << measured.message;
   cameras_->blind({});
@@ -396,6 +380,17 @@ TEST_F(CalibratedNode, FindsANewClockAndApproachesTheAdjustedPoses) {
   EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.002);
   // What was measured stays.
   EXPECT_SAYS(call<FitRemap>("calibration/known_places/fit").message, "1 known point");
+  // Nor does a correction of the volume end the approach.
+  cameras_->waveLed(false);
+  cameras_->blind({"camera_2"});
+  measureLargerWorld(1);
+  const auto fitted = call<FitRemap>("calibration/known_places/fit");
+  ASSERT_TRUE(fitted.success) << fitted.message;
+  EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", save).message,
+              "the corrected rig, which the one in use still approaches");
+  const geometry::Rig saved = geometry::readRigFile(save.path);
+  ASSERT_TRUE(saved.remap);
+  EXPECT_EQ(saved.remap->rig_id, saved.id());
   // Back, once, though the masks were cleared meanwhile; they stay so.
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
   rig.cameras[3].masks.clear();

@@ -1,6 +1,7 @@
 #include "units.h"
 
 #include "capture/corner_capture.h"
+#include "continuous/rig_changes.h"
 #include "place/check_place.h"
 #include "place/measure_place.h"
 #include "remap/measured_points.h"
@@ -191,7 +192,10 @@ class PlaceServices {
           format(": known places were off by %.1f mm, expected now %.1f mm",
                  1e3 * result.uncorrected_error, 1e3 * result.expected_error) +
           appendix(result.warnings);
-      context_.setRig(rig, message, lock);
+      std::optional<geometry::Rig> goal = context_.calibration(lock).goal();
+      if (goal)
+        goal = continuous::appliedRig(*goal, rig);
+      context_.setRig(rig, message, lock, goal);
       return Reply{true, message};
     });
     reply.message += dropped;

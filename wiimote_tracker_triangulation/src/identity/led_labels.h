@@ -67,6 +67,12 @@ class LedLabels {
   /// that their ages would be those of old.
   const Places* placesToKeep();
 
+  /// Forgets where labels were seen, as when the places are in another world from now on.
+  void forgetPlaces() {
+    places_.clear();
+    former_.clear();
+  }
+
   /// Places from another process, before the first update.
   void setFormerPlaces(const Places& places) { places_ = places; }
 

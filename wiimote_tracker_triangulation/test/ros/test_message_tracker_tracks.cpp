@@ -92,6 +92,29 @@ TEST(Labels, ThatMayBeWrongAreNamed) {
     EXPECT_NEAR(0.5, point.label_confidence, 0.1) << time;
 }
 
+TEST(Labels, AreNotRememberedAtPlacesOfAnotherWorld) {
+  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  parameters.labels = {"led", "second"};
+  Studio studio(parameters);
+  const auto take = [&](const std::vector<std::size_t>& cameras, double way) {
+    for (const std::size_t camera : cameras)
+      studio.rig.cameras[camera].camera.world_from_camera.pretranslate(Vector3d(way, 0.0, 0.0));
+    EXPECT_TRUE(studio.tracker.takeRig(toMessage(studio.rig)).cameras);
+  };
+  studio.film(1.0, {onCircle, besideCircle});
+  take({1}, 0.5);
+  take({0, 1, 2}, 1e-4);
+  EXPECT_EQ(2u, studio.tracker.labels().places().size()) << "a knock, and a step of an approach";
+  take({0, 1, 2}, 0.5);
+  EXPECT_TRUE(studio.tracker.labels().places().empty());
+  const double again = studio.now;
+  studio.film(1.0, {onCircle, besideCircle});
+  EXPECT_EQ(2u, studio.tracker.labels().places().size());
+  const auto points = studio.pointsOf("led", again + 0.5);
+  ASSERT_FALSE(points.empty());
+  EXPECT_TRUE(std::isnan(points.back().second.label_confidence));
+}
+
 /// One LED comes to another one; their spots merge for a second, then one of them leaves.
 TEST(Labels, OfOneLedCannotBeMixedUp) {
   const auto way = [](double since) { return since < 0.0 ? 0.0 : std::min(0.5, since * since); };

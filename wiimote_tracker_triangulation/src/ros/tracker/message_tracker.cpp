@@ -34,6 +34,14 @@ void checkFrames(const geometry::Rig& rig,
   }
 }
 
+/// Whether a camera is where it was: else all were calibrated anew, perhaps with another origin.
+bool isSameWorld(const geometry::Rig& before, const geometry::Rig& rig) {
+  return std::any_of(rig.cameras.begin(), rig.cameras.end(), [&](const auto& each) {
+    const geometry::RigCamera* same = before.find(each.camera.name);
+    return same && geometry::haveSamePose(same->camera, each.camera);
+  });
+}
+
 }  // namespace
 
 MessageTracker::MessageTracker(const TrackingParameters& parameters,
@@ -69,6 +77,8 @@ MessageTracker::RigChange MessageTracker::takeRig(
     rig_id_ = idOf(message, rig);
     reported_faults_.useRig(rig_, rig, *estimator_);
     statistics_.setRig(rig);
+    if (!isSameWorld(rig_, rig))
+      labels_.forgetPlaces();
     const std::string sentence = describeLoneCamera(rig, parameters_.estimator);
     if (!std::exchange(lone_camera_, !sentence.empty()) && lone_camera_)
       sink_->onProblem(sentence);

@@ -1,5 +1,6 @@
 #include "tracks_view.h"
 
+#include <wiimote_tracker_msgs/doubtful_label.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -16,7 +17,6 @@ using wiimote_tracker_msgs::TrackedPoint;
 using wiimote_tracker_msgs::ZoneEvent;
 
 constexpr double kCountWindow = 2.0;  // [s]
-constexpr double kDoubtful = 0.8;     // label_confidence, as of the markers
 
 /// Of an LED or a body that is not lost.
 std::string stateOf(std::uint8_t state) {
@@ -77,8 +77,8 @@ std::vector<TracksView::Row> TracksView::leds(double now) const {
       continue;
     const auto& p = led.position;
     const auto& c = led.position_covariance;
-    rows.push_back({led.label + (led.label_confidence < kDoubtful ? "?" : ""), stateOf(led.state),
-                    p.x, p.y, p.z, std::sqrt(c[0] + c[4] + c[8]),
+    rows.push_back({shownLabel(led.label, led.label_confidence), stateOf(led.state), p.x, p.y, p.z,
+                    std::sqrt(c[0] + c[4] + c[8]),
                     length(led.velocity.x, led.velocity.y, led.velocity.z),
                     std::to_string(led.rays_used) + " of " + std::to_string(led.rays_possible)});
   }

@@ -1,5 +1,7 @@
 #include "identity/led_labels.h"
 
+#include <wiimote_tracker_msgs/doubtful_label.h>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -185,7 +187,7 @@ void LedLabels::notePlace(const tracking::TrackedLed& led) {
 /// label that was doubtful already is named again: somebody may have found it right.
 void LedLabels::setConfidence(double confidence, double same, LedLabel* given) {
   Place& place = places_.at(given->name);
-  if (confidence < kDoubtful && (place.confidence >= kDoubtful || same < kDoubtful))
+  if (confidence < kDoubtfulLabel && (place.confidence >= kDoubtfulLabel || same < kDoubtfulLabel))
     doubtful_.push_back(given->name);
   place.confidence = confidence;
   given->confidence = confidence;

@@ -76,9 +76,6 @@ class LedLabels {
   /// Places from another process, before the first update.
   void setFormerPlaces(const Places& places) { places_ = places; }
 
-  /// Probability below which a label is doubtful.
-  static constexpr double kDoubtful = 0.8;
-
   /// Labels that became doubtful by the last update, or once more.
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 

@@ -1,8 +1,9 @@
 #include "marker_builder.h"
 
-#include "identity/led_labels.h"
 #include "marker_parts.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
+
+#include <wiimote_tracker_msgs/doubtful_label.h>
 
 #include <Eigen/Eigenvalues>
 
@@ -299,7 +300,7 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
 
   Marker label = marker("label", led.id, Marker::TEXT_VIEW_FACING);
   label.pose.position = pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ());
-  label.text = led.label + (led.label_confidence < identity::LedLabels::kDoubtful ? "?" : "");
+  label.text = shownLabel(led.label, led.label_confidence);
   label.scale.z = kTextHeight;
   label.color = own_color(alpha);
   array_.markers.push_back(label);

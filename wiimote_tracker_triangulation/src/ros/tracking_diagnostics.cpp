@@ -1,5 +1,6 @@
 #include "tracking_diagnostics.h"
 
+#include <wiimote_tracker_msgs/doubtful_label.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -17,7 +18,7 @@ const ros::WallDuration kFirstImages(1.0);
 std::string doubtfulLabels(const identity::LedLabels& labels) {
   std::string names;
   for (const auto& [label, place] : labels.places()) {
-    if (place.confidence < identity::LedLabels::kDoubtful)
+    if (place.confidence < kDoubtfulLabel)
       names += (names.empty() ? "" : ", ") + label;
   }
   return names;

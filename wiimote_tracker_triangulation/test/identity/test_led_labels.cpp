@@ -3,6 +3,7 @@
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
 #include <gtest/gtest.h>
+#include <wiimote_tracker_msgs/doubtful_label.h>
 
 #include <unistd.h>
 
@@ -255,7 +256,7 @@ std::vector<LedLabel> afterLoss(const std::vector<double>& places, double pause)
   for (const TrackedLed& led : leds) {
     result.push_back(labels.of(led.id));
     const auto& doubtful = labels.doubtful();
-    EXPECT_EQ(result.back().confidence < LedLabels::kDoubtful,
+    EXPECT_EQ(result.back().confidence < kDoubtfulLabel,
               std::count(doubtful.begin(), doubtful.end(), result.back().name) == 1);
   }
   labels.update(kTime + pause, leds);
@@ -269,7 +270,7 @@ TEST(LedLabels, StateTheirProbabilityWhenGivenAgain) {
     EXPECT_EQ(kTime + 1.0, label.since);
   }
   for (const LedLabel& label : afterLoss({0.0, 0.3, 0.6}, 2.0))
-    EXPECT_LT(label.confidence, LedLabels::kDoubtful) << label.name << " was near others";
+    EXPECT_LT(label.confidence, kDoubtfulLabel) << label.name << " was near others";
   for (const LedLabel& label : afterLoss({0.0, 1.5, 3.0}, 60.0))
     EXPECT_NEAR(1.0 / 3.0, label.confidence, 0.12) << label.name << " may be anywhere";
   EXPECT_GT(afterLoss({0.0}, 1.0)[0].confidence, 0.95);

@@ -59,17 +59,25 @@ def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, '', '')
 
 
+def without(packages, program):
+    script = ('import runpy, sys; sys.modules.update(dict.fromkeys(sys.argv[1].split())); '
+              'sys.argv = sys.argv[2:]; runpy.run_path(sys.argv[0], run_name="__main__")')
+    return subprocess.run([sys.executable, '-c', script, packages, os.path.join(PACKAGE, program)],
+                          capture_output=True, text=True, timeout=60)
+
+
 @pytest.mark.parametrize('program', [
     'benchmark/benchmark_latency', 'body_motion/body_to_base', 'body_motion/evaluate_trajectory',
     'body_motion/probe', 'evaluation/evaluate', 'evaluation/evaluate_recording',
     'evaluation/fault_matrix', 'evaluation/lead_demo', 'evaluation/results_table',
     'rig_planning/place_cameras', 'rig_planning/plan_rig'])
 def test_a_program_names_the_python_package_that_it_lacks(program):
-    # The Debian package only suggests it.
-    without_scipy = ("import runpy, sys; sys.modules['scipy'] = None; sys.argv = sys.argv[1:]; "
-                     "runpy.run_path(sys.argv[0], run_name='__main__')")
-    done = subprocess.run([sys.executable, '-c', without_scipy, os.path.join(PACKAGE, program)],
-                          capture_output=True, text=True, timeout=60)
+    done = without('scipy', program)
     assert done.returncode == 1
     assert done.stderr.endswith('apt install python3-scipy\n')
     assert 'Traceback' not in done.stderr
+
+
+def test_a_program_names_all_that_are_missing_at_once():
+    done = without('matplotlib scipy', 'rig_planning/plan_rig')
+    assert done.stderr.endswith('apt install python3-matplotlib python3-scipy\n')

@@ -1,13 +1,16 @@
-"""Python packages that the tracker's Debian package does without."""
+"""Python packages that the tracker's Debian package only recommends."""
 
 import importlib.util
 import os
 import sys
 
 
-def require(*names: str) -> None:
-    """Ends the program with what to do if one of these packages is missing."""
-    missing = [name for name in names if not importlib.util.find_spec(name)]
-    if missing:
+OPTIONAL = ('matplotlib', 'scipy')
+
+
+def require(name: str) -> None:
+    """Ends the program with what to do if this one of them is missing; names all that are."""
+    missing = [each for each in OPTIONAL if not importlib.util.find_spec(each)]
+    if name in missing:
         sys.exit(f'{os.path.basename(sys.argv[0])} needs Python packages that are missing; run: '
-                 'apt install ' + ' '.join('python3-' + name for name in missing))
+                 'apt install ' + ' '.join('python3-' + each for each in missing))

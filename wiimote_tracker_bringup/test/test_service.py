@@ -56,4 +56,13 @@ def test_a_tracker_without_its_master_is_started_again():
 
 def test_the_package_has_the_unit():
     with open(os.path.join(BRINGUP, 'scripts/package')) as file:
-        assert os.path.basename(UNIT) in file.read()
+        script = file.read()
+    assert os.path.basename(UNIT) in script and 'wiimote-tracker.p*' in script
+
+
+def test_a_purge_removes_what_the_unit_leaves():
+    with open(os.path.join(BRINGUP, 'packaging/wiimote-tracker.postrm')) as file:
+        script = file.read()
+    assert f'rm -rf /var/log/{values_of("LogsDirectory")[0].split("/")[0]}\n' in script
+    wanted = f'/etc/systemd/system/{values_of("WantedBy")[0]}.wants/wiimote-tracker@*.service'
+    assert f'rm -f {wanted}\n' in script

@@ -106,9 +106,11 @@ def test_a_list_is_read_or_refused_with_a_reason_as_by_list_wiimotes(tmp_path, t
 
 
 def test_a_missing_file_is_named(tmp_path):
-    with pytest.raises(Refusal,
-                       match='nothing.yaml cannot be read .*: correct its'):
-        cameras_file.read_devices(str(tmp_path / 'nothing.yaml'), '')
+    path = str(tmp_path / 'nothing.yaml')
+    with pytest.raises(Refusal, match=f'there is no {path}: .* list_wiimotes --write {path}$'):
+        cameras_file.read_devices(path, '')
+    with pytest.raises(Refusal, match='cannot be read .*: correct its path'):
+        cameras_file.read_devices(str(tmp_path), '')
 
 
 def test_discovered_remotes_keep_their_names(tmp_path, monkeypatch):

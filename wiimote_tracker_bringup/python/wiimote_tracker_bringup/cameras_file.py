@@ -1,7 +1,9 @@
 """The list of cameras, cameras.yaml, which `drivers` explains; rig descriptions have one, too."""
 
 import glob
+import os
 import re
+import shlex
 
 import yaml
 
@@ -44,6 +46,9 @@ def is_of_rig(camera):
 
 def read_list(path):
     """The mapping in a cameras.yaml or a rig description, with no key in a wrong place."""
+    if not os.path.lexists(path):
+        raise Refusal(f'there is no {path}: correct its path, or write it by: rosrun '
+                      f'wiimote_tracker_driver list_wiimotes --write {shlex.quote(path)}')
     content = read_file(path)
     if not isinstance(content.get('discover', False), bool):
         raise Refusal(f'{path}: "discover" must be true or false')

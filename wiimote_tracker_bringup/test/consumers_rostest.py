@@ -154,6 +154,11 @@ class Consumers(LiveRigTest):
         for name, group in expected.items():
             own = 'room/' + name.replace('manager: ', 'triangulation: ')
             self.assertEqual(groups_of(own), [group])
+        # Nodes that wait since their parameters were refused.
+        for node, group in [('calibration', 'calibration'), ('wiimote_1/driver', 'cameras'),
+                            ('triangulation', 'tracker')]:
+            for name in (node + ': parameters', 'room/' + node + ': parameters'):
+                self.assertEqual(groups_of(name), [group])
 
     def test_plotjuggler(self):
         """Every curve of the layout is a number that is published."""

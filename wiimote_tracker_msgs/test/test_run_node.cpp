@@ -62,5 +62,11 @@ TEST_F(RunNodeTest, SaysWhatToCorrectInTheAddressOfTheMaster) {
   EXPECT_FALSE(has_run_);
 }
 
+TEST_F(RunNodeTest, SeeksTheMasterWhereRospyDoesIfNoAddressIsGiven) {
+  ::unsetenv("ROS_MASTER_URI");
+  run({});
+  EXPECT_EQ(errors_.find("ROS_MASTER_URI"), std::string::npos) << errors_;
+}
+
 }  // namespace
 }  // namespace wiimote_tracker

@@ -129,10 +129,11 @@ int runWithMaster(const Node& node) {
   }
 }
 
+/// Without ROS_MASTER_URI the master is sought at rospy's default address.
 /// @throws Error if the master's address is none: ros::init() would abort.
 inline void requireMasterUri(int argc, char** argv) {
-  const char* const variable = std::getenv("ROS_MASTER_URI");
-  std::string uri = variable == nullptr ? "" : variable;
+  ::setenv("ROS_MASTER_URI", "http://localhost:11311", 0);
+  std::string uri = std::getenv("ROS_MASTER_URI");
   const std::string remapping = "__master:=";
   for (const std::string& word : std::vector<std::string>(argv, argv + argc)) {
     if (word.rfind(remapping, 0) == 0)

@@ -170,6 +170,12 @@ def test_write_begins_a_new_list(remotes, tmp_path):
     assert 'cameras:\n  wiimote_1: "virtual:%s"\n' % remotes[0].path in path.read_text()
 
 
+def test_a_relative_socket_is_found_from_other_folders(remotes, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    list_wiimotes('--write', 'cameras.yaml', '--virtual', os.path.basename(remotes[0].path))
+    assert f'  wiimote_1: "virtual:{remotes[0].path}"\n' in (tmp_path / 'cameras.yaml').read_text()
+
+
 def test_nothing_is_said_to_be_written_that_is_not(remotes, tmp_path):
     path = tmp_path / 'nowhere' / 'cameras.yaml'
     status, text = list_wiimotes('--write', str(path), '--virtual', remotes[0].path)

@@ -99,7 +99,8 @@ std::vector<Row> rowsOf(const std::vector<std::string>& sockets) {
   std::vector<Row> rows;
   for (const std::string& path : sockets) {
     Row row;
-    row.text = "virtual:" + path;
+    // Drivers may run in another folder than this program.
+    row.text = "virtual:" + std::filesystem::absolute(path).string();
     row.device = transport::parseDeviceName(row.text);
     row.description = "virtual Wii Remote";
     rows.push_back(row);

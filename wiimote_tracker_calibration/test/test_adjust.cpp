@@ -1,4 +1,4 @@
-// What the calibrations share: derivatives that are not Ceres' own, covariances, and quantiles.
+// What the calibrations share: the path's pixel and its derivatives, covariances, and quantiles.
 #include "adjust/chi_squared.h"
 #include "adjust/corner.h"
 #include "adjust/covariance.h"
@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 namespace wiimote_tracker::adjust {
@@ -24,7 +25,7 @@ TEST(PathPixel, DerivativesAreThoseOfFiniteDifferencesForEveryLens) {
     camera.intrinsics.distortion_model = model;
     const PixelError pixel(CameraBlocks(camera), {400.0, 300.0}, 0.4);
     // The time offset moves the exposure beyond the knot interval.
-    const PathPixelError error(pixel, 0.045, 0.05);
+    const std::unique_ptr<ceres::CostFunction> error(PathPixelError{pixel, 0.045, 0.05}.cost());
     std::vector<std::vector<double>> blocks = {{0.02, -0.01, 0.03},
                                                {3.0, -2.0, 2.0},
                                                {500.0, 510.0, 520.0, 390.0, -0.05},
@@ -44,7 +45,7 @@ TEST(PathPixel, DerivativesAreThoseOfFiniteDifferencesForEveryLens) {
     for (std::vector<double>& jacobian : jacobians)
       derivatives.push_back(jacobian.data());
     std::array<double, 2> residual{};
-    ASSERT_TRUE(error.Evaluate(parameters.data(), residual.data(), derivatives.data()));
+    ASSERT_TRUE(error->Evaluate(parameters.data(), residual.data(), derivatives.data()));
     constexpr double kStep = 1e-6;
     for (std::size_t b = 0; b < blocks.size(); ++b) {
       const std::size_t size = blocks[b].size();
@@ -53,9 +54,9 @@ TEST(PathPixel, DerivativesAreThoseOfFiniteDifferencesForEveryLens) {
         std::array<double, 2> plus{};
         std::array<double, 2> minus{};
         blocks[b][k] = here + kStep;
-        error.Evaluate(parameters.data(), plus.data(), nullptr);
+        error->Evaluate(parameters.data(), plus.data(), nullptr);
         blocks[b][k] = here - kStep;
-        error.Evaluate(parameters.data(), minus.data(), nullptr);
+        error->Evaluate(parameters.data(), minus.data(), nullptr);
         blocks[b][k] = here;
         for (std::size_t row = 0; row < 2; ++row)
           EXPECT_NEAR(jacobians[b][row * size + k], (plus[row] - minus[row]) / (2.0 * kStep), 1e-3)

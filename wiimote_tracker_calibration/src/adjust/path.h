@@ -4,67 +4,41 @@
 #include "adjust/cubic_spline.h"
 #include "adjust/pixel.h"
 
-#include <ceres/sized_cost_function.h>
-
 #include <Eigen/Core>
 
 #include <cmath>
-#include <memory>
 
 namespace wiimote_tracker::adjust {
 
 /// Error of the pixel of a point that moves along a uniform cubic B-spline. Blocks: rotation,
 /// position, lens, distortion, time offset (CameraBlocks), the four control points that shape the
 /// path around the exposure (3 each) [m].
-class PathPixelError : public ceres::SizedCostFunction<2,
-                                                       kRotationSize,
-                                                       kPositionSize,
-                                                       kLensSize,
-                                                       kHigherDistortionSize,
-                                                       1,
-                                                       3,
-                                                       3,
-                                                       3,
-                                                       3> {
- public:
-  /// @param since_knot the image's stamp after the first knot of its interval [s]. A time
-  /// offset that leaves this interval extrapolates its polynomial.
-  /// @param spacing of the knots [s].
-  PathPixelError(const PixelError& pixel, double since_knot, double spacing)
-      : pixel_(pixel.cost()), since_knot_(since_knot), spacing_(spacing) {}
+struct PathPixelError {
+  PixelError pixel;
+  double since_knot;  ///< The image's stamp after the first knot of its interval [s]. A time offset
+                      ///< that leaves this interval extrapolates its polynomial.
+  double spacing;     ///< Of the knots [s].
 
-  /// Chain rule over the point: 18 dual numbers instead of 28.
-  bool Evaluate(double const* const* blocks, double* residual, double** jacobians) const override {
-    constexpr int kOffset = 4;
-    constexpr int kControls = 5;
-    const SplineWeights weights = splineWeights(since_knot_ + *blocks[kOffset], spacing_);
-    Eigen::Matrix<double, 3, 4> controls;
-    for (int k = 0; k < 4; ++k)
-      controls.col(k) = Eigen::Map<const Eigen::Vector3d>(blocks[kControls + k]);
-    const Eigen::Vector3d point = controls * weights.value;
-    const double* const pixel_blocks[] = {blocks[0], blocks[1], blocks[2], blocks[3], point.data()};
-    if (!jacobians)
-      return pixel_->Evaluate(pixel_blocks, residual, nullptr);
+  ceres::CostFunction* cost() const { return pixelCostOf<1, 3, 3, 3, 3>(*this); }
 
-    using PointJacobian = Eigen::Matrix<double, 2, 3, Eigen::RowMajor>;
-    PointJacobian by_point;
-    double* by_pixel_blocks[] = {jacobians[0], jacobians[1], jacobians[2], jacobians[3],
-                                 by_point.data()};
-    if (!pixel_->Evaluate(pixel_blocks, residual, by_pixel_blocks))
-      return false;
-    if (jacobians[kOffset])
-      Eigen::Map<Eigen::Vector2d>{jacobians[kOffset]} = by_point * (controls * weights.rate);
-    for (int k = 0; k < 4; ++k) {
-      if (jacobians[kControls + k])
-        Eigen::Map<PointJacobian>{jacobians[kControls + k]} = weights.value[k] * by_point;
-    }
-    return true;
+  template <typename T>
+  bool operator()(const T* rotation,
+                  const T* position,
+                  const T* lens,
+                  const T* distortion,
+                  const T* offset,
+                  const T* control0,
+                  const T* control1,
+                  const T* control2,
+                  const T* control3,
+                  T* residual) const {
+    const Eigen::Matrix<T, 4, 1> weights = splineWeights(T((since_knot + offset[0]) / spacing));
+    T point[3];
+    for (int i = 0; i < 3; ++i)
+      point[i] = weights[0] * control0[i] + weights[1] * control1[i] + weights[2] * control2[i] +
+                 weights[3] * control3[i];
+    return pixel(rotation, position, lens, distortion, point, residual);
   }
-
- private:
-  std::unique_ptr<const ceres::CostFunction> pixel_;
-  double since_knot_;
-  double spacing_;
 };
 
 /// Acceleration of a uniform cubic B-spline at a knot, whitened: the prior that bridges times in

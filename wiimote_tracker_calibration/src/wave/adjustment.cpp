@@ -142,8 +142,8 @@ class WaveProblem {
       const adjust::PixelError pixel(camera, match.pixel, match.whitening);
       matches_.push_back(camera.addTo(
           &problem_,
-          new adjust::PathPixelError(pixel, match.stamp - path.timeOf(match.interval),
-                                     path.spacing()),
+          adjust::PathPixelError{pixel, match.stamp - path.timeOf(match.interval), path.spacing()}
+              .cost(),
           adjust::lossOf(loss_scale), &camera.time_offset, path.control(match.interval, match.led),
           path.control(match.interval + 1, match.led), path.control(match.interval + 2, match.led),
           path.control(match.interval + 3, match.led)));

@@ -15,8 +15,10 @@ namespace wiimote_tracker::wave {
 class Trajectory {
  public:
   /// The four control points that shape the path at one time, and their weights.
-  struct Place : adjust::SplineWeights {
-    Eigen::Index first;  ///< Of the four, also the number of the knot interval.
+  struct Place {
+    Eigen::Vector4d value;  ///< Of the position.
+    Eigen::Vector4d rate;   ///< Of the velocity [1/s].
+    Eigen::Index first;     ///< Of the four, also the number of the knot interval.
   };
 
   Trajectory() = default;
@@ -43,7 +45,8 @@ class Trajectory {
 
   /// A time in a knot interval, whose polynomial is extrapolated beyond its two knots.
   Place in(Eigen::Index interval, double time) const {
-    return {adjust::splineWeights(time - timeOf(interval), spacing_), interval};
+    const double u = (time - timeOf(interval)) / spacing_;
+    return {adjust::splineWeights(u), adjust::splineRates(u) / spacing_, interval};
   }
 
   /// Nothing outside the times it is defined for.

@@ -101,62 +101,59 @@ std::pair<Eigen::Vector3d, int> meanUp(const Recording& recording, const State& 
   return {sum.normalized(), count};
 }
 
-/// Why the spots are not those of the wand, or do not tell its ends apart.
-std::optional<std::string> whyNotTheWand(const std::optional<Measured>& wand,
-                                         const geometry::Camera& first,
-                                         double length,
-                                         const Limits& limits) {
+/// @throws WandMislaid: the spots are not those of the wand, or do not tell its ends apart.
+void requireWand(const std::optional<Measured>& wand,
+                 const geometry::Camera& first,
+                 double length,
+                 const Limits& limits) {
   if (!wand || wand->error_px > limits.spot ||
       std::abs(wand->length - length) > limits.length * length)
-    return format("what the cameras saw at rest is not the wand of %.2f m", length) +
-           (wand ? format(": its ends would be %.2f m apart, and %.0f px off", wand->length,
-                          wand->error_px)
-                 : std::string()) +
-           "; switch other lights off, lay both its LEDs where the cameras see them" + kAgain;
+    throw WandMislaid(format("what the cameras saw at rest is not the wand of %.2f m", length) +
+                      (wand ? format(": its ends would be %.2f m apart, and %.0f px off",
+                                     wand->length, wand->error_px)
+                            : std::string()) +
+                      "; switch other lights off, lay both its LEDs where the cameras see them" +
+                      kAgain);
   const double farther =
       (wand->leds[1] - first.center()).norm() - (wand->leds[0] - first.center()).norm();
   if (std::abs(farther) < kNearerShare * length)
-    return "both ends of the wand were about as far from " + first.name +
-           ", but the nearer one is the origin: turn the wand towards that camera" + kAgain;
-  return std::nullopt;
+    throw WandMislaid("both ends of the wand were about as far from " + first.name +
+                      ", but the nearer one is the origin: turn the wand towards that camera" +
+                      kAgain);
 }
 
-/// Why the wand was not level, by the accelerometers.
-std::optional<std::string> whyNotLevel(const Recording& recording,
-                                       const square::Uncertainty& uncertainty,
-                                       double rise,
-                                       int accelerometers,
-                                       const Limits& limits) {
+/// @throws WandMislaid: by the accelerometers the wand was not level.
+void requireLevel(const Recording& recording,
+                  const square::Uncertainty& uncertainty,
+                  double rise,
+                  int accelerometers,
+                  const Limits& limits) {
   const double limit =
       limits.tilt +
       kLevelLimit * std::hypot(uncertainty.gravity / std::sqrt(static_cast<double>(accelerometers)),
                                uncertainty.placement / recording.wand->length);
   const double angle = std::asin(std::clamp(rise, -1.0, 1.0));
-  if (std::abs(angle) <= limit)
-    return std::nullopt;
-  return format(
-             "by the accelerometers the wand lay %.0f degrees from level: lay both its LEDs on "
-             "the floor",
-             std::abs(angle) * 180.0 / M_PI) +
-         kAgain;
+  if (std::abs(angle) > limit)
+    throw WandMislaid(
+        format("by the accelerometers the wand lay %.0f degrees from level: lay both its LEDs on "
+               "the floor",
+               std::abs(angle) * 180.0 / M_PI) +
+        kAgain);
 }
 
 struct Found {
   WandOnFloor floor;  // the end nearer to the first camera first
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();
-  std::optional<std::string> mislaid;  // why it cannot be used
+  Eigen::Vector3d up;
 };
 
+/// @throws WandMislaid: it cannot be used. WaveContradiction.
 Found findWand(const Task& task, const State& state, const Limits& limits) {
   const double length = state.wand_length;
-  Found found;
-  WandOnFloor& floor = found.floor;
+  WandOnFloor floor;
   floor.spots = inOneOrder(state.cameras, task.floor, length);
   const geometry::Camera& first = state.cameras.front();
   const auto wand = measure(state.cameras, floor.spots, length);
-  found.mislaid = whyNotTheWand(wand, first, length, limits);
-  if (found.mislaid)
-    return found;
+  requireWand(wand, first, length, limits);
   floor.leds = wand->leds;
   if ((floor.leds[1] - first.center()).norm() < (floor.leds[0] - first.center()).norm()) {
     std::swap(floor.leds[0], floor.leds[1]);
@@ -166,11 +163,9 @@ Found findWand(const Task& task, const State& state, const Limits& limits) {
     }
   }
   const auto [up, accelerometers] = meanUp(task.recording, state);
-  found.up = up;
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
-  found.mislaid =
-      whyNotLevel(task.recording, task.options.uncertainty, along.dot(up), accelerometers, limits);
-  return found;
+  requireLevel(task.recording, task.options.uncertainty, along.dot(up), accelerometers, limits);
+  return {floor, up};
 }
 
 void moveState(const Eigen::Isometry3d& to_from, State* state) {
@@ -222,17 +217,15 @@ FloorSpots takeFloor(Recording* recording) {
 }
 
 void checkStart(const Task& task, const State& state) {
-  const Found found = findWand(task, state, kByStart);
-  if (found.mislaid)
-    throw WaveError(*found.mislaid);  // another start may tell otherwise
+  try {
+    findWand(task, state, kByStart);
+  } catch (const WandMislaid& error) {
+    throw WaveError(error.what());  // another start may tell otherwise
+  }
 }
 
 void useFloorAsWorld(const Task& task, State* state) {
-  Found found = findWand(task, *state, kBySolution);
-  if (found.mislaid)
-    throw WandMislaid(*found.mislaid);
-  WandOnFloor& floor = found.floor;
-  const Eigen::Vector3d& up = found.up;
+  auto [floor, up] = findWand(task, *state, kBySolution);
   const Eigen::Vector3d along = (floor.leds[1] - floor.leds[0]).normalized();
   const Eigen::Vector3d x = (along - along.dot(up) * up).normalized();
   Eigen::Isometry3d floor_from_state = Eigen::Isometry3d::Identity();

@@ -1,12 +1,13 @@
 #include "wiimote_tracker_calibration/import/comparison.h"
 
+#include "remap/fit_model.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/import/pinhole.h"
 
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+#include <wiimote_tracker_triangulation/remap/model_math.h>
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 
@@ -30,39 +31,30 @@ Statistics distancesBetween(const Points& a, const Points& b) {
   return bundle::statisticsOf(distances);
 }
 
-/// Brings points to mean 0 and RMS distance sqrt(3), for a well-conditioned fit (Hartley 1997).
-Eigen::Matrix4d normalizing(const Points& points) {
-  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+Points move(const Eigen::Affine3d& similarity, const Points& points) {
+  Points moved;
   for (const Eigen::Vector3d& point : points)
-    mean += point / static_cast<double>(points.size());
-  const double scale = std::sqrt(3.0) / geometry::spreadOf(points).norm();
-  Eigen::Matrix4d matrix = Eigen::Matrix4d::Identity();
-  matrix.topLeftCorner<3, 3>() *= scale;
-  matrix.topRightCorner<3, 1>() = -scale * mean;
-  return matrix;
+    moved.push_back(similarity * point);
+  return moved;
 }
 
-/// Projective transformation of space between points (direct linear transformation).
-Eigen::Matrix4d fitProjective(const Points& from, const Points& to) {
-  const Eigen::Matrix4d from_scale = normalizing(from);
-  const Eigen::Matrix4d to_scale = normalizing(to);
-  Eigen::Matrix<double, 16, 16> normal = Eigen::Matrix<double, 16, 16>::Zero();
-  for (std::size_t i = 0; i < from.size(); ++i) {
-    const Eigen::RowVector4d a = (from_scale * from[i].homogeneous()).transpose();
-    const Eigen::Vector4d b = to_scale * to[i].homogeneous();
-    for (Eigen::Index axis = 0; axis < 3; ++axis) {
-      Eigen::Matrix<double, 1, 16> row = Eigen::Matrix<double, 1, 16>::Zero();
-      row.segment<4>(4 * axis) = b(3) * a;
-      row.segment<4>(12) = -b(axis) * a;
-      normal += row.transpose() * row;
-    }
+/// Nothing when the points do not determine it.
+std::optional<remap::Remap> fitProjective(const Points& from, const Points& to) {
+  std::vector<remap::KnownPoint> points;
+  for (std::size_t i = 0; i < from.size(); ++i)
+    points.push_back({from[i], to[i]});
+  return remap::fitParameters(remap::Model::kProjective, points);
+}
+
+Points project(const std::optional<remap::Remap>& projective, const Points& points) {
+  Points moved;
+  for (const Eigen::Vector3d& point : points) {
+    const auto mapped =
+        projective ? remap::evaluate(*projective, remap::frameOf(projective->support), point)
+                   : std::nullopt;
+    moved.push_back(mapped ? mapped->position : Eigen::Vector3d::Constant(kOutlier));
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 16, 16>> eigen(normal);
-  const Eigen::Matrix<double, 16, 1> best = eigen.eigenvectors().col(0);
-  Eigen::Matrix4d matrix;
-  for (Eigen::Index row = 0; row < 4; ++row)
-    matrix.row(row) = best.segment<4>(4 * row).transpose();
-  return to_scale.inverse() * matrix * from_scale;
+  return moved;
 }
 
 /// Fits a transformation twice, the second time without the tenth that fits worst.
@@ -98,22 +90,9 @@ void comparePoints(const bundle::Reconstruction& own,
   comparison->points = from.size();
   if (from.size() < 10)
     return;
-  const auto move = [](const Eigen::Affine3d& similarity, const Points& points) {
-    Points moved;
-    for (const Eigen::Vector3d& point : points)
-      moved.push_back(similarity * point);
-    return moved;
-  };
-  const auto project = [](const Eigen::Matrix4d& matrix, const Points& points) {
-    Points moved;
-    for (const Eigen::Vector3d& point : points) {
-      const Eigen::Vector4d image = matrix * point.homogeneous();
-      moved.push_back(image.head<3>() / image(3));
-    }
-    return moved;
-  };
-  comparison->similar = distancesBetween(aligned(from, to, bundle::fitSimilarity, move), to);
-  comparison->projective = distancesBetween(aligned(from, to, fitProjective, project), to);
+  const Points similar = aligned(from, to, bundle::fitSimilarity, move);
+  comparison->similar = distancesBetween(similar, to);
+  comparison->projective = distancesBetween(aligned(similar, to, fitProjective, project), to);
   comparison->extent = geometry::spreadOf(to).norm();
   if (expected)
     comparison->expected =

@@ -147,10 +147,6 @@ std::optional<FittedModel> fitThinPlate(const std::vector<KnownPoint>& points) {
   return best;
 }
 
-std::optional<Remap> fitParameters(Model model, const std::vector<KnownPoint>& points) {
-  return model == Model::kProjective ? fitProjective(points) : fitPolynomial(model, points);
-}
-
 /// As FittedModel::left_out_errors, of the models with a fixed number of parameters.
 std::vector<double> leftOutErrors(Model model, const std::vector<KnownPoint>& points) {
   std::vector<double> errors;
@@ -178,6 +174,10 @@ std::size_t minimumPoints(Model model) {
     default:
       return 4 + 4;
   }
+}
+
+std::optional<Remap> fitParameters(Model model, const std::vector<KnownPoint>& points) {
+  return model == Model::kProjective ? fitProjective(points) : fitPolynomial(model, points);
 }
 
 std::optional<FittedModel> fitModel(Model model, const std::vector<KnownPoint>& points) {

@@ -19,7 +19,11 @@ struct FittedModel {
   std::vector<double> left_out_errors;
 };
 
-/// Least squares over the points. Nothing when they do not determine the model.
+/// Least squares over the points: the model alone, which has a fixed number of parameters (it is
+/// not kThinPlate). Nothing when the points do not determine it.
+std::optional<Remap> fitParameters(Model model, const std::vector<KnownPoint>& points);
+
+/// The same of any model, and its errors.
 std::optional<FittedModel> fitModel(Model model, const std::vector<KnownPoint>& points);
 
 /// Distance of a point, corrected, from where it is known to be [m]; infinite where the model has

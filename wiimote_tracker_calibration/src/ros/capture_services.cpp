@@ -1,7 +1,6 @@
 #include "units.h"
 
 #include "capture_server.h"
-#include "wave_services.h"
 
 #include <sensor_msgs/Joy.h>
 #include <std_srvs/SetBool.h>
@@ -9,9 +8,11 @@
 #include <wiimote_tracker_msgs/CheckConnection.h>
 #include <wiimote_tracker_msgs/MeasureLength.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
+#include <wiimote_tracker_msgs/StartWave.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -31,6 +32,17 @@ constexpr std::size_t kButtonA = 2;  // in the driver's joy messages
 // A connected remote reports its acceleration 100 times a second: enough readings take less [s].
 constexpr double kAccelerometerWait = 2.0;
 
+/// A wand as a request gives it: a length of 0 means none, a standard deviation of 0 the usual one.
+std::optional<wave::Wand> wandOf(double length, double stddev) {
+  if (length == 0.0)
+    return std::nullopt;
+  wave::Wand wand;
+  wand.length = length;
+  if (stddev != 0.0)
+    wand.stddev = stddev;
+  return wand;
+}
+
 /// The wand that a run begins with. @throws Refusal, wave::WaveError: it cannot be one.
 std::optional<wave::Wand> wandOnFloor(
     const wiimote_tracker_msgs::StartCalibration::Request& request,
@@ -45,6 +57,33 @@ std::optional<wave::Wand> wandOnFloor(
   return wand;
 }
 
+/// The cameras of a recording with their starting intrinsics, and with poses if its square
+/// determines them. @returns whether they have poses.
+bool knownCameras(const wave::Recording& recording,
+                  const samples::SolveOptions& options,
+                  std::vector<geometry::Camera>* cameras) {
+  std::vector<square::CameraSightings> sightings = recording.sightings();
+  for (square::CameraSightings& camera : sightings) {
+    cameras->push_back(camera.camera());
+    if (!options.use_gravity)
+      camera.gravity.reset();
+  }
+  if (!recording.square)
+    return false;
+  try {
+    const geometry::Rig rig = square::solveSquare(*recording.square, sightings, options.square).rig;
+    for (geometry::Camera& camera : *cameras) {
+      const geometry::RigCamera* solved = rig.find(camera.name);
+      if (solved == nullptr)
+        return false;
+      camera = solved->camera;
+    }
+    return true;
+  } catch (const Error&) {
+    return false;  // The wave can still determine the poses.
+  }
+}
+
 class CaptureServices {
  public:
   explicit CaptureServices(NodeContext* context)
@@ -55,6 +94,8 @@ class CaptureServices {
     context->offer("check_connection", &Self::checkConnection, this);
     context->offer("start", &Self::start, this);
     context->offer("measure_length", &Self::measureLength, this);
+    context->offer("start_wave", &Self::startWave, this);
+    context->offer("stop_wave", &Self::stopWave, this);
     context->offer("hands_free", &Self::handsFree, this);
     context->offer("undo", &Self::undo, this);
     context->offer("cancel", &Self::cancel, this);
@@ -123,7 +164,7 @@ class CaptureServices {
     if (reply.success)
       context_.inputs().restartGravity();
     if (reply.success && wand)
-      return beginWave(wand, &context_, &lock);
+      return beginWave(wand, &lock);
     return reply;
   }
 
@@ -156,6 +197,27 @@ class CaptureServices {
     return context_.calibration(lock).measureLength(
         taped, context_.parameters(lock).solve.square.uncertainty.placement);
   }
+
+  Reply startWave(wiimote_tracker_msgs::StartWave& call, Lock& lock) {
+    return beginWave(wandOf(call.request.wand_length, call.request.wand_stddev), &lock);
+  }
+
+  /// @param wand nothing: one LED is waved.
+  Reply beginWave(const std::optional<wave::Wand>& wand, Lock* lock) {
+    const samples::Samples samples = context_.samples(*lock);
+    workflow::Calibration& calibration = context_.calibration(*lock);
+    const std::vector<std::string> names = calibration.cameras();
+    const std::size_t corners = calibration.square().corners().size();
+    const samples::SolveOptions options = context_.parameters(*lock).solve;
+    std::vector<geometry::Camera> cameras;
+    const bool posed =
+        context_.compute(lock, [&] { return knownCameras(samples.recording, options, &cameras); });
+    if (calibration.cameras() != names || calibration.square().corners().size() != corners)
+      throw Refusal("what was captured has changed meanwhile: start the wave again");
+    return calibration.beginWave(cameras, posed, wand, NodeContext::now());
+  }
+
+  Reply stopWave(Trigger&, Lock& lock) { return context_.calibration(lock).endWave(); }
 
   Reply handsFree(std_srvs::SetBool& call, Lock& lock) {
     context_.calibration(lock).setHandsFree(call.request.data);

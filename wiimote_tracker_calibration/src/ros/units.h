@@ -15,12 +15,10 @@ using Unit = std::shared_ptr<void>;
 /// rig with another room's).
 Unit fileServices(NodeContext* context);
 
-/// The square: check_connection, start, capture_corner, measure_length, hands_free, undo, cancel;
-/// and button A of a hand-held remote, which captures.
+/// What is captured, the square and the wave: check_connection, start, capture_corner,
+/// measure_length, start_wave, stop_wave, hands_free, undo, cancel; and button A of a hand-held
+/// remote, which captures.
 Unit captureServices(NodeContext* context);
-
-/// The wave: start_wave, stop_wave.
-Unit waveServices(NodeContext* context);
 
 /// Lights that are not the LED: learn_masks, clear_masks.
 Unit maskServices(NodeContext* context);

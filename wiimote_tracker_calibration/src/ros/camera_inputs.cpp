@@ -145,6 +145,8 @@ void CameraInputs::onBlobs(const std::string& name,
       cameras_[next.camera].monitor.add(next.stamp, next.spots, ros::Time::now().toSec());
       for (const OnImage& call : on_image_)
         call(next, lock);
+      if (watching_image_)
+        watching_image_(next, lock);
     });
   }
   changed_->notify_all();
@@ -159,6 +161,8 @@ void CameraInputs::onImu(const std::string& name, const sensor_msgs::Imu& messag
   camera.gravity.add(*specific_force);
   for (const OnGravity& call : on_gravity_)
     call(name, message.header.stamp.toSec(), *specific_force, lock);
+  if (watching_gravity_)
+    watching_gravity_(name, message.header.stamp.toSec(), *specific_force, lock);
 }
 
 }  // namespace wiimote_tracker

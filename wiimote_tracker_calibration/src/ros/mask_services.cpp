@@ -7,7 +7,6 @@
 #include <wiimote_tracker_msgs/text.h>
 
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,10 +29,6 @@ class MaskServices {
   explicit MaskServices(NodeContext* context) : context_(*context) {
     context->offer("learn_masks", &MaskServices::learn, this);
     context->offer("clear_masks", &MaskServices::clear, this);
-    context->inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-      if (learner_)
-        learner_->add(image);
-    });
   }
 
  private:
@@ -45,14 +40,13 @@ class MaskServices {
     const Job job = {Step::kMasking, "looking for other lights: keep the LED off",
                      "the masks are as they were"};
     const workflow::Reply reply = context_.run(job, &lock, [&] {
-      const AtEnd end{[&] { learner_.reset(); }};
-      const auto cancelled = [&] { return context_.isCancelled(Step::kMasking, lock); };
-      if (context_.waitUntil(&lock, NodeContext::now() + kSettle, cancelled))
-        return workflow::Reply{false, ""};
-      learner_.emplace(context_.inputs().names(), context_.parameters(lock).masks);
-      if (!context_.waitFor(duration, Step::kMasking, &lock))
-        return workflow::Reply{false, ""};
-      return useMasks(learner_->result(), lock);
+      context_.waitUntil(&lock, NodeContext::now() + kSettle,
+                         [&] { return context_.isCancelled(lock); });
+      capture::MaskLearner learner(context_.inputs().names(), context_.parameters(lock).masks);
+      const auto watching = context_.inputs().watch(
+          [&](const capture::Image& image, const Lock&) { learner.add(image); });
+      context_.waitFor(duration, &lock);
+      return useMasks(learner.result(), lock);
     });
     for (const auto& masks : context_.inputs().masks()) {
       call.response.cameras.push_back(masks.first);
@@ -103,7 +97,6 @@ class MaskServices {
   }
 
   NodeContext& context_;
-  std::optional<capture::MaskLearner> learner_;  // while lights are being learned
 };
 
 }  // namespace

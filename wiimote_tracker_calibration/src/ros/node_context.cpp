@@ -78,7 +78,7 @@ workflow::Reply NodeContext::run(const Job& job,
   const AtEnd end{[&] { calibration_.end(); }};
   show(reply, *lock);
   reply = replyOf(work);
-  if (!reply.success && isCancelled(job.step, *lock))
+  if (!reply.success && isCancelled(*lock))
     reply.message = "it was cancelled; " + job.kept;
   return reply;
 }
@@ -111,12 +111,13 @@ const char* NodeContext::whyEndedEarly() {
                    : "the calibration node ends";
 }
 
-bool NodeContext::waitFor(double duration, workflow::Step step, Lock* lock) {
+void NodeContext::waitFor(double duration, Lock* lock) {
   const double start = now();
-  return !waitUntil(lock, start + duration, [&] {
+  waitUntil(lock, start + duration, [&] {
     setProgress(std::max(0.0, (now() - start) / duration), *lock);
-    return isCancelled(step, *lock);
+    return isCancelled(*lock);
   });
+  requireNotCancelled(*lock);
 }
 
 workflow::Reply NodeContext::show(const workflow::Reply& reply, const Lock& lock) {

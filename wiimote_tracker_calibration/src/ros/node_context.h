@@ -93,9 +93,12 @@ class NodeContext {
   /// calibration refuses everything but `cancel` meanwhile. @returns the reply to the request.
   workflow::Reply run(const Job& job, Lock* lock, const std::function<workflow::Reply()>& work);
 
-  /// Whether the job of this step was cancelled and should return, refusing.
-  bool isCancelled(workflow::Step step, const Lock&) const {
-    return !calibration_.isBusyWith(step);
+  /// Whether the job that runs was cancelled and should end, by refusing.
+  bool isCancelled(const Lock&) const { return calibration_.isStopping(); }
+  /// @throws Refusal: it was.
+  void requireNotCancelled(const Lock& lock) const {
+    if (isCancelled(lock))
+      throw Refusal("it was cancelled");
   }
   void setProgress(double progress, const Lock&) { calibration_.setProgress(progress); }
 
@@ -113,8 +116,8 @@ class NodeContext {
   /// Why waitUntil() returned false before its end.
   static const char* whyEndedEarly();
 
-  /// Waits for some time, and sets the progress meanwhile. @returns false if the job was cancelled.
-  bool waitFor(double duration, workflow::Step step, Lock* lock);
+  /// Waits for some time, and sets the progress meanwhile. @throws Refusal: the job was cancelled.
+  void waitFor(double duration, Lock* lock);
 
   /// Works without the lock. It is locked again afterwards, whatever is thrown.
   template <typename Work>

@@ -16,7 +16,6 @@
 
 #include <functional>
 #include <limits>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -84,10 +83,6 @@ class PlaceServices {
     context->offer("known_places/undo", &Self::undo, this);
     context->offer("known_places/clear", &Self::clear, this);
     context->offer("known_places/fit", &Self::fit, this);
-    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-      if (capture_)
-        capture_->add(image);
-    });
   }
 
  private:
@@ -231,32 +226,31 @@ class PlaceServices {
                                           const capture::CornerCaptureOptions& options,
                                           Lock* lock) {
     using State = capture::CornerCapture::State;
-    const AtEnd end{[&] { capture_.reset(); }};
     std::vector<std::string> names;
     for (const geometry::RigCamera& camera : rig.cameras)
       names.push_back(camera.camera.name);
     const double start = NodeContext::now();
-    capture_.emplace(names, options, start);
+    capture::CornerCapture led(names, options, start);
+    const auto watching =
+        context_.inputs().watch([&](const capture::Image& image, const Lock&) { led.add(image); });
     const double end_time = start + options.timeout + 2.0 * NodeContext::kUnderWay;
     double time = start;
     const bool over = context_.waitUntil(lock, end_time, [&] {
       const double before = std::exchange(time, NodeContext::now());
-      if (time < before - NodeContext::kUnderWay && capture_->state() == State::kCollecting)
+      if (time < before - NodeContext::kUnderWay && led.state() == State::kCollecting)
         throw Refusal(std::string(NodeContext::kTimeJumpedBack) + "measure it again");
-      capture_->update(time - NodeContext::kUnderWay);
-      context_.setProgress(capture_->progress(), *lock);
-      return context_.isCancelled(Step::kMeasuring, *lock) ||
-             capture_->state() != State::kCollecting;
+      led.update(time - NodeContext::kUnderWay);
+      context_.setProgress(led.progress(), *lock);
+      return context_.isCancelled(*lock) || led.state() != State::kCollecting;
     });
     if (!over && NodeContext::now() < end_time)
       throw Refusal(NodeContext::whyEndedEarly());
-    if (context_.isCancelled(Step::kMeasuring, *lock) || capture_->state() != State::kDone)
-      throw Refusal(capture_->message());
-    return capture_->result();
+    if (context_.isCancelled(*lock) || led.state() != State::kDone)
+      throw Refusal(led.message());
+    return led.result();
   }
 
   NodeContext& context_;
-  std::optional<capture::CornerCapture> capture_;  // while a place is being measured
 };
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
 
-#include <optional>
 #include <string>
 
 namespace wiimote_tracker {
@@ -22,15 +21,6 @@ class RecalibrateServices {
  public:
   explicit RecalibrateServices(NodeContext* context) : context_(*context) {
     context->offer("recalibrate_camera", &RecalibrateServices::recalibrate, this);
-    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock&) {
-      if (recording_)
-        recording_->images.push_back(image);
-    });
-    context_.inputs().subscribeGravity([this](const std::string& camera, double,
-                                              const Eigen::Vector3d& specific_force, const Lock&) {
-      if (recording_ && camera == recording_->camera)
-        gravity_.add(specific_force);
-    });
   }
 
  private:
@@ -45,24 +35,11 @@ class RecalibrateServices {
                      "wave the LED where " + camera + " and two other cameras or more see it",
                      "the rig is as it was", true};
     return context_.run(job, &lock, [&] {
-      const AtEnd end{[&] { recording_.reset(); }};
-      gravity_ = capture::RestGravity();
-      recording_.emplace();
-      recording_->camera = camera;
-      recording_->intrinsics = context_.parameters(lock).intrinsicsOf(camera);
-      if (!context_.waitFor(duration, Step::kMeasuring, &lock))
-        return workflow::Reply{false, ""};
-      recalibrate::Request recording = *recording_;
-      recording_.reset();
-      recording.gravity = gravity_.mean();
-      const auto input = context_.inputs().cameras().find(camera);
-      if (input != context_.inputs().cameras().end())
-        recording.identity = input->second.identity;
+      const recalibrate::Request recording = record(camera, duration, &lock);
       const recalibrate::Options options = context_.parameters(lock).recalibrateOptions();
       recalibrate::Recalibration result = context_.compute(
           &lock, [&] { return recalibrate::recalibrateCamera(rig, recording, options); });
-      if (context_.isCancelled(Step::kMeasuring, lock))
-        return workflow::Reply{false, ""};
+      context_.requireNotCancelled(lock);
       context_.requireSameRig(rig.id(), lock);
       call.response.moved = result.moved;
       call.response.turned = result.turned;
@@ -72,10 +49,27 @@ class RecalibrateServices {
     });
   }
 
+  /// While an LED is waved.
+  recalibrate::Request record(const std::string& camera, double duration, Lock* lock) {
+    recalibrate::Request recording;
+    capture::RestGravity gravity;
+    const auto watching = context_.inputs().watch(
+        [&](const capture::Image& image, const Lock&) { recording.images.push_back(image); },
+        [&](const std::string& name, double, const Eigen::Vector3d& specific_force, const Lock&) {
+          if (name == camera)
+            gravity.add(specific_force);
+        });
+    context_.waitFor(duration, lock);
+    recording.camera = camera;
+    recording.intrinsics = context_.parameters(*lock).intrinsicsOf(camera);
+    recording.gravity = gravity.mean();
+    const auto input = context_.inputs().cameras().find(camera);
+    if (input != context_.inputs().cameras().end())
+      recording.identity = input->second.identity;
+    return recording;
+  }
+
   NodeContext& context_;
-  // While an LED is waved:
-  std::optional<recalibrate::Request> recording_;
-  capture::RestGravity gravity_;
 };
 
 }  // namespace

@@ -33,12 +33,11 @@ class SolveServices {
         return samples::solveSamples(samples, options, [this](const std::string&, double fraction) {
           const Lock inner(context_.mutex());
           context_.setProgress(fraction, inner);
-          if (context_.isCancelled(Step::kSolving, inner) || !ros::ok())
+          if (context_.isCancelled(inner) || !ros::ok())
             throw Refusal("the calibration was cancelled: nothing was changed");
         });
       });
-      if (context_.isCancelled(Step::kSolving, lock))
-        return workflow::Reply{false, ""};
+      context_.requireNotCancelled(lock);
       solution.rig.solved_at = NodeContext::now();
       const workflow::Reply reply = context_.calibration(lock).takeSolution(solution.rig);
       const geometry::Rig& rig = *context_.rig(lock);

@@ -121,6 +121,9 @@ class Calibration {
   /// Whether the step is running and was not cancelled.
   bool isBusyWith(Step step) const { return busy_ == step && !stopping_; }
 
+  /// Whether the running step was cancelled.
+  bool isStopping() const { return stopping_; }
+
   /// @throws Error: a step is running, or has not stopped yet.
   void requireIdle() const {
     if (busy_)

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
 #include <memory>
 #include <new>
 #include <stdexcept>
@@ -116,6 +118,32 @@ TEST_F(WiimoteTest, BacklogOfAStallThatTheBufferCannotHoldIsDropped) {
     EXPECT_TRUE(streaming());
     EXPECT_EQ(0u, wiimote_.link().clock_epoch);
   }
+}
+
+// A reader that takes 20 ms for each image: a queue of 100 reports.
+TEST_F(WiimoteTest, OfAQueueThatNeverEmptiesImagesAreKnownToHaveWaitedAndThenDropped) {
+  runToImage();
+  run(0.5);
+  EXPECT_FALSE(wiimote_.imageWaited());
+  Report image{0x33, 0, 0, 0x80, 0x80, 0x80, 0x23, 0x45, 0x13};
+  image.size = 18;
+  std::fill(image.bytes.begin() + 9, image.bytes.begin() + 18, std::uint8_t{0xff});
+  for (int i = 0; i < 100; ++i) {
+    image.bytes[5] = static_cast<std::uint8_t>(0x80 | (i & 1));
+    remote_.say(image);
+  }
+  const double begin = remote_.now;
+  int images = 0;
+  for (int i = 0; i < 100; ++i) {
+    remote_.now += 0.02;
+    const bool came = wiimote_.step(0.0).has_value();
+    images += came;
+    EXPECT_TRUE(!came || wiimote_.imageWaited()) << i;
+    EXPECT_TRUE(!came || remote_.now - begin < 0.62) << i;
+  }
+  EXPECT_NEAR(30, images, 2);
+  EXPECT_GT(run(0.5), 40) << "once none waits, images come again";
+  EXPECT_FALSE(wiimote_.imageWaited());
 }
 
 TEST_F(WiimoteTest, CloseSwitchesTheRemoteOff) {

@@ -96,13 +96,14 @@ struct ClockEstimator::ArrivalDensity {
 };
 
 /// A report's arrival and the one before [s], and the density of the time between them if it waited
-/// for that one [1/s].
+/// for that one on the link [1/s]. `waited`: it arrived at an unknown time before that.
 struct ClockEstimator::Arrival {
   double time, before, served;
+  bool waited;
 };
 
-ClockEstimator::Arrival ClockEstimator::arrivalAfter(double before, double time) {
-  return {time, before, std::exp(-(time - before) / kServiceTime) / kServiceTime};
+ClockEstimator::Arrival ClockEstimator::arrivalAfter(double before, double time, bool waited) {
+  return {time, before, std::exp(-(time - before) / kServiceTime) / kServiceTime, waited};
 }
 
 ClockEstimator::Bank ClockEstimator::makeBank(double period) {
@@ -138,7 +139,7 @@ const ClockFilter& ClockEstimator::best() const {
                                            weights_.begin())];
 }
 
-Estimate ClockEstimator::update(double arrival) {
+Estimate ClockEstimator::update(double arrival, bool waited) {
   if (!std::isfinite(arrival))
     throw std::invalid_argument("ExposureClock: the arrival time is not a finite number.");
   if (!running_) {
@@ -156,7 +157,7 @@ Estimate ClockEstimator::update(double arrival) {
     return e;
   }
   arrival = last_arrival_ + std::max(0.0, gap);
-  updateModels(arrival);
+  updateModels(arrival, waited);
   if (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain) {
     filters_ = makeBank(period_);
     counter_ = FrameCounter();  // losses that were learned from such reports are wrong
@@ -198,6 +199,11 @@ ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter&
   const double stall_rate = stall_probability_ / stall_time_;  // over the mean length [1/s]
   ArrivalDensity density;
   density.late = arrival.time - filter.time() - offset * filter.period();
+  if (arrival.waited) {  // that says only that the frame was ready before; the factor has no effect
+    density.on_time = density.stalled = 0.0;
+    density.queued = filter.readyBefore(frame, arrival.time) / period_;
+    return density;
+  }
   density.on_time = (1.0 - stall_probability_) * filter.likelihood(frame, arrival.time);
   density.queued = filter.readyBefore(frame, arrival.before) * arrival.served;
   density.stalled = density.late > 0.0
@@ -207,8 +213,8 @@ ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter&
 }
 
 // Bayes' rule for the frame number, the models, and each model's clock.
-void ClockEstimator::updateModels(double arrival) {
-  const Arrival now = arrivalAfter(last_arrival_, arrival);
+void ClockEstimator::updateModels(double arrival, bool waited) {
+  const Arrival now = arrivalAfter(last_arrival_, arrival, waited);
   const ClockFilter& likeliest = best();
   const double periods = (arrival - likeliest.time()) / likeliest.period();
   counter_.predict(frame_ + 1 + static_cast<std::int64_t>(std::floor(periods)));

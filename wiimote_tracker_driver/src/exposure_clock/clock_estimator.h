@@ -29,9 +29,9 @@ class ClockEstimator {
   explicit ClockEstimator(double period);
 
   /// Takes a report's arrival [s], best on a steady clock. An arrival before the previous one by
-  /// more than a millisecond restarts the clock. @throws std::invalid_argument when it is not
-  /// finite.
-  Estimate update(double arrival);
+  /// more than a millisecond restarts the clock. `waited`: it arrived at an unknown time before
+  /// that. @throws std::invalid_argument when it is not finite.
+  Estimate update(double arrival, bool waited = false);
 
   /// Copies what is known about stalls and losses of the link.
   void copyLinkFrom(const ClockEstimator& other);
@@ -50,12 +50,12 @@ class ClockEstimator {
 
   Estimate restart(double arrival, std::int64_t frame);
   struct Arrival;
-  static Arrival arrivalAfter(double before, double time);
+  static Arrival arrivalAfter(double before, double time, bool waited = false);
   struct ArrivalDensity;
   ArrivalDensity arrivalDensity(const ClockFilter& filter,
                                 const Arrival& arrival,
                                 double offset) const;
-  void updateModels(double arrival);
+  void updateModels(double arrival, bool waited);
   void learnFromHistory(double arrival, double on_time);
   void learnStalls(const ArrivalDensity& density);
   void applySteadyEdge();

@@ -48,15 +48,15 @@ void ExposureClock::reset() {
   *this = ExposureClock(leader_->nominalPeriod());
 }
 
-Estimate ExposureClock::update(double arrival) {
-  Estimate e = leader_->update(arrival);
+Estimate ExposureClock::update(double arrival, bool waited) {
+  Estimate e = leader_->update(arrival, waited);
   leader_begin_ = std::min(leader_begin_, arrival);
   if (arrival > last_arrival_)
     error_variance_ *= std::exp((last_arrival_ - arrival) / kErrorMemory);
   e.frame += frame_offset_;
   if (e.restarted)
     endTrial();
-  const Estimate other = challenge(arrival);
+  const Estimate other = challenge(arrival, waited);
   if (advantage_ > kBetter) {
     frame_offset_ = e.frame - other.frame;
     learnError(other.exposure - e.exposure, arrival);
@@ -98,14 +98,14 @@ void ExposureClock::endTrial() {
   advantage_ = 0.0;
 }
 
-Estimate ExposureClock::challenge(double arrival) {
+Estimate ExposureClock::challenge(double arrival, bool waited) {
   if (arrival < last_arrival_ || arrival > progressed_at_ + kTrial) {
     *challenger_ = ClockEstimator(challenger_->nominalPeriod());
     challenger_->copyLinkFrom(*leader_);
     trial_begin_ = progressed_at_ = arrival;
     advantage_ = best_advantage_ = 0.0;
   }
-  const Estimate estimate = challenger_->update(arrival);
+  const Estimate estimate = challenger_->update(arrival, waited);
   if (arrival > trial_begin_ + kLearning)
     advantage_ += challenger_->logEvidence() - leader_->logEvidence();
   if (advantage_ > best_advantage_ + kProgress) {

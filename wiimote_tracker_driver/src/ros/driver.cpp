@@ -194,7 +194,8 @@ std::unique_ptr<transport::Transport> Driver::open(bool delivered) {
 
 void Driver::publishImage(const protocol::DataReport& image) {
   const wiimote::Link& link = wiimote_.link();
-  const ImageTime time = stamper_.stamp(source_.readClocks(), link.clock_epoch);
+  const ImageTime time =
+      stamper_.stamp(source_.readClocks(), link.clock_epoch, wiimote_.imageWaited());
   const exposure_clock::Statistics clock = stamper_.statistics();
   const ImageStamper::Totals totals = stamper_.totals();
   {

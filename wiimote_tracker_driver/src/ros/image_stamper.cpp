@@ -25,7 +25,7 @@ ros::Time subtract(const ros::Time& time, double seconds) {
 
 ImageStamper::ImageStamper(const Options& options) : options_(options), clock_(options.period) {}
 
-ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoch) {
+ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoch, bool waited) {
   const bool stepped = any_image_ && rosClockStepped(now);
   if (!any_image_ || stepped || device_epoch != device_epoch_)
     beginEpoch(now);
@@ -34,7 +34,7 @@ ImageTime ImageStamper::stamp(const ClockReading& now, std::uint32_t device_epoc
   before_.clock_steps += stepped ? 1 : 0;
   device_epoch_ = device_epoch;
 
-  const exposure_clock::Estimate estimate = clock_.update(now.steady);
+  const exposure_clock::Estimate estimate = clock_.update(now.steady, waited);
   ImageTime time;
   time.arrival = ros_arrival_;
   time.stddev = std::numeric_limits<double>::quiet_NaN();

@@ -43,8 +43,9 @@ class ImageStamper {
 
   explicit ImageStamper(const Options& options);
 
-  /// An image arrived when `now` was read. `device_epoch`: increases at each reconnect.
-  ImageTime stamp(const ClockReading& now, std::uint32_t device_epoch);
+  /// An image arrived when `now` was read; before, if it `waited`. `device_epoch`: increases at
+  /// each reconnect.
+  ImageTime stamp(const ClockReading& now, std::uint32_t device_epoch, bool waited = false);
 
   /// Of the present epoch.
   exposure_clock::Statistics statistics() const { return clock_.statistics(); }

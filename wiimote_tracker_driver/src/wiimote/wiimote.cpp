@@ -11,6 +11,8 @@ using protocol::DataReport;
 namespace {
 // The kernel's buffer of 63 reports holds this much of a stream [s].
 constexpr double kBufferedTime = 0.6;
+// A report that waited for less is as good as one that did not [s].
+constexpr double kPrompt = 0.002;
 // Between two attempts to connect [s]; doubles with each failure.
 constexpr double kShortestPause = 0.25;
 constexpr double kLongestPause = 0.5;
@@ -59,7 +61,7 @@ void Wiimote::connect() {
   link_.status.reset();
   ++link_changes_;
   beginEpoch();
-  last_read_ = clock_();
+  none_waited_ = clock_();
   backlog_ = false;
   session_.emplace(
       options_, [this](const protocol::Report& report) { transport_->write(report); }, clock_());
@@ -68,11 +70,19 @@ void Wiimote::connect() {
 std::optional<DataReport> Wiimote::receive(double max_wait) {
   const double wait = std::clamp(session_->deadline() - clock_(), 0.0, max_wait);
   protocol::Report report;
-  const bool received = transport_->read(report, backlog_ ? 0.0 : wait);
+  bool received = transport_->read(report, 0.0);
+  const bool found = received;
+  if (!found) {
+    backlog_ = false;
+    none_waited_ = clock_();
+    received = wait > 0.0 && transport_->read(report, wait);
+  }
   const double now = clock_();
-  const bool stalled = now - last_read_ > std::max(kBufferedTime, 2.0 * wait);
-  backlog_ = received && (backlog_ || stalled);
-  last_read_ = now;
+  const double age = now - none_waited_;  // of the report, at most
+  waited_ = found && age > kPrompt;
+  backlog_ = received && (backlog_ || age > std::max(kBufferedTime, 2.0 * wait));
+  if (!found)
+    none_waited_ = now;
   std::optional<DataReport> image;
   if (received)
     image = session_->handle(report, now);

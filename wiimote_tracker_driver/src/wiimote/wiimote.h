@@ -45,10 +45,15 @@ class Wiimote {
 
   /// Opens the remote if that is due, else waits up to `max_wait` [s] for one report and handles
   /// it. Never throws: an exception of transport or session ends the connection, and link() has its
-  /// text. @returns the image, if the report completes one. After a stall of more than 0.6 s in
-  /// which the caller did not read, images that waited are dropped: the kernel keeps the oldest 63
-  /// reports, so these are of an unknown time before those that were lost.
+  /// text. @returns the image, if the report completes one. When reports have waited for more than
+  /// 0.6 s, because the caller did not read or reads too slowly, images are dropped until none
+  /// waits: the kernel keeps the oldest 63 reports, so these are of an unknown time before those
+  /// that were lost.
   std::optional<protocol::DataReport> step(double max_wait);
+
+  /// Whether the image that step() returned last may have waited for more than 2 ms, so that the
+  /// time now does not tell when it arrived.
+  bool imageWaited() const { return waited_; }
 
   /// Time until step() will have something to do [s]; 0 while connected.
   double idleTime() const;
@@ -98,11 +103,12 @@ class Wiimote {
   Link link_;
   std::uint64_t link_changes_ = 0;
   protocol::AccelerometerCalibration accelerometer_;
-  double last_read_ = 0.0;  ///< [s] When the last attempt to read returned.
-  bool backlog_ = false;    ///< Reports wait that the kernel kept during a long stall.
-  bool had_image_ = false;  ///< Since the start, from any remote.
-  bool delivered_ = false;  ///< Images have come from the remote that was opened last.
-  bool new_epoch_ = false;  ///< The next image is the first of another epoch.
+  double none_waited_ = 0.0;  ///< [s] When no report waited the last time.
+  bool waited_ = false;       ///< The latest report.
+  bool backlog_ = false;      ///< Reports have waited for too long.
+  bool had_image_ = false;    ///< Since the start, from any remote.
+  bool delivered_ = false;    ///< Images have come from the remote that was opened last.
+  bool new_epoch_ = false;    ///< The next image is the first of another epoch.
 };
 
 }  // namespace wiimote_tracker::wiimote

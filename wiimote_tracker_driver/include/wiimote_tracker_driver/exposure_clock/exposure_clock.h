@@ -54,9 +54,9 @@ class ExposureClock {
   ExposureClock& operator=(ExposureClock&&) noexcept;
 
   /// Takes a report's arrival [s], best on a steady clock. An arrival before the previous one by
-  /// more than a millisecond restarts the clock. @throws std::invalid_argument when it is not
-  /// finite.
-  Estimate update(double arrival);
+  /// more than a millisecond restarts the clock. `waited`: it arrived at an unknown time before
+  /// that. @throws std::invalid_argument when it is not finite.
+  Estimate update(double arrival, bool waited = false);
 
   /// Forgets everything: a new epoch.
   void reset();
@@ -64,7 +64,7 @@ class ExposureClock {
   Statistics statistics() const;
 
  private:
-  Estimate challenge(double arrival);
+  Estimate challenge(double arrival, bool waited);
   void endTrial();
   void learnError(double error, double arrival);
 

@@ -131,7 +131,7 @@ bool BodyUpdate::followMatch(std::size_t body,
                              const BodyImage& image) {
   KnownBody& known = *state_.bodies[body];
   LastImage& last = state_.images[image.camera];
-  const SpotNoise noise = noiseOf(image, last.free.size());
+  const geometry::PixelNoise noise = noiseOf(image, last.free.size());
   for (const MatchedSpot& spot : spots) {
     const auto free = std::find(last.free.begin(), last.free.end(), spot.pixel);
     if (spot.camera != image.camera || free == last.free.end())
@@ -162,7 +162,7 @@ LedGroups BodyUpdate::groupsOf(std::size_t body, const BodyImage& image, double 
 
 /// All spots of a body in an image share the error of its time: as if each had its own one, which
 /// is greater. @param spots of the body
-SpotNoise BodyUpdate::noiseOf(const BodyImage& image, double spots) const {
+geometry::PixelNoise BodyUpdate::noiseOf(const BodyImage& image, double spots) const {
   return {geometry::pixelNoise(setup_.rig.cameras[image.camera], setup_.options.learnt_noise,
                                setup_.options.pixel_stddev),
           image.stamp_stddev * std::sqrt(spots)};

@@ -78,7 +78,7 @@ class BodyUpdate {
               const BodyImage& image);
   bool isSeen(std::size_t body, const LastImage& image);
   LedGroups groupsOf(std::size_t body, const BodyImage& image, double spots) const;
-  SpotNoise noiseOf(const BodyImage& image, double spots) const;
+  geometry::PixelNoise noiseOf(const BodyImage& image, double spots) const;
 
   const BodySetup& setup_;
   BodyState& state_;

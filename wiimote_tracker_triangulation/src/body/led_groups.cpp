@@ -49,7 +49,7 @@ double LedGroup::cost(const Eigen::Vector2d& pixel, double gate) const {
 LedGroups::LedGroups(const PoseState& state,
                      const Constellation& constellation,
                      const geometry::Camera& camera,
-                     const SpotNoise& noise,
+                     const geometry::PixelNoise& noise,
                      double merging_distance,
                      double gate)
     : gate_(gate) {

@@ -36,7 +36,7 @@ class LedGroups {
   LedGroups(const PoseState& state,
             const Constellation& constellation,
             const geometry::Camera& camera,
-            const SpotNoise& noise,
+            const geometry::PixelNoise& noise,
             double merging_distance,
             double gate);
 

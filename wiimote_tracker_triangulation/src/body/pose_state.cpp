@@ -72,7 +72,7 @@ Eigen::Isometry3d PoseState::worldFromBody() const {
 std::optional<LedPrediction> predictLed(const PoseState& state,
                                         const geometry::Camera& camera,
                                         const Eigen::Vector3d& led,
-                                        const SpotNoise& noise) {
+                                        const geometry::PixelNoise& noise) {
   const Eigen::Vector3d arm = state.rotation * led;
   const Eigen::Vector3d point = state.position + arm;
   LedPrediction prediction;

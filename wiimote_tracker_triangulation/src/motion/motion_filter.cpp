@@ -66,7 +66,7 @@ void MotionFilter::predict(double time) {
 }
 
 std::optional<PixelPrediction> MotionFilter::predictPixel(const geometry::Camera& camera,
-                                                          const PixelNoise& noise) const {
+                                                          const geometry::PixelNoise& noise) const {
   PixelPrediction prediction;
   prediction.velocity_ = velocity();
   prediction.stamp_stddev_ = noise.stamp_stddev;

@@ -41,7 +41,7 @@ class MotionFilter {
 
   /// The LED's pixel at time(). Nothing when it is not in front of the camera (Camera::project).
   std::optional<PixelPrediction> predictPixel(const geometry::Camera& camera,
-                                              const PixelNoise& noise) const;
+                                              const geometry::PixelNoise& noise) const;
 
   /// Updates with the pixel of the LED's spot at time(). The prediction must be this filter's in
   /// its present state. False, and nothing changes, when the pixel is not finite or more than

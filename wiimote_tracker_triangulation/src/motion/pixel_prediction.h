@@ -10,12 +10,6 @@
 
 namespace wiimote_tracker::motion {
 
-/// Measurement noise of a pixel.
-struct PixelNoise {
-  double pixel_stddev = 0.5;  ///< Standard deviation of each coordinate [px, > 0].
-  double stamp_stddev = 0.0;  ///< Of the image's time; adds noise by the LED's velocity [s, >= 0].
-};
-
 /// Where in a camera's image an LED is expected: a mixture of normal distributions, one per mode.
 class PixelPrediction {
  public:

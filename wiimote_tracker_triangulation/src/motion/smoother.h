@@ -17,7 +17,7 @@ struct Observation {
   double time;  // [s]
   const geometry::Camera* camera;
   Eigen::Vector2d pixel;
-  PixelNoise noise;
+  geometry::PixelNoise noise;
 };
 
 /// A time for which the LED's state is wanted, and where it was about then.

@@ -22,7 +22,7 @@ class GroupCamera {
   const geometry::Camera& forRays() const { return for_rays_; }
 
   /// Of an image's pixels. @param stamp_stddev [s]
-  motion::PixelNoise noise(double stamp_stddev) const { return {pixel_stddev_, stamp_stddev}; }
+  geometry::PixelNoise noise(double stamp_stddev) const { return {pixel_stddev_, stamp_stddev}; }
 
   double imageArea() const;  ///< [px^2]
 

@@ -76,7 +76,7 @@ class ImageUpdate {
   const GroupCamera* camera_ = nullptr;
   const StoredImage* image_ = nullptr;
   GroupState* state_ = nullptr;
-  motion::PixelNoise noise_;
+  geometry::PixelNoise noise_;
   std::vector<Candidate> candidates_;  // at most kMaximumTracks
   association::SpotCosts costs_;
   std::array<int, association::kMaximumSpots> track_of_spot_;

@@ -175,7 +175,7 @@ void ImageUpdate::updateMerged(const Candidate& candidate, const Candidate& othe
   const std::size_t spot = is_own ? *candidate.spot : *other.spot;
   Track& track = *candidate.track;
   const Eigen::Vector2d between = candidate.prediction.pixel() - other.prediction.pixel();
-  motion::PixelNoise noise = noise_;
+  geometry::PixelNoise noise = noise_;
   noise.pixel_stddev =
       std::sqrt(noise_.pixel_stddev * noise_.pixel_stddev + between.squaredNorm() / 12.0 +
                 0.5 * other.prediction.covariance().trace());

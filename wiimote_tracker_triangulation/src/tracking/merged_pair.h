@@ -28,7 +28,7 @@ class MergedPair {
   /// One image, with the spots that may be of the two.
   struct View {
     const geometry::Camera* camera;
-    motion::PixelNoise noise;
+    geometry::PixelNoise noise;
     double time;  // [s]
     boost::container::static_vector<Eigen::Vector2d, association::kMaximumSpots> pixels;
   };

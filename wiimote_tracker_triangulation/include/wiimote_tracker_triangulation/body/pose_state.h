@@ -48,19 +48,11 @@ struct LedPrediction {
   double depth;                          ///< Along the optical axis [m].
 };
 
-/// Errors of the spots of a body in one image.
-struct SpotNoise {
-  double pixel_stddev = 0.5;  ///< Per coordinate [px, > 0].
-
-  /// Of the image's time; adds noise by the velocity of the LED [s, >= 0].
-  double stamp_stddev = 0.0;
-};
-
 /// Nothing when the LED is behind the camera. @param led in the body's frame [m]
 std::optional<LedPrediction> predictLed(const PoseState& state,
                                         const geometry::Camera& camera,
                                         const Eigen::Vector3d& led,
-                                        const SpotNoise& noise);
+                                        const geometry::PixelNoise& noise);
 
 }  // namespace wiimote_tracker::body
 

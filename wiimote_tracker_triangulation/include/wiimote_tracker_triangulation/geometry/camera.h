@@ -91,6 +91,12 @@ struct Camera {
   bool sees(const Eigen::Vector3d& point) const;
 };
 
+/// Measurement noise of the pixel of an LED.
+struct PixelNoise {
+  double pixel_stddev = 0.5;  ///< Standard deviation of each coordinate [px, > 0].
+  double stamp_stddev = 0.0;  ///< Of the image's time; adds noise by the LED's velocity [s, >= 0].
+};
+
 /// Whether two poses of a camera are so alike, to 0.002 rad and 5 mm, that another calibration of a
 /// camera that was not moved explains the difference.
 bool haveSamePose(const Camera& a, const Camera& b);

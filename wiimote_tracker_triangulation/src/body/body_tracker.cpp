@@ -5,8 +5,10 @@
 #include "body/body_setup.h"
 #include "body/body_state.h"
 #include "body/body_update.h"
+#include "tracking/arrival_clocks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -16,19 +18,44 @@ namespace {
 /// Images that may be computed again per new image, because samples of an IMU came later.
 constexpr std::size_t kRepeats = 16;
 
+/// Of a camera's time offset, with which images before and after it cannot be combined [s].
+constexpr double kOffsetJump = 0.05;
+
+double offsetOf(const geometry::RigCamera& camera) {
+  return camera.time_offset_rule == geometry::TimeOffsetRule::kNone ? 0.0 : camera.time_offset;
+}
+
+bool haveSameTimes(const geometry::Rig& before, const geometry::Rig& now) {
+  return std::all_of(now.cameras.begin(), now.cameras.end(), [&](const auto& camera) {
+    return std::all_of(before.cameras.begin(), before.cameras.end(), [&](const auto& other) {
+      return other.camera.name != camera.camera.name ||
+             std::abs(offsetOf(other) - offsetOf(camera)) < kOffsetJump;
+    });
+  });
+}
+
+void lose(BodyEstimate* body) {
+  body->lost = true;
+  for (LedEstimate& led : body->leds)
+    led.cameras.clear();
+}
+
 }  // namespace
 
-BodyTracker::BodyTracker(const geometry::Rig& rig,
-                         const std::vector<Constellation>& constellations,
-                         const BodyTrackerOptions& options)
+BodyTracker::BodyTracker(const BodyTrackerOptions& options)
     : setup_(std::make_unique<BodySetup>()),
       state_(std::make_unique<BodyState>()),
       history_(std::make_unique<BodyHistory>()),
       update_(std::make_unique<BodyUpdate>(*setup_, state_.get())),
       image_(std::make_unique<BodyImage>()) {
   setup_->options = options;
-  rig.check();
-  useRig(rig);
+}
+
+BodyTracker::BodyTracker(const geometry::Rig& rig,
+                         const std::vector<Constellation>& constellations,
+                         const BodyTrackerOptions& options)
+    : BodyTracker(options) {
+  setRig(rig);
   setBodies(constellations);
 }
 
@@ -44,6 +71,13 @@ void BodyTracker::useRig(const geometry::Rig& rig) {
 
 void BodyTracker::setRig(const geometry::Rig& rig) {
   rig.check();
+  const bool keeps_times = haveSameTimes(setup_->rig, rig);
+  if (!keeps_times)
+    reset();
+  if (!arrival_clocks_ || !keeps_times || !haveSameCameras(setup_->rig, rig))
+    arrival_clocks_ = std::make_unique<tracking::ArrivalClocks>(
+        rig.cameras.size(),
+        arrival_clocks_ ? arrival_clocks_->newestUsed() : -std::numeric_limits<double>::infinity());
   auto images = history_->images();
   if (!images.empty())
     history_->rollBack(images.begin(), state_.get());
@@ -68,9 +102,29 @@ void BodyTracker::setRig(const geometry::Rig& rig) {
   estimate();
 }
 
-void BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
+BodySnapshot BodyTracker::setBodies(const std::vector<Constellation>& constellations) {
   for (const Constellation& constellation : constellations)
     constellation.check();
+  BodySnapshot lost = snapshot_;
+  std::vector<std::optional<BodyEstimate>> last(constellations.size());
+  for (std::size_t b = 0; b < snapshot_.bodies.size(); ++b) {
+    std::optional<BodyEstimate>& body = lost.bodies[b];
+    const auto same = std::find(constellations.begin(), constellations.end(), constellations_[b]);
+    if (same != constellations.end())
+      last[same - constellations.begin()] = std::exchange(body, {});
+    else if (body && body->lost)
+      body.reset();
+    else if (body)
+      lose(&*body);
+  }
+  if (constellations != constellations_)
+    replaceBodies(constellations);
+  snapshot_.bodies = std::move(last);
+  return lost;
+}
+
+void BodyTracker::replaceBodies(const std::vector<Constellation>& constellations) {
+  constellations_ = constellations;
   const auto before = std::exchange(setup_->bodies, {});
   std::vector<std::size_t> former;  // index of each body, or the number of bodies if it is new
   for (const Constellation& constellation : constellations) {
@@ -142,6 +196,69 @@ bool BodyTracker::add(std::size_t camera,
   history_->forgetBefore(time_ - setup_->options.history);
   estimate();
   return true;
+}
+
+void BodyTracker::take(std::size_t camera,
+                       const tracking::ClockError& clock,
+                       tracking::CameraImage* image,
+                       bool is_doubtful) {
+  image->bodies = {};
+  if (constellations_.empty())
+    return;
+  const geometry::RigCamera& calibration = setup_->rig.cameras[camera];
+  const tracking::ImageTimes times = tracking::timesOf(calibration, *image);
+  switch (arrival_clocks_->check(camera, times)) {
+    case tracking::ArrivalClocks::Result::kWrongClock:
+      return;
+    case tracking::ArrivalClocks::Result::kJumpedBack:
+      reset();
+      latest_arrival_ = image->arrival;
+      last_output_ = -std::numeric_limits<double>::infinity();
+      break;
+    case tracking::ArrivalClocks::Result::kUsable:
+      break;
+  }
+  const auto isMasked = [&](const tracking::Spot& spot) {
+    return geometry::isMasked(calibration.masks, spot.pixel);
+  };
+  pixels_.clear();
+  for (const tracking::Spot& spot : image->spots) {
+    if (!isMasked(spot))
+      pixels_.push_back(spot.pixel);
+  }
+  const double stamp_stddev =
+      std::isnan(image->stamp_stddev) ? setup_->options.stamp_stddev : image->stamp_stddev;
+  if (!add(camera, times.exposure - clock.offset,
+           std::hypot(stamp_stddev, std::sqrt(clock.variance)), pixels_, is_doubtful))
+    return;
+  latest_arrival_ = std::max(latest_arrival_, image->arrival);
+  image->bodies = fit_;
+  auto taken = taken_.begin();  // of each spot that is not masked
+  std::size_t kept = 0;
+  for (const tracking::Spot& spot : image->spots) {
+    if (isMasked(spot) || !*taken++)
+      image->spots[kept++] = spot;
+  }
+  // Spots of bodies use up places in the camera's list of spots.
+  image->maximum_spots -= std::min(image->spots.size() - kept, image->maximum_spots);
+  image->spots.resize(kept);
+}
+
+const BodySnapshot* BodyTracker::next() {
+  if (!(time_ > last_output_))
+    return nullptr;
+  last_output_ = time_;
+  snapshot_.time = time_;
+  snapshot_.latest_arrival = latest_arrival_;
+  snapshot_.bodies.resize(estimates_.size());
+  for (std::size_t b = 0; b < estimates_.size(); ++b) {
+    std::optional<BodyEstimate>& body = snapshot_.bodies[b];
+    if (estimates_[b] || !body || body->lost)
+      body = estimates_[b];
+    else
+      lose(&*body);
+  }
+  return &snapshot_;
 }
 
 /// The first image before `place` for which a sample of an IMU came too late, or `place`. If they

@@ -1,6 +1,6 @@
 // A camera that was turned since its calibration, or is turned while bodies are tracked.
-#include "body/body_follower.h"
 #include "body/body_scene.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
@@ -60,9 +60,9 @@ Result follow(const geometry::Rig& rig,
   tracking::TrackerOptions tracker_options = tracking::test::exactOptions();
   tracker_options.pixel_stddev = options.pixel_noise;
   tracking::Tracker tracker(rig, tracker_options);
-  BodyFollower follower((BodyTrackerOptions()));
-  follower.setBodies(bodies);
-  follower.setRig(rig);
+  BodyTracker body_tracker((BodyTrackerOptions()));
+  body_tracker.setBodies(bodies);
+  body_tracker.setRig(rig);
   Result result;
   for (double time = 0.0; time < 8.0;) {
     const tracking::test::SceneImage& shown = right.next();
@@ -70,7 +70,7 @@ Result follow(const geometry::Rig& rig,
     time = shown.true_time - options.start;
     const bool is_turned = time >= knock.begin && time < knock.end;
     tracking::CameraImage image = is_turned ? moved.image : shown.image;
-    follower.take(shown.camera, {}, &image, tracker.isDoubtful(shown.camera));
+    body_tracker.take(shown.camera, {}, &image, tracker.isDoubtful(shown.camera));
     tracker.add(shown.camera, image);
     while (tracker.next()) {
     }
@@ -83,7 +83,7 @@ Result follow(const geometry::Rig& rig,
       else if (time >= knock.end && !is_named && !result.used)
         result.used = time - knock.end;
     }
-    const BodySnapshot* snapshot = follower.next();
+    const BodySnapshot* snapshot = body_tracker.next();
     if (!snapshot || time < 1.0 || (time >= knock.begin && time < knock.begin + 1.0))
       continue;
     for (std::size_t b = 0; b < bodies.size(); ++b) {

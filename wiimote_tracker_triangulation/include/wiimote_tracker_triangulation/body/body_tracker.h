@@ -8,6 +8,7 @@
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/estimator.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <Eigen/Core>
@@ -19,6 +20,10 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+namespace wiimote_tracker::tracking {
+class ArrivalClocks;
+}
 
 namespace wiimote_tracker::body {
 
@@ -52,6 +57,16 @@ struct LabelledPoint {
   Eigen::Matrix3d covariance;  ///< [m^2], positive definite.
 };
 
+/// The bodies at the time of an image.
+struct BodySnapshot {
+  double time = 0.0;            ///< [s]
+  double latest_arrival = 0.0;  ///< Of the newest image [s].
+
+  /// One per constellation; nothing while the body's pose is unknown. A body that was lost since
+  /// the snapshot before is there once more.
+  std::vector<std::optional<BodyEstimate>> bodies;
+};
+
 /// Tracks rigid bodies by the pixels of each camera image, at the time of that image. Spots of an
 /// image are first assigned to the LEDs of tracked bodies. Bodies that are not tracked are searched
 /// among the remaining spots of several cameras, by the shape of the constellation, or by the
@@ -61,7 +76,10 @@ struct LabelledPoint {
 /// their times. Does not allocate once warm.
 class BodyTracker {
  public:
-  /// @throws Error (Constellation::check), geometry::InvalidRigError (Rig::check).
+  /// Without bodies, and without a rig, which must be set before the first image.
+  explicit BodyTracker(const BodyTrackerOptions& options);
+
+  /// The same with both. @throws as setRig() and setBodies().
   BodyTracker(const geometry::Rig& rig,
               const std::vector<Constellation>& constellations,
               const BodyTrackerOptions& options);
@@ -70,17 +88,33 @@ class BodyTracker {
   BodyTracker& operator=(const BodyTracker&) = delete;
 
   /// Computes the images that are kept (BodyTrackerOptions::history) again with another rig. Bodies
-  /// that are hidden in all of them are lost. @throws geometry::InvalidRigError (Rig::check).
+  /// that are hidden in all of them are lost. Where a time offset jumps, bodies are searched anew.
+  /// @throws geometry::InvalidRigError (Rig::check); the previous rig then stays.
   void setRig(const geometry::Rig& rig);
 
   /// Tracks these bodies from now on. Those that were tracked before, with the same constellation,
-  /// go on. @throws Error (Constellation::check).
-  void setBodies(const std::vector<Constellation>& constellations);
+  /// go on.
+  /// @returns the latest snapshot of the bodies before: those that do not go on, as lost.
+  /// @throws Error (Constellation::check); the previous bodies then stay.
+  BodySnapshot setBodies(const std::vector<Constellation>& constellations);
 
-  /// Adds the spots of a camera's image.
+  const std::vector<Constellation>& constellations() const { return constellations_; }
+
+  /// Tracks bodies in an image and removes their spots from it, before it goes to the tracking of
+  /// free LEDs. @param clock see Estimator::clockError().
+  /// @param is_doubtful see Estimator::isDoubtful(): no body is located by this image.
+  void take(std::size_t camera,
+            const tracking::ClockError& clock,
+            tracking::CameraImage* image,
+            bool is_doubtful = false);
+
+  /// The snapshot after the last image if it is newer than all before, else null. Valid until the
+  /// next call.
+  const BodySnapshot* next();
+
+  /// As take(), for the spots of a camera's image whose time is known.
   /// @param time exposure [s]. @param stamp_stddev of that time [s, >= 0].
   /// @param pixels distorted, finite [px].
-  /// @param is_doubtful the camera does not fit the others: no body is located by this image.
   /// @returns false, and does nothing, if the image is too old.
   bool add(std::size_t camera,
            double time,
@@ -92,12 +126,6 @@ class BodyTracker {
   /// estimates from the next image on.
   void addInertial(std::size_t body, const InertialSample& sample);
 
-  /// For each spot of the image added last: whether it was assigned to a body.
-  const std::vector<bool>& taken() const { return taken_; }
-
-  /// How that image fits the bodies; each counts as one LED.
-  const tracking::LedFit& fit() const { return fit_; }
-
   /// Starts bodies that are unknown, if at least three of their LEDs are among these points at
   /// time() and agree with the constellation.
   void startFromLabels(const std::vector<LabelledPoint>& points);
@@ -107,16 +135,16 @@ class BodyTracker {
   /// One per constellation, at time(); nothing while the body's pose is unknown.
   const std::vector<std::optional<BodyEstimate>>& bodies() const { return estimates_; }
 
-  /// Forgets all state, as after a jump in time.
-  void reset();
-
  private:
   void useRig(const geometry::Rig& rig);
+  void replaceBodies(const std::vector<Constellation>& constellations);
   std::uint64_t firstOutdated(std::uint64_t place);
   void step(std::uint64_t place);
   void dropLost(double time);
   void estimate();
+  void reset();
 
+  std::vector<Constellation> constellations_;
   std::unique_ptr<BodySetup> setup_;
   std::unique_ptr<BodyState> state_;
   std::unique_ptr<BodyHistory> history_;
@@ -129,9 +157,16 @@ class BodyTracker {
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
-  std::vector<bool> taken_;           // see taken()
-  tracking::LedFit fit_;              // see fit()
+  std::vector<bool> taken_;           // spots of the image added last, by a body
+  tracking::LedFit fit_;              // of that image; each body counts as one LED
   std::unique_ptr<BodyImage> image_;  // of add(), reused
+
+  // Of take() and next():
+  std::unique_ptr<tracking::ArrivalClocks> arrival_clocks_;  // null without a rig
+  double latest_arrival_ = 0.0;                              // [s]
+  double last_output_ = -std::numeric_limits<double>::infinity();
+  BodySnapshot snapshot_;
+  std::vector<Eigen::Vector2d> pixels_;  // reused
 };
 
 }  // namespace wiimote_tracker::body

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
 
-#include "body/body_follower.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"

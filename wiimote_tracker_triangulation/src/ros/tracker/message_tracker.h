@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H
 
-#include "body/body_follower.h"
 #include "fault_reports.h"
 #include "image_message.h"
 #include "imu_reports.h"
@@ -9,6 +8,7 @@
 #include "parameters.h"
 #include "point_output.h"
 #include "statistics.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 
 #include <sensor_msgs/Imu.h>
@@ -90,7 +90,7 @@ class MessageTracker {
   std::unique_ptr<identity::Identifier> identifier_;  // null: no LED blinks
   identity::SnapshotSightings sightings_;
   identity::LedLabels labels_;
-  body::BodyFollower bodies_;
+  body::BodyTracker bodies_;
   ImuReports imu_reports_;
   PointOutput points_;
   Statistics statistics_;

@@ -1,6 +1,6 @@
-// The follower takes the spots of bodies out of the images; the rest is for free LEDs.
-#include "body/body_follower.h"
+// The tracker of bodies takes their spots out of the images; the rest is for free LEDs.
 #include "body/body_scene.h"
+#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>
@@ -39,12 +39,12 @@ tracking::CameraImage exactImage(const geometry::Camera& camera,
   return image;
 }
 
-TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
+TEST(BodyTracker, RemovesTheSpotsOfBodiesFromImages) {
   const geometry::Rig rig = tracking::test::paperRig();
-  BodyFollower follower((BodyTrackerOptions()));
+  BodyTracker body_tracker((BodyTrackerOptions()));
   const Constellation three{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
-  follower.setBodies({three});
-  follower.setRig(rig);
+  body_tracker.setBodies({three});
+  body_tracker.setRig(rig);
   const Vector3d free(1.6, 1.0, 0.8);
   const Isometry3d pose(Eigen::Translation3d(1.0, 1.4, 1.2));
   std::vector<Vector3d> points;
@@ -56,12 +56,12 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
     const std::size_t camera = static_cast<std::size_t>(i) % 4;
     tracking::CameraImage image =
         exactImage(rig.cameras[camera].camera, points, 1000.0 + 0.0025 * i);
-    follower.take(camera, {}, &image);
-    const BodySnapshot* snapshot = follower.next();
+    body_tracker.take(camera, {}, &image);
+    const BodySnapshot* snapshot = body_tracker.next();
     ASSERT_TRUE(snapshot);
     EXPECT_GT(snapshot->time, last);
     last = snapshot->time;
-    EXPECT_FALSE(follower.next()) << "once only";
+    EXPECT_FALSE(body_tracker.next()) << "once only";
     if (i < 20)
       continue;
     ASSERT_TRUE(snapshot->bodies[0]);
@@ -75,8 +75,8 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
   int lost = 0;
   for (int i = 0; i < 400; ++i) {
     tracking::CameraImage image = exactImage(rig.cameras[0].camera, {}, 1000.5 + 0.0025 * i);
-    follower.take(0, {}, &image);
-    const BodySnapshot* snapshot = follower.next();
+    body_tracker.take(0, {}, &image);
+    const BodySnapshot* snapshot = body_tracker.next();
     ASSERT_TRUE(snapshot);
     lost += static_cast<int>(countLost(*snapshot));
     if (snapshot->time > 1001.2) {
@@ -89,9 +89,9 @@ TEST(BodyFollower, RemovesTheSpotsOfBodiesFromImages) {
     const std::size_t camera = static_cast<std::size_t>(i) % 4;
     tracking::CameraImage image =
         exactImage(rig.cameras[camera].camera, points, 900.0 + 0.0025 * i);
-    follower.take(camera, {}, &image);
+    body_tracker.take(camera, {}, &image);
   }
-  const BodySnapshot* snapshot = follower.next();
+  const BodySnapshot* snapshot = body_tracker.next();
   ASSERT_TRUE(snapshot);
   EXPECT_LT(snapshot->time, 901.0);
   EXPECT_TRUE(snapshot->bodies[0]);
@@ -105,23 +105,23 @@ Isometry3d circling(double t) {
 }
 
 /// Mean squared normalised error per coordinate of the pose of a circling body, from a time on [s].
-/// @param take gives an image to the follower.
+/// @param take gives an image to the tracker.
 double meanNees(const geometry::Rig& rig,
                 const tracking::test::SceneOptions& options,
                 unsigned seed,
                 double begin,
-                const std::function<void(tracking::test::SceneImage*, BodyFollower*)>& take) {
-  BodyFollower follower((BodyTrackerOptions()));
-  follower.setBodies({test::fourLeds()});
-  follower.setRig(rig);
+                const std::function<void(tracking::test::SceneImage*, BodyTracker*)>& take) {
+  BodyTracker body_tracker((BodyTrackerOptions()));
+  body_tracker.setBodies({test::fourLeds()});
+  body_tracker.setRig(rig);
   tracking::test::Scene scene(rig, test::pathsOf(test::fourLeds(), circling), options, seed);
   double nees = 0.0;
   double count = 0.0;
   for (double time = 0.0; time < 1005.0;) {
     tracking::test::SceneImage image = scene.next();
     time = image.true_time;
-    take(&image, &follower);
-    const BodySnapshot* snapshot = follower.next();
+    take(&image, &body_tracker);
+    const BodySnapshot* snapshot = body_tracker.next();
     if (!snapshot || time < begin)
       continue;
     const BodyEstimate& body = snapshot->bodies[0].value();
@@ -133,12 +133,12 @@ double meanNees(const geometry::Rig& rig,
 }
 
 /// Stamps have errors of 2 ms.
-TEST(BodyFollower, StatesTheErrorsOfStamps) {
+TEST(BodyTracker, StatesTheErrorsOfStamps) {
   tracking::test::SceneOptions options;
   options.pixel_noise = 0.5;
   options.stamp_noise = 0.002;
-  const auto take = [](tracking::test::SceneImage* image, BodyFollower* follower) {
-    follower->take(image->camera, {}, &image->image);
+  const auto take = [](tracking::test::SceneImage* image, BodyTracker* body_tracker) {
+    body_tracker->take(image->camera, {}, &image->image);
   };
   for (const std::size_t cameras : {4, 2}) {
     geometry::Rig rig = tracking::test::paperRig();
@@ -153,7 +153,7 @@ TEST(BodyFollower, StatesTheErrorsOfStamps) {
 }
 
 /// After a reconnection the stamps of a camera are 5 ms late, which nothing but bodies shows.
-TEST(BodyFollower, StatesWhatIsNotKnownOfAClock) {
+TEST(BodyTracker, StatesWhatIsNotKnownOfAClock) {
   tracking::test::SceneOptions options;
   options.pixel_noise = 0.5;
   geometry::Rig rig = tracking::test::paperRig();
@@ -162,13 +162,14 @@ TEST(BodyFollower, StatesWhatIsNotKnownOfAClock) {
   double nees = 0.0;
   for (unsigned seed = 1; seed < 5; ++seed) {
     tracking::Tracker tracker(rig, tracking::test::exactOptions());
-    const auto take = [&](tracking::test::SceneImage* shown, BodyFollower* follower) {
+    const auto take = [&](tracking::test::SceneImage* shown, BodyTracker* body_tracker) {
       tracking::CameraImage& image = shown->image;
       if (shown->camera == 0) {
         image.clock_epoch = rig.cameras[0].time_offset_epoch + 1;
         image.stamp += 0.005;
       }
-      follower->take(shown->camera, tracker.clockError(shown->camera, image.clock_epoch), &image);
+      body_tracker->take(shown->camera, tracker.clockError(shown->camera, image.clock_epoch),
+                         &image);
       tracker.add(shown->camera, image);
     };
     nees += meanNees(rig, options, seed, 1000.5, take) / 4.0;
@@ -184,7 +185,7 @@ class AtRest : public testing::Test {
   AtRest() {
     for (const Vector3d& led : three_.leds)
       points_.push_back(Eigen::Translation3d(1.0, 1.4, 1.2) * led);
-    follower_.setBodies({three_});
+    body_tracker_.setBodies({three_});
   }
 
   /// @returns what is left of the last image.
@@ -193,14 +194,14 @@ class AtRest : public testing::Test {
     for (int i = 0; i < images; ++i, ++shown_) {
       const std::size_t camera = static_cast<std::size_t>(shown_) % 4;
       image = exactImage(rig_.cameras[camera].camera, points_, 1000.0 + 0.0025 * shown_);
-      follower_.take(camera, clock_error_, &image);
+      body_tracker_.take(camera, clock_error_, &image);
     }
     return image;
   }
 
   const Constellation three_{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
   geometry::Rig rig_ = tracking::test::paperRig();
-  BodyFollower follower_{BodyTrackerOptions()};
+  BodyTracker body_tracker_{BodyTrackerOptions()};
   std::vector<Vector3d> points_;
   tracking::ClockError clock_error_;  // of all cameras
   int shown_ = 0;
@@ -210,22 +211,22 @@ TEST_F(AtRest, MaskedSpotsAreNoBodys) {
   geometry::RigCamera& camera = rig_.cameras[3];
   const Eigen::Vector2d lamp = *camera.camera.project(points_[1]);
   camera.masks.push_back({lamp, 1.0});
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   const tracking::CameraImage left = show(40);
-  ASSERT_TRUE(follower_.next()->bodies[0]);
+  ASSERT_TRUE(body_tracker_.next()->bodies[0]);
   ASSERT_EQ(left.spots.size(), 1u);
   EXPECT_EQ(left.spots[0].pixel, lamp);
 }
 
 TEST_F(AtRest, IsFollowedOnInANewRig) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(40);
-  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  const double first_seen = body_tracker_.next()->bodies[0]->first_seen;
   std::swap(rig_.cameras[0], rig_.cameras[3]);
   rig_.cameras[1].camera.world_from_camera.translate(Vector3d(0.002, 0.0, 0.0));
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(1);
-  const BodySnapshot* snapshot = follower_.next();
+  const BodySnapshot* snapshot = body_tracker_.next();
   ASSERT_TRUE(snapshot->bodies[0]);
   EXPECT_EQ(countLost(*snapshot), 0);
   EXPECT_TRUE(snapshot->bodies[0]->tracked);
@@ -233,55 +234,55 @@ TEST_F(AtRest, IsFollowedOnInANewRig) {
 }
 
 TEST_F(AtRest, IsInTheWorldOfANewRigAtOnce) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
-  const Vector3d before = follower_.next()->bodies[0]->world_from_body.translation();
+  const Vector3d before = body_tracker_.next()->bodies[0]->world_from_body.translation();
   const Vector3d shift(1.0, 0.2, -0.3);
   for (geometry::RigCamera& camera : rig_.cameras)
     camera.camera.world_from_camera.pretranslate(shift);
   for (Vector3d& point : points_)
     point += shift;
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(1);
-  const BodySnapshot* snapshot = follower_.next();
+  const BodySnapshot* snapshot = body_tracker_.next();
   ASSERT_TRUE(snapshot->bodies[0]);
   EXPECT_TRUE(snapshot->bodies[0]->tracked);
   EXPECT_LT((snapshot->bodies[0]->world_from_body.translation() - before - shift).norm(), 0.001);
 }
 
 TEST_F(AtRest, IsFoundAnewWhenANewRigSetsTimeBack) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
   for (geometry::RigCamera& camera : rig_.cameras) {
     camera.time_offset = -5.0;
     camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
   }
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   EXPECT_TRUE(show(40).spots.empty());
-  const BodySnapshot* snapshot = follower_.next();
+  const BodySnapshot* snapshot = body_tracker_.next();
   ASSERT_TRUE(snapshot) << "its time is before that of the last one";
   EXPECT_LT(snapshot->time, 996.0);
   EXPECT_TRUE(snapshot->bodies[0]);
 }
 
 TEST_F(AtRest, IsLostInANewRigWhileItIsHidden) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
   points_.clear();
   show(100);
-  ASSERT_TRUE(follower_.next()->bodies[0]);
-  follower_.setRig(rig_);
+  ASSERT_TRUE(body_tracker_.next()->bodies[0]);
+  body_tracker_.setRig(rig_);
   show(1);
-  EXPECT_EQ(countLost(*follower_.next()), 1);
+  EXPECT_EQ(countLost(*body_tracker_.next()), 1);
 }
 
 TEST_F(AtRest, IsFollowedOnWhenTheSameBodiesAreSet) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
-  const double first_seen = follower_.next()->bodies[0]->first_seen;
-  EXPECT_EQ(countLost(follower_.setBodies({three_})), 0);
+  const double first_seen = body_tracker_.next()->bodies[0]->first_seen;
+  EXPECT_EQ(countLost(body_tracker_.setBodies({three_})), 0);
   show(1);
-  const BodySnapshot* snapshot = follower_.next();
+  const BodySnapshot* snapshot = body_tracker_.next();
   ASSERT_TRUE(snapshot->bodies[0]);
   EXPECT_TRUE(snapshot->bodies[0]->tracked);
   EXPECT_EQ(snapshot->bodies[0]->first_seen, first_seen);
@@ -289,16 +290,16 @@ TEST_F(AtRest, IsFollowedOnWhenTheSameBodiesAreSet) {
 
 /// As when learn_body has learnt another one.
 TEST_F(AtRest, IsFollowedOnWhenAnotherBodyComesFirstAndGoes) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
-  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  const double first_seen = body_tracker_.next()->bodies[0]->first_seen;
   const Constellation other{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}};
   using Bodies = std::vector<Constellation>;
   for (const Bodies& bodies : {Bodies{other, three_}, Bodies{three_}}) {
-    follower_.setBodies(bodies);
+    body_tracker_.setBodies(bodies);
     for (int i = 0; i < 40; ++i) {
       EXPECT_TRUE(show(1).spots.empty()) << i;
-      const BodySnapshot* snapshot = follower_.next();
+      const BodySnapshot* snapshot = body_tracker_.next();
       ASSERT_EQ(snapshot->bodies.size(), bodies.size());
       EXPECT_EQ(countLost(*snapshot), 0);
       EXPECT_EQ(snapshot->bodies.front().has_value(), bodies.size() == 1);
@@ -312,15 +313,15 @@ TEST_F(AtRest, IsFollowedOnWhenAnotherBodyComesFirstAndGoes) {
 
 /// As when a late image comes just after learn_body: the steps before it are repeated.
 TEST_F(AtRest, IsFollowedOnThroughALateImageAfterAnotherBodyCame) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
-  const double first_seen = follower_.next()->bodies[0]->first_seen;
-  follower_.setBodies({{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}}, three_});
+  const double first_seen = body_tracker_.next()->bodies[0]->first_seen;
+  body_tracker_.setBodies({{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}}, three_});
   tracking::CameraImage late = exactImage(rig_.cameras[1].camera, points_, 1000.1);
-  follower_.take(1, {}, &late);
+  body_tracker_.take(1, {}, &late);
   EXPECT_TRUE(late.spots.empty());
   show(1);
-  const BodySnapshot* snapshot = follower_.next();
+  const BodySnapshot* snapshot = body_tracker_.next();
   ASSERT_TRUE(snapshot->bodies[1]);
   EXPECT_TRUE(snapshot->bodies[1]->tracked);
   EXPECT_EQ(snapshot->bodies[1]->first_seen, first_seen);
@@ -328,18 +329,18 @@ TEST_F(AtRest, IsFollowedOnThroughALateImageAfterAnotherBodyCame) {
 
 /// As when its file was edited.
 TEST_F(AtRest, IsSearchedAnewWhenItsLedsChange) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(60);
-  const double first_seen = follower_.next()->bodies[0]->first_seen;
+  const double first_seen = body_tracker_.next()->bodies[0]->first_seen;
   Constellation edited = three_;
   edited.leds[0].x() += 0.001;
-  const BodySnapshot lost = follower_.setBodies({edited});
+  const BodySnapshot lost = body_tracker_.setBodies({edited});
   EXPECT_EQ(countLost(lost), 1);
-  EXPECT_EQ(countLost(follower_.setBodies({edited})), 0) << "it was told already";
+  EXPECT_EQ(countLost(body_tracker_.setBodies({edited})), 0) << "it was told already";
   show(1);
-  EXPECT_FALSE(follower_.next()->bodies[0]);
+  EXPECT_FALSE(body_tracker_.next()->bodies[0]);
   show(40);
-  const BodySnapshot* snapshot = follower_.next();
+  const BodySnapshot* snapshot = body_tracker_.next();
   ASSERT_TRUE(snapshot->bodies[0]);
   EXPECT_GT(snapshot->bodies[0]->first_seen, first_seen);
 }
@@ -349,37 +350,37 @@ TEST_F(AtRest, StampsAreCorrectedByTheRigsOffsets) {
     camera.time_offset = 0.25;
     camera.time_offset_rule = geometry::TimeOffsetRule::kAlways;
   }
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(9);
-  EXPECT_EQ(follower_.next()->time, 1000.0 + 0.0025 * 8 + 0.25);
+  EXPECT_EQ(body_tracker_.next()->time, 1000.0 + 0.0025 * 8 + 0.25);
 }
 
 TEST_F(AtRest, TheErrorOfAClockIsTakenFromItsStamps) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   clock_error_.offset = 0.003;
   show(9);
-  EXPECT_EQ(follower_.next()->time, 1000.0 + 0.0025 * 8 - 0.003);
+  EXPECT_EQ(body_tracker_.next()->time, 1000.0 + 0.0025 * 8 - 0.003);
 }
 
 TEST_F(AtRest, TheLatestArrivalIsThatOfAllImages) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(8);
   tracking::CameraImage early = exactImage(rig_.cameras[0].camera, points_, 1000.02);
   early.arrival = 1000.021;  // the one before took 10 ms
-  follower_.take(0, {}, &early);
-  EXPECT_EQ(follower_.next()->latest_arrival, 1000.0 + 0.0025 * 7 + 0.01);
+  body_tracker_.take(0, {}, &early);
+  EXPECT_EQ(body_tracker_.next()->latest_arrival, 1000.0 + 0.0025 * 7 + 0.01);
 }
 
 TEST_F(AtRest, AnImageWithoutATimeIsLeftAlone) {
-  follower_.setRig(rig_);
+  body_tracker_.setRig(rig_);
   show(40);
-  ASSERT_TRUE(follower_.next());
+  ASSERT_TRUE(body_tracker_.next());
   for (const bool of_exposure : {false, true}) {
     tracking::CameraImage image = exactImage(rig_.cameras[0].camera, points_, 1000.1);
     (of_exposure ? image.stamp : image.arrival) = std::numeric_limits<double>::quiet_NaN();
-    follower_.take(0, {}, &image);
+    body_tracker_.take(0, {}, &image);
     EXPECT_EQ(image.spots.size(), 3u);
-    EXPECT_FALSE(follower_.next());
+    EXPECT_FALSE(body_tracker_.next());
   }
 }
 

@@ -264,7 +264,7 @@ TEST_F(WriterTest, TwoTablesAreNotTheSameFile) {
   std::ofstream(folder_ / "old.csv") << "old";
   fs::create_symlink(folder_ / "old.csv", folder_ / "link");
   for (const auto& [csv, trc] : {std::pair("out", "out"), {"out", "./out"}, {"old.csv", "link"}}) {
-    TableFiles files;
+    OutputNames files;
     files.csv = (folder_ / csv).string();
     files.trc = (folder_ / trc).string();
     try {

@@ -84,6 +84,7 @@ class CsvWriter : public Writer {
 
   void flush() override { file_.flush(); }
   void finish() override { file_.finish(); }
+  void discard() override { file_.discard(); }
 
  private:
   OutputFile file_;

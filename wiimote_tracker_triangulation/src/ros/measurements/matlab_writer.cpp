@@ -3,6 +3,7 @@
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <matio.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -135,6 +136,8 @@ class MatlabWriter : public Writer {
       failToWrite(path_, errno);
     finishPart(path_);
   }
+
+  void discard() override { ::unlink(partOf(path_).c_str()); }
 
  private:
   struct CloseFile {

@@ -117,4 +117,8 @@ void OutputFile::finish() {
   finishPart(path_);
 }
 
+void OutputFile::discard() {
+  ::unlink(partOf(path_).c_str());
+}
+
 }  // namespace wiimote_tracker::measurements

@@ -36,6 +36,7 @@ class OutputFile {
   void write(const std::string& bytes);
   void flush();
   void finish();
+  void discard();  ///< Removes the part, if it is not finished. Throws nothing.
 
  private:
   struct Close {

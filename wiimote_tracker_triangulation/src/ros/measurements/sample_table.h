@@ -62,6 +62,8 @@ class SampledWriter : public Writer {
     file_.finish();
   }
 
+  void discard() override { file_.discard(); }
+
  private:
   OutputFile file_;
   double rate_;

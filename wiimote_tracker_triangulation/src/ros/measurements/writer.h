@@ -3,11 +3,11 @@
 
 #include "ros/measurements/part_file.h"
 
+#include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <iterator>
 #include <memory>
@@ -47,7 +47,8 @@ class Writer {
   virtual ~Writer() = default;
 
   /// @throws Error.
-  virtual void add(const Measurement& measurement) = 0;
+  virtual void add(const Measurement& /*measurement*/) {}
+  virtual void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/) {}
 
   /// Adds each LED of a message. @throws Error.
   void addAll(const wiimote_tracker_msgs::TrackedPointArray& message, bool triggered) {
@@ -60,6 +61,9 @@ class Writer {
 
   /// Completes the file; nothing may be added afterwards. @throws Error.
   virtual void finish() = 0;
+
+  /// Removes what was written if it is not finished.
+  virtual void discard() = 0;
 };
 
 /// Comma-separated values: one row per measurement; the first line has the columns and their units.
@@ -83,38 +87,41 @@ std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate);
 /// @throws Error: the file cannot be created, or the program was built without matio.
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path);
 
+/// The poses of each tracked body in a file <folder>/<body>.tum, as the TUM RGB-D benchmark defines
+/// it and evo reads it: one line `time x y z qx qy qz qw` a pose, [s since 1970] and [m].
+std::unique_ptr<Writer> makeTumWriter(const std::string& folder);
+std::string tumPath(const std::string& folder, const std::string& body);
+
 /// Files to write; empty: none.
-struct TableFiles {
+struct OutputNames {
   std::string csv;
   std::string matlab;
   std::string c3d;
   std::string trc;
+  std::string tum;      ///< Folder.
   double rate = 100.0;  ///< Of C3D and TRC [Hz, > 0].
 
-  std::vector<std::string> names() const { return {csv, matlab, c3d, trc}; }
+  std::vector<std::string> tables() const { return {csv, matlab, c3d, trc}; }
 };
 
 /// One for each file. @throws Error: one cannot be created, or two are the same; then no part is
 /// left of those that were created.
-inline std::vector<std::unique_ptr<Writer>> makeWriters(const TableFiles& files) {
-  checkDistinct(files.names());
+inline std::vector<std::unique_ptr<Writer>> makeWriters(const OutputNames& names) {
+  checkDistinct(names.tables());
   std::vector<std::unique_ptr<Writer>> writers;
-  std::vector<std::string> made;
-  const auto add = [&](const std::string& file, const auto& make, auto... rate) {
-    if (file.empty())
-      return;
-    writers.push_back(make(file, rate...));
-    made.push_back(file);
+  const auto add = [&](const std::string& name, const auto& make, auto... rate) {
+    if (!name.empty())
+      writers.push_back(make(name, rate...));
   };
   try {
-    add(files.csv, makeCsvWriter);
-    add(files.matlab, makeMatlabWriter);
-    add(files.c3d, makeC3dWriter, files.rate);
-    add(files.trc, makeTrcWriter, files.rate);
+    add(names.csv, makeCsvWriter);
+    add(names.matlab, makeMatlabWriter);
+    add(names.c3d, makeC3dWriter, names.rate);
+    add(names.trc, makeTrcWriter, names.rate);
+    add(names.tum, makeTumWriter);
   } catch (...) {
-    writers.clear();
-    for (const std::string& file : made)
-      std::remove(partOf(file).c_str());
+    for (const std::unique_ptr<Writer>& writer : writers)
+      writer->discard();
     throw;
   }
   return writers;

@@ -1,6 +1,5 @@
 // Writes the tracker's points to tables while it runs.
 
-#include "ros/measurements/trajectory_files.h"
 #include "ros/measurements/writer.h"
 
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
@@ -36,46 +35,41 @@ class Recorder {
   /// @throws ParameterError, Error.
   Recorder(ros::NodeHandle nh, const ros::NodeHandle& private_nh) {
     ParameterReader reader(private_nh);
-    measurements::TableFiles files;
-    std::string tum;
+    measurements::OutputNames files;
     reader.read("csv", &files.csv);
     reader.read("matlab", &files.matlab);
     reader.read("c3d", &files.c3d);
     reader.read("trc", &files.trc);
-    reader.read("tum", &tum);
+    reader.read("tum", &files.tum);
     reader.read("rate", &files.rate, 1.0, 1000.0);
     const double flush_period = reader.bounded("flush_period", 1.0, 0.01, 3600.0);
     reader.refuseUnknown();
-    tables_ = measurements::makeWriters(files);
-    if (tables_.empty() && tum.empty())
+    writers_ = measurements::makeWriters(files);
+    if (writers_.empty())
       throw ParameterError("set " + reader.nameOf("csv") + " or " + reader.nameOf("matlab") +
                            ", c3d, trc or tum: the file to write");
-    trajectories_ = measurements::TrajectoryFiles(tum);
+    has_tables_ = writers_.size() > (files.tum.empty() ? 0 : 1);
     topic_ = nh.resolveName("points");
     subscribers_ = {subscribe(&nh, "points", false), subscribe(&nh, "triggered_points", true)};
-    if (!tum.empty())
-      subscribers_.push_back(
-          nh.subscribe("bodies", 10000, &measurements::TrajectoryFiles::add, &trajectories_));
+    if (!files.tum.empty())
+      subscribers_.push_back(nh.subscribe("bodies", 10000, &Recorder::addBodies, this));
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
   }
 
   /// Speaks without rosconsole, which has ended by then. @returns whether all files are whole.
   bool finish() {
     bool whole = true;
-    const auto finishOne = [&whole](auto* file) {
+    for (const std::unique_ptr<measurements::Writer>& writer : writers_) {
       try {
-        file->finish();
+        writer->finish();
       } catch (const std::exception& e) {  // the data of the others are still in memory
         std::fprintf(stderr, "record_points: %s\n", e.what());
         whole = false;
       }
-    };
-    for (const std::unique_ptr<measurements::Writer>& table : tables_)
-      finishOne(table.get());
-    finishOne(&trajectories_);
+    }
     if (messages_ > 0)
       std::printf("record_points: %zu messages came.\n", messages_);
-    else if (!tables_.empty())
+    else if (has_tables_)
       std::fprintf(stderr,
                    "record_points: no points are in the files, since none came on %s: start the "
                    "tracker, or record in its namespace.\n",
@@ -89,25 +83,29 @@ class Recorder {
         topic, 10000,
         [this, triggered](const auto& points) {
           ++messages_;
-          for (const std::unique_ptr<measurements::Writer>& table : tables_)
-            table->addAll(*points, triggered);
+          for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+            writer->addAll(*points, triggered);
         },
         ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
   }
 
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+    for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+      writer->addBodies(bodies);
+  }
+
   void onTimer(const ros::WallTimerEvent&) {
-    if (messages_ == 0 && !tables_.empty())
+    if (messages_ == 0 && has_tables_)
       ROS_WARN_DELAYED_THROTTLE(10.0,
                                 "No points came on %s yet: start the tracker, or record in its "
                                 "namespace.",
                                 topic_.c_str());
-    for (const std::unique_ptr<measurements::Writer>& table : tables_)
-      table->flush();
-    trajectories_.flush();
+    for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+      writer->flush();
   }
 
-  std::vector<std::unique_ptr<measurements::Writer>> tables_;
-  measurements::TrajectoryFiles trajectories_{""};
+  std::vector<std::unique_ptr<measurements::Writer>> writers_;
+  bool has_tables_ = false;  // of points
   std::string topic_;
   std::size_t messages_ = 0;
   std::vector<ros::Subscriber> subscribers_;

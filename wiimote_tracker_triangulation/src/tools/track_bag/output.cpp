@@ -61,22 +61,20 @@ void LockedPart::lock(const std::string& path) {
   }
 }
 
-Output::Output(const OutputFiles& files, const Topics& topics, const OutputOptions& options)
-    : path_(files.bag),
+Output::Output(const std::string& bag,
+               const measurements::OutputNames& names,
+               const Topics& topics,
+               const OutputOptions& options)
+    : path_(bag),
       topics_(topics),
       options_(options),
       part_(path_),
       bag_(std::make_unique<rosbag::Bag>()),
-      tables_(measurements::makeWriters(files.tables)),
-      trajectories_(files.trajectories) {
+      writers_(measurements::makeWriters(names)) {
   try {
     bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
   } catch (const rosbag::BagException& e) {
     fail(e.what());
-  }
-  for (const std::string& table : files.tables.names()) {
-    if (!table.empty())
-      table_parts_.push_back(measurements::partOf(table));
   }
 }
 
@@ -84,9 +82,8 @@ Output::~Output() {
   // rosbag::Bag's destructor writes the index, and ends the process where that fails, as on a full
   // disk. The bag is not needed: leave it to the end of the process.
   if (bag_.release()) {
-    for (const std::string& part : table_parts_)
-      ::unlink(part.c_str());
-    trajectories_.removeParts();
+    for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+      writer->discard();
   }
 }
 
@@ -147,13 +144,14 @@ void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& poi
   }
   if (!transforms.transforms.empty())
     write(kTransforms, now_, transforms);
-  writeTables(*points, false);
+  writeMeasurements(*points, false);
 }
 
 void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
                       const std::vector<bool>& bridged) {
   write(topics_("bodies"), now_, bodies);
-  trajectories_.add(bodies);
+  for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+    writer->addBodies(bodies);
   TFMessage transforms;
   for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
     const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
@@ -173,7 +171,7 @@ void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
 void Output::onTriggeredPoints(const TrackedPointArray& points) {
   ++triggers_answered_;
   write(topics_("triggered_points"), now_, points);
-  writeTables(points, true);
+  writeMeasurements(points, true);
 }
 
 void Output::onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) {
@@ -186,9 +184,8 @@ void Output::onProblem(const std::string& sentence) {
 }
 
 void Output::finish() {
-  for (const std::unique_ptr<measurements::Writer>& table : tables_)
-    table->finish();
-  trajectories_.finish();
+  for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+    writer->finish();
   try {
     bag_->close();
   } catch (const rosbag::BagException& e) {
@@ -211,9 +208,9 @@ void Output::write(const std::string& topic,
   }
 }
 
-void Output::writeTables(const TrackedPointArray& points, bool triggered) {
-  for (const std::unique_ptr<measurements::Writer>& table : tables_)
-    table->addAll(points, triggered);
+void Output::writeMeasurements(const TrackedPointArray& points, bool triggered) {
+  for (const std::unique_ptr<measurements::Writer>& writer : writers_)
+    writer->addAll(points, triggered);
 }
 
 void Output::fail(const std::string& reason) {

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_OUTPUT_H
 
 #include "recording.h"
-#include "ros/measurements/trajectory_files.h"
 #include "ros/measurements/writer.h"
 #include "ros/tracker/message_tracker.h"
 
@@ -16,13 +15,6 @@
 #include <vector>
 
 namespace wiimote_tracker {
-
-/// Files that track_bag writes.
-struct OutputFiles {
-  std::string bag;
-  measurements::TableFiles tables;
-  std::string trajectories;  ///< Folder of the bodies' trajectories; empty: none.
-};
 
 /// The part of a bag: the unfinished file beside it, whose name ends in .part (part_file.h). Locked
 /// against other programs, removed unless it was finished.
@@ -48,7 +40,10 @@ class LockedPart {
 class Output : public MessageSink {
  public:
   /// @param options which topics of single LEDs and bodies to write.
-  Output(const OutputFiles& files, const Topics& topics, const OutputOptions& options);
+  Output(const std::string& bag,
+         const measurements::OutputNames& names,
+         const Topics& topics,
+         const OutputOptions& options);
   ~Output() override;
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
@@ -87,7 +82,7 @@ class Output : public MessageSink {
              const ros::Time& time,
              const Message& message,
              const boost::shared_ptr<ros::M_string>& header = nullptr);
-  void writeTables(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
+  void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
   [[noreturn]] void fail(const std::string& reason);
 
   std::string path_;
@@ -95,9 +90,7 @@ class Output : public MessageSink {
   OutputOptions options_;
   LockedPart part_;
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
-  std::vector<std::unique_ptr<measurements::Writer>> tables_;
-  std::vector<std::string> table_parts_;
-  measurements::TrajectoryFiles trajectories_;
+  std::vector<std::unique_ptr<measurements::Writer>> writers_;
   std::set<std::string> dropped_topics_;  // of the recording
   std::set<std::string> dropped_frames_;  // of its transforms
   ros::Time now_;

@@ -32,7 +32,8 @@ using wiimote_tracker_msgs::RigCalibration;
 
 struct Arguments {
   std::string input;
-  OutputFiles output;
+  std::string output;
+  measurements::OutputNames measurements;
   std::string mode;        // empty: as the parameters say
   std::string parameters;  // file; empty: the defaults
   std::string rig;         // file; empty: as recorded
@@ -158,12 +159,12 @@ class Player {
 
 /// @throws Error: a file to write is also to be read, or to be written as something else.
 void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
-  std::vector<std::string> to_write = arguments.output.tables.names();
-  to_write.push_back(arguments.output.bag);
-  const std::string& folder = arguments.output.trajectories;
+  std::vector<std::string> to_write = arguments.measurements.tables();
+  to_write.push_back(arguments.output);
+  const std::string& folder = arguments.measurements.tum;
   for (const body::Constellation& body : bodies.known) {
     if (!folder.empty())
-      to_write.push_back(measurements::TrajectoryFiles::pathOf(folder, body.name));
+      to_write.push_back(measurements::tumPath(folder, body.name));
   }
   measurements::checkDistinct(to_write,
                               {arguments.input, arguments.parameters, arguments.rig, bodies.file});
@@ -244,10 +245,10 @@ void run(const Arguments& arguments) {
   const std::string missing_bodies = describeMissingFile(parameters.bodies.file);
   if (!missing_bodies.empty())
     std::fprintf(stderr, "%s.\n", missing_bodies.c_str());
-  if (!arguments.output.trajectories.empty() && parameters.bodies.known.empty())
+  const measurements::OutputNames& names = arguments.measurements;
+  if (!names.tum.empty() && parameters.bodies.known.empty())
     std::fprintf(stderr, "--tum writes nothing without bodies: name their file with --bodies.\n");
-  const measurements::TableFiles& tables = arguments.output.tables;
-  if (tables.rate != measurements::TableFiles().rate && tables.c3d.empty() && tables.trc.empty())
+  if (names.rate != measurements::OutputNames().rate && names.c3d.empty() && names.trc.empty())
     std::fprintf(stderr, "--rate changes nothing without --c3d or --trc.\n");
   const Recording recording(arguments.input);
   if (recording.images() == 0)
@@ -267,7 +268,7 @@ void run(const Arguments& arguments) {
   deferInterruption();  // so that no parts of files are left
   SmoothedTracks smoothed(parameters.estimator.tracks);
   SnapshotFilter* const filter = arguments.smooth ? &smoothed : nullptr;
-  Output output(arguments.output, topics, parameters.output);
+  Output output(arguments.output, names, topics, parameters.output);
   dropRecordedResults(recording, topics, parameters, &output);
   if (arguments.smooth) {
     MessageSink ignored;
@@ -300,7 +301,7 @@ int main(int argc, char** argv) {
                         "recording without earlier results,\nand the new points, "
                         "transforms, zone events and points at triggers.");
   parser.positional("IN.bag", &arguments.input);
-  parser.positional("OUT.bag", &arguments.output.bag);
+  parser.positional("OUT.bag", &arguments.output);
   parser.option("--mode MODE", &arguments.mode,
                 "tracks or instant, instead of the parameters' mode");
   parser.option("--params FILE", &arguments.parameters,
@@ -309,13 +310,13 @@ int main(int argc, char** argv) {
   parser.option("--rig FILE", &arguments.rig, "rig.yaml to use instead of the rigs in the bag");
   parser.option("--bodies FILE", &arguments.bodies,
                 "rigid bodies to track, instead of the parameters' bodies/file");
-  measurements::TableFiles& tables = arguments.output.tables;
-  parser.option("--csv FILE", &tables.csv, "also write the points as CSV");
-  parser.option("--mat FILE", &tables.matlab, "also write the points as a MATLAB file");
-  parser.option("--c3d FILE", &tables.c3d, "also write the tracked LEDs as C3D");
-  parser.option("--trc FILE", &tables.trc, "also write the tracked LEDs as TRC");
-  parser.option("--rate HZ", &tables.rate, 1.0, 1000.0, "of C3D and TRC [Hz]");
-  parser.option("--tum FOLDER", &arguments.output.trajectories,
+  measurements::OutputNames& names = arguments.measurements;
+  parser.option("--csv FILE", &names.csv, "also write the points as CSV");
+  parser.option("--mat FILE", &names.matlab, "also write the points as a MATLAB file");
+  parser.option("--c3d FILE", &names.c3d, "also write the tracked LEDs as C3D");
+  parser.option("--trc FILE", &names.trc, "also write the tracked LEDs as TRC");
+  parser.option("--rate HZ", &names.rate, 1.0, 1000.0, "of C3D and TRC [Hz]");
+  parser.option("--tum FOLDER", &names.tum,
                 "also write the poses of bodies as FOLDER/<body>.tum, for evo");
   parser.option("--namespace NAME", &arguments.name_space,
                 "of the tracker's topics; default: that of the rig in the bag");

@@ -1,0 +1,58 @@
+#include "ros/measurements/part_file.h"
+#include "ros/measurements/writer.h"
+
+#include <locale>
+#include <map>
+#include <sstream>
+
+namespace wiimote_tracker::measurements {
+namespace {
+
+using wiimote_tracker_msgs::TrackedBody;
+
+class TumWriter : public Writer {
+ public:
+  explicit TumWriter(const std::string& folder) : folder_(folder) {}
+
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override {
+    for (const TrackedBody& body : bodies.bodies) {
+      if (body.state != TrackedBody::TRACKED)
+        continue;
+      std::ostringstream line;
+      line.imbue(std::locale::classic());
+      line.precision(9);
+      line << secondsOf(bodies.header.stamp);
+      const geometry_msgs::Point& p = body.pose.pose.position;
+      const geometry_msgs::Quaternion& q = body.pose.pose.orientation;
+      for (const double value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})
+        line << ' ' << value;
+      line << '\n';
+      files_.try_emplace(body.name, tumPath(folder_, body.name)).first->second.write(line.str());
+    }
+  }
+
+  void flush() override { forEach(&OutputFile::flush); }
+  void finish() override { forEach(&OutputFile::finish); }
+  void discard() override { forEach(&OutputFile::discard); }
+
+ private:
+  void forEach(void (OutputFile::*function)()) {
+    for (auto& [body, file] : files_)
+      (file.*function)();
+  }
+
+  std::string folder_;
+  std::map<std::string, OutputFile> files_;  // by body
+};
+
+}  // namespace
+
+std::string tumPath(const std::string& folder, const std::string& body) {
+  return folder + "/" + body + ".tum";
+}
+
+std::unique_ptr<Writer> makeTumWriter(const std::string& folder) {
+  return std::make_unique<TumWriter>(folder);
+}
+
+}  // namespace wiimote_tracker::measurements

@@ -20,6 +20,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 using markers::color;
+using markers::kLine;
 using markers::kLineWidth;
 using markers::kTextHeight;
 using visualization_msgs::Marker;
@@ -84,14 +85,10 @@ std::array<Vector3d, 4> imageCorners(const geometry::Camera& camera, double dist
 }  // namespace
 
 visualization_msgs::MarkerArray MarkerBuilder::buildWithoutRig(double time) const {
-  Marker text = markers::marker(rig_.world_frame, time, kAdviceLifetime, "advice", 0,
-                                Marker::TEXT_VIEW_FACING);
-  text.pose.position = pointOf(kTextHeight * Vector3d::UnitZ());
-  text.text = "Not calibrated: open Calibrate";
-  text.scale.z = kTextHeight;
-  text.color = color(1.0f, 1.0f, 1.0f, 1.0f);
   visualization_msgs::MarkerArray array;
-  array.markers.push_back(text);
+  array.markers = {markers::text({rig_.world_frame, time, kAdviceLifetime}, "advice", 0,
+                                 pointOf(kTextHeight * Vector3d::UnitZ()),
+                                 "Not calibrated: open Calibrate", color(1.0f, 1.0f, 1.0f, 1.0f))};
   return array;
 }
 
@@ -130,6 +127,8 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
     array_.markers.push_back(clear);
     must_clear_ = false;
   }
+  of_cameras_ = {rig_.world_frame, time, std::max(kCameraLifetime, 3.0 / options_.rate)};
+  of_leds_ = {rig_.world_frame, time, std::max(kLedLifetime, 3.0 / options_.rate)};
   for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
     const tracking::CameraView view = i < views.size() ? views[i] : tracking::CameraView();
     addCamera(i, view.time && time - *view.time < kNoImages);
@@ -151,46 +150,33 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
   return array_;
 }
 
-Marker MarkerBuilder::marker(const std::string& ns, std::size_t id, int type) const {
-  const bool is_camera =
-      ns == "camera" || ns == "housing" || ns == "frustum" || ns == "image_plane" || ns == "mask";
-  const double lifetime = std::max(is_camera ? kCameraLifetime : kLedLifetime, 3.0 / options_.rate);
-  return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
-}
-
 void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
   const geometry::Camera& camera = rig_.cameras[index].camera;
   const std::array<Vector3d, 4> corners = imageCorners(camera, options_.image_plane_distance);
+  const auto shown = has_images ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(0.55f, 0.55f, 0.55f, 1.0f);
+  array_.markers.push_back(markers::text(of_cameras_, "camera", index,
+                                         pointOf(camera.center() + kTextHeight * Vector3d::UnitZ()),
+                                         camera.name + (has_images ? "" : ": no images"), shown));
 
-  Marker name = marker("camera", index, Marker::TEXT_VIEW_FACING);
-  name.pose.position = pointOf(camera.center() + kTextHeight * Vector3d::UnitZ());
-  name.text = camera.name + (has_images ? "" : ": no images");
-  name.scale.z = kTextHeight;
-  name.color = has_images ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(0.55f, 0.55f, 0.55f, 1.0f);
-  array_.markers.push_back(name);
-
-  Marker housing = marker("housing", index, Marker::CUBE);
+  Marker housing = markers::marker(of_cameras_, "housing", index, Marker::CUBE, kHousing, shown);
   housing.pose.position =
       pointOf(camera.world_from_camera * Vector3d(0.0, 0.0, -0.5 * kHousing.z()));
   setRotation(Eigen::Quaterniond(camera.world_from_camera.rotation()), &housing.pose.orientation);
-  setVector(kHousing, &housing.scale);
-  housing.color = name.color;
   array_.markers.push_back(housing);
 
-  Marker frustum = marker("frustum", index, Marker::LINE_LIST);
-  frustum.scale.x = kLineWidth;
-  frustum.color = has_images ? color(0.35f, 0.6f, 1.0f, 1.0f) : color(0.4f, 0.4f, 0.4f, 1.0f);
+  Marker frustum =
+      markers::marker(of_cameras_, "frustum", index, Marker::LINE_LIST, kLine,
+                      has_images ? color(0.35f, 0.6f, 1.0f, 1.0f) : color(0.4f, 0.4f, 0.4f, 1.0f));
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    frustum.points.push_back(pointOf(camera.center()));
-    frustum.points.push_back(pointOf(corners[i]));
-    frustum.points.push_back(pointOf(corners[i]));
-    frustum.points.push_back(pointOf(corners[(i + 1) % corners.size()]));
+    const geometry_msgs::Point corner = pointOf(corners[i]);
+    frustum.points.insert(frustum.points.end(), {pointOf(camera.center()), corner, corner,
+                                                 pointOf(corners[(i + 1) % corners.size()])});
   }
   array_.markers.push_back(frustum);
 
-  Marker plane = marker("image_plane", index, Marker::TRIANGLE_LIST);
-  setVector(Vector3d::Ones(), &plane.scale);
-  plane.color = has_images ? color(0.4f, 0.6f, 1.0f, 0.3f) : color(0.4f, 0.4f, 0.4f, 0.5f);
+  Marker plane =
+      markers::marker(of_cameras_, "image_plane", index, Marker::TRIANGLE_LIST, Vector3d::Ones(),
+                      has_images ? color(0.4f, 0.6f, 1.0f, 0.3f) : color(0.4f, 0.4f, 0.4f, 0.5f));
   for (const std::size_t i : {0, 1, 2, 0, 2, 3})
     plane.points.push_back(pointOf(corners[i]));
   array_.markers.push_back(plane);
@@ -200,9 +186,8 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
 void MarkerBuilder::addMasks(std::size_t index) {
   constexpr int kSides = 24;
   const geometry::RigCamera& camera = rig_.cameras[index];
-  Marker discs = marker("mask", index, Marker::TRIANGLE_LIST);
-  setVector(Vector3d::Ones(), &discs.scale);
-  discs.color = color(0.2f, 0.2f, 0.2f, 0.8f);
+  Marker discs = markers::marker(of_cameras_, "mask", index, Marker::TRIANGLE_LIST,
+                                 Vector3d::Ones(), color(0.2f, 0.2f, 0.2f, 0.8f));
   for (const geometry::ImageMask& mask : camera.masks) {
     const auto border = [&](int i) {
       const double angle = 2.0 * M_PI * i / kSides;
@@ -215,7 +200,7 @@ void MarkerBuilder::addMasks(std::size_t index) {
     for (int i = 0; i < kSides; ++i)
       discs.points.insert(discs.points.end(), {center, border(i), border(i + 1)});
   }
-  add(discs);
+  markers::add(discs, &array_);
 }
 
 /// Spots and rays of one camera. A ray to an LED is wider and clearer the better the LED's position
@@ -224,12 +209,12 @@ void MarkerBuilder::addView(std::size_t index,
                             const tracking::CameraView& view,
                             const wiimote_tracker_msgs::TrackedPointArray& points) {
   const geometry::Camera camera = rig_.rayCamera(rig_.cameras[index]);
-  Marker blobs = marker("blob", index, Marker::SPHERE_LIST);
-  setVector(Vector3d::Constant(kBlobDiameter), &blobs.scale);
-  blobs.color = color(1.0f, 1.0f, 1.0f, 1.0f);
+  Marker blobs = markers::marker(of_leds_, "blob", index, Marker::SPHERE_LIST,
+                                 Vector3d::Constant(kBlobDiameter), color(1.0f, 1.0f, 1.0f, 1.0f));
   std::size_t rays = 0;
-  const auto nextRay = [&] {
-    return marker("ray", index + rig_.cameras.size() * rays++, Marker::LINE_LIST);
+  const auto nextRay = [&](const std_msgs::ColorRGBA& color) {
+    return markers::marker(of_leds_, "ray", index + rig_.cameras.size() * rays++, Marker::LINE_LIST,
+                           kLine, color);
   };
   const bool is_new = view.time && std::abs(time_ - *view.time) < kOldView;
   for (const tracking::SeenSpot& spot : is_new ? view.spots : std::vector<tracking::SeenSpot>()) {
@@ -246,9 +231,7 @@ void MarkerBuilder::addView(std::size_t index,
           return spot.use == tracking::SpotUse::kAssigned && point.id == spot.led;
         });
     double length = kRayLength;
-    Marker ray = nextRay();
-    ray.scale.x = kLineWidth;
-    ray.color = colorOf(spot.use);
+    Marker ray = nextRay(colorOf(spot.use));
     if (led != points.points.end()) {
       length = (vectorOf(led->position) - camera.center()).norm();
       const float quality = qualityOf(*led);
@@ -257,20 +240,13 @@ void MarkerBuilder::addView(std::size_t index,
     }
     ray.points.push_back(pointOf(camera.center()));
     ray.points.push_back(pointOf(camera.center() + length * sight->direction));
-    add(ray);
+    markers::add(ray, &array_);
   }
-  add(blobs);
+  markers::add(blobs, &array_);
   const std::size_t drawn = rays;
   while (rays < rays_[index])
-    add(nextRay());
+    markers::add(nextRay({}), &array_);
   rays_[index] = drawn;
-}
-
-/// Adds a marker that consists of points, or deletes it when it has none.
-void MarkerBuilder::add(Marker marker) {
-  if (marker.points.empty())
-    marker.action = Marker::DELETE;
-  array_.markers.push_back(std::move(marker));
 }
 
 void MarkerBuilder::addLed(const TrackedPoint& led) {
@@ -280,44 +256,40 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
     return led.state == TrackedPoint::TENTATIVE ? color(0.7f, 0.7f, 0.7f, share)
                                                 : colorOfLed(led.label, share);
   };
-  Marker point = marker("point", led.id, Marker::SPHERE);
+  Marker point = markers::marker(of_leds_, "point", led.id, Marker::SPHERE,
+                                 Vector3d::Constant(kPointDiameter), own_color(alpha));
   point.pose.position = led.position;
-  setVector(Vector3d::Constant(kPointDiameter), &point.scale);
-  point.color = own_color(alpha);
   array_.markers.push_back(point);
 
-  Marker ellipsoid = marker("covariance", led.id, Marker::SPHERE);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(matrixOf<3>(led.position_covariance));
   Eigen::Matrix3d rotation = axes.eigenvectors();
   if (rotation.determinant() < 0.0)
     rotation.col(0) = -rotation.col(0);
+  // rviz warns about a scale of 0.
+  Marker ellipsoid =
+      markers::marker(of_leds_, "covariance", led.id, Marker::SPHERE,
+                      2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(),
+                      color(1.0f, 0.2f, 1.0f, 0.4f * alpha));
   ellipsoid.pose.position = led.position;
   setRotation(Eigen::Quaterniond(rotation), &ellipsoid.pose.orientation);
-  // rviz warns about a scale of 0.
-  setVector(2.0 * kSigmas95 * axes.eigenvalues().cwiseMax(1e-12).cwiseSqrt(), &ellipsoid.scale);
-  ellipsoid.color = color(1.0f, 0.2f, 1.0f, 0.4f * alpha);
   array_.markers.push_back(ellipsoid);
 
-  Marker label = marker("label", led.id, Marker::TEXT_VIEW_FACING);
-  label.pose.position = pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ());
-  label.text = shownLabel(led.label, led.label_confidence);
-  label.scale.z = kTextHeight;
-  label.color = own_color(alpha);
-  array_.markers.push_back(label);
+  array_.markers.push_back(markers::text(
+      of_leds_, "label", led.id, pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ()),
+      shownLabel(led.label, led.label_confidence), own_color(alpha)));
 
-  Marker height = marker("height", led.id, Marker::LINE_LIST);
-  height.scale.x = kLineWidth;
-  height.color = own_color(0.3f * alpha);
-  Marker shadow = marker("shadow", led.id, Marker::SPHERE_LIST);
-  setVector({kPointDiameter, kPointDiameter, kLineWidth}, &shadow.scale);
-  shadow.color = height.color;
+  Marker height = markers::marker(of_leds_, "height", led.id, Marker::LINE_LIST, kLine,
+                                  own_color(0.3f * alpha));
+  Marker shadow =
+      markers::marker(of_leds_, "shadow", led.id, Marker::SPHERE_LIST,
+                      {kPointDiameter, kPointDiameter, kLineWidth}, own_color(0.3f * alpha));
   if (rig_.square_sides.size() == 2) {  // z = 0 is the plane of a calibration square
     height.points.resize(2, led.position);
     height.points[1].z = 0.0;
     shadow.points = {height.points[1]};
   }
-  add(height);
-  add(shadow);
+  markers::add(height, &array_);
+  markers::add(shadow, &array_);
 
   if (led.state != TrackedPoint::TENTATIVE) {
     Trail& trail = trails_[led.id];
@@ -341,10 +313,8 @@ std_msgs::ColorRGBA MarkerBuilder::colorOfLed(const std::string& label, float al
 }
 
 void MarkerBuilder::removeLed(std::uint32_t id) {
-  for (const char* ns : {"point", "covariance", "height", "shadow", "label"}) {
-    array_.markers.push_back(marker(ns, id, Marker::SPHERE));
-    array_.markers.back().action = Marker::DELETE;
-  }
+  for (const char* ns : {"point", "covariance", "height", "shadow", "label"})
+    markers::add(markers::marker(of_leds_, ns, id, Marker::SPHERE, Vector3d::Ones(), {}), &array_);
 }
 
 void MarkerBuilder::addTrails() {
@@ -355,15 +325,14 @@ void MarkerBuilder::addTrails() {
       places.clear();
     while (!places.empty() && places.front().time < time_ - options_.trail_duration)
       places.pop_front();
-    Marker line = marker("trail", trail->first, Marker::LINE_STRIP);
-    line.scale.x = kLineWidth;
-    line.color = trail->second.color;
+    Marker line = markers::marker(of_leds_, "trail", trail->first, Marker::LINE_STRIP, kLine,
+                                  trail->second.color);
     line.color.a *= static_cast<float>(left);
     for (const Place& place : places)
       line.points.push_back(place.position);
     if (line.points.size() < 2)
       line.points.clear();
-    add(line);
+    markers::add(line, &array_);
     trail = places.empty() ? trails_.erase(trail) : std::next(trail);
   }
 }

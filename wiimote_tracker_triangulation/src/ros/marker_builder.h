@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
 
+#include "marker_parts.h"
 #include "tracker/parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -54,8 +55,6 @@ class MarkerBuilder {
     std::deque<Place> places;
   };
 
-  visualization_msgs::Marker marker(const std::string& ns, std::size_t id, int type) const;
-  void add(visualization_msgs::Marker marker);
   void addCamera(std::size_t index, bool has_images);
   void addMasks(std::size_t index);
   std_msgs::ColorRGBA colorOfLed(const std::string& label, float alpha);
@@ -75,6 +74,7 @@ class MarkerBuilder {
   std::map<std::uint32_t, Trail> trails_;      // by id
   std::map<std::string, std::size_t> labels_;  // in the order in which they came
   visualization_msgs::MarkerArray array_;
+  markers::Common of_cameras_, of_leds_;
 };
 
 }  // namespace wiimote_tracker

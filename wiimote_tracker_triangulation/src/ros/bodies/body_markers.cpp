@@ -9,7 +9,7 @@ namespace wiimote_tracker {
 namespace {
 
 using markers::color;
-using markers::kLineWidth;
+using markers::kLine;
 using markers::kTextHeight;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::BodyLed;
@@ -30,6 +30,7 @@ geometry_msgs::Point above(geometry_msgs::Point point, double height) {
 visualization_msgs::MarkerArray BodyMarkers::build(
     const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
   time_ = bodies.header.stamp.toSec();
+  common_ = {rig_.world_frame, time_, std::max(0.5, 3.0 * period_)};  // lost bodies disappear
   array_.markers.clear();
   for (const TrackedBody& body : bodies.bodies) {
     if (body.state != TrackedBody::LOST)
@@ -38,19 +39,13 @@ visualization_msgs::MarkerArray BodyMarkers::build(
   return array_;
 }
 
-Marker BodyMarkers::marker(const std::string& ns, std::size_t id, int type) const {
-  // So that lost bodies disappear.
-  const double lifetime = std::max(0.5, 3.0 * period_);
-  return markers::marker(rig_.world_frame, time_, lifetime, ns, id, type);
-}
-
 void BodyMarkers::addBody(const TrackedBody& body, std::size_t id) {
   const float alpha = body.state == TrackedBody::TRACKED ? 1.0f : 0.4f;
   const geometry_msgs::Pose& pose = body.pose.pose;
 
-  Marker axes = marker("body_axes", id, Marker::LINE_LIST);
+  Marker axes =
+      markers::marker(common_, "body_axes", id, Marker::LINE_LIST, {kAxisWidth, 0.0, 0.0}, {});
   axes.pose = pose;
-  axes.scale.x = kAxisWidth;
   for (int axis = 0; axis < 3; ++axis) {
     axes.points.push_back(geometry_msgs::Point());
     axes.points.push_back(pointOf(kAxisLength * Eigen::Vector3d::Unit(axis)));
@@ -60,43 +55,35 @@ void BodyMarkers::addBody(const TrackedBody& body, std::size_t id) {
   }
   array_.markers.push_back(axes);
 
-  Marker shape = marker("body_shape", id, Marker::LINE_LIST);
-  shape.scale.x = kLineWidth;
-  shape.color = color(0.8f, 0.8f, 0.8f, 0.6f * alpha);
+  Marker shape = markers::marker(common_, "body_shape", id, Marker::LINE_LIST, kLine,
+                                 color(0.8f, 0.8f, 0.8f, 0.6f * alpha));
   for (const BodyLed& led : body.leds) {
     shape.points.push_back(pose.position);
     shape.points.push_back(led.position);
   }
   array_.markers.push_back(shape);
 
-  Marker name = marker("body_label", id, Marker::TEXT_VIEW_FACING);
-  name.pose.position = above(pose.position, kAxisLength + kTextHeight);
-  name.text = body.name;
-  name.scale.z = kTextHeight;
-  name.color = color(1.0f, 1.0f, 1.0f, alpha);
-  array_.markers.push_back(name);
+  array_.markers.push_back(markers::text(common_, "body_label", id,
+                                         above(pose.position, kAxisLength + kTextHeight), body.name,
+                                         color(1.0f, 1.0f, 1.0f, alpha)));
   addLeds(body, id);
 }
 
 void BodyMarkers::addLeds(const TrackedBody& body, std::size_t id) {
-  Marker leds = marker("body_led", id, Marker::SPHERE_LIST);
-  leds.scale.x = leds.scale.y = leds.scale.z = kLedDiameter;
-  leds.color = color(1.0f, 1.0f, 1.0f, 1.0f);
-  Marker rays = marker("body_ray", id, Marker::LINE_LIST);
-  rays.scale.x = kLineWidth;
-  rays.color = color(0.2f, 1.0f, 0.2f, 0.6f);
+  Marker leds =
+      markers::marker(common_, "body_led", id, Marker::SPHERE_LIST,
+                      Eigen::Vector3d::Constant(kLedDiameter), color(1.0f, 1.0f, 1.0f, 1.0f));
+  Marker rays = markers::marker(common_, "body_ray", id, Marker::LINE_LIST, kLine,
+                                color(0.2f, 1.0f, 0.2f, 0.6f));
   for (std::size_t i = 0; i < body.leds.size(); ++i) {
     const BodyLed& led = body.leds[i];
     const float alpha = led.cameras.empty() ? 0.3f : 1.0f;
     leds.points.push_back(led.position);
     leds.colors.push_back(color(1.0f, 0.4f, 0.3f, alpha));
 
-    Marker label = marker("body_led_label", body::kMaximumLeds * id + i, Marker::TEXT_VIEW_FACING);
-    label.pose.position = above(led.position, kLedTextHeight);
-    label.text = led.label;
-    label.scale.z = kLedTextHeight;
-    label.color = color(1.0f, 0.8f, 0.7f, alpha);
-    array_.markers.push_back(label);
+    array_.markers.push_back(markers::text(common_, "body_led_label", body::kMaximumLeds * id + i,
+                                           above(led.position, kLedTextHeight), led.label,
+                                           color(1.0f, 0.8f, 0.7f, alpha), kLedTextHeight));
 
     for (const geometry::RigCamera& camera : rig_.cameras) {
       const std::string& name = camera.camera.name;
@@ -107,9 +94,7 @@ void BodyMarkers::addLeds(const TrackedBody& body, std::size_t id) {
     }
   }
   array_.markers.push_back(leds);
-  if (rays.points.empty())
-    rays.action = Marker::DELETE;
-  array_.markers.push_back(rays);
+  markers::add(rays, &array_);
 }
 
 }  // namespace wiimote_tracker

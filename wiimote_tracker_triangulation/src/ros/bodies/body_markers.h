@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MARKERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MARKERS_H
 
+#include "../marker_parts.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <visualization_msgs/MarkerArray.h>
@@ -30,7 +31,6 @@ class BodyMarkers {
   visualization_msgs::MarkerArray build(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
 
  private:
-  visualization_msgs::Marker marker(const std::string& ns, std::size_t id, int type) const;
   void addBody(const wiimote_tracker_msgs::TrackedBody& body, std::size_t id);
   void addLeds(const wiimote_tracker_msgs::TrackedBody& body, std::size_t id);
 
@@ -38,6 +38,7 @@ class BodyMarkers {
   geometry::Rig rig_;
   double time_ = -std::numeric_limits<double>::infinity();
   std::map<std::string, std::size_t> ids_;  // by name
+  markers::Common common_;
   visualization_msgs::MarkerArray array_;
 };
 

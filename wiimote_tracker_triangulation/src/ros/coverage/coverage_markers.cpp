@@ -31,8 +31,6 @@ std::array<std::uint8_t, 3> colorOf(const CoverageCell& cell) {
   return {static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0)), 204, 51};
 }
 
-constexpr double kForEver = 0.0;  // lifetime of a marker
-
 constexpr std::size_t kLongestLine = 52;  // [letters]: fits between open docks of 1280 px
 
 /// A line for each sentence and clause, or several.
@@ -50,22 +48,24 @@ std::string inLines(std::string words) {
   return words;
 }
 
+/// Of markers that stay.
+markers::Common commonOf(const std::string& world_frame) {
+  return {world_frame, 0.0, 0.0};
+}
+
 /// @param height above the cells [m]
 Marker textAbove(const std::string& world_frame,
                  const std::string& ns,
                  const std::vector<CoverageCell>& cells,
                  double height,
                  const std::string& words) {
-  Marker text = markers::marker(world_frame, 0.0, kForEver, ns, 1, Marker::TEXT_VIEW_FACING);
-  text.scale.z = markers::kTextHeight;
-  text.color = color(1.0f, 1.0f, 1.0f, 1.0f);
-  text.text = inLines(words);
   Eigen::AlignedBox3d box;
   for (const CoverageCell& cell : cells)
     box.extend(cell.center);
-  text.pose.position =
-      pointOf(Eigen::Vector3d(box.center().x(), box.center().y(), box.max().z() + height));
-  return text;
+  return markers::text(
+      commonOf(world_frame), ns, 1,
+      pointOf(Eigen::Vector3d(box.center().x(), box.center().y(), box.max().z() + height)),
+      inLines(words), color(1.0f, 1.0f, 1.0f, 1.0f));
 }
 
 }  // namespace
@@ -135,9 +135,8 @@ visualization_msgs::MarkerArray coverageMarkers(const std::string& world_frame,
 
 visualization_msgs::MarkerArray volumeMarkers(const std::string& world_frame,
                                               const Eigen::AlignedBox3d& volume) {
-  Marker edges = markers::marker(world_frame, 0.0, kForEver, "volume", 0, Marker::LINE_LIST);
-  edges.scale.x = markers::kLineWidth;
-  edges.color = color(0.6f, 0.65f, 0.75f, 0.5f);
+  Marker edges = markers::marker(commonOf(world_frame), "volume", 0, Marker::LINE_LIST,
+                                 markers::kLine, color(0.6f, 0.65f, 0.75f, 0.5f));
   const auto corner = [&](int bits) {  // one for each axis: whether at its upper end
     return pointOf(volume.corner(static_cast<Eigen::AlignedBox3d::CornerType>(bits)));
   };
@@ -157,8 +156,8 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                                             double cell_size,
                                             const std::string& sentence) {
   visualization_msgs::MarkerArray array;
-  Marker cubes = markers::marker(world_frame, 0.0, kForEver, "walk", 0, Marker::CUBE_LIST);
-  cubes.scale.x = cubes.scale.y = cubes.scale.z = kCubeShare * cell_size;
+  Marker cubes = markers::marker(commonOf(world_frame), "walk", 0, Marker::CUBE_LIST,
+                                 Eigen::Vector3d::Constant(kCubeShare * cell_size), {});
   for (const CoverageCell& cell : walked) {
     if (cell.cameras == 0)
       continue;
@@ -167,10 +166,9 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                            : cell.cameras == 2 ? color(1.0f, 0.8f, 0.2f, 0.8f)
                                                : color(0.0f, 0.8f, 0.2f, 0.8f));
   }
-  if (cubes.points.empty())
-    cubes.action = Marker::DELETE;
-  array.markers = {cubes, textAbove(world_frame, "walk", walked, 2.0 * cell_size,
-                                    sentence + " Red: one camera, yellow: two, green: more.")};
+  markers::add(cubes, &array);
+  array.markers.push_back(textAbove(world_frame, "walk", walked, 2.0 * cell_size,
+                                    sentence + " Red: one camera, yellow: two, green: more."));
   return array;
 }
 

@@ -264,23 +264,18 @@ void Gestures::publish(std::uint8_t event,
 
 /// Shows the path and its name for a few seconds.
 void Gestures::draw(const std::string& text, const gesture::Path& path, std::uint32_t id) {
-  constexpr double kLifetime = 3.0;  // [s]
-  const double time = path.back().time;
-  Marker line = markers::marker(world_frame_, time, kLifetime, "way", id, Marker::LINE_STRIP);
-  line.scale.x = 0.01;
-  line.color = markers::color(1.0f, 0.6f, 0.0f, 1.0f);
+  constexpr double kLifetime = 3.0;     // [s]
+  constexpr double kTextHeight = 0.15;  // [m]
+  const markers::Common common{world_frame_, path.back().time, kLifetime};
+  const std_msgs::ColorRGBA orange = markers::color(1.0f, 0.6f, 0.0f, 1.0f);
+  Marker line = markers::marker(common, "way", id, Marker::LINE_STRIP, markers::kLine, orange);
   for (const gesture::PathPoint& point : path)
     line.points.push_back(pointOf(point.position));
-
-  Marker name =
-      markers::marker(world_frame_, time, kLifetime, "name", id, Marker::TEXT_VIEW_FACING);
-  name.color = line.color;
-  name.text = text;
-  name.scale.z = 0.15;
-  name.pose.position = pointOf(path.back().position + Eigen::Vector3d(0.0, 0.0, 0.15));
-
   visualization_msgs::MarkerArray array;
-  array.markers = {line, name};
+  array.markers = {
+      line, markers::text(common, "name", id,
+                          pointOf(path.back().position + kTextHeight * Eigen::Vector3d::UnitZ()),
+                          text, orange, kTextHeight)};
   markers_publisher_.publish(array);
 }
 

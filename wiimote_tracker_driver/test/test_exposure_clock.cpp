@@ -260,6 +260,24 @@ TEST(ExposureClock, takes_no_bell_for_an_edge_while_delays_are_equal) {
   }
 }
 
+TEST(ExposureClock, is_uncertain_for_a_second_whether_delays_have_a_sharp_edge) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    LinkModel link = edge(0.0001);
+    link.drops = 0.0;
+    const SimulatedSession session = simulate(link, 2.0, seed);
+    ExposureClock clock;
+    for (const virtual_wiimote::FrameTime& report : session.reports) {
+      const Estimate estimate = clock.update(report.arrival);
+      const double error = std::abs(estimate.exposure - report.exposure - link.delay);
+      EXPECT_LT(error, 2.0 * estimate.stddev + 0.1e-3) << seed << ", " << report.frame;
+      if (report.exposure > link.phase + 1.2) {
+        EXPECT_LT(error, 0.5e-3) << seed;
+        EXPECT_LT(estimate.stddev, 0.5e-3) << seed;
+      }
+    }
+  }
+}
+
 TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
   ExposureClock clock;
   const Estimate first = clock.update(1234.5);

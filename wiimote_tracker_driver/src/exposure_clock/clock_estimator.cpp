@@ -81,8 +81,10 @@ constexpr double kStepBack = 1e-3;
 // deviations behind edges are 9 % larger.
 constexpr double kMinWeight = 1.5e-4;
 // The same of an edge beside a bell: delays of a bell may look like an edge for a second, while
-// those of an edge soon contradict a bell. A thousandth of this is as good.
+// those of an edge soon contradict a bell. A thousandth of this is as good. During the first
+// reports of a link delays of an edge look like a bell, too, until its spread is known.
 constexpr double kMinWeightOfEdge = 1e-9;
+constexpr double kReportsForSpread = 100.0;
 // Probability below which a frame number does not change a filter.
 constexpr double kNegligible = 1e-6;
 }  // namespace
@@ -307,7 +309,8 @@ void ClockEstimator::reinitialiseUnlikelyModels() {
   double sum = 0.0;
   for (std::size_t m = 0; m < kModels; ++m) {
     const bool edge_beside_bell = filters_[m].model().hard_edge && !likeliest.model().hard_edge;
-    const double least = edge_beside_bell ? kMinWeightOfEdge : kMinWeight;
+    const double least =
+        edge_beside_bell && sample_count_ > kReportsForSpread ? kMinWeightOfEdge : kMinWeight;
     if (weights_[m] < least) {
       weights_[m] = least;
       if (m != kSteadyEdge || !edge_.ready())
@@ -333,6 +336,9 @@ Estimate ClockEstimator::estimate(double arrival) {
   }
   for (std::size_t m = 0; m < kModels; ++m)
     variance += weights_[m] * (filters_[m].timeVariance() + std::pow(filters_[m].time() - time, 2));
+  // A bell that is an edge is that far from it.
+  if (sample_count_ < kReportsForSpread)
+    variance += (1.0 - statistics().hard_edge) * std::pow(kTypicalBellSpread, 2);
 
   // With the constant part of its delay it may be a little after its arrival; exposures increase.
   const double exposure = std::max(std::min(time, arrival + std::min(3.0 * spread, period)),

@@ -14,8 +14,6 @@ constexpr double kEdgePrior = 30.0;
 constexpr double kBellPrior = 5.0;
 constexpr double kMinSpread = 20e-6;
 constexpr double kSpreadMemory = 1000.0;  // reports
-// Aligns a normal with the edge of an exponential of the same mean and spread.
-constexpr double kTypicalBellSpread = 0.0024;
 // An arrival before the edge keeps at least this share of the variance: the posterior is not
 // exactly normal, and one outlier must not make it certain.
 constexpr double kMinVarianceRatio = 0.5;

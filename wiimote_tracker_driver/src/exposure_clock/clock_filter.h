@@ -3,6 +3,9 @@
 
 namespace wiimote_tracker::exposure_clock {
 
+/// Aligns a normal with the edge of an exponential of the same mean and spread [s].
+constexpr double kTypicalBellSpread = 0.0024;
+
 /// Time of a frame and period of the clock, with their covariance.
 struct ClockState {
   double time = 0.0, period = 0.0;         ///< [s]

@@ -47,6 +47,12 @@ KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed) {
   square::Random random(seed + 5000);
   geometry::Rig rig = paperRigWith(wellCalibrated(), knock.cameras);
   WavedLed led(drawTruth(rig, random), seed + 6000);
+  led.shine(knock.leds, knock.on_body);
+  if (knock.leds > 1) {
+    led.hidden = 0.1;
+    led.ghosts = 0.05;
+    led.wrong_share = 0.0;
+  }
   std::optional<continuous::ContinuousCalibration> watch;
   watch.emplace(rig, continuous::Options{});
   KnockTrial trial;

@@ -12,6 +12,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace wiimote_tracker {
 
@@ -22,7 +23,7 @@ constexpr double kMisledPeriod = 10.0;    // of which a camera is misled for a s
 constexpr double kImageRate = 40.0;       // of the images [Hz]
 constexpr double kEmpty = 0.95;           // Share of the images without a false detection.
 
-/// A light that moves with the LED: of the LED's position at a time shifted by `delay`, its
+/// Lights that move with the LEDs: of an LED's position at a time shifted by `delay`, its
 /// coordinates times `scale` plus `offset`.
 struct Light {
   bool masked = false;  // No light at all.
@@ -30,8 +31,11 @@ struct Light {
   Eigen::Vector3d scale = Eigen::Vector3d::Ones();
   Eigen::Vector3d offset = Eigen::Vector3d::Zero();  // [m]
 
-  Eigen::Vector3d at(const wave::SimulatedPath& path, double time) const {
-    return path.position(time + delay, 0).cwiseProduct(scale) + offset;
+  std::vector<Eigen::Vector3d> at(const WavedLed& leds, double time) const {
+    std::vector<Eigen::Vector3d> lights;
+    for (const Eigen::Vector3d& led : leds.places(time + delay))
+      lights.emplace_back(led.cwiseProduct(scale) + offset);
+    return lights;
   }
 };
 
@@ -78,11 +82,12 @@ Misled anyLight(square::Random& random) {
 
 }  // namespace
 
-MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
+MisledTrial runMisledTrial(Misled by, std::uint64_t seed, std::size_t leds, bool on_body) {
   square::Random random(seed);
   geometry::Rig rig = paperRigWith(wellCalibrated());
   rig.solved_at = WavedLed::kClock;
   WavedLed led(drawTruth(rig, random), seed + 1, kImageRate);
+  led.shine(leds, on_body);
   const bool two_lights = by == Misled::kTwoLights;
   const Light light = lightOf(two_lights ? anyLight(random) : by, random);
   const Light other_light = two_lights ? lightOf(anyLight(random), random) : light;
@@ -107,10 +112,11 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed) {
     if (seen != misled.end() && std::fmod(time, kMisledPeriod) < share * kMisledPeriod) {
       image.spots.clear();
       const Light& light_seen = seen->second;
-      const auto pixel =
-          light_seen.masked ? std::nullopt : camera.camera.project(light_seen.at(led.path, time));
-      if (pixel)
-        image.spots.emplace_back(pixel->array().round());
+      for (const Eigen::Vector3d& place : light_seen.at(led, time)) {
+        const auto pixel = light_seen.masked ? std::nullopt : camera.camera.project(place);
+        if (pixel)
+          WavedLed::addSpot(*pixel, &image.spots);
+      }
     }
     const auto proposal = watch->add(image);
     if (!proposal)

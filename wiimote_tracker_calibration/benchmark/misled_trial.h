@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H
 #define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H
 
+#include <cstddef>
 #include <cstdint>
 
 namespace wiimote_tracker {
@@ -21,8 +22,12 @@ struct MisledTrial {
 };
 
 /// 45 s of tracking with a well calibrated rig of four cameras, of which one or two are misled all
-/// the time or in part of each 10 s.
-MisledTrial runMisledTrial(Misled by, std::uint64_t seed);
+/// the time or in part of each 10 s. @param leds of as many persons, or on one body; each is seen
+/// as another light.
+MisledTrial runMisledTrial(Misled by,
+                           std::uint64_t seed,
+                           std::size_t leds = 1,
+                           bool on_body = false);
 
 /// Changes proposed in the first seconds of each of 24 hours, in which one LED rests, or none
 /// shines; 5 % of the images have a false detection.

@@ -55,7 +55,11 @@ std::optional<std::size_t> offAlone(const geometry::Rig& rig,
 }  // namespace
 
 ContinuousCalibration::ContinuousCalibration(const geometry::Rig& rig, const Options& options)
-    : rig_(rig), options_(options), knock_(rig, options.knock), motion_(options.drift) {}
+    : rig_(rig),
+      options_(options),
+      selection_(rig),
+      knock_(rig, options.knock),
+      motion_(options.drift) {}
 
 std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) {
   const geometry::RigCamera* camera = rig_.find(image.camera);
@@ -70,10 +74,11 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
         image.clock_epoch;
     *this = ContinuousCalibration(rig, options_);
   }
-  const auto suspect = knock_.add(image);
+  const capture::Image& of_one_led = selection_.select(image);
+  const auto suspect = knock_.add(of_one_led);
   if (!knock_.severalAreSuspect())
     contradiction_.clear();
-  const bool has_moved = motion_.add(image);
+  const bool has_moved = motion_.add(of_one_led);
   if (suspect) {
     if (auto proposal = solvedSuspect(*suspect))
       return proposal;

@@ -5,6 +5,7 @@
 #include "continuous/motion_window.h"
 #include "continuous/proposal.h"
 #include "continuous/suspect_watch.h"
+#include "health/led_selection.h"
 #include "recalibrate/recalibrate_camera.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -26,7 +27,7 @@ struct Options {
   recalibrate::Options recalibrate;
 };
 
-/// Corrects a rig from ordinary tracking of one LED. One or two cameras that no longer fit the
+/// Corrects a rig from ordinary tracking. One or two cameras that no longer fit the
 /// others are solved against them; when all fit nearly, they are adjusted together. A deterministic
 /// function of the images and readings. A change must also explain later images than those it was
 /// solved from.
@@ -79,6 +80,7 @@ class ContinuousCalibration {
 
   geometry::Rig rig_;
   Options options_;
+  health::LedSelection selection_;
   SuspectWatch knock_;
   MotionWindow motion_;
   std::string contradiction_;

@@ -3,6 +3,7 @@
 
 #include "health/alarm.h"
 #include "health/drift_watch.h"
+#include "health/led_selection.h"
 #include "health/tilt_watch.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -73,6 +74,7 @@ class HealthWatch {
   HealthOptions options_;
   geometry::Rig rig_;
   std::vector<Watched> cameras_;  // In the rig's order.
+  LedSelection selection_;
   DriftWatch drift_;
   std::vector<std::string> news_;
 };

@@ -1,0 +1,203 @@
+#include "health/led_selection.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::health {
+
+namespace {
+
+// Several lights shine from so many successive images of a camera with several spots on, and for
+// this long after: false detections do not come in a row.
+constexpr int kSeveralInARow = 10;
+constexpr double kSeveral = 5.0;  // [s]
+// An LED is followed for so long, so that all cameras get their turn where not all see it [s]; it
+// is left sooner if more cameras show another one for this long, as when it rests or is hidden [s].
+constexpr double kLongestFollowed = 20.0;
+constexpr double kHesitation = 0.6;
+constexpr double kLeastSpeed = 0.1;  // [m/s]
+constexpr double kRecently = 0.1;    // [s]
+// Two lights that are nearer to each other may be one spot, as in tracking/tracker_options.h [px].
+constexpr double kMerged = 24.0;
+// Another spot is farther from where the LED should be than twice as far as its own, by this [px].
+constexpr double kClearance = 6.0;
+// Positions are extrapolated from the tracker's newest image [s].
+constexpr double kLongestWay = 0.05;
+
+}  // namespace
+
+LedSelection::LedSelection(const geometry::Rig& rig) : rig_(rig), tracked_rig_(rig) {
+  for (const geometry::RigCamera& camera : rig_.cameras)
+    cameras_.push_back({TurnedCamera(rig_, camera)});
+}
+
+const capture::Image& LedSelection::select(const capture::Image& image) {
+  const geometry::RigCamera* const found = rig_.find(image.camera);
+  if (found == nullptr || !std::isfinite(image.stamp))
+    return image;
+  const auto index = static_cast<std::size_t>(found - rig_.cameras.data());
+  const bool are_several = noteSeveral(image, &cameras_[index]);
+  if (!are_several && tracker_) {
+    tracker_.reset();
+    leds_.clear();
+    followed_.reset();
+    silence_ = image.stamp + capture::kLongestGap;
+  }
+  if (!are_several && !isSilent(image.stamp))
+    return image;
+  selected_ = image;
+  selected_.spots.clear();
+  if (!are_several)
+    return selected_;
+  if (!tracker_)
+    tracker_ = std::make_unique<tracking::Tracker>(tracked_rig_, tracking::TrackerOptions());
+  const auto time_offset = found->timeOffsetIn(image.clock_epoch);
+  const double time = image.stamp + time_offset.value_or(0.0) -
+                      tracker_->clockError(index, image.clock_epoch).offset;
+  Camera& camera = cameras_[index];
+  const std::vector<tracking::TrackedLed> leds = trackedAt(time);
+  std::vector<Eigen::Vector3d> places;
+  for (const tracking::TrackedLed& led : leds)
+    places.push_back(led.position);
+  const LedMatches matches = camera.turned.add(time, places, image.spots);
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    const auto spot = clearSpot(camera.turned, places, i, matches, image.spots);
+    if (!spot)
+      continue;
+    camera.shown[leds[i].id] = time;
+    if (leds[i].id == followed_ && !isSilent(time))
+      selected_.spots.push_back(*spot);
+  }
+  follow(leds, time);
+  useTurnOf(index);
+  // An image of a camera that was just turned would lead tracks astray; if only its clock is wrong,
+  // the tracker corrects that.
+  if (!time_offset || !matches.isAstray())
+    track(index, image);
+  return selected_;
+}
+
+bool LedSelection::noteSeveral(const capture::Image& image, Camera* camera) {
+  camera->several_in_a_row = image.spots.size() > 1 ? camera->several_in_a_row + 1 : 0;
+  if (camera->several_in_a_row >= kSeveralInARow)
+    last_several_ = image.stamp;
+  return std::abs(image.stamp - last_several_) < kSeveral;
+}
+
+/// Tracks go on with the camera as it seems to stand now. Two at least must stand where they were
+/// calibrated; else the tracks are wrong.
+void LedSelection::useTurnOf(std::size_t camera) {
+  geometry::Camera& tracked = tracked_rig_.cameras[camera].camera;
+  const Eigen::Matrix3d now = cameras_[camera].turned.orientation();
+  if (tracked.world_from_camera.linear() == now)
+    return;
+  tracked.world_from_camera.linear() = now;
+  const auto standing = std::count_if(cameras_.begin(), cameras_.end(),
+                                      [](const Camera& each) { return !each.turned.isTurned(); });
+  if (standing < 2)
+    forget();
+  else
+    tracker_->setRig(tracked_rig_);
+}
+
+void LedSelection::forget() {
+  tracked_rig_ = rig_;
+  tracker_ = std::make_unique<tracking::Tracker>(rig_, tracking::TrackerOptions());
+  leds_.clear();
+  followed_.reset();
+  for (std::size_t i = 0; i < cameras_.size(); ++i)
+    cameras_[i].turned = TurnedCamera(rig_, rig_.cameras[i]);
+}
+
+void LedSelection::track(std::size_t camera, const capture::Image& image) {
+  tracking::CameraImage seen;
+  seen.stamp = seen.arrival = image.stamp;
+  seen.clock_epoch = image.clock_epoch;
+  for (const Eigen::Vector2d& spot : image.spots)
+    seen.spots.push_back({spot, -1});
+  tracker_->add(camera, seen);
+  if (const tracking::Snapshot* const snapshot = tracker_->next()) {
+    time_ = snapshot->time;
+    leds_ = snapshot->leds;
+    for (const tracking::TrackedLed& led : leds_) {
+      if (led.state != tracking::TrackState::kLost)
+        continue;
+      for (Camera& each : cameras_)
+        each.shown.erase(led.id);
+    }
+  }
+}
+
+/// The tracked LEDs where they are at a time.
+std::vector<tracking::TrackedLed> LedSelection::trackedAt(double time) const {
+  std::vector<tracking::TrackedLed> tracked;
+  for (const tracking::TrackedLed& led : leds_) {
+    if (led.state != tracking::TrackState::kTracked || !led.velocity ||
+        std::abs(time - time_) > kLongestWay)
+      continue;
+    tracked.push_back(led);
+    tracked.back().position += (time - time_) * *led.velocity;
+  }
+  return tracked;
+}
+
+/// Cameras that show an LED clearly, while it moves.
+std::size_t LedSelection::worthOf(const tracking::TrackedLed& led, double time) const {
+  if (led.velocity->norm() < kLeastSpeed)
+    return 0;
+  return static_cast<std::size_t>(
+      std::count_if(cameras_.begin(), cameras_.end(), [&](const Camera& camera) {
+        const auto shown = camera.shown.find(led.id);
+        return shown != camera.shown.end() && std::abs(time - shown->second) < kRecently;
+      }));
+}
+
+/// Goes on to the LED that most cameras show, if the one that is followed no longer is, or had its
+/// turn.
+void LedSelection::follow(const std::vector<tracking::TrackedLed>& leds, double time) {
+  std::size_t worth = 0;  // Of the one that is followed.
+  const tracking::TrackedLed* best = nullptr;
+  std::size_t most = 0;
+  for (const tracking::TrackedLed& led : leds) {
+    if (led.id == followed_) {
+      worth = worthOf(led, time);
+    } else if (worthOf(led, time) > most) {
+      best = &led;
+      most = worthOf(led, time);
+    }
+  }
+  if (worth >= most)
+    last_best_ = time;
+  const bool had_its_turn = std::abs(time - followed_since_) > kLongestFollowed && 2 * most > worth;
+  if (best == nullptr || (followed_ && std::abs(time - last_best_) < kHesitation && !had_its_turn))
+    return;
+  // Without spots for a while, the next one is not joined to this.
+  if (followed_)
+    silence_ = time + capture::kLongestGap;
+  followed_ = best->id;
+  followed_since_ = last_best_ = time;
+}
+
+/// The spot of an LED, unless it may be merged with, or taken for, another one's.
+std::optional<Eigen::Vector2d> LedSelection::clearSpot(const TurnedCamera& camera,
+                                                       const std::vector<Eigen::Vector3d>& places,
+                                                       std::size_t led,
+                                                       const LedMatches& matches,
+                                                       const capture::Blobs& spots) {
+  if (!matches.spot_of[led] || matches.isContradictory())
+    return std::nullopt;
+  const Eigen::Vector2d predicted = camera.project(places[led]).value();
+  const Eigen::Vector2d& spot = spots[*matches.spot_of[led]];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto other = camera.project(places[i]);
+    if (i != led && !matches.spot_of[i] && other && (*other - predicted).norm() < kMerged)
+      return std::nullopt;
+  }
+  const double clear = 2.0 * (spot - predicted).norm() + kClearance;
+  const bool is_clear = std::count_if(spots.begin(), spots.end(), [&](const auto& other) {
+                          return (other - predicted).norm() < clear;
+                        }) == 1;
+  return is_clear ? std::make_optional(spot) : std::nullopt;
+}
+
+}  // namespace wiimote_tracker::health

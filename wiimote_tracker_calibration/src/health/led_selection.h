@@ -1,0 +1,73 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_LED_SELECTION_H
+#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_LED_SELECTION_H
+
+#include "capture/image.h"
+#include "health/turned_camera.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+#include <wiimote_tracker_triangulation/tracking/tracker.h>
+
+#include <Eigen/Core>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::health {
+
+/// Follows one LED while several are seen: of the spots of each image it leaves that of this LED,
+/// or none where it is not certain. A tracker tells where the LEDs are, with cameras as they seem
+/// to stand now (TurnedCamera). Of LEDs that move it follows the one that most cameras show;
+/// between two of them it shows none for a while. While no camera sees several lights, images stay
+/// as they are. A deterministic function of the images.
+class LedSelection {
+ public:
+  explicit LedSelection(const geometry::Rig& rig);
+
+  /// One image of any camera; of one camera in the order of their stamps.
+  /// @returns it, or the same with at most one spot. Valid until the next call.
+  const capture::Image& select(const capture::Image& image);
+
+ private:
+  struct Camera {
+    TurnedCamera turned;
+    int several_in_a_row = 0;                 // Images with several spots.
+    std::map<std::uint32_t, double> shown{};  // When it last showed LEDs clearly, by their ids [s].
+  };
+
+  bool noteSeveral(const capture::Image& image, Camera* camera);
+  void track(std::size_t camera, const capture::Image& image);
+  void useTurnOf(std::size_t camera);
+  void forget();
+  std::vector<tracking::TrackedLed> trackedAt(double time) const;
+  std::size_t worthOf(const tracking::TrackedLed& led, double time) const;
+  void follow(const std::vector<tracking::TrackedLed>& leds, double time);
+  bool isSilent(double time) const { return std::abs(time - silence_) < capture::kLongestGap; }
+  static std::optional<Eigen::Vector2d> clearSpot(const TurnedCamera& camera,
+                                                  const std::vector<Eigen::Vector3d>& places,
+                                                  std::size_t led,
+                                                  const LedMatches& matches,
+                                                  const capture::Blobs& spots);
+
+  geometry::Rig rig_;
+  geometry::Rig tracked_rig_;    // With the cameras as they seem to stand now.
+  std::vector<Camera> cameras_;  // Of the rig.
+  double last_several_ = -std::numeric_limits<double>::infinity();  // [s]
+  std::unique_ptr<tracking::Tracker> tracker_;  // Null while there is one light.
+  double time_ = 0.0;                           // Of these [s].
+  std::vector<tracking::TrackedLed> leds_;
+  std::optional<std::uint32_t> followed_;
+  double followed_since_ = 0.0;  // [s]
+  double last_best_ = 0.0;       // No other one was shown by more cameras [s].
+  double silence_ = -std::numeric_limits<double>::infinity();  // Its middle [s].
+  capture::Image selected_;
+};
+
+}  // namespace wiimote_tracker::health
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_LED_SELECTION_H

@@ -1,0 +1,226 @@
+#include "health/turned_camera.h"
+
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace wiimote_tracker::health {
+
+namespace {
+
+// A spot is an LED's if it is as near to where that should be: errors of the calibration, of the
+// clock, and of a turn that is known from where the LEDs were a second ago [px].
+constexpr double kGate = 12.0;
+constexpr double kEdge = 8.0;      // Where a spot may be cut off [px].
+constexpr double kMargin = 200.0;  // An LED as far outside the image may be in view of a turned
+                                   // camera [px].
+// Samples of moving LEDs, and how many tell a turn.
+constexpr double kPeriod = 0.1;      // [s]
+constexpr double kMemory = 2.0;      // [s]
+constexpr double kLeastStep = 0.02;  // From one to the next [m].
+constexpr std::size_t kLeast = 12;
+constexpr double kJudgedEvery = 0.5;    // From one judgement to the next [s].
+constexpr double kContradictory = 0.2;  // Share of them after which it may have been turned.
+// A turn must explain this share of what can be matched, and any other pairs no more than this
+// share of what it explains. Two LEDs taken for each other explain half.
+constexpr double kExplained = 0.6;
+constexpr double kRival = 0.8;
+// Turns about the optical axis that are tried [rad]; in between, spots are off by up to kGate.
+constexpr std::array<double, 5> kRolls = {0.0, -0.035, 0.035, -0.07, 0.07};
+constexpr int kSteps = 3;
+constexpr double kLeastTurn = 0.002;  // Smaller ones are within kGate [rad].
+
+geometry::Camera turned(geometry::Camera camera, const Eigen::Matrix3d& turn) {
+  camera.world_from_camera.linear() = camera.world_from_camera.linear() * turn;
+  return camera;
+}
+
+}  // namespace
+
+TurnedCamera::TurnedCamera(const geometry::Rig& rig, const geometry::RigCamera& camera)
+    : calibrated_(rig.rayCamera(camera)), masks_(camera.masks), now_(calibrated_) {}
+
+LedMatches TurnedCamera::add(double time,
+                             const std::vector<Eigen::Vector3d>& leds,
+                             const capture::Blobs& spots) {
+  const LedMatches matches = matchesOf(now_, leds, spots);
+  if (!samples_.empty() && time < samples_.back().time)
+    samples_.clear();
+  while (!samples_.empty() && samples_.front().time < time - kMemory)
+    samples_.pop_front();
+  if (leds.empty() || spots.empty() || !hasMoved(leds) ||
+      (!samples_.empty() && time < samples_.back().time + kPeriod))
+    return matches;
+  samples_.push_back({time, leds, spots, matches.isContradictory()});
+  const auto contradictory = std::count_if(samples_.begin(), samples_.end(),
+                                           [](const Sample& s) { return s.is_contradictory; });
+  const double share = static_cast<double>(contradictory) / static_cast<double>(samples_.size());
+  if (samples_.size() >= kLeast && share > kContradictory &&
+      std::abs(time - last_judgement_) >= kJudgedEvery) {
+    last_judgement_ = time;
+    judge();
+  }
+  return matches;
+}
+
+bool TurnedCamera::hasMoved(const std::vector<Eigen::Vector3d>& leds) const {
+  if (samples_.empty() || samples_.back().leds.size() != leds.size())
+    return true;
+  const std::vector<Eigen::Vector3d>& before = samples_.back().leds;
+  return !std::equal(leds.begin(), leds.end(), before.begin(),
+                     [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+                       return (a - b).norm() < kLeastStep;
+                     });
+}
+
+/// An LED and a spot that are nearest to each other match.
+LedMatches TurnedCamera::matchesOf(const geometry::Camera& camera,
+                                   const std::vector<Eigen::Vector3d>& leds,
+                                   const capture::Blobs& spots) const {
+  LedMatches matches;
+  matches.spot_of.resize(leds.size());
+  std::vector<std::optional<std::size_t>> led_of(spots.size());
+  std::vector<double> nearest_of_led(leds.size(), kGate);
+  std::vector<double> nearest_of_spot(spots.size(), kGate);
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    const auto pixel = camera.project(leds[i]);
+    if (!pixel)
+      continue;
+    for (std::size_t k = 0; k < spots.size(); ++k) {
+      const double distance = (spots[k] - *pixel).norm();
+      if (distance < nearest_of_led[i]) {
+        nearest_of_led[i] = distance;
+        matches.spot_of[i] = k;
+      }
+      if (distance < nearest_of_spot[k]) {
+        nearest_of_spot[k] = distance;
+        led_of[k] = i;
+      }
+    }
+  }
+  for (std::size_t i = 0; i < leds.size(); ++i) {
+    std::optional<std::size_t>& spot = matches.spot_of[i];
+    if (spot && led_of[*spot] != i)
+      spot.reset();
+    matches.matched += spot ? 1 : 0;
+    const auto pixel = camera.project(leds[i]);
+    const bool is_visible =
+        pixel && camera.intrinsics.isInImage(*pixel, -kEdge) && !geometry::isMasked(masks_, *pixel);
+    matches.visible += is_visible || spot ? 1 : 0;
+    matches.missing += is_visible && !spot ? 1 : 0;
+  }
+  matches.unmatched = spots.size() - matches.matched;
+  return matches;
+}
+
+/// Of all turns takes the one with which the spots are where the LEDs are, if there is only one.
+void TurnedCamera::judge() {
+  const std::vector<Pair> pairs = allPairs();
+  std::vector<Pair> explained = agreeing(pairs);
+  std::size_t possible = 0;
+  geometry::Camera camera;
+  for (int step = 0; step < kSteps; ++step) {
+    if (explained.size() < kLeast)
+      return;
+    camera = turnedTo(explained);
+    explained.clear();
+    possible = 0;
+    for (std::size_t i = 0; i < samples_.size(); ++i) {
+      const Sample& sample = samples_[i];
+      const LedMatches matches = matchesOf(camera, sample.leds, sample.spots);
+      for (std::size_t led = 0; led < sample.leds.size(); ++led) {
+        if (matches.spot_of[led])
+          explained.push_back({i, led, *matches.spot_of[led]});
+      }
+      possible += std::min(matches.visible, sample.spots.size());
+    }
+  }
+  std::vector<Pair> others;
+  std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(others), [&](const Pair& pair) {
+    return std::none_of(explained.begin(), explained.end(), [&](const Pair& other) {
+      return pair.sample == other.sample && pair.led == other.led && pair.spot == other.spot;
+    });
+  });
+  const auto count = static_cast<double>(explained.size());
+  if (explained.size() >= kLeast && count >= kExplained * static_cast<double>(possible) &&
+      static_cast<double>(agreeing(others).size()) <= kRival * count) {
+    const Eigen::AngleAxisd turn(calibrated_.world_from_camera.linear().transpose() *
+                                 camera.world_from_camera.linear());
+    is_turned_ = turn.angle() > kLeastTurn;
+    now_ = is_turned_ ? camera : calibrated_;
+  }
+}
+
+std::vector<TurnedCamera::Pair> TurnedCamera::allPairs() const {
+  std::vector<Pair> pairs;
+  for (std::size_t i = 0; i < samples_.size(); ++i) {
+    for (std::size_t led = 0; led < samples_[i].leds.size(); ++led) {
+      const auto pixel = calibrated_.project(samples_[i].leds[led]);
+      if (!pixel || !calibrated_.intrinsics.isInImage(*pixel, kMargin))
+        continue;
+      for (std::size_t spot = 0; spot < samples_[i].spots.size(); ++spot)
+        pairs.push_back({i, led, spot});
+    }
+  }
+  return pairs;
+}
+
+/// Most pairs whose spots are off by about the same, after a turn about the optical axis.
+std::vector<TurnedCamera::Pair> TurnedCamera::agreeing(const std::vector<Pair>& pairs) const {
+  std::vector<Pair> best;
+  for (const double roll : kRolls) {
+    const geometry::Camera rolled =
+        turned(calibrated_, Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()).toRotationMatrix());
+    std::vector<Eigen::Vector2d> offsets;
+    for (const Pair& pair : pairs) {
+      const Sample& sample = samples_[pair.sample];
+      offsets.push_back(
+          sample.spots[pair.spot] -
+          rolled.project(sample.leds[pair.led]).value_or(Eigen::Vector2d::Constant(std::nan(""))));
+    }
+    for (const Eigen::Vector2d& center : offsets) {
+      const auto isNear = [&](const Eigen::Vector2d& offset) {
+        return (offset - center).squaredNorm() < kGate * kGate;
+      };
+      const auto count = std::count_if(offsets.begin(), offsets.end(), isNear);
+      if (static_cast<std::size_t>(count) <= best.size())
+        continue;
+      best.clear();
+      for (std::size_t i = 0; i < pairs.size(); ++i) {
+        if (isNear(offsets[i]))
+          best.push_back(pairs[i]);
+      }
+    }
+  }
+  return best;
+}
+
+/// Least squares over the angles between the spots' rays and the LEDs.
+geometry::Camera TurnedCamera::turnedTo(const std::vector<Pair>& pairs) const {
+  geometry::Camera camera = calibrated_;
+  for (int step = 0; step < kSteps; ++step) {
+    Eigen::Matrix3d information = 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    const Eigen::Isometry3d camera_from_world = camera.world_from_camera.inverse();
+    for (const Pair& pair : pairs) {
+      const Sample& sample = samples_[pair.sample];
+      const auto spot = camera.intrinsics.normalizedFromPixel(sample.spots[pair.spot]);
+      if (!spot)
+        continue;
+      const Eigen::Vector3d ray = spot->homogeneous().normalized();
+      const Eigen::Vector3d led = (camera_from_world * sample.leds[pair.led]).normalized();
+      information += Eigen::Matrix3d::Identity() - ray * ray.transpose();
+      moment += ray.cross(led);
+    }
+    const Eigen::Vector3d turn = information.inverse() * moment;
+    camera = turned(camera, geometry::so3::exp(turn).toRotationMatrix());
+  }
+  return camera;
+}
+
+}  // namespace wiimote_tracker::health

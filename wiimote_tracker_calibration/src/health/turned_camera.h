@@ -1,0 +1,90 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_TURNED_CAMERA_H
+#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_TURNED_CAMERA_H
+
+#include "capture/image.h"
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <deque>
+#include <limits>
+#include <optional>
+#include <vector>
+
+namespace wiimote_tracker::health {
+
+/// Which spot of an image shows which LED.
+struct LedMatches {
+  std::vector<std::optional<std::size_t>> spot_of;  ///< Per LED.
+  std::size_t matched = 0;                          ///< LEDs.
+  std::size_t missing = 0;    ///< LEDs that the camera should see, without a spot.
+  std::size_t unmatched = 0;  ///< Spots.
+  std::size_t visible = 0;    ///< LEDs that the camera should see.
+
+  /// Whether spots are where no LED is, and none where LEDs are: the camera was turned, or it sees
+  /// other lights. An LED that is hidden, and a false detection, each leave it false.
+  bool isContradictory() const { return missing > 0 && unmatched > 0; }
+
+  /// The same of most LEDs.
+  bool isAstray() const { return missing > matched && unmatched > 0; }
+};
+
+/// A camera of a rig that may have been turned: as it seems to stand now, by several LEDs that the
+/// others see. To tell which spot is which LED, not to measure.
+class TurnedCamera {
+ public:
+  TurnedCamera(const geometry::Rig& rig, const geometry::RigCamera& camera);
+
+  /// One image. @param leds where LEDs were then, world [m], in the same order each time.
+  /// @returns its matches, with the camera as it seemed to stand before.
+  LedMatches add(double time,
+                 const std::vector<Eigen::Vector3d>& leds,
+                 const capture::Blobs& spots);
+
+  bool isTurned() const { return is_turned_; }
+
+  /// World-from-camera rotation now.
+  Eigen::Matrix3d orientation() const { return now_.world_from_camera.linear(); }
+
+  /// Where a point [m] is in its images now [px].
+  std::optional<Eigen::Vector2d> project(const Eigen::Vector3d& point) const {
+    return now_.project(point);
+  }
+
+ private:
+  /// An image of moving LEDs.
+  struct Sample {
+    double time;  // [s]
+    std::vector<Eigen::Vector3d> leds;
+    capture::Blobs spots;
+    bool is_contradictory;
+  };
+  /// An LED and a spot of one image.
+  struct Pair {
+    std::size_t sample;
+    std::size_t led;
+    std::size_t spot;
+  };
+
+  LedMatches matchesOf(const geometry::Camera& camera,
+                       const std::vector<Eigen::Vector3d>& leds,
+                       const capture::Blobs& spots) const;
+  bool hasMoved(const std::vector<Eigen::Vector3d>& leds) const;
+  void judge();
+  std::vector<Pair> allPairs() const;
+  std::vector<Pair> agreeing(const std::vector<Pair>& pairs) const;
+  geometry::Camera turnedTo(const std::vector<Pair>& pairs) const;
+
+  geometry::Camera calibrated_;
+  std::vector<geometry::ImageMask> masks_;
+  geometry::Camera now_;
+  bool is_turned_ = false;
+  std::deque<Sample> samples_;
+  double last_judgement_ = -std::numeric_limits<double>::infinity();  // [s]
+};
+
+}  // namespace wiimote_tracker::health
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_TURNED_CAMERA_H

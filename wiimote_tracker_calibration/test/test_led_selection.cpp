@@ -1,0 +1,226 @@
+// Health and continuous calibration while several LEDs are seen.
+#include "knock_trial.h"
+#include "misled_trial.h"
+#include "waved_led.h"
+
+#include "continuous/continuous_calibration.h"
+#include "health/health_watch.h"
+#include "health/led_selection.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::continuous {
+namespace {
+
+using health::LedSelection;
+using square::Random;
+
+constexpr double kDegrees = M_PI / 180.0;
+
+struct Scene {
+  std::size_t leds;
+  bool on_body;
+};
+
+const std::vector<Scene> kScenes = {{2, false}, {4, false}, {2, true}, {4, true}};
+
+void shine(const Scene& scene, WavedLed* led) {
+  led->shine(scene.leds, scene.on_body);
+  led->hidden = 0.1;
+  led->ghosts = 0.05;
+  led->wrong_share = 0.0;
+}
+
+/// What a selection made of the images of one camera.
+struct Selected {
+  int images = 0;
+  int spots = 0;
+  int right = 0;  // Of the LED that most spots of the last second show.
+};
+
+/// The LED whose true pixel is the spot.
+std::optional<std::size_t> ledOf(const WavedLed& leds,
+                                 const geometry::RigCamera& camera,
+                                 const capture::Image& image) {
+  const double time = image.stamp - WavedLed::kClock + camera.time_offset;
+  const std::vector<Eigen::Vector3d> places = leds.places(time);
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto pixel = camera.camera.project(places[i]);
+    if (pixel && (*pixel - image.spots.front()).norm() < 4.0)
+      return i;
+  }
+  return std::nullopt;
+}
+
+/// Sixteen seconds, from four seconds after camera_2 was turned [rad].
+std::map<std::string, Selected> select(const Scene& scene, std::uint64_t seed, double turn) {
+  Random random(seed);
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed leds(drawTruth(rig, random), seed + 100);
+  shine(scene, &leds);
+  LedSelection selection(rig);
+  std::map<std::string, Selected> selected;
+  std::optional<std::size_t> followed;
+  const auto add = [&](const capture::Image& image) {
+    const capture::Image& one = selection.select(image);
+    const geometry::RigCamera& camera =
+        leds.truth[static_cast<std::size_t>(rig.find(image.camera) - rig.cameras.data())];
+    EXPECT_LE(one.spots.size(), image.stamp > WavedLed::kClock + 1.0 ? 1U : 4U);
+    Selected& of_camera = selected[image.camera];
+    ++of_camera.images;
+    if (one.spots.size() != 1)
+      return;
+    ++of_camera.spots;
+    const auto led = ledOf(leds, camera, one);
+    // The three cameras that stay tell which one is followed.
+    if (led && image.camera != "camera_2")
+      followed = led;
+    of_camera.right += led && led == followed ? 1 : 0;
+  };
+  leds.runUntil(5.0, add);
+  leds.truth[1] = turned(leds.truth[1], turn, random);
+  leds.runUntil(9.0, add);
+  selected.clear();
+  leds.runUntil(25.0, add);
+  return selected;
+}
+
+TEST(LedSelection, LeavesTheImagesOfOneLedAlone) {
+  WavedLed led(paperRigWith(wellCalibrated()).cameras, 1);
+  led.ghosts = 0.05;
+  LedSelection selection(paperRigWith(wellCalibrated()));
+  led.runUntil(60.0,
+               [&](const capture::Image& image) { EXPECT_EQ(&selection.select(image), &image); });
+}
+
+TEST(LedSelection, FollowsOneLedInAllCamerasAlsoInATurnedOne) {
+  for (const double turn : {0.0, 0.5, 2.0, 4.0}) {
+    for (const Scene& scene : kScenes) {
+      for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        for (const auto& [name, selected] : select(scene, seed, turn * kDegrees)) {
+          SCOPED_TRACE(name + ", " + std::to_string(scene.leds) +
+                       (scene.on_body ? " of a body, " : " persons, ") + std::to_string(turn));
+          EXPECT_GT(selected.spots, (scene.on_body ? 0.3 : 0.6) * selected.images);
+          EXPECT_GE(selected.right, 0.97 * selected.spots);
+        }
+      }
+    }
+  }
+}
+
+TEST(LedSelection, LeavesALedThatRests) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  WavedLed leds(rig.cameras, 3);
+  leds.shine(2, false);
+  leds.path.pace = 0.0;
+  leds.wrong_share = 0.0;
+  LedSelection selection(rig);
+  int resting = 0;
+  int moving = 0;
+  leds.runUntil(20.0, [&](const capture::Image& image) {
+    const capture::Image& one = selection.select(image);
+    if (one.spots.size() != 1)
+      return;
+    const auto led = ledOf(leds, *rig.find(image.camera), one);
+    resting += led == 0U ? 1 : 0;
+    moving += led == 1U ? 1 : 0;
+  });
+  EXPECT_LT(resting, 200);
+  EXPECT_GT(moving, 2500);
+}
+
+TEST(LedSelection, IsAFunctionOfTheImages) {
+  const auto spots = [] {
+    std::vector<double> all;
+    const geometry::Rig rig = paperRigWith(wellCalibrated());
+    WavedLed leds(rig.cameras, 4);
+    shine({4, false}, &leds);
+    LedSelection selection(rig);
+    leds.runUntil(10.0, [&](const capture::Image& image) {
+      for (const Eigen::Vector2d& spot : selection.select(image).spots)
+        all.push_back(spot.x());
+    });
+    return all;
+  };
+  EXPECT_EQ(spots(), spots());
+}
+
+TEST(ExtensiveLedSelection, NamesTheCameraThatWasTurned) {
+  for (const Scene& scene : {Scene{2, false}, Scene{4, false}, Scene{2, true}}) {
+    for (std::size_t index = 0; index < 4; ++index) {
+      Random random(20 + index);
+      const geometry::Rig rig = paperRigWith(calibratedByWave());
+      WavedLed leds(drawTruth(rig, random), 200 + index);
+      shine(scene, &leds);
+      // About an axis across the view: a roll leaves the median.
+      leds.truth[index].camera.world_from_camera.rotate(
+          Eigen::AngleAxisd(0.5 * kDegrees, Eigen::Vector3d(0.6, 0.8, 0.0)));
+      health::HealthWatch watch(rig, {});
+      leds.runUntil(62.0, [&](const capture::Image& image) { watch.addImage(image); });
+      for (const auto& [name, health] : watch.healths()) {
+        SCOPED_TRACE(std::to_string(scene.leds) + (scene.on_body ? " of a body" : " persons"));
+        EXPECT_EQ(health.text.empty(), name != rig.cameras[index].camera.name)
+            << name << ' ' << health.text;
+      }
+    }
+  }
+}
+
+TEST(ExtensiveLedSelection, AKnockedCameraIsBroughtBack) {
+  for (const std::size_t leds : {2, 4}) {
+    for (const double turn : {1.0, 2.0, 3.0}) {
+      for (const std::uint64_t seed : {0, 1, 3}) {
+        Knock knock;
+        knock.turn = turn * kDegrees;
+        knock.leds = leds;
+        const KnockTrial trial = runKnockTrial(knock, seed);
+        EXPECT_TRUE(trial.found && !trial.others) << leds << ' ' << turn << ' ' << seed;
+        EXPECT_LT(trial.seconds, 30.0);
+        EXPECT_LT(trial.error, 0.006);
+      }
+    }
+  }
+}
+
+TEST(ExtensiveLedSelection, ANewClockIsSolved) {
+  for (const Scene& scene : {Scene{2, false}, Scene{4, false}}) {
+    const geometry::Rig rig = paperRigWith(wellCalibrated());
+    WavedLed leds(rig.cameras, 800);
+    shine(scene, &leds);
+    leds.truth[1].time_offset = -0.015;
+    ContinuousCalibration watch(rig, {});
+    std::optional<Proposal> proposal;
+    leds.runUntil(60.0, [&](capture::Image image) {
+      if (image.camera == leds.truth[1].camera.name)
+        image.clock_epoch = 8;
+      if (!proposal)
+        proposal = watch.add(image);
+    });
+    ASSERT_TRUE(proposal) << scene.leds;
+    EXPECT_EQ(proposal->cause, Cause::kReconnect);
+    EXPECT_NEAR(proposal->rig.cameras[1].time_offset, -0.015, 0.0005);
+    EXPECT_EQ(proposal->rig.solved_at, rig.solved_at);
+  }
+}
+
+TEST(ExtensiveLedSelection, OtherLightsNeverMakeTheRigAMillimetreWorse) {
+  for (const Misled by : {Misled::kMirror, Misled::kOtherLed, Misled::kCarried, Misled::kLamp,
+                          Misled::kMasked, Misled::kTwoLights}) {
+    for (const Scene& scene : kScenes) {
+      for (std::uint64_t seed = 1; seed <= 2; ++seed)
+        EXPECT_LT(runMisledTrial(by, seed, scene.leds, scene.on_body).worse, 0.001)
+            << static_cast<int>(by) << ' ' << scene.leds << ' ' << scene.on_body << ' ' << seed;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace wiimote_tracker::continuous

@@ -45,14 +45,6 @@ std::string named(double degrees) {
 void runKnocks(int runs, const RowCallback& row) {
   for (const double degrees : {0.5, 1.0, 2.0, 3.0})
     row(rowOf(named(degrees), {degrees * kKnockDegree}, runs));
-  for (const double degrees : {0.5, 1.0, 2.0, 3.0}) {
-    for (const std::size_t leds : {2, 4}) {
-      for (const bool on_body : {false, true})
-        row(rowOf(named(degrees) + ", " + std::to_string(leds) +
-                      (on_body ? " LEDs of a body" : " persons"),
-                  {degrees * kKnockDegree, 1, 0.0, false, 4, leds, on_body}, runs));
-    }
-  }
 }
 
 void runTwoKnocks(int runs, const RowCallback& row) {

@@ -54,7 +54,8 @@ Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& ima
 bool allFit(const Drifts& drifts, std::ptrdiff_t cameras = 3);
 
 /// Watches the median of a rig's residuals while one LED is tracked. Images of several spots take
-/// no part. A rig with RayModel::kImageCenter is not judged: its rays differ from its calibration.
+/// no part: LedSelection leaves one. A rig with RayModel::kImageCenter is not judged: its rays
+/// differ from its calibration.
 class DriftWatch {
  public:
   DriftWatch(const geometry::Rig& rig, const DriftOptions& options);

@@ -182,9 +182,9 @@ class ContinuousServices {
       return contradiction_;
     if (new_clocks_.size() > 1)
       return joined(new_clocks_) +
-             " have new clocks since they were calibrated, which are solved while one LED moves "
+             " have new clocks since they were calibrated, which are solved while an LED moves "
              "where three cameras see it that were not moved; then one that was moved is solved";
-    return "a camera that no longer fits the others is solved while one LED moves where it and two "
+    return "a camera that no longer fits the others is solved while an LED moves where it and two "
            "others see it";
   }
 

@@ -364,6 +364,7 @@ TEST_F(Node, ADamagedRigAtStartDoesNotStopTheNode) {
   EXPECT_EQ(status.get()->step, CalibrationStatus::IDLE);
   EXPECT_SAYS(status.get()->message, "half.yaml");
   EXPECT_TRUE(status.get()->rig_id.empty());
+  EXPECT_TRUE(waitForDiagnosis("half.yaml"));
 }
 
 TEST_F(Node, ALoadedRigOfCamerasWithoutImagesIsNamed) {
@@ -372,6 +373,7 @@ TEST_F(Node, ALoadedRigOfCamerasWithoutImagesIsNamed) {
   LoadRig::Request request;
   request.path = folder_ + "/rig.yaml";
   ASSERT_TRUE(ros::service::waitForService("/silent/calibration/load", ros::Duration(60.0)));
+  EXPECT_TRUE(waitForDiagnosis("none.yaml, so the start is without a rig"));
   const auto loaded = call<LoadRig>("/silent/calibration/load", request);
   ASSERT_TRUE(loaded.success) << loaded.message;
   EXPECT_SAYS(loaded.message, "no image has come yet from ");

@@ -10,6 +10,7 @@
 #include <wiimote_tracker_triangulation/ros/message_fields.h>
 
 #include <actionlib/client/simple_action_client.h>
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <gtest/gtest.h>
 #include <std_srvs/Trigger.h>
 #include <tf2_eigen/tf2_eigen.h>
@@ -96,6 +97,15 @@ class Latest {
   boost::shared_ptr<const Message> message_;
   ros::Subscriber subscriber_;
 };
+
+/// Waits for diagnostics whose first message has this part.
+inline bool waitForDiagnosis(const std::string& part) {
+  const Latest<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  return waitUntil([&] {
+    const auto array = diagnostics.get();
+    return array && array->status.at(0).message.find(part) != std::string::npos;
+  });
+}
 
 /// The node in /calibration, its cameras, and what a person does with both.
 class Node : public ::testing::Test {

@@ -51,15 +51,21 @@ class FileServices {
       const Lock lock(context_.mutex());
       path = rigPath("", context_.parameters(lock));
     }
-    const std::string missing = describeMissingRig(path);
-    if (!missing.empty()) {
-      ROS_INFO_STREAM(missing);
+    std::string problem = describeMissingRig(path);
+    if (!problem.empty()) {
+      ROS_INFO_STREAM(problem);
     } else {
       const Reply reply = context_.handle([&](Lock& lock) { return loadRig(path, &lock); });
-      if (reply.success)
+      if (reply.success) {
         ROS_INFO_STREAM(path << ": " << reply.message);
-      else
-        ROS_ERROR_STREAM(reply.message << "; the node goes on without a rig");
+      } else {
+        problem = reply.message + "; the node goes on without a rig";
+        ROS_ERROR_STREAM(problem);
+      }
+    }
+    {
+      const Lock lock(context_.mutex());
+      context_.whyNoRig(lock) = problem;
     }
     using Self = FileServices;
     context->offer("save", &Self::save, this);

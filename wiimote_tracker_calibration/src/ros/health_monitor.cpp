@@ -86,7 +86,7 @@ class HealthMonitor {
   void report(diagnostic_updater::DiagnosticStatusWrapper& status) {
     const Lock lock(context_.mutex());
     if (!watch_) {
-      status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no rig yet");
+      status.summary(diagnostic_msgs::DiagnosticStatus::WARN, context_.whyNoRig(lock));
       return;
     }
     std::vector<std::string> troubles;

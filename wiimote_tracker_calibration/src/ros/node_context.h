@@ -162,6 +162,9 @@ class NodeContext {
   /// Continues from samples, with their masks.
   workflow::Reply setSamples(const samples::Samples& samples, const Lock& lock);
 
+  /// Why no rig was loaded at the start, and what to do; set by the unit that loads it.
+  std::string& whyNoRig(const Lock&) { return why_no_rig_; }
+
   /// Nothing while there is none.
   const std::optional<geometry::Rig>& rig(const Lock&) const { return calibration_.rig(); }
   /// @param purpose for the refusal, such as "to save". @throws Refusal: there is no rig.
@@ -192,6 +195,7 @@ class NodeContext {
   Parameters parameters_;
   workflow::Calibration calibration_;
   remap::MeasuredPoints known_places_;
+  std::string why_no_rig_;
   samples::Verdict verdict_;  // of the current rig
   ros::Publisher rig_publisher_;
   ros::Publisher verdict_publisher_;

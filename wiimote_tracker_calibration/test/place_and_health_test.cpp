@@ -6,6 +6,7 @@
 #include "continuous/approach.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <rosgraph_msgs/Log.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
@@ -13,6 +14,7 @@
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 
+#include <atomic>
 #include <filesystem>
 #include <future>
 #include <system_error>
@@ -30,7 +32,15 @@ TEST_F(CalibratedNode, ChecksAKnownPlace) {
   load(trueRig());
   const Eigen::Vector3d place(1.0, 0.8, 0.3);
   putLed(place);
+  std::atomic<bool> is_logged{false};
+  const ros::Subscriber log = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 100, [&](const rosgraph_msgs::LogConstPtr& line) {
+        if (line->msg.find("Check at (1.000, 0.800, 0.300) m: measured ") == 0)
+          is_logged = true;
+      });
+  ASSERT_TRUE(waitUntil([&] { return log.getNumPublishers() >= 3; }));
   CheckPlace::Response response = check(place);
+  EXPECT_TRUE(waitUntil([&] { return is_logged.load(); }));
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_TRUE(response.consistent) << response.message;
   EXPECT_LT(response.error, 0.005);

@@ -96,6 +96,8 @@ class PlaceServices {
                      const place::PlaceCheck check =
                          place::checkPlace(place, known.position, known.stddev);
                      fill(place, check, &call.response);
+                     ROS_INFO("Check at (%.3f, %.3f, %.3f) m: %s.", known.position.x(),
+                              known.position.y(), known.position.z(), check.message.c_str());
                      return Reply{true, check.message};
                    });
   }

@@ -77,7 +77,9 @@ void TrackingDiagnostics::addArrival(const std::string& camera,
 /// Runs before the reports of the cameras and begins a new period for all.
 void TrackingDiagnostics::report(Status& status) {
   if (!tracker_->hasRig()) {
-    status.summary(DiagnosticStatus::WARN, "no rig: calibrate, or load a saved one");
+    status.summary(DiagnosticStatus::WARN,
+                   "no rig: calibrate, or load a saved one; the status of the calibration's "
+                   "cameras says why none was loaded");
     return;
   }
   const ros::SteadyTime now = ros::SteadyTime::now();
@@ -91,7 +93,8 @@ void TrackingDiagnostics::report(Status& status) {
   if (reported_.snapshots() == 0)
     status.summary(DiagnosticStatus::WARN,
                    imagesCome() ? "no image can be used: see what is said of each camera"
-                                : "no images: start the cameras' drivers");
+                                : "no images: start the cameras' drivers; those that run say in "
+                                  "/diagnostics what they lack");
   else
     status.summary(DiagnosticStatus::OK, reported_.describe());
   const VolumeCorrection& correction = tracker_->correction();
@@ -131,7 +134,8 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   status.summary(DiagnosticStatus::OK, "in use");
   if (statistics.images == 0 && statistics.problem.empty())
     status.summary(DiagnosticStatus::WARN,
-                   "no images: check its driver, and the network if that runs on another computer");
+                   "no images: start its driver, or do what that says in /diagnostics; check the "
+                   "network if it runs on another computer");
   for (const std::string& problem :
        {statistics.problem, describeLights(statistics, cameras_[camera]),
         lenses_.problemOf(cameras_[camera]), clockProblem(camera),

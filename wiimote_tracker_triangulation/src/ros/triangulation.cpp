@@ -202,7 +202,7 @@ void Triangulation::onProblem(const std::string& sentence) {
 
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
-    ROS_WARN_THROTTLE(10.0,
+    ROS_WARN_THROTTLE(600.0,
                       "Waiting for a calibrated rig on %s: run  %srosrun "
                       "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
                       rig_subscriber_.getTopic().c_str(), shellPrefix(nh_.getNamespace()).c_str());

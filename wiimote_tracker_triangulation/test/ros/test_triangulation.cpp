@@ -204,6 +204,21 @@ TEST(Triangulation, ReportsDiagnosticsOfAllAndOfEachCamera) {
   }));
 }
 
+TEST(Triangulation, PointsToTheDriverOfASilentCamera) {
+  g_bench->diagnostics_.clear();
+  EXPECT_TRUE(Bench::waitFor([] {
+    return g_bench->film(kBatch, {0, 1}) &&
+           std::any_of(g_bench->diagnostics_.begin(), g_bench->diagnostics_.end(),
+                       [](const auto& status) {
+                         return isOf("camera_2", status) &&
+                                status.message.find(
+                                    "no images: start its driver, or do what that "
+                                    "says in /diagnostics") == 0;
+                       });
+  }));
+  EXPECT_TRUE(isWell("camera_2"));
+}
+
 TEST(Triangulation, IgnoresAndReportsACameraThatIsAnotherDevice) {
   std::string& identity = g_bench->rig_.cameras[1].camera.identity;  // of the images to come
   const std::string calibrated = identity;

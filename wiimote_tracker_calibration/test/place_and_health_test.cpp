@@ -12,6 +12,7 @@
 #include <wiimote_tracker_msgs/FitRemap.h>
 #include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
+#include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 
 #include <atomic>
@@ -27,6 +28,7 @@ using wiimote_tracker_msgs::CheckPlace;
 using wiimote_tracker_msgs::FitRemap;
 using wiimote_tracker_msgs::LearnMasks;
 using wiimote_tracker_msgs::RecalibrateCamera;
+using wiimote_tracker_msgs::RemoveCamera;
 
 TEST_F(CalibratedNode, ChecksAKnownPlace) {
   load(trueRig());
@@ -218,7 +220,7 @@ TEST_F(CalibratedNode, NamesCamerasThatAreNotInTheRig) {
   rig.cameras.pop_back();
   rig.covariance.resize(0, 0);
   load(rig);
-  EXPECT_TRUE(says("camera_4 is not in the rig"));
+  EXPECT_TRUE(says("camera_4 is not in the rig and makes no points: add it (r camera_4 in"));
   EXPECT_EQ(found.level, diagnostic_msgs::DiagnosticStatus::WARN);
   load(trueRig());
   EXPECT_TRUE(says("no camera seems to have moved"));
@@ -233,7 +235,8 @@ TEST_F(CalibratedNode, RecalibratesOneCamera) {
   RecalibrateCamera::Request request;
   request.camera = "camera_9";
   EXPECT_SAYS(call<RecalibrateCamera>("calibration/recalibrate_camera", request).message,
-              "no camera 'camera_9': name one of camera_1, camera_2, camera_3, camera_4");
+              "no camera 'camera_9', and none of that name sends images: start its driver, or "
+              "name one of camera_1, camera_2, camera_3, camera_4");
   request.camera = "camera_2";
   request.duration = 2.0;
   putLed({1.0, 1.0, 1.0});
@@ -251,6 +254,38 @@ TEST_F(CalibratedNode, RecalibratesOneCamera) {
   const geometry::Rig result = fromMessage(*published.get());
   EXPECT_LT((result.cameras[1].camera.center() - cameras_->truth[1].center()).norm(), 0.01);
   EXPECT_TRUE(waitUntil([&] { return status_->get()->message == response.message; }));
+}
+
+TEST_F(CalibratedNode, RemovesACameraAndAddsIt) {
+  const auto rigOf = [](std::size_t cameras) {
+    Latest<RigCalibration> published("calibration/rig");
+    EXPECT_TRUE(
+        waitUntil([&] { return published.get() && published.get()->cameras.size() == cameras; }));
+    return fromMessage(*published.get());
+  };
+  load(trueRig());
+  RemoveCamera::Request remove;
+  remove.camera = "camera_9";
+  EXPECT_SAYS(call<RemoveCamera>("calibration/remove_camera", remove).message,
+              "no camera 'camera_9': name one of");
+  remove.camera = "camera_2";
+  const auto removed = call<RemoveCamera>("calibration/remove_camera", remove);
+  ASSERT_TRUE(removed.success) << removed.message;
+  EXPECT_SAYS(removed.message, "camera_2 was removed");
+  EXPECT_EQ(rigOf(3).cameras[1].camera.name, "camera_3");
+
+  cameras_->waveLed(true);
+  RecalibrateCamera::Request request;
+  request.camera = "camera_2";
+  request.duration = 6.0;
+  const auto response = call<RecalibrateCamera>("calibration/recalibrate_camera", request);
+  ASSERT_TRUE(response.success) << response.message;
+  EXPECT_SAYS(response.message, "camera_2 was added");
+  EXPECT_EQ(response.moved, 0.0);
+  const geometry::Rig rig = rigOf(4);
+  EXPECT_EQ(rig.cameras[3].camera.identity, "00:1e:35:00:00:02");
+  EXPECT_LT((rig.cameras[3].camera.center() - cameras_->truth[1].center()).norm(), 0.05);
+  EXPECT_EQ(rig.covariance.rows(), 64);
 }
 
 TEST_F(CalibratedNode, BringsBackAKnockedCamera) {

@@ -5,6 +5,7 @@
 #include "waved_led.h"
 
 #include "recalibrate/recalibrate_camera.h"
+#include "recalibrate/rig_cameras.h"
 
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
@@ -128,11 +129,47 @@ TEST(Recalibrate, NamesEachCameraOnceInTheMethod) {
   }
 }
 
+TEST(Recalibrate, AddsACamera) {
+  const geometry::Rig five = paperRigWith(wellCalibrated(), 5);
+  WavedLed led(five.cameras, 15);
+  const Request request = record(&led, "camera_5");
+  geometry::Rig rig = withoutCamera(five, "camera_5");
+  rig.method = "wave";
+  const Recalibration result = recalibrateCamera(rig, request, {});
+  ASSERT_EQ(result.rig.cameras.size(), 5u);
+  const geometry::RigCamera& camera = result.rig.cameras[4];
+  EXPECT_EQ(camera.camera.name, "camera_5");
+  EXPECT_LT((camera.camera.center() - five.cameras[4].camera.center()).norm(), 0.05);
+  EXPECT_NEAR(camera.time_offset, five.cameras[4].time_offset, 3e-4);
+  EXPECT_EQ(camera.time_offset_epoch, 7u);
+  EXPECT_SAYS(result.message, "camera_5 was added; it is known to");
+  EXPECT_EQ(result.moved, 0.0);
+  EXPECT_EQ(result.rig.method, "wave+added camera_5");
+  EXPECT_NE(result.rig.id(), rig.id());
+  EXPECT_EQ(result.rig.covariance.topLeftCorner(64, 64), rig.covariance);
+}
+
+TEST(Recalibrate, RemovesACamera) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const geometry::Rig three = withoutCamera(rig, "camera_2");
+  three.check();
+  ASSERT_EQ(three.cameras.size(), 3u);
+  EXPECT_EQ(three.cameras[1].camera.name, "camera_3");
+  EXPECT_EQ(three.covariance.topLeftCorner(16, 16), rig.covariance.topLeftCorner(16, 16));
+  EXPECT_EQ(three.covariance.topRightCorner(16, 32), rig.covariance.topRightCorner(16, 32));
+  EXPECT_EQ(three.covariance.bottomRightCorner(32, 32), rig.covariance.bottomRightCorner(32, 32));
+  EXPECT_SAYS(refusalOf([&] { withoutCamera(three, "camera_2"); }),
+              "no camera 'camera_2': name one of camera_1, camera_3, camera_4");
+  const geometry::Rig two = withoutCamera(three, "camera_1");
+  EXPECT_SAYS(refusalOf([&] { withoutCamera(two, "camera_3"); }), "a rig needs two cameras");
+}
+
 // With right covariances the mean of the normalised squared error is 1, and 95 % are within the
 // 95 % region.
 TEST(ExtensiveRecalibrate, HasTheStatedUncertainty) {
   const int kTrials = 40;
-  for (const bool replaced : {false, true}) {
+  for (const std::string kind : {"knocked", "replaced", "added"}) {
+    const bool has_rigs_lens = kind == "knocked";
     Random random(2);
     double pose = 0.0;
     double offset = 0.0;
@@ -146,7 +183,7 @@ TEST(ExtensiveRecalibrate, HasTheStatedUncertainty) {
       truth[index] = knocked(truth[index], random);
       Options options;
       Request start;
-      if (replaced) {
+      if (!has_rigs_lens) {
         geometry::Intrinsics& lens = truth[index].camera.intrinsics;
         lens = start.intrinsics;
         const double scale = std::exp(normal(random, options.uncertainty.focal));
@@ -161,27 +198,30 @@ TEST(ExtensiveRecalibrate, HasTheStatedUncertainty) {
       }
       WavedLed led(truth, 1000 + static_cast<std::uint64_t>(trial));
       Request request = record(&led, truth[index].camera.name, 12.0);
-      if (replaced)
+      if (!has_rigs_lens)
         request.identity = "00:1e:35:ff:ff:ff";
-      const Recalibration result = recalibrateCamera(rig, request, options);
-      const auto error = errorOf(result.rig.cameras[index], truth[index]);
-      const auto covariance = covarianceOf(result.rig, index);
+      const bool added = kind == "added";
+      const std::size_t place = added ? 3 : index;
+      const Recalibration result =
+          recalibrateCamera(added ? withoutCamera(rig, request.camera) : rig, request, options);
+      const geometry::RigCamera& camera = result.rig.cameras[place];
+      const auto error = errorOf(camera, truth[index]);
+      const auto covariance = covarianceOf(result.rig, place);
       const double squared = geometry::squaredMahalanobis(error, covariance);
       pose += geometry::squaredMahalanobis(error.head<6>(), covariance.topLeftCorner<6, 6>());
       offset += error[6] * error[6] / covariance(6, 6);
       covered += squared <= 14.067;  // chi-squared, seven degrees of freedom, 95 %
-      EXPECT_EQ(result.rig.cameras[index].camera.identity,
-                replaced ? request.identity : rig.cameras[index].camera.identity);
-      const Eigen::Index k2 = geometry::firstParameter(index) + geometry::kDistortion + 1;
-      EXPECT_DOUBLE_EQ(result.rig.covariance(k2, k2), replaced ? 0.0 : rig.covariance(k2, k2));
+      EXPECT_EQ(camera.camera.identity,
+                has_rigs_lens ? rig.cameras[index].camera.identity : request.identity);
+      const Eigen::Index k2 = geometry::firstParameter(place) + geometry::kDistortion + 1;
+      EXPECT_DOUBLE_EQ(result.rig.covariance(k2, k2), has_rigs_lens ? rig.covariance(k2, k2) : 0.0);
       // Positive semidefinite.
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(result.rig.covariance);
       EXPECT_GT(eigen.eigenvalues().minCoeff(), -1e-9 * eigen.eigenvalues().maxCoeff());
     }
-    const std::string kind = replaced ? "replaced_" : "knocked_";
-    RecordProperty(kind + "pose", std::to_string(pose / (6.0 * kTrials)));
-    RecordProperty(kind + "offset", std::to_string(offset / kTrials));
-    RecordProperty(kind + "covered", covered);
+    RecordProperty(kind + "_pose", std::to_string(pose / (6.0 * kTrials)));
+    RecordProperty(kind + "_offset", std::to_string(offset / kTrials));
+    RecordProperty(kind + "_covered", covered);
     EXPECT_NEAR(pose / (6.0 * kTrials), 1.0, 0.3);
     // Slow errors of the stamps, which are allowed for, are not simulated here.
     EXPECT_LT(offset / kTrials, 1.3);
@@ -198,7 +238,7 @@ TEST(Recalibrate, RefusesWithTheReason) {
 
   Request request = good;
   request.camera = "camera_9";
-  EXPECT_SAYS(refusal(rig, request), "no camera 'camera_9'");
+  EXPECT_SAYS(refusal(rig, request), "camera_9 sends no images");
 
   geometry::Rig image_center = rig;
   image_center.ray_model = geometry::RayModel::kImageCenter;
@@ -247,12 +287,17 @@ TEST(Recalibrate, RefusesWithTheReason) {
   EXPECT_SAYS(refusal(unclocked, record(&in_step, "camera_2")),
               "those of camera_1, camera_3, camera_4 are not known");
 
+  EXPECT_SAYS(refusal(withoutCamera(unclocked, "camera_2"), record(&in_step, "camera_2", 30.0)),
+              "calibrate all cameras again, with a waved LED");
+
   // As after new batteries: continuous calibration solves that clock alone.
   request = good;
   for (capture::Image& image : request.images)
     image.clock_epoch += image.camera == "camera_1" ? 1 : 0;
   EXPECT_SAYS(refusal(rig, request), "those of camera_1 are not known since a reconnection; move");
   EXPECT_SAYS(refusal(rig, request), "apply what is then proposed (A in calibrate)");
+  EXPECT_SAYS(refusal(withoutCamera(rig, "camera_2"), request),
+              "those of camera_1 are not known since a reconnection; move");
 
   Options options;
   options.maximum_offset_stddev = 1e-6;

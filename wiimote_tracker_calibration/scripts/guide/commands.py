@@ -154,9 +154,15 @@ def fit_places(status, arguments):
 
 def recalibrate(status, arguments):
     if not 1 <= len(arguments) <= 2:
-        raise UsageError('give the camera to solve again and, if you like, a number of seconds')
+        raise UsageError('give the camera to solve and, if you like, a number of seconds')
     return request('recalibrate_camera', 'RecalibrateCamera', camera=arguments[0],
                    duration=optional_number(arguments, 1, 'the duration'))
+
+
+def remove(status, arguments):
+    if len(arguments) != 1:
+        raise UsageError('give the camera to take out of the rig')
+    return request('remove_camera', 'RemoveCamera', camera=arguments[0])
 
 
 def board_start(camera: str):
@@ -205,8 +211,10 @@ RIG = [
             'Where is the LED? x y z in metres'),
     Command('load', 'l', 'use a rig from a file', with_path('load', 'LoadRig'), '[FILE]',
             'Rig file; Enter: parameter rig_file'),
-    Command('recalibrate', 'r', 'solve one camera again while the LED is waved',
-            recalibrate, 'CAMERA [SECONDS]', 'Camera to solve again while the LED is waved'),
+    Command('recalibrate', 'r', 'solve one camera again, or add one, while the LED is waved',
+            recalibrate, 'CAMERA [SECONDS]', 'Camera to solve again or to add'),
+    Command('remove', 'R', 'take a camera out of the rig', remove, 'CAMERA',
+            'Camera to take out of the rig'),
     Command('apply', 'A', 'use what continuous calibration proposes',
             trigger('continuous/apply')),
     Command('revert', 'b', 'go back to the rig before that', trigger('continuous/revert'), '',

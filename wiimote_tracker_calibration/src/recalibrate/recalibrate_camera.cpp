@@ -4,6 +4,7 @@
 #include "capture/camera_monitor.h"
 #include "capture/moving_spots.h"
 #include "resection.h"
+#include "rig_cameras.h"
 #include "seen_path.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -60,25 +61,27 @@ void checkInput(const geometry::Rig& rig, const Request& request) {
     throw Error(request.camera + " " + capture::kSendsNoImages);
 }
 
-/// The prior of the camera: its lens is the rig's, unless it is another device.
+/// The prior of the camera: its lens is the rig's, unless it is new or another device.
 /// @param images of the camera
 Prior priorOf(const geometry::Rig& rig,
-              std::size_t index,
               const Request& request,
               const std::vector<capture::Image>& images,
               const Options& options) {
-  const geometry::RigCamera& calibrated = rig.cameras[index];
-  const bool same = !calibrated.camera.isOtherDevice(request.identity);
+  const geometry::RigCamera* const calibrated = rig.find(request.camera);
   Prior prior;
-  prior.lens = same ? calibrated.camera.intrinsics : request.intrinsics;
+  prior.lens = request.intrinsics;
   prior.uncertainty = options.uncertainty;
+  if (!calibrated || calibrated->camera.isOtherDevice(request.identity))
+    return prior;
+  prior.lens = calibrated->camera.intrinsics;
+  const auto index = static_cast<std::size_t>(calibrated - rig.cameras.data());
   const Eigen::Index first = firstParameter(index) + kIntrinsics;
-  if (same && geometry::hasCovariance(rig))
+  if (geometry::hasCovariance(rig))
     prior.lens_covariance =
         rig.covariance.block<adjust::kLensSize, adjust::kLensSize>(first, first);
   // A start value; the offset is estimated again.
-  if (same && !images.empty())
-    prior.time_offset = calibrated.timeOffsetIn(images.front().clock_epoch).value_or(0.0);
+  if (!images.empty())
+    prior.time_offset = calibrated->timeOffsetIn(images.front().clock_epoch).value_or(0.0);
   return prior;
 }
 
@@ -272,26 +275,18 @@ geometry::RigCamera rigCamera(const geometry::RigCamera& before,
 
 }  // namespace
 
-void requireCamera(const geometry::Rig& rig, const std::string& name) {
-  if (rig.find(name))
-    return;
-  std::vector<std::string> names;
-  for (const geometry::RigCamera& camera : rig.cameras)
-    names.push_back(camera.camera.name);
-  throw Error("the rig has no camera '" + name + "': name one of " + joined(names));
-}
-
-Recalibration recalibrateCamera(const geometry::Rig& rig,
+Recalibration recalibrateCamera(const geometry::Rig& before,
                                 const Request& request,
                                 const Options& options) {
-  requireCamera(rig, request.camera);
-  checkInput(rig, request);
+  checkInput(before, request);
+  const bool is_new = !before.find(request.camera);
+  const geometry::Rig rig = is_new ? withCamera(before, request.camera) : before;
   const auto index = static_cast<std::size_t>(rig.find(request.camera) - rig.cameras.data());
   const SeenPath path(rig, request.images, request.camera);
   checkOthers(rig, path);
   const std::vector<capture::Image> images =
       capture::latestImagesOf(request.camera, request.images);
-  const Prior prior = priorOf(rig, index, request, images, options);
+  const Prior prior = priorOf(before, request, images, options);
   geometry::Camera start = rig.cameras[index].camera;
   start.intrinsics = prior.lens;
   const Fit fit = resect(path, images, start, prior, options);
@@ -305,22 +300,26 @@ Recalibration recalibrateCamera(const geometry::Rig& rig,
   result.rotation_stddev = std::sqrt(covariance.diagonal().segment<3>(kRotation).sum());
   result.position_stddev = std::sqrt(covariance.diagonal().segment<3>(kPosition).sum());
   result.offset_stddev = std::sqrt(covariance(kTimeOffset, kTimeOffset));
-  checkCertainty(fit, path, exact_others, result, options);
   result.rig.cameras[index] =
       rigCamera(rig.cameras[index], request, images.back().clock_epoch, fit);
-  const Eigen::Isometry3d& before = rig.cameras[index].camera.world_from_camera;
-  const Eigen::Isometry3d& now = fit.camera.world_from_camera;
-  result.moved = (now.translation() - before.translation()).norm();
-  result.turned = Eigen::AngleAxisd(before.linear().transpose() * now.linear()).angle();
+  checkCertainty(fit, path, exact_others, result, options);
   result.images = fit.matches.size();
+  std::string change = " was added";
+  if (!is_new) {
+    const Eigen::Isometry3d& then = rig.cameras[index].camera.world_from_camera;
+    const Eigen::Isometry3d& now = fit.camera.world_from_camera;
+    result.moved = (now.translation() - then.translation()).norm();
+    result.turned = Eigen::AngleAxisd(then.linear().transpose() * now.linear()).angle();
+    change = format(" moved by %.1f mm and turned by %.2f degrees", 1000.0 * result.moved,
+                    result.turned * kDegrees);
+  }
   result.message =
-      request.camera +
+      request.camera + change +
       format(
-          " moved by %.1f mm and turned by %.2f degrees; it is known to %.1f mm and %.2f degrees "
-          "again, from %zu images; check a known place, then save the rig",
-          1000.0 * result.moved, result.turned * kDegrees, 1000.0 * result.position_stddev,
-          result.rotation_stddev * kDegrees, result.images);
-  const std::string how = "+recalibrated " + request.camera;
+          "; it is known to %.1f mm and %.2f degrees, from %zu images; check a known place, "
+          "then save the rig",
+          1000.0 * result.position_stddev, result.rotation_stddev * kDegrees, result.images);
+  const std::string how = (is_new ? "+added " : "+recalibrated ") + request.camera;
   // The name of a camera may begin with that of another one.
   if ((rig.method + "+").find(how + "+") == std::string::npos)
     result.rig.method += how;

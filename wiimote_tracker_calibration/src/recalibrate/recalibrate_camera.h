@@ -15,11 +15,12 @@
 
 namespace wiimote_tracker::recalibrate {
 
-/// One camera of a rig that was moved or replaced, and images of an LED waved in front of all.
+/// One camera of a rig that was moved or replaced, or a new one, and images of an LED waved in
+/// front of all.
 struct Request {
   std::string camera;
   std::string identity;  ///< Of the device that is there now; empty: unknown.
-  /// Its starting values, when it is another device than was calibrated.
+  /// Its starting values, when it is new or another device than was calibrated.
   geometry::Intrinsics intrinsics;
   std::optional<Eigen::Vector3d> gravity;  ///< As it reads now, optical frame [m/s^2].
   /// Of each camera in the order of their stamps. Those of the camera's latest epoch are used.
@@ -33,13 +34,13 @@ struct Options {
   double maximum_offset_stddev = 0.0005;  ///< A result less certain of the offset is refused [s].
 };
 
-/// The rig with the camera as it is now.
+/// The rig with the camera as it is now. A new one comes last.
 struct Recalibration {
   /// The other cameras, square and zones are unchanged. The correction of the volume is unchanged,
   /// too, but no longer valid. Without solved_at. The covariance is joint: it includes the errors
   /// of the others.
   geometry::Rig rig;
-  double moved = 0.0;            ///< From where it was calibrated [m].
+  double moved = 0.0;            ///< From where it was calibrated [m]; 0 for a new one.
   double turned = 0.0;           ///< [rad]
   double position_stddev = 0.0;  ///< Root of the trace [m].
   double rotation_stddev = 0.0;  ///< Root of the trace [rad].
@@ -48,14 +49,11 @@ struct Recalibration {
   std::string message;           ///< One sentence: how far it moved, how sure that is.
 };
 
-/// @throws Error: the rig lacks the camera.
-void requireCamera(const geometry::Rig& rig, const std::string& name);
-
 /// Estimates pose, lens and time offset of one camera, the others being fixed: maximum a posteriori
 /// by Levenberg-Marquardt. The LED's positions are triangulated from the others, interpolated to
 /// the camera's times. The prior of the lens is the rig's lens with its covariance, or the
-/// request's for another device. False detections are left out by gating.
-/// @throws Error: the rig lacks the camera, or fewer than two others saw the LED; too
+/// request's for a new camera and another device. False detections are left out by gating.
+/// @throws Error: the camera sent no images, or fewer than two others saw the LED; too
 /// few common images; an LED that hardly moved, or in a plane only; contradictory images; a result
 /// that is too uncertain; a rig with RayModel::kImageCenter.
 Recalibration recalibrateCamera(const geometry::Rig& rig,

@@ -2,6 +2,7 @@
 #include "units.h"
 
 #include "health/health_watch.h"
+#include "health/remedy.h"
 
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/ros/steady_updater.h>
@@ -9,15 +10,13 @@
 #include <cmath>
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
 
 namespace {
-
-const char kUnknownCamera[] = "is not in the rig and makes no points: calibrate again with it";
 
 class HealthMonitor {
  public:
@@ -77,9 +76,12 @@ class HealthMonitor {
   void warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
     for (const auto& camera : context_.inputs().cameras()) {
       const bool sends_images = camera.second.width >= 0;
-      if (sends_images && rig.find(camera.first) == nullptr &&
-          unknown_cameras_.insert(camera.first).second)
-        ROS_WARN("%s %s.", camera.first.c_str(), kUnknownCamera);
+      if (!sends_images || rig.find(camera.first))
+        continue;
+      const std::string text = camera.first + " is not in the rig and makes no points: " +
+                               health::addCamera(rig, camera.first);
+      if (std::exchange(unknown_cameras_[camera.first], text) != text)
+        ROS_WARN_STREAM(text);
     }
   }
 
@@ -104,8 +106,8 @@ class HealthMonitor {
                      ? format("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
                      : std::string("not judged"));
     }
-    for (const std::string& camera : unknown_cameras_)
-      troubles.push_back(camera + " " + kUnknownCamera);
+    for (const auto& camera : unknown_cameras_)
+      troubles.push_back(camera.second);
     if (troubles.empty())
       status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no camera seems to have moved");
     else
@@ -116,7 +118,8 @@ class HealthMonitor {
   InputQueue inputs_;
   std::string rig_id_;
   std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
-  std::set<std::string> unknown_cameras_;     // Cameras that the rig does not have.
+  // What to do about cameras that the rig does not have, by their names.
+  std::map<std::string, std::string> unknown_cameras_;
   SteadyUpdater diagnostics_;
   ros::WallTimer timer_;
 };

@@ -2,14 +2,19 @@
 
 #include "capture/rest_gravity.h"
 #include "recalibrate/recalibrate_camera.h"
+#include "recalibrate/rig_cameras.h"
 
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
+#include <wiimote_tracker_msgs/RemoveCamera.h>
+#include <wiimote_tracker_msgs/text.h>
 
+#include <set>
 #include <string>
 
 namespace wiimote_tracker {
 
 using wiimote_tracker_msgs::RecalibrateCamera;
+using wiimote_tracker_msgs::RemoveCamera;
 using workflow::Step;
 
 namespace {
@@ -21,6 +26,7 @@ class RecalibrateServices {
  public:
   explicit RecalibrateServices(NodeContext* context) : context_(*context) {
     context->offer("recalibrate_camera", &RecalibrateServices::recalibrate, this);
+    context->offer("remove_camera", &RecalibrateServices::remove, this);
   }
 
  private:
@@ -30,7 +36,8 @@ class RecalibrateServices {
     if (!(duration > 0.0 && duration <= kLongestDuration))
       throw Refusal("the duration must be within 0 and 300 s: correct it");
     const geometry::Rig rig = context_.existingRig("with this camera", lock);
-    recalibrate::requireCamera(rig, camera);
+    if (!rig.find(camera))
+      requireNewCamera(rig, camera, lock);
     const Job job = {Step::kMeasuring,
                      "wave the LED where " + camera + " and two other cameras or more see it",
                      "the rig is as it was", true};
@@ -43,6 +50,10 @@ class RecalibrateServices {
       context_.requireSameRig(rig.id(), lock);
       call.response.moved = result.moved;
       call.response.turned = result.turned;
+      // A new camera gets the masks that its images have.
+      const auto masks = context_.inputs().masks().find(camera);
+      if (!rig.find(camera) && masks != context_.inputs().masks().end())
+        result.rig.cameras.back().masks = masks->second;
       result.rig.solved_at = NodeContext::now();
       context_.setRig(result.rig, result.message, lock);
       return workflow::Reply{true, result.message};
@@ -67,6 +78,34 @@ class RecalibrateServices {
     if (input != context_.inputs().cameras().end())
       recording.identity = input->second.identity;
     return recording;
+  }
+
+  /// @throws Refusal: a camera that the rig lacks sends no images, or its starting intrinsics do
+  /// not fit them.
+  void requireNewCamera(const geometry::Rig& rig, const std::string& name, const Lock& lock) {
+    std::set<std::string> names;
+    for (const geometry::RigCamera& camera : rig.cameras)
+      names.insert(camera.camera.name);
+    for (const auto& [camera, input] : context_.inputs().cameras()) {
+      if (input.width >= 0)
+        names.insert(camera);
+    }
+    if (names.count(name) == 0)
+      throw Refusal("the rig has no camera '" + name +
+                    "', and none of that name sends images: start its driver, or name one of " +
+                    joined(names));
+    context_.facts({name}, lock);
+  }
+
+  workflow::Reply remove(RemoveCamera& call, Lock& lock) {
+    const std::string& camera = call.request.camera;
+    context_.calibration(lock).requireIdle();
+    geometry::Rig rig =
+        recalibrate::withoutCamera(context_.existingRig("with this camera", lock), camera);
+    const std::string message = camera + " was removed; save the rig";
+    rig.verdict += (rig.verdict.empty() ? "" : "; ") + message;
+    context_.setRig(rig, message, lock);
+    return {true, message};
   }
 
   NodeContext& context_;

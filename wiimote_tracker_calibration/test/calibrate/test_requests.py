@@ -41,6 +41,7 @@ def test_words_become_requests():
                                               camera='wiimote_2', duration=0.0)),
             ('recalibrate wiimote_2 8', Request('recalibrate_camera', 'RecalibrateCamera',
                                                 camera='wiimote_2', duration=8.0)),
+            ('R wiimote_2', Request('remove_camera', 'RemoveCamera', camera='wiimote_2')),
             ('fit affine', Request('known_places/fit', 'FitRemap', models=['affine']))):
         words = line.split()
         assert commands.find(commands.RIG, words[0]).build(waving, words[1:]) == expected
@@ -54,9 +55,9 @@ def test_words_become_requests():
 @pytest.mark.parametrize('line', [
     'check', 'check 1 2', 'check 1 2 x', 'check nan 0 0', 'check 1 2 3 4 5', 'capture 0',
     'capture 5', 'capture 1 2', 'start a', 'start 1 2 3', 'start wand x', 'start wand 1 2 3',
-    'wave x', 'hands_free maybe', 'undo 1', 'recalibrate', 'recalibrate a b', 'masks soon',
-    'solve now', 'place 1 2', 'length 1 3', 'length 1 13 2.5', 'length 0 1 2.5', 'length 1 2 x',
-    'length 1 2 2.5 0.001 9'])
+    'wave x', 'hands_free maybe', 'undo 1', 'recalibrate', 'recalibrate a b', 'remove',
+    'masks soon', 'solve now', 'place 1 2', 'length 1 3', 'length 1 13 2.5', 'length 0 1 2.5',
+    'length 1 2 x', 'length 1 2 2.5 0.001 9'])
 def test_words_that_make_no_sense_are_refused_with_what_would(line):
     words = line.split()
     with pytest.raises(commands.UsageError) as refusal:
@@ -79,6 +80,7 @@ def test_every_request_fits_into_the_message_of_its_service():
             place = [['1', '2', '3']]
             for words in {'check': place, 'place': place, 'known': place,
                           'length': [['1', '3', '2']], 'recalibrate': [['wiimote_1']],
+                          'remove': [['wiimote_1']],
                           'start': [[], ['2', '1']], 'wave': [[], ['0.5', '0.001']],
                           'capture': [[], ['3']], 'fit': [['affine']]}.get(command.word, [[]]):
                 request = command.build(status(CalibrationStatus.READY), words)

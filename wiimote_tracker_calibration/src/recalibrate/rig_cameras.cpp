@@ -1,0 +1,49 @@
+#include "rig_cameras.h"
+
+#include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+
+#include <Eigen/Core>
+
+#include <cstddef>
+#include <vector>
+
+namespace wiimote_tracker::recalibrate {
+
+using geometry::firstParameter;
+
+geometry::Rig withCamera(const geometry::Rig& rig, const std::string& name) {
+  geometry::Rig result = rig;
+  result.cameras.emplace_back().camera.name = name;
+  const Eigen::Index size = firstParameter(result.cameras.size());
+  if (geometry::hasCovariance(rig))
+    result.covariance.conservativeResizeLike(Eigen::MatrixXd::Zero(size, size));
+  return result;
+}
+
+geometry::Rig withoutCamera(const geometry::Rig& rig, const std::string& name) {
+  const geometry::RigCamera* const camera = rig.find(name);
+  if (!camera) {
+    std::vector<std::string> names;
+    for (const geometry::RigCamera& each : rig.cameras)
+      names.push_back(each.camera.name);
+    throw Error("the rig has no camera '" + name + "': name one of " + joined(names));
+  }
+  if (rig.cameras.size() <= 2)
+    throw Error("a rig needs two cameras: add another one before you remove " + name);
+  const auto index = static_cast<std::size_t>(camera - rig.cameras.data());
+  geometry::Rig result = rig;
+  result.cameras.erase(result.cameras.begin() + static_cast<std::ptrdiff_t>(index));
+  if (geometry::hasCovariance(rig)) {
+    Eigen::MatrixXd& covariance = result.covariance;
+    const Eigen::Index first = firstParameter(index);
+    const Eigen::Index after = covariance.rows() - firstParameter(index + 1);
+    covariance.middleRows(first, after) = covariance.bottomRows(after).eval();
+    covariance.middleCols(first, after) = covariance.rightCols(after).eval();
+    covariance.conservativeResize(first + after, first + after);
+  }
+  return result;
+}
+
+}  // namespace wiimote_tracker::recalibrate

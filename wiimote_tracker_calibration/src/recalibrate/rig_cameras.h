@@ -1,0 +1,21 @@
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H
+
+#include <wiimote_tracker_triangulation/geometry/rig.h>
+
+#include <string>
+
+namespace wiimote_tracker::recalibrate {
+
+/// The rig with another camera, the last one, whose calibration is still to come: it and its
+/// covariance are zero.
+geometry::Rig withCamera(const geometry::Rig& rig, const std::string& name);
+
+/// The rig without a camera. The world, the other cameras and their covariance stay. A correction
+/// of the volume stays, but is no longer valid.
+/// @throws Error: the rig lacks the camera, or has no more than two.
+geometry::Rig withoutCamera(const geometry::Rig& rig, const std::string& name);
+
+}  // namespace wiimote_tracker::recalibrate
+
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H

@@ -286,6 +286,10 @@ TEST_F(CalibratedNode, RemovesACameraAndAddsIt) {
   EXPECT_EQ(rig.cameras[3].camera.identity, "00:1e:35:00:00:02");
   EXPECT_LT((rig.cameras[3].camera.center() - cameras_->truth[1].center()).norm(), 0.05);
   EXPECT_EQ(rig.covariance.rows(), 64);
+  wiimote_tracker_msgs::SaveRig::Request save;
+  save.path = folder_ + "/added.yaml";
+  ASSERT_TRUE(call<wiimote_tracker_msgs::SaveRig>("calibration/save", save).success);
+  EXPECT_EQ(geometry::readRigFile(save.path).id(), rig.id());
 }
 
 TEST_F(CalibratedNode, BringsBackAKnockedCamera) {

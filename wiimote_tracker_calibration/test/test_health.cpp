@@ -352,10 +352,13 @@ TEST(HealthWatch, OffersToRecalibrateOnlyWhereThatCanWork) {
   of_centers.ray_model = geometry::RayModel::kImageCenter;
   geometry::Rig of_square = rig;
   of_square.cameras[3].time_offset_rule = geometry::TimeOffsetRule::kNone;
-  for (const geometry::Rig& other : {of_centers, of_square})
+  for (const geometry::Rig& other : {of_centers, of_square}) {
     EXPECT_EQ(putBack(other, true), "put it back, or calibrate all cameras again");
+    EXPECT_EQ(addCamera(other, "wiimote_5"), "calibrate all cameras again");
+  }
   rig.cameras.resize(2);
   rig.covariance.resize(0, 0);
+  EXPECT_EQ(addCamera(rig, "wiimote_5"), "add it (r wiimote_5 in calibrate)");
   rig.cameras[0].camera.identity = "00:1e:35:00:00:01";
   HealthWatch watch(rig, {});
   watch.addImage({rig.cameras[0].camera.name, 0.0, 0, {}, {}, "00:1e:35:00:00:02"});

@@ -56,7 +56,7 @@ struct Recalibration {
 /// @throws Error: the camera sent no images, or fewer than two others saw the LED; too
 /// few common images; an LED that hardly moved, or in a plane only; contradictory images; a result
 /// that is too uncertain; a rig with RayModel::kImageCenter.
-Recalibration recalibrateCamera(const geometry::Rig& rig,
+Recalibration recalibrateCamera(const geometry::Rig& before,
                                 const Request& request,
                                 const Options& options);
 

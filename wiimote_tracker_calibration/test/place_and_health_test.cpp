@@ -272,7 +272,9 @@ TEST_F(CalibratedNode, RemovesACameraAndAddsIt) {
   const auto removed = call<RemoveCamera>("calibration/remove_camera", remove);
   ASSERT_TRUE(removed.success) << removed.message;
   EXPECT_SAYS(removed.message, "camera_2 was removed");
-  EXPECT_EQ(rigOf(3).cameras[1].camera.name, "camera_3");
+  const geometry::Rig three = rigOf(3);
+  EXPECT_EQ(three.cameras[1].camera.name, "camera_3");
+  EXPECT_EQ(three.verdict.find("usable: camera_2 was removed"), 0u) << three.verdict;
 
   cameras_->waveLed(true);
   RecalibrateCamera::Request request;

@@ -10,7 +10,7 @@ from .commands import Command, UsageError, find
 from .guide import Advice, Guide
 
 PROPOSED = 'apply'  # What becomes the next command, or no longer is it, at any time.
-CHANGED = 'What is next has just changed: read it, then ask for it again'
+CHANGED = 'What is next has just changed: read it, then press SPACE or the button again'
 
 
 class Dialogue:

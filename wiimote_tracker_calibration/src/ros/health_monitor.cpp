@@ -75,9 +75,12 @@ class HealthMonitor {
 
   void warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
     for (const auto& camera : context_.inputs().cameras()) {
-      const bool sends_images = camera.second.width >= 0;
-      if (!sends_images || rig.find(camera.first))
+      if (rig.find(camera.first))
         continue;
+      if (!camera.second.monitor.summary(NodeContext::now()).connected) {
+        unknown_cameras_.erase(camera.first);
+        continue;
+      }
       const std::string text = camera.first + " is not in the rig and makes no points: " +
                                health::addCamera(rig, camera.first);
       if (std::exchange(unknown_cameras_[camera.first], text) != text)

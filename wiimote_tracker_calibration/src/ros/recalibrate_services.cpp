@@ -3,11 +3,13 @@
 #include "capture/rest_gravity.h"
 #include "recalibrate/recalibrate_camera.h"
 #include "recalibrate/rig_cameras.h"
+#include "samples/grade.h"
 
 #include <wiimote_tracker_msgs/RecalibrateCamera.h>
 #include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/text.h>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -35,7 +37,8 @@ class RecalibrateServices {
     const double duration = call.request.duration == 0.0 ? kUsualDuration : call.request.duration;
     if (!(duration > 0.0 && duration <= kLongestDuration))
       throw Refusal("the duration must be within 0 and 300 s: correct it");
-    const geometry::Rig rig = context_.existingRig("with this camera", lock);
+    const std::string in_use = context_.existingRig("with this camera", lock).id();
+    const geometry::Rig rig = rigToChange(lock);
     if (!rig.find(camera))
       requireNewCamera(rig, camera, lock);
     const Job job = {Step::kMeasuring,
@@ -47,7 +50,7 @@ class RecalibrateServices {
       recalibrate::Recalibration result = context_.compute(
           &lock, [&] { return recalibrate::recalibrateCamera(rig, recording, options); });
       context_.requireNotCancelled(lock);
-      context_.requireSameRig(rig.id(), lock);
+      context_.requireSameRig(in_use, lock);
       call.response.moved = result.moved;
       call.response.turned = result.turned;
       // A new camera gets the masks that its images have.
@@ -55,9 +58,23 @@ class RecalibrateServices {
       if (!rig.find(camera) && masks != context_.inputs().masks().end())
         result.rig.cameras.back().masks = masks->second;
       result.rig.solved_at = NodeContext::now();
-      context_.setRig(result.rig, result.message, lock);
-      return workflow::Reply{true, result.message};
+      const std::string message = result.message + voidCorrection(rig);
+      context_.setRig(result.rig, message, lock);
+      return workflow::Reply{true, message};
     });
+  }
+
+  /// The rig in use, or the corrected one that it approaches.
+  geometry::Rig rigToChange(const Lock& lock) const {
+    const geometry::Rig& in_use = context_.existingRig("with this camera", lock);
+    return context_.calibration(lock).goal().value_or(in_use);
+  }
+
+  /// What is said when a rig with other cameras replaces this one.
+  static std::string voidCorrection(const geometry::Rig& rig) {
+    return rig.remap && rig.remap->rig_id == rig.id()
+               ? "; the correction of the volume no longer holds: measure the known places again"
+               : "";
   }
 
   /// While an LED is waved.
@@ -100,10 +117,17 @@ class RecalibrateServices {
   workflow::Reply remove(RemoveCamera& call, Lock& lock) {
     const std::string& camera = call.request.camera;
     context_.calibration(lock).requireIdle();
-    geometry::Rig rig =
-        recalibrate::withoutCamera(context_.existingRig("with this camera", lock), camera);
-    const std::string message = camera + " was removed; save the rig";
-    rig.verdict += (rig.verdict.empty() ? "" : "; ") + message;
+    const geometry::Rig before = rigToChange(lock);
+    geometry::Rig rig = recalibrate::withoutCamera(before, camera);
+    // The accuracy that the verdict states was with this camera.
+    const samples::Grade grade =
+        std::max(samples::gradeOf(before.verdict), samples::Grade::kUsable);
+    rig.verdict =
+        samples::nameOf(grade) + ": " + camera + " was removed; with it: " + before.verdict;
+    context_.inputs().setMasks(camera, {});  // It may stand elsewhere when it comes back.
+    const std::string message = camera +
+                                " was removed; save the rig, and take it out of cameras.yaml" +
+                                voidCorrection(before);
     context_.setRig(rig, message, lock);
     return {true, message};
   }

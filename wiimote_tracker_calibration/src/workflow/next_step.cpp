@@ -145,7 +145,8 @@ NextStep solved(const samples::Verdict& verdict) {
 
 std::string describeSilent(const std::vector<std::string>& cameras) {
   return "no image has come yet from " + joined(cameras) +
-         ": check that this is the rig of your cameras, and start their drivers";
+         ": check that this is the rig of your cameras, and start their drivers; one that is gone "
+         "for good is removed by R in calibrate";
 }
 
 NextStep nextStep(const Calibration& calibration,
@@ -178,7 +179,7 @@ NextStep nextStep(const Calibration& calibration,
     case Step::kCapturing:
       return {"Hold still", "Keep the LED still."};
     case Step::kSaved:
-      if (!findings.silent.empty())
+      if (!findings.silent.empty())  // scripts/guide/guide.py looks for this title
         return {"No images", "The rig is in use, but " + describeSilent(findings.silent) + "."};
   }
   return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};

@@ -135,9 +135,9 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   if (statistics.images == 0 && statistics.problem.empty())
     status.summary(
         DiagnosticStatus::WARN,
-        "no images: start its driver, or do what that says in /diagnostics; check the "
-        "network if it runs on another computer; if it is gone for good, remove it (R in "
-        "calibrate)");
+        std::string("no images: start its driver, or do what that says in /diagnostics; check the "
+                    "network if it runs on another computer") +
+            (cameras_.size() > 2 ? "; if it is gone for good, remove it (R in calibrate)" : ""));
   for (const std::string& problem :
        {statistics.problem, describeLights(statistics, cameras_[camera]),
         lenses_.problemOf(cameras_[camera]), clockProblem(camera),

@@ -96,7 +96,8 @@ std::string describe(ImageFault fault,
              " and are ignored: let each driver publish under its own camera's name";
     case ImageFault::kOtherDevice:
       return calibrated.name + " is device " + message.identity + ", but was calibrated as " +
-             calibrated.identity + ", and is ignored: exchange them or calibrate again";
+             calibrated.identity +
+             ", and is ignored: exchange them, or do what calibration_node says of it";
     case ImageFault::kOtherSize:
       return "images of " + calibrated.name + " have " + sizeOf(message.width, message.height) +
              ", but it was calibrated with " + sizeOf(lens.width, lens.height) +

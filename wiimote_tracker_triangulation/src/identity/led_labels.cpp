@@ -170,7 +170,10 @@ void LedLabels::notePlace(const tracking::TrackedLed& led) {
   if (given == given_.end() || given->second.identified)
     return;
   LedLabel& label = given->second;
-  Place& place = places_[label.name];
+  const auto [found, is_new] = places_.try_emplace(label.name);
+  Place& place = found->second;
+  if (is_new && std::isfinite(label.confidence))
+    place.confidence = label.confidence;
   place.position = led.position;
   place.speed = led.velocity ? led.velocity->norm() : 0.0;
   place.age = 0.0;

@@ -320,6 +320,9 @@ TEST(LedLabels, StayDoubtfulWhenTheyAreGivenAgain) {
   EXPECT_EQ("a", labels.of(4).name);
   EXPECT_NEAR(0.5, labels.of(4).confidence, 0.1) << "it may still be b";
   EXPECT_TRUE(labels.doubtful().empty()) << "said when it became so";
+  labels.forgetPlaces();
+  labels.update(160.2, {at(4, 0.0), at(3, 2.0)});
+  EXPECT_NEAR(0.5, labels.places().at("a").confidence, 0.1) << "whatever the world";
 }
 
 TEST(LedLabels, AreNamedAgainWhenTheyBecomeDoubtfulOnceMore) {

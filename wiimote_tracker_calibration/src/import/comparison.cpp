@@ -47,12 +47,13 @@ std::optional<remap::Remap> fitProjective(const Points& from, const Points& to) 
 }
 
 Points project(const std::optional<remap::Remap>& projective, const Points& points) {
-  Points moved;
-  for (const Eigen::Vector3d& point : points) {
-    const auto mapped =
-        projective ? remap::evaluate(*projective, remap::frameOf(projective->support), point)
-                   : std::nullopt;
-    moved.push_back(mapped ? mapped->position : Eigen::Vector3d::Constant(kOutlier));
+  Points moved(points.size(), Eigen::Vector3d::Constant(kOutlier));
+  if (!projective)
+    return moved;
+  const remap::Frame frame = remap::frameOf(projective->support);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (const auto mapped = remap::evaluate(*projective, frame, points[i]))
+      moved[i] = mapped->position;
   }
   return moved;
 }

@@ -38,7 +38,7 @@ def unread(path: str, nodes: Iterable[str]) -> Iterator[str]:
     try:
         with open(path, encoding='utf-8') as file:
             content = dict(yaml.safe_load(file) or {})
-    except (OSError, ValueError, yaml.YAMLError):  # changed since roslaunch took it
+    except (OSError, TypeError, ValueError, yaml.YAMLError):  # changed since roslaunch took it
         return
     if not content:
         yield f'{path} has no parameters: write them as "node: {{parameter: value}}"'

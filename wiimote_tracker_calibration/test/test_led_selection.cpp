@@ -6,15 +6,18 @@
 #include "continuous/continuous_calibration.h"
 #include "health/health_watch.h"
 #include "health/led_selection.h"
+#include "health/turned_camera.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -49,12 +52,13 @@ struct Selected {
 /// The LED whose true pixel is the spot.
 std::optional<std::size_t> ledOf(const WavedLed& leds,
                                  const geometry::RigCamera& camera,
-                                 const capture::Image& image) {
-  const double time = image.stamp - WavedLed::kClock + camera.time_offset;
+                                 double stamp,
+                                 const Eigen::Vector2d& spot) {
+  const double time = stamp - WavedLed::kClock + camera.time_offset;
   const std::vector<Eigen::Vector3d> places = leds.places(time);
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto pixel = camera.camera.project(places[i]);
-    if (pixel && (*pixel - image.spots.front()).norm() < 4.0)
+    if (pixel && (*pixel - spot).norm() < 4.0)
       return i;
   }
   return std::nullopt;
@@ -79,7 +83,7 @@ std::map<std::string, Selected> select(const Scene& scene, std::uint64_t seed, d
     if (one.spots.size() != 1)
       return;
     ++of_camera.spots;
-    const auto led = ledOf(leds, camera, one);
+    const auto led = ledOf(leds, camera, one.stamp, one.spots.front());
     // The three cameras that stay tell which one is followed.
     if (led && image.camera != "camera_2")
       followed = led;
@@ -99,6 +103,55 @@ TEST(LedSelection, LeavesTheImagesOfOneLedAlone) {
   LedSelection selection(paperRigWith(wellCalibrated()));
   led.runUntil(60.0,
                [&](const capture::Image& image) { EXPECT_EQ(&selection.select(image), &image); });
+}
+
+TEST(LedSelection, LeavesTheImagesOfARigThatIsNotJudgedAlone) {
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  rig.ray_model = geometry::RayModel::kImageCenter;
+  WavedLed leds(rig.cameras, 1);
+  leds.shine(2, false);
+  LedSelection selection(rig);
+  leds.runUntil(5.0,
+                [&](const capture::Image& image) { EXPECT_EQ(&selection.select(image), &image); });
+}
+
+// A second LED shines from 3 s on. One camera sees only the first until just after the selection
+// has noticed, then only the second.
+TEST(LedSelection, DoesNotJoinTheSpotsOfTwoLeds) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  int changes = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    WavedLed leds(rig.cameras, seed, 100.0);
+    leds.wrong_share = 0.0;
+    LedSelection selection(rig);
+    std::map<std::string, std::pair<double, std::size_t>> last;  // Stamp [s] and LED, by camera.
+    const auto add = [&](capture::Image image) {
+      const geometry::RigCamera& camera = *rig.find(image.camera);
+      const std::size_t hidden = image.stamp < WavedLed::kClock + 3.11 ? 1 : 0;
+      const auto isHidden = [&](const Eigen::Vector2d& spot) {
+        return ledOf(leds, camera, image.stamp, spot) == hidden;
+      };
+      if (image.camera == "camera_4")
+        image.spots.erase(std::remove_if(image.spots.begin(), image.spots.end(), isHidden),
+                          image.spots.end());
+      const capture::Image& one = selection.select(image);
+      if (one.spots.size() != 1)
+        return;
+      const auto led = ledOf(leds, camera, one.stamp, one.spots.front());
+      if (!led)
+        return;
+      const auto before = last.find(image.camera);
+      if (before != last.end() && before->second.second != *led) {
+        ++changes;
+        EXPECT_GT(image.stamp - before->second.first, capture::kLongestGap) << seed;
+      }
+      last[image.camera] = {image.stamp, *led};
+    };
+    leds.runUntil(3.0, add);
+    leds.shine(2, false);
+    leds.runUntil(6.0, add);
+  }
+  EXPECT_GT(changes, 0);
 }
 
 TEST(LedSelection, FollowsOneLedInAllCamerasAlsoInATurnedOne) {
@@ -129,12 +182,41 @@ TEST(LedSelection, LeavesALedThatRests) {
     const capture::Image& one = selection.select(image);
     if (one.spots.size() != 1)
       return;
-    const auto led = ledOf(leds, *rig.find(image.camera), one);
+    const auto led = ledOf(leds, *rig.find(image.camera), one.stamp, one.spots.front());
     resting += led == 0U ? 1 : 0;
     moving += led == 1U ? 1 : 0;
   });
   EXPECT_LT(resting, 200);
   EXPECT_GT(moving, 2500);
+}
+
+// With the barrel lens the third LED, near the edge, is out of view after the turn. Another light
+// shines where it was.
+TEST(TurnedCamera, MatchesTheSpotsWithTheTurnThatItFound) {
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  geometry::Camera& calibrated = rig.cameras[0].camera;
+  calibrated.world_from_camera.setIdentity();
+  calibrated.intrinsics.distortion[0] = -1.0;
+  geometry::Camera truth = calibrated;
+  truth.world_from_camera.rotate(Eigen::AngleAxisd(0.03, Eigen::Vector3d::UnitY()));
+  const Eigen::Vector3d outermost(-1.12, 0.0, 2.0);
+  ASSERT_FALSE(truth.project(outermost));
+  health::TurnedCamera camera(rig, rig.cameras[0]);
+  for (double time = 0.0; time < 5.0; time += 0.05) {
+    const std::vector<Eigen::Vector3d> leds = {
+        {0.4 * std::sin(2.0 * time), 0.2, 2.0}, {0.1, 0.3 * std::cos(3.0 * time), 2.0}, outermost};
+    const capture::Blobs spots = {truth.project(leds[0]).value(), truth.project(leds[1]).value(),
+                                  calibrated.project(outermost).value()};
+    const health::LedMatches matches = camera.add(time, leds, spots);
+    for (std::size_t i = 0; i < leds.size(); ++i) {
+      if (!matches.spot_of[i])
+        continue;
+      const auto pixel = camera.project(leds[i]);
+      ASSERT_TRUE(pixel) << time;
+      EXPECT_LT((*pixel - spots[*matches.spot_of[i]]).norm(), 15.0) << time;
+    }
+  }
+  EXPECT_TRUE(camera.isTurned());
 }
 
 TEST(LedSelection, IsAFunctionOfTheImages) {

@@ -33,27 +33,22 @@ LedSelection::LedSelection(const geometry::Rig& rig) : rig_(rig), tracked_rig_(r
 
 const capture::Image& LedSelection::select(const capture::Image& image) {
   const geometry::RigCamera* const found = rig_.find(image.camera);
-  if (found == nullptr || !std::isfinite(image.stamp))
+  if (found == nullptr || !std::isfinite(image.stamp) ||
+      rig_.ray_model != geometry::RayModel::kCalibrated)
     return image;
   const auto index = static_cast<std::size_t>(found - rig_.cameras.data());
   const bool are_several = noteSeveral(image, &cameras_[index]);
-  if (!are_several && tracker_) {
-    tracker_.reset();
-    leds_.clear();
-    followed_.reset();
-    silence_ = image.stamp + capture::kLongestGap;
-  }
-  if (!are_several && !isSilent(image.stamp))
+  const auto time_offset = found->timeOffsetIn(image.clock_epoch);
+  double time = image.stamp + time_offset.value_or(0.0);
+  if (are_several != (tracker_ != nullptr))
+    startAnew(are_several, time);
+  if (!are_several && !isSilent(time))
     return image;
   selected_ = image;
   selected_.spots.clear();
   if (!are_several)
     return selected_;
-  if (!tracker_)
-    tracker_ = std::make_unique<tracking::Tracker>(tracked_rig_, tracking::TrackerOptions());
-  const auto time_offset = found->timeOffsetIn(image.clock_epoch);
-  const double time = image.stamp + time_offset.value_or(0.0) -
-                      tracker_->clockError(index, image.clock_epoch).offset;
+  time -= tracker_->clockError(index, image.clock_epoch).offset;
   Camera& camera = cameras_[index];
   const std::vector<tracking::TrackedLed> leds = trackedAt(time);
   std::vector<Eigen::Vector3d> places;
@@ -69,7 +64,7 @@ const capture::Image& LedSelection::select(const capture::Image& image) {
       selected_.spots.push_back(*spot);
   }
   follow(leds, time);
-  useTurnOf(index);
+  useTurnOf(index, time);
   // An image of a camera that was just turned would lead tracks astray; if only its clock is wrong,
   // the tracker corrects that.
   if (!time_offset || !matches.isAstray())
@@ -86,7 +81,7 @@ bool LedSelection::noteSeveral(const capture::Image& image, Camera* camera) {
 
 /// Tracks go on with the camera as it seems to stand now. Two at least must stand where they were
 /// calibrated; else the tracks are wrong.
-void LedSelection::useTurnOf(std::size_t camera) {
+void LedSelection::useTurnOf(std::size_t camera, double time) {
   geometry::Camera& tracked = tracked_rig_.cameras[camera].camera;
   const Eigen::Matrix3d now = cameras_[camera].turned.orientation();
   if (tracked.world_from_camera.linear() == now)
@@ -95,18 +90,29 @@ void LedSelection::useTurnOf(std::size_t camera) {
   const auto standing = std::count_if(cameras_.begin(), cameras_.end(),
                                       [](const Camera& each) { return !each.turned.isTurned(); });
   if (standing < 2)
-    forget();
+    forget(time);
   else
     tracker_->setRig(tracked_rig_);
 }
 
-void LedSelection::forget() {
+void LedSelection::forget(double time) {
   tracked_rig_ = rig_;
-  tracker_ = std::make_unique<tracking::Tracker>(rig_, tracking::TrackerOptions());
-  leds_.clear();
-  followed_.reset();
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     cameras_[i].turned = TurnedCamera(rig_, rig_.cameras[i]);
+  startAnew(true, time);
+}
+
+/// Another tracker, whose ids are its own, or none. Without spots for a while, the next one is not
+/// joined to one before.
+void LedSelection::startAnew(bool are_several, double time) {
+  tracker_.reset();
+  if (are_several)
+    tracker_ = std::make_unique<tracking::Tracker>(tracked_rig_, tracking::TrackerOptions());
+  leds_.clear();
+  followed_.reset();
+  for (Camera& camera : cameras_)
+    camera.shown.clear();
+  silence_ = time + capture::kLongestGap;
 }
 
 void LedSelection::track(std::size_t camera, const capture::Image& image) {
@@ -171,7 +177,7 @@ void LedSelection::follow(const std::vector<tracking::TrackedLed>& leds, double 
   const bool had_its_turn = std::abs(time - followed_since_) > kLongestFollowed && 2 * most > worth;
   if (best == nullptr || (followed_ && std::abs(time - last_best_) < kHesitation && !had_its_turn))
     return;
-  // Without spots for a while, the next one is not joined to this.
+  // As in startAnew().
   if (followed_)
     silence_ = time + capture::kLongestGap;
   followed_ = best->id;
@@ -184,18 +190,18 @@ std::optional<Eigen::Vector2d> LedSelection::clearSpot(const TurnedCamera& camer
                                                        std::size_t led,
                                                        const LedMatches& matches,
                                                        const capture::Blobs& spots) {
-  if (!matches.spot_of[led] || matches.isContradictory())
+  const auto predicted = camera.project(places[led]);
+  if (!predicted || !matches.spot_of[led] || matches.isContradictory())
     return std::nullopt;
-  const Eigen::Vector2d predicted = camera.project(places[led]).value();
   const Eigen::Vector2d& spot = spots[*matches.spot_of[led]];
   for (std::size_t i = 0; i < places.size(); ++i) {
     const auto other = camera.project(places[i]);
-    if (i != led && !matches.spot_of[i] && other && (*other - predicted).norm() < kMerged)
+    if (i != led && !matches.spot_of[i] && other && (*other - *predicted).norm() < kMerged)
       return std::nullopt;
   }
-  const double clear = 2.0 * (spot - predicted).norm() + kClearance;
+  const double clear = 2.0 * (spot - *predicted).norm() + kClearance;
   const bool is_clear = std::count_if(spots.begin(), spots.end(), [&](const auto& other) {
-                          return (other - predicted).norm() < clear;
+                          return (other - *predicted).norm() < clear;
                         }) == 1;
   return is_clear ? std::make_optional(spot) : std::nullopt;
 }

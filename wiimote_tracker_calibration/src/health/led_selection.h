@@ -23,8 +23,10 @@ namespace wiimote_tracker::health {
 /// Follows one LED while several are seen: of the spots of each image it leaves that of this LED,
 /// or none where it is not certain. A tracker tells where the LEDs are, with cameras as they seem
 /// to stand now (TurnedCamera). Of LEDs that move it follows the one that most cameras show;
-/// between two of them it shows none for a while. While no camera sees several lights, images stay
-/// as they are. A deterministic function of the images.
+/// between two of them it shows none for a while. An image that comes over 50 ms later than newer
+/// ones of other cameras shows none. While no camera sees several lights, images stay as they are,
+/// as do those of a rig with RayModel::kImageCenter, which is not judged. A deterministic function
+/// of the images.
 class LedSelection {
  public:
   explicit LedSelection(const geometry::Rig& rig);
@@ -42,8 +44,9 @@ class LedSelection {
 
   bool noteSeveral(const capture::Image& image, Camera* camera);
   void track(std::size_t camera, const capture::Image& image);
-  void useTurnOf(std::size_t camera);
-  void forget();
+  void useTurnOf(std::size_t camera, double time);
+  void forget(double time);
+  void startAnew(bool are_several, double time);
   std::vector<tracking::TrackedLed> trackedAt(double time) const;
   std::size_t worthOf(const tracking::TrackedLed& led, double time) const;
   void follow(const std::vector<tracking::TrackedLed>& leds, double time);

@@ -48,7 +48,7 @@ TurnedCamera::TurnedCamera(const geometry::Rig& rig, const geometry::RigCamera& 
 LedMatches TurnedCamera::add(double time,
                              const std::vector<Eigen::Vector3d>& leds,
                              const capture::Blobs& spots) {
-  const LedMatches matches = matchesOf(now_, leds, spots);
+  LedMatches matches = matchesOf(now_, leds, spots);
   if (!samples_.empty() && time < samples_.back().time)
     samples_.clear();
   while (!samples_.empty() && samples_.front().time < time - kMemory)
@@ -64,6 +64,7 @@ LedMatches TurnedCamera::add(double time,
       std::abs(time - last_judgement_) >= kJudgedEvery) {
     last_judgement_ = time;
     judge();
+    matches = matchesOf(now_, leds, spots);
   }
   return matches;
 }

@@ -38,7 +38,7 @@ class TurnedCamera {
   TurnedCamera(const geometry::Rig& rig, const geometry::RigCamera& camera);
 
   /// One image. @param leds where LEDs were then, world [m], in the same order each time.
-  /// @returns its matches, with the camera as it seemed to stand before.
+  /// @returns its matches, with the camera as it seems to stand now.
   LedMatches add(double time,
                  const std::vector<Eigen::Vector3d>& leds,
                  const capture::Blobs& spots);

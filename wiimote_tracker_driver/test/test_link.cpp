@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <stdexcept>
+#include <utility>
 
 namespace wiimote_tracker::wiimote {
 namespace {
@@ -144,6 +145,52 @@ TEST_F(WiimoteTest, OfAQueueThatNeverEmptiesImagesAreKnownToHaveWaitedAndThenDro
   EXPECT_NEAR(30, images, 2);
   EXPECT_GT(run(0.5), 40) << "once none waits, images come again";
   EXPECT_FALSE(wiimote_.imageWaited());
+}
+
+// The process is stopped while it waits for a report, as by a busy computer.
+class Oversleeping : public FakeTransport {
+ public:
+  Oversleeping(FakeRemote* remote, double* stop)
+      : FakeTransport(remote), remote_(remote), stop_(stop) {}
+  bool read(protocol::Report& report, double timeout) override {
+    const bool received = FakeTransport::read(report, timeout);
+    if (timeout > 0.0)
+      remote_->now += std::exchange(*stop_, 0.0);
+    return received;
+  }
+
+ private:
+  FakeRemote* remote_;
+  double* stop_;
+};
+
+TEST(OversleepingTest, ImagesOfAStopWhileWaitingForAReportAreKnownToHaveWaited) {
+  FakeRemote remote;
+  double stop = 0.0;
+  Wiimote wiimote(
+      Options(), [&](bool) { return std::make_unique<Oversleeping>(&remote, &stop); },
+      [&] { return remote.now; });
+  const auto run = [&](double duration) {  // @returns images that waited, and others
+    std::pair<int, int> images;
+    for (const double end = remote.now + duration; remote.now < end;) {
+      if (wiimote.step(0.1))
+        ++(wiimote.imageWaited() ? images.first : images.second);
+    }
+    return images;
+  };
+  run(2.0);
+  EXPECT_EQ(0, run(0.5).first);
+  Report image{0x33, 0, 0, 0x80, 0x80, 0x80, 0x23, 0x45, 0x13};
+  image.size = 18;
+  std::fill(image.bytes.begin() + 9, image.bytes.begin() + 18, std::uint8_t{0xff});
+  stop = 0.3;
+  for (int i = 0; i < 30; ++i) {
+    image.bytes[5] = static_cast<std::uint8_t>(0x80 | (i & 1));
+    remote.say(image, 0.02 + 0.01 * i);
+  }
+  const auto images = run(0.5);
+  EXPECT_NEAR(30, images.first, 2);
+  EXPECT_NEAR(20, images.second, 2);
 }
 
 TEST_F(WiimoteTest, CloseSwitchesTheRemoteOff) {

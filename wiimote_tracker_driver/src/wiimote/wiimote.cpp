@@ -79,9 +79,10 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
   }
   const double now = clock_();
   const double age = now - none_waited_;  // of the report, at most
-  waited_ = found && age > kPrompt;
+  // A read that took longer than `wait` was held up itself, perhaps behind the report's arrival.
+  waited_ = age > (found ? 0.0 : wait) + kPrompt;
   backlog_ = received && (backlog_ || age > std::max(kBufferedTime, 2.0 * wait));
-  if (!found)
+  if (!found && !waited_)
     none_waited_ = now;
   std::optional<DataReport> image;
   if (received)

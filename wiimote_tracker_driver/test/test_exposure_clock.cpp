@@ -278,6 +278,27 @@ TEST(ExposureClock, is_uncertain_for_a_second_whether_delays_have_a_sharp_edge) 
   }
 }
 
+// Reports that come twice for 2 s make some of the clocks forget the kind of delays.
+TEST(ExposureClock, finds_a_sharp_edge_as_soon_after_it_began_anew) {
+  LinkModel link = edge(0.0005);
+  link.drops = 0.0;
+  std::uint64_t restarts = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    ExposureClock clock;
+    for (const virtual_wiimote::FrameTime& report : simulate(link, 9.0, seed).reports) {
+      const double time = report.exposure - link.phase;
+      const Estimate estimate = clock.update(report.arrival);
+      if (time > 3.0 && time < 5.0)
+        clock.update(report.arrival + 0.003);
+      if (time > 6.5) {
+        EXPECT_LT(std::abs(estimate.exposure - report.exposure - link.delay), 0.5e-3) << seed;
+      }
+    }
+    restarts += clock.statistics().restarts;
+  }
+  EXPECT_GT(restarts, 0u);
+}
+
 TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
   ExposureClock clock;
   const Estimate first = clock.update(1234.5);

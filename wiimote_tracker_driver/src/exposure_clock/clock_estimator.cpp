@@ -163,6 +163,7 @@ Estimate ClockEstimator::update(double arrival, bool waited) {
   if (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain) {
     filters_ = makeBank(period_);
     counter_ = FrameCounter();  // losses that were learned from such reports are wrong
+    sample_count_ = 0.0;        // and stalls; no spread is known
     Estimate e = restart(arrival, frame_ + 1);
     e.restarted = true;
     return e;

@@ -147,6 +147,18 @@ TEST_F(WiimoteTest, OfAQueueThatNeverEmptiesImagesAreKnownToHaveWaitedAndThenDro
   EXPECT_FALSE(wiimote_.imageWaited());
 }
 
+TEST_F(WiimoteTest, AClockEpochBeginsWithAnImageThatDidNotWait) {
+  bool image = false;
+  for (int i = 0; i < 30 && !image; ++i) {
+    remote_.now += 0.02;
+    image = wiimote_.step(0.0).has_value();
+  }
+  EXPECT_GT(remote_.sent, 0u);
+  EXPECT_FALSE(image);
+  EXPECT_GT(run(0.5), 40);
+  EXPECT_FALSE(wiimote_.imageWaited());
+}
+
 // The process is stopped while it waits for a report, as by a busy computer.
 class Oversleeping : public FakeTransport {
  public:

@@ -87,13 +87,15 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
   std::optional<DataReport> image;
   if (received)
     image = session_->handle(report, now);
-  if (backlog_)
-    image.reset();
   // At the end of a stall what the session waits for may wait behind this report.
   if (!received || wait > 0.0)
     session_->tick(now);
   if (session_->takeRestart())
     beginEpoch();
+  // The exposure clock takes the time of an epoch's first image for its arrival.
+  const bool first = new_epoch_ || !had_image_;
+  if (backlog_ || (waited_ && first))
+    image.reset();
   if (image) {
     had_image_ = true;
     delivered_ = true;

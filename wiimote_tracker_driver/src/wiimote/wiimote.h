@@ -48,7 +48,7 @@ class Wiimote {
   /// text. @returns the image, if the report completes one. When reports have waited for more than
   /// 0.6 s, because the caller did not read or reads too slowly, images are dropped until none
   /// waits: the kernel keeps the oldest 63 reports, so these are of an unknown time before those
-  /// that were lost.
+  /// that were lost. A clock epoch begins with an image that did not wait.
   std::optional<protocol::DataReport> step(double max_wait);
 
   /// Whether the image that step() returned last may have waited for more than 2 ms, so that the

@@ -108,12 +108,11 @@ def test_parameters_that_nobody_reads_are_told(programs, tmp_path):
 
 # A tracker, for a replay: no recording has this topic.
 STATUS = """
-import rospy, time
+import rospy
 from wiimote_tracker_msgs.msg import CalibrationStatus
 rospy.init_node('calibration')
 publisher = rospy.Publisher('calibration/status', CalibrationStatus, queue_size=1)
-while not rospy.is_shutdown():
-    time.sleep(0.1)
+rospy.spin()
 """
 
 

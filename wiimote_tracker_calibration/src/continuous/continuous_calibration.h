@@ -27,10 +27,9 @@ struct Options {
   recalibrate::Options recalibrate;
 };
 
-/// Corrects a rig from ordinary tracking. One or two cameras that no longer fit the
-/// others are solved against them; when all fit nearly, they are adjusted together. A deterministic
-/// function of the images and readings. A change must also explain later images than those it was
-/// solved from.
+/// Corrects a rig from ordinary tracking. One or two cameras that no longer fit the others are
+/// solved against them; when all fit nearly, they are adjusted together. A change must also explain
+/// later images than those it was solved from. A deterministic function of the images and readings.
 class ContinuousCalibration {
  public:
   ContinuousCalibration(const geometry::Rig& rig, const Options& options);

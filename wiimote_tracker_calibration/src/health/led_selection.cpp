@@ -7,21 +7,24 @@ namespace wiimote_tracker::health {
 
 namespace {
 
-// Several lights shine from so many successive images of a camera with several spots on, and for
-// this long after: false detections do not come in a row.
+// Several LEDs are assumed when one camera gives so many successive images with several spots, and
+// until none has done so for this long. False detections seldom follow each other.
 constexpr int kSeveralInARow = 10;
 constexpr double kSeveral = 5.0;  // [s]
-// An LED is followed for so long, so that all cameras get their turn where not all see it [s]; it
-// is left sooner if more cameras show another one for this long, as when it rests or is hidden [s].
+// After this time another LED may be followed although fewer cameras show it, so that all cameras
+// are judged in the end [s].
 constexpr double kLongestFollowed = 20.0;
+// Another LED is followed when more cameras have shown it for this time, as when the present one
+// rests or is hidden [s].
 constexpr double kHesitation = 0.6;
-constexpr double kLeastSpeed = 0.1;  // [m/s]
-constexpr double kRecently = 0.1;    // [s]
-// Two lights that are nearer to each other may be one spot, as in tracking/tracker_options.h [px].
+constexpr double kLeastSpeed = 0.1;  // Of an LED that moves [m/s].
+constexpr double kRecently = 0.1;    // A camera shows an LED if it did so within this time [s].
+// Two LEDs that are nearer to each other may be one spot, as in tracking/tracker_options.h [px].
 constexpr double kMerged = 24.0;
-// Another spot is farther from where the LED should be than twice as far as its own, by this [px].
+// A spot is ambiguous if another one is nearer to the predicted pixel than twice its own distance
+// plus this [px].
 constexpr double kClearance = 6.0;
-// Positions are extrapolated from the tracker's newest image [s].
+// LEDs are extrapolated from the tracker's newest image by at most this [s].
 constexpr double kLongestWay = 0.05;
 
 }  // namespace
@@ -65,8 +68,8 @@ const capture::Image& LedSelection::select(const capture::Image& image) {
   }
   follow(leds, time);
   useTurnOf(index, time);
-  // An image of a camera that was just turned would lead tracks astray; if only its clock is wrong,
-  // the tracker corrects that.
+  // The tracker gets no image of a camera that was just turned, since it would move the tracks. A
+  // camera with an unknown clock is not left out: the tracker estimates its clock.
   if (!time_offset || !matches.isAstray())
     track(index, image);
   return selected_;
@@ -79,8 +82,8 @@ bool LedSelection::noteSeveral(const capture::Image& image, Camera* camera) {
   return std::abs(image.stamp - last_several_) < kSeveral;
 }
 
-/// Tracks go on with the camera as it seems to stand now. Two at least must stand where they were
-/// calibrated; else the tracks are wrong.
+/// Gives the tracker the camera's estimated orientation. If fewer than two cameras are where they
+/// were calibrated, the tracks are wrong, and all begins anew.
 void LedSelection::useTurnOf(std::size_t camera, double time) {
   geometry::Camera& tracked = tracked_rig_.cameras[camera].camera;
   const Eigen::Matrix3d now = cameras_[camera].turned.orientation();
@@ -102,8 +105,8 @@ void LedSelection::forget(double time) {
   startAnew(true, time);
 }
 
-/// Another tracker, whose ids are its own, or none. Without spots for a while, the next one is not
-/// joined to one before.
+/// Replaces the tracker, or removes it. No spots are shown for kLongestGap, so that nobody
+/// interpolates between two LEDs. A new tracker counts its ids from the beginning.
 void LedSelection::startAnew(bool are_several, double time) {
   tracker_.reset();
   if (are_several)
@@ -147,7 +150,7 @@ std::vector<tracking::TrackedLed> LedSelection::trackedAt(double time) const {
   return tracked;
 }
 
-/// Cameras that show an LED clearly, while it moves.
+/// How many cameras show an LED unambiguously; 0 while it rests.
 std::size_t LedSelection::worthOf(const tracking::TrackedLed& led, double time) const {
   if (led.velocity->norm() < kLeastSpeed)
     return 0;
@@ -158,10 +161,10 @@ std::size_t LedSelection::worthOf(const tracking::TrackedLed& led, double time) 
       }));
 }
 
-/// Goes on to the LED that most cameras show, if the one that is followed no longer is, or had its
-/// turn.
+/// Changes to the LED that most cameras show, if the present one has not been that one for
+/// kHesitation, or was followed for kLongestFollowed.
 void LedSelection::follow(const std::vector<tracking::TrackedLed>& leds, double time) {
-  std::size_t worth = 0;  // Of the one that is followed.
+  std::size_t worth = 0;  // Cameras that show the one that is followed.
   const tracking::TrackedLed* best = nullptr;
   std::size_t most = 0;
   for (const tracking::TrackedLed& led : leds) {
@@ -184,7 +187,7 @@ void LedSelection::follow(const std::vector<tracking::TrackedLed>& leds, double 
   followed_since_ = last_best_ = time;
 }
 
-/// The spot of an LED, unless it may be merged with, or taken for, another one's.
+/// The spot of an LED, unless it may be that of another one, or of both.
 std::optional<Eigen::Vector2d> LedSelection::clearSpot(const TurnedCamera& camera,
                                                        const std::vector<Eigen::Vector3d>& places,
                                                        std::size_t led,

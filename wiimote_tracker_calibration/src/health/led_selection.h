@@ -20,13 +20,12 @@
 
 namespace wiimote_tracker::health {
 
-/// Follows one LED while several are seen: of the spots of each image it leaves that of this LED,
-/// or none where it is not certain. A tracker tells where the LEDs are, with cameras as they seem
-/// to stand now (TurnedCamera). Of LEDs that move it follows the one that most cameras show;
-/// between two of them it shows none for a while. An image that comes over 50 ms later than newer
-/// ones of other cameras shows none. While no camera sees several lights, images stay as they are,
-/// as do those of a rig with RayModel::kImageCenter, which is not judged. A deterministic function
-/// of the images.
+/// Follows one LED while several are seen. Each image keeps the spot of this LED, or none where the
+/// spot is ambiguous. A tracker locates the LEDs, with the estimated orientations of the cameras
+/// (TurnedCamera). The moving LED that most cameras show is followed; between two LEDs images keep
+/// no spot for a while. An image over 50 ms older than the newest keeps none. While no camera sees
+/// several LEDs, images are unchanged, as are those of a rig with RayModel::kImageCenter, which is
+/// not judged. A deterministic function of the images.
 class LedSelection {
  public:
   explicit LedSelection(const geometry::Rig& rig);
@@ -38,7 +37,7 @@ class LedSelection {
  private:
   struct Camera {
     TurnedCamera turned;
-    int several_in_a_row = 0;                 // Images with several spots.
+    int several_in_a_row = 0;                 // Successive images with several spots.
     std::map<std::uint32_t, double> shown{};  // When it last showed LEDs clearly, by their ids [s].
   };
 
@@ -58,16 +57,17 @@ class LedSelection {
                                                   const capture::Blobs& spots);
 
   geometry::Rig rig_;
-  geometry::Rig tracked_rig_;    // With the cameras as they seem to stand now.
+  geometry::Rig tracked_rig_;    // With the estimated orientations.
   std::vector<Camera> cameras_;  // Of the rig.
   double last_several_ = -std::numeric_limits<double>::infinity();  // [s]
-  std::unique_ptr<tracking::Tracker> tracker_;  // Null while there is one light.
-  double time_ = 0.0;                           // Of these [s].
+  std::unique_ptr<tracking::Tracker> tracker_;                      // Null while there is one LED.
+  double time_ = 0.0;                                               // Of leds_ [s].
   std::vector<tracking::TrackedLed> leds_;
   std::optional<std::uint32_t> followed_;
   double followed_since_ = 0.0;  // [s]
   double last_best_ = 0.0;       // No other one was shown by more cameras [s].
-  double silence_ = -std::numeric_limits<double>::infinity();  // Its middle [s].
+  // Images within kLongestGap of this time keep no spot [s].
+  double silence_ = -std::numeric_limits<double>::infinity();
   capture::Image selected_;
 };
 

@@ -13,27 +13,26 @@ namespace wiimote_tracker::health {
 
 namespace {
 
-// A spot is an LED's if it is as near to where that should be: errors of the calibration, of the
-// clock, and of a turn that is known from where the LEDs were a second ago [px].
+// Gate between a spot and the predicted pixel of its LED. It holds errors of the calibration, of
+// the clock, and of a turn that was estimated up to 2 s ago [px].
 constexpr double kGate = 12.0;
-constexpr double kEdge = 8.0;      // Where a spot may be cut off [px].
-constexpr double kMargin = 200.0;  // An LED as far outside the image may be in view of a turned
-                                   // camera [px].
-// Samples of moving LEDs, and how many tell a turn.
-constexpr double kPeriod = 0.1;      // [s]
-constexpr double kMemory = 2.0;      // [s]
-constexpr double kLeastStep = 0.02;  // From one to the next [m].
-constexpr std::size_t kLeast = 12;
+constexpr double kEdge = 8.0;  // A spot so near to the edge of the image may be cut off [px].
+// An LED predicted so far outside the image may be seen if the camera was turned [px].
+constexpr double kMargin = 200.0;
+constexpr double kPeriod = 0.1;         // Between samples [s].
+constexpr double kMemory = 2.0;         // Older samples are dropped [s].
+constexpr double kLeastStep = 0.02;     // An LED moves from one sample to the next [m].
+constexpr std::size_t kLeast = 12;      // Samples, and pairs, that determine a turn.
 constexpr double kJudgedEvery = 0.5;    // From one judgement to the next [s].
-constexpr double kContradictory = 0.2;  // Share of them after which it may have been turned.
-// A turn must explain this share of what can be matched, and any other pairs no more than this
-// share of what it explains. Two LEDs taken for each other explain half.
+constexpr double kContradictory = 0.2;  // Share of the samples above which a turn is looked for.
+// A turn must explain this share of the possible pairs. The best turn for the other pairs may
+// explain at most this share of what it explains. Where two LEDs are exchanged, half is explained.
 constexpr double kExplained = 0.6;
 constexpr double kRival = 0.8;
 // Turns about the optical axis that are tried [rad]; in between, spots are off by up to kGate.
 constexpr std::array<double, 5> kRolls = {0.0, -0.035, 0.035, -0.07, 0.07};
 constexpr int kSteps = 3;
-constexpr double kLeastTurn = 0.002;  // Smaller ones are within kGate [rad].
+constexpr double kLeastTurn = 0.002;  // A smaller turn stays within kGate [rad].
 
 geometry::Camera turned(geometry::Camera camera, const Eigen::Matrix3d& turn) {
   camera.world_from_camera.linear() = camera.world_from_camera.linear() * turn;
@@ -79,7 +78,7 @@ bool TurnedCamera::hasMoved(const std::vector<Eigen::Vector3d>& leds) const {
                      });
 }
 
-/// An LED and a spot that are nearest to each other match.
+/// An LED and a spot match if each is the other's nearest one, within kGate.
 LedMatches TurnedCamera::matchesOf(const geometry::Camera& camera,
                                    const std::vector<Eigen::Vector3d>& leds,
                                    const capture::Blobs& spots) const {
@@ -119,7 +118,7 @@ LedMatches TurnedCamera::matchesOf(const geometry::Camera& camera,
   return matches;
 }
 
-/// Of all turns takes the one with which the spots are where the LEDs are, if there is only one.
+/// Takes the turn that explains most pairs, unless another one explains nearly as many.
 void TurnedCamera::judge() {
   const std::vector<Pair> pairs = allPairs();
   std::vector<Pair> explained = agreeing(pairs);
@@ -171,7 +170,8 @@ std::vector<TurnedCamera::Pair> TurnedCamera::allPairs() const {
   return pairs;
 }
 
-/// Most pairs whose spots are off by about the same, after a turn about the optical axis.
+/// The largest set of pairs with about the same offset between spot and predicted pixel, for any
+/// of kRolls.
 std::vector<TurnedCamera::Pair> TurnedCamera::agreeing(const std::vector<Pair>& pairs) const {
   std::vector<Pair> best;
   for (const double roll : kRolls) {

@@ -23,22 +23,22 @@ struct LedMatches {
   std::size_t unmatched = 0;  ///< Spots.
   std::size_t visible = 0;    ///< LEDs that the camera should see.
 
-  /// Whether spots are where no LED is, and none where LEDs are: the camera was turned, or it sees
-  /// other lights. An LED that is hidden, and a false detection, each leave it false.
+  /// Whether LEDs have no spots while spots have no LEDs: the camera was turned, or it sees other
+  /// lights. A hidden LED alone, or a false detection alone, leaves it false.
   bool isContradictory() const { return missing > 0 && unmatched > 0; }
 
-  /// The same of most LEDs.
+  /// Whether that holds for most LEDs.
   bool isAstray() const { return missing > matched && unmatched > 0; }
 };
 
-/// A camera of a rig that may have been turned: as it seems to stand now, by several LEDs that the
-/// others see. To tell which spot is which LED, not to measure.
+/// Estimates the orientation of a camera that may have been turned, from several LEDs that the
+/// other cameras see. It is good enough to tell which spot is which LED, not to calibrate.
 class TurnedCamera {
  public:
   TurnedCamera(const geometry::Rig& rig, const geometry::RigCamera& camera);
 
   /// One image. @param leds where LEDs were then, world [m], in the same order each time.
-  /// @returns its matches, with the camera as it seems to stand now.
+  /// @returns its matches by the orientation estimated now.
   LedMatches add(double time,
                  const std::vector<Eigen::Vector3d>& leds,
                  const capture::Blobs& spots);

@@ -163,7 +163,7 @@ Estimate ClockEstimator::update(double arrival, bool waited) {
   if (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain) {
     filters_ = makeBank(period_);
     counter_ = FrameCounter();  // losses that were learned from such reports are wrong
-    sample_count_ = 0.0;        // and stalls; no spread is known
+    sample_count_ = 0.0;        // so are the stalls, and the filters know no spread yet
     Estimate e = restart(arrival, frame_ + 1);
     e.restarted = true;
     return e;
@@ -202,7 +202,8 @@ ClockEstimator::ArrivalDensity ClockEstimator::arrivalDensity(const ClockFilter&
   const double stall_rate = stall_probability_ / stall_time_;  // over the mean length [1/s]
   ArrivalDensity density;
   density.late = arrival.time - filter.time() - offset * filter.period();
-  if (arrival.waited) {  // that says only that the frame was ready before; the factor has no effect
+  // It says only that the frame was ready before; the constant factor cancels.
+  if (arrival.waited) {
     density.on_time = density.stalled = 0.0;
     density.queued = filter.readyBefore(frame, arrival.time) / period_;
     return density;
@@ -337,7 +338,7 @@ Estimate ClockEstimator::estimate(double arrival) {
   }
   for (std::size_t m = 0; m < kModels; ++m)
     variance += weights_[m] * (filters_[m].timeVariance() + std::pow(filters_[m].time() - time, 2));
-  // A bell that is an edge is that far from it.
+  // If delays taken for a bell have a sharp edge, the exposures are off by so much.
   if (sample_count_ < kReportsForSpread)
     variance += (1.0 - statistics().hard_edge) * std::pow(kTypicalBellSpread, 2);
 

@@ -78,8 +78,8 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
     received = wait > 0.0 && transport_->read(report, wait);
   }
   const double now = clock_();
-  const double age = now - none_waited_;  // of the report, at most
-  // A read that took longer than `wait` was held up itself, perhaps behind the report's arrival.
+  const double age = now - none_waited_;  // the report is at most so old
+  // If the read took longer than `wait`, the process was stopped, and the report may be older.
   waited_ = age > (found ? 0.0 : wait) + kPrompt;
   backlog_ = received && (backlog_ || age > std::max(kBufferedTime, 2.0 * wait));
   if (!found && !waited_)

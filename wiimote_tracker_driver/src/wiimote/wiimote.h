@@ -103,8 +103,8 @@ class Wiimote {
   Link link_;
   std::uint64_t link_changes_ = 0;
   protocol::AccelerometerCalibration accelerometer_;
-  double none_waited_ = 0.0;  ///< [s] When no report waited the last time.
-  bool waited_ = false;       ///< The latest report.
+  double none_waited_ = 0.0;  ///< When the queue of reports was last empty [s].
+  bool waited_ = false;       ///< The latest report may have waited to be read.
   bool backlog_ = false;      ///< Reports have waited for too long.
   bool had_image_ = false;    ///< Since the start, from any remote.
   bool delivered_ = false;    ///< Images have come from the remote that was opened last.

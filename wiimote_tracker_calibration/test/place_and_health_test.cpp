@@ -1,5 +1,6 @@
 // The services and the watch that need a calibrated rig, with cameras that this test plays: the
-// rig that is loaded is not always the true one.
+// rig that is loaded is not always the true one. More than 400 lines, because all of them need the
+// same calibrated node.
 
 #include "calibrated_node.h"
 

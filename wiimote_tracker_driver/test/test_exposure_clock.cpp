@@ -1,3 +1,5 @@
+// The clock's stamps and stated deviations against simulated links. More than 400 lines, because
+// all its properties are tested with the same simulated sessions.
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
 #include "allocation_counter.h"

@@ -134,7 +134,8 @@ class Consumers(LiveRigTest):
                           ('wiimote_tracker_msgs', 'check_arguments')])
         groups = {key.split('/')[-2]: value for key, value in parameters.items()
                   if key.endswith('/regex')}
-        self.assertEqual(set(groups), {'cameras', 'calibration', 'tracker', 'network'})
+        self.assertEqual(set(groups), {'cameras', 'calibration', 'tracker', 'network',
+                                       'recording'})
 
         def groups_of(name):  # GenericAnalyzer: the whole name matches
             return [group for group, regex in groups.items() if re.fullmatch(regex, name)]
@@ -154,6 +155,7 @@ class Consumers(LiveRigTest):
         for name, group in expected.items():
             own = 'room/' + name.replace('manager: ', 'triangulation: ')
             self.assertEqual(groups_of(own), [group])
+        self.assertEqual(groups_of('room/record_watch_lab_7: recording'), ['recording'])
         # Nodes that wait since their parameters were refused.
         for node, group in [('calibration', 'calibration'), ('wiimote_1/driver', 'cameras'),
                             ('triangulation', 'tracker')]:

@@ -10,13 +10,13 @@ import pytest
 from wiimote_tracker_bringup import nodes
 
 PACKAGE = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..')
-NODES = ('launch/drivers', 'launch/master_watch', 'simulation/simulated_hand',
-         'rig_planning/place_cameras', 'body_motion/probe')
+NODES = ('launch/drivers', 'launch/master_watch', 'launch/record_watch',
+         'simulation/simulated_hand', 'rig_planning/place_cameras', 'body_motion/probe')
 NOWHERE = 'http://localhost:1'
 
 
 @pytest.mark.parametrize('program, words', zip(NODES, (
-    '(default: 10)', 'no parameters', '[m]', 'needed', '[s] (default: 10)')))
+    '(default: 10)', 'no parameters', 'no parameters', '[m]', 'needed', '[s] (default: 10)')))
 def test_help_tells_the_parameters(program, words):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program), '__name:=other',
                            '--help'], capture_output=True, text=True, timeout=60,

@@ -32,10 +32,18 @@ def test_systemd_understands_the_unit(tmp_path):
 
 
 def test_the_launch_file_has_the_arguments_of_the_unit():
-    words = shlex.split(values_of('ExecStart')[0])
-    known = roslaunch.arg_dump.get_args([os.path.join(BRINGUP, 'launch', 'tracker.launch')])
-    given = [word.split(':=')[0] for word in words if ':=' in word]
-    assert 'tracker.launch' in words and given == ['cameras'] and set(given) <= set(known)
+    launched, = [word for value in values_of('Environment') for word in shlex.split(value)
+                 if word.startswith('LAUNCH=')]
+    _, file, *given = launched.partition('=')[2].split()
+    known = roslaunch.arg_dump.get_args([os.path.join(BRINGUP, 'launch', file)])
+    assert {word.split(':=')[0] for word in given} == {'cameras'} <= set(known)
+    assert '$LAUNCH $ARGUMENTS' in values_of('ExecStart')[0]
+
+
+def test_each_user_may_have_variables_of_the_own():
+    """The later file wins, as where a second user needs another ROS_MASTER_URI."""
+    assert values_of('EnvironmentFile') == ['-/etc/default/wiimote-tracker',
+                                            '-/etc/default/wiimote-tracker-%i']
 
 
 def test_relative_paths_begin_in_the_home_folder(tmp_path):

@@ -39,6 +39,14 @@ def read_file(path, loader=UniqueKeys):
     return content if isinstance(content, dict) else {}
 
 
+def rig_format():
+    """Format and version of the rig files that this version writes: those of the example."""
+    import rospkg
+    example = read_file(os.path.join(
+        rospkg.RosPack().get_path('wiimote_tracker_triangulation'), 'doc', 'rig.yaml'))
+    return {key: example[key] for key in ('format', 'version')}
+
+
 def is_of_rig(camera):
     """Whether it is a camera of a rig file or description, which have keys of their own."""
     return isinstance(camera, dict) and bool(RIG_KEYS & set(camera))

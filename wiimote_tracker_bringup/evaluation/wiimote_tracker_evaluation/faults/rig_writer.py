@@ -1,5 +1,6 @@
 """Writes rig.yaml from a RigCalibration, independent of the tracker's own writer."""
 
+from wiimote_tracker_bringup.cameras_file import rig_format
 from wiimote_tracker_bringup.files import write_yaml
 
 PLANE = ('x', 'y', 'z')
@@ -8,7 +9,7 @@ PLANE = ('x', 'y', 'z')
 def write_rig(path, rig):
     """rig: RigCalibration without covariance, as true_rig() makes it."""
     content = {
-        'format': 'wiimote_tracker_rig', 'version': 1, 'world_frame': rig.header.frame_id,
+        **rig_format(), 'world_frame': rig.header.frame_id,
         'solved_at': 0.0, 'method': rig.method, 'verdict': '', 'ray_model': 'calibrated',
         'virtual_hfov': float('nan'), 'square_sides': [], 'led_height': float('nan'),
         'camera_order': [camera.name for camera in rig.cameras],

@@ -98,7 +98,7 @@ def test_a_file_of_parameters_wins_over_those_of_the_coverage(load, tmp_path):
 def test_a_file_of_parameters_wins_over_those_of_robot_localization(load, monkeypatch, tmp_path):
     (tmp_path / 'my robot.yaml').write_text(
         'ekf_odom: {frequency: 50}\nekf_map: {frequency: 20, process_noise_covariance: [0.1]}\n')
-    monkeypatch.setenv('PWD', str(tmp_path))
+    monkeypatch.chdir(tmp_path)
     before = load('robot_localization.launch')[1]
     after = load('robot_localization.launch', 'parameters:=my robot.yaml')[1]
     changed = {'/ekf_odom/frequency': 50, '/ekf_map/frequency': 20,
@@ -109,7 +109,7 @@ def test_a_file_of_parameters_wins_over_those_of_robot_localization(load, monkey
 
 def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):
     (tmp_path / 'my lab.yaml').write_text('triangulation: {mode: instant}\n')
-    monkeypatch.setenv('PWD', str(tmp_path))
+    monkeypatch.chdir(tmp_path)
     parameters = load('tracker.launch', 'parameters:=my lab.yaml')[1]
     assert parameters['/triangulation/mode'] == 'instant'
 
@@ -145,6 +145,15 @@ def test_relative_paths_begin_where_the_user_is(load, name, argument, parameter)
     for given, found in (('my file', '/home/my lab/my file'), ('5', '/home/my lab/5'),
                          ('places/', '/home/my lab/places/'), ('/etc/a.yaml', '/etc/a.yaml')):
         assert load(*name.split(), argument + ':=' + given)[1][parameter] == found
+
+
+def test_without_the_folder_of_the_user_relative_paths_are_refused(load, monkeypatch):
+    """As in a unit of systemd: nodes would take them for paths in ~/.ros."""
+    monkeypatch.delenv('PWD')
+    with pytest.raises(roslaunch.core.RLException, match="'PWD' is not set"):
+        load('tracker.launch', 'rig_file:=rig.yaml')
+    found = load('tracker.launch', 'rig_file:=/etc/rig.yaml')[1]['/calibration/rig_file']
+    assert found == '/etc/rig.yaml'
 
 
 @pytest.mark.parametrize('given, found', [

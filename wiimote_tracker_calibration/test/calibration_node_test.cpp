@@ -396,6 +396,15 @@ TEST_F(Node, CamerasOfATrackerInANamespaceBelowAreNotItsOwn) {
   EXPECT_EQ(status_->get()->cameras.size(), 4u);
 }
 
+TEST_F(Node, ItLeavesCamerasToATrackerThatIsStartedAfterTheirDrivers) {
+  ros::Publisher camera =
+      ros::NodeHandle().advertise<wiimote_tracker_msgs::IrBlobArray>("/third/camera_8/ir_blobs", 1);
+  ASSERT_TRUE(waitUntil([] { return status_->get()->cameras.size() == 5; }));
+  const Process process("/third", {"_rig_file:=" + folder_ + "/none.yaml"});
+  EXPECT_TRUE(waitUntil([] { return status_->get()->cameras.size() == 4; }));
+  camera.shutdown();  // before the other tracker, else it would be found again
+}
+
 TEST_F(Node, WithARigInUseTheConnectionCheckBeginsTheWalk) {
   ASSERT_FALSE(status_->get()->rig_id.empty());  // from a test before
   EXPECT_TRUE(waitUntil([] {

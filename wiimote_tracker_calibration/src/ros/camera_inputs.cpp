@@ -4,6 +4,7 @@
 #include <tf2_eigen/tf2_eigen.h>
 #include <wiimote_tracker_msgs/camera_topics.h>
 
+#include <set>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -77,9 +78,19 @@ void CameraInputs::discover() {
   std::map<std::string, std::string> types;
   for (const ros::master::TopicInfo& topic : topics)
     types[topic.name] = topic.datatype;
-  for (const std::string& camera : camerasBelow(nh_.getNamespace(), types)) {
+  const std::set<std::string> found = camerasBelow(nh_.getNamespace(), types);
+  for (const std::string& camera : found) {
     if (camera != ignored_)
       watch(camera);
+  }
+  std::vector<std::string> watched;
+  {
+    const std::lock_guard<std::mutex> lock(*mutex_);
+    watched = names();
+  }
+  for (const std::string& camera : watched) {
+    if (found.count(camera) == 0 && types.count(nh_.resolveName(camera + "/ir_blobs")) > 0)
+      forget(camera);
   }
 }
 
@@ -91,16 +102,26 @@ void CameraInputs::watch(const std::string& name) {
   }
   const std::lock_guard<std::mutex> lock(subscribers_mutex_);
   // Capturing needs every image: the queue holds one second of them.
-  subscribers_.push_back(nh_.subscribe<wiimote_tracker_msgs::IrBlobArray>(
+  std::vector<ros::Subscriber>& subscribers = subscribers_[name];
+  subscribers.push_back(nh_.subscribe<wiimote_tracker_msgs::IrBlobArray>(
       name + "/ir_blobs", 100,
       [this, name](const wiimote_tracker_msgs::IrBlobArrayConstPtr& message) {
         runCallback("an image of " + name, [&] { onBlobs(name, *message); });
       },
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay()));
-  subscribers_.push_back(nh_.subscribe<sensor_msgs::Imu>(
+  subscribers.push_back(nh_.subscribe<sensor_msgs::Imu>(
       name + "/imu/data_raw", 100, [this, name](const sensor_msgs::ImuConstPtr& message) {
         runCallback("the accelerometer of " + name, [&] { onImu(name, *message); });
       }));
+}
+
+void CameraInputs::forget(const std::string& name) {
+  {
+    const std::lock_guard<std::mutex> lock(subscribers_mutex_);
+    subscribers_.erase(name);  // waits for its callbacks, which lock the other mutex
+  }
+  const std::lock_guard<std::mutex> lock(*mutex_);
+  cameras_.erase(name);
 }
 
 std::vector<std::string> CameraInputs::names() const {
@@ -142,7 +163,10 @@ void CameraInputs::onBlobs(const std::string& name,
     camera.optical_frame = message.header.frame_id;
     capture::applyMasks(masks_, &image);
     order_.add(std::move(image), [this, &lock](const capture::Image& next) {
-      cameras_[next.camera].monitor.add(next.stamp, next.spots, ros::Time::now().toSec());
+      const auto from = cameras_.find(next.camera);
+      if (from == cameras_.end())
+        return;  // forgotten while the image waited
+      from->second.monitor.add(next.stamp, next.spots, ros::Time::now().toSec());
       for (const OnImage& call : on_image_)
         call(next, lock);
       if (watching_image_)

@@ -92,7 +92,8 @@ class CameraInputs {
   void start();
   void stop();
 
-  /// Looks for cameras that have appeared. Locks the mutex.
+  /// Looks for cameras that have appeared, and leaves those whose own tracker was started later
+  /// than their driver to it. Locks the mutex.
   void discover();
 
   /// Lock the mutex while you use it.
@@ -116,6 +117,7 @@ class CameraInputs {
 
  private:
   void watch(const std::string& name);
+  void forget(const std::string& name);
   void onBlobs(const std::string& name, const wiimote_tracker_msgs::IrBlobArray& message);
   void onImu(const std::string& name, const sensor_msgs::Imu& message);
 
@@ -137,7 +139,7 @@ class CameraInputs {
   ros::CallbackQueue queue_;
   ros::AsyncSpinner spinner_;
   std::mutex subscribers_mutex_;
-  std::vector<ros::Subscriber> subscribers_;
+  std::map<std::string, std::vector<ros::Subscriber>> subscribers_;  // by the camera
   ros::WallTimer timer_;
 };
 

@@ -321,6 +321,18 @@ TEST_F(DiagnosticsTest, NoImageIsMissedRightAfterTheStreamBegan) {
   EXPECT_EQ("streaming", describe().message);
 }
 
+TEST_F(DiagnosticsTest, ARemoteThatDropsOutOftenIsNotOnlyStreaming) {
+  state_.stream.returns = 1;
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, describe().level);
+  state_.stream.returns = 3;
+  const auto status = describe();
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, status.level);
+  EXPECT_EQ(
+      "the images stopped 3 times in ten minutes: bring the remote nearer to its Bluetooth "
+      "adapter, or change its batteries",
+      status.message);
+}
+
 TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
   const auto says = [&](const std::string& text) {
     const auto status = describe();

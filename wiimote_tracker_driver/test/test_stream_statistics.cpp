@@ -48,6 +48,20 @@ TEST(StreamStatistics, TheRateCountsFromTheBeginningOfTheStream) {
   EXPECT_TRUE(statistics.take(7.0).has_rate);
 }
 
+TEST(StreamStatistics, ReturnsOfTheStreamAreCountedForTenMinutes) {
+  StreamStatistics statistics(0.0);
+  statistics.begin(1.0);
+  EXPECT_EQ(0, statistics.take(1.0).returns) << "it began for the first time";
+  for (const double begin : {100.0, 101.0, 300.0}) {
+    statistics.add(begin - 5.0);
+    statistics.begin(begin);
+  }
+  EXPECT_EQ(3, statistics.take(300.0).returns);
+  EXPECT_EQ(3, statistics.take(699.0).returns);
+  EXPECT_EQ(1, statistics.take(702.0).returns);
+  EXPECT_EQ(0, statistics.take(901.0).returns);
+}
+
 TEST(StreamStatistics, NothingAtAll) {
   StreamStatistics statistics(1.0);
   const StreamStatistics::Summary summary = statistics.take(1.0);

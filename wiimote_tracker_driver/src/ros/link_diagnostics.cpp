@@ -18,6 +18,10 @@ using wiimote::Link;
 constexpr double kLowRate = 0.8;
 constexpr char kRaiseRate[] =
     ": bring the remote nearer to its Bluetooth adapter, or give the adapter fewer remotes";
+// Within StreamStatistics::kMemory; once may be a person's doing.
+constexpr int kManyReturns = 2;
+constexpr char kKeepLink[] =
+    ": bring the remote nearer to its Bluetooth adapter, or change its batteries";
 // Largest standard deviation of an exposure clock that counts as in step, in periods.
 constexpr double kInStep = 0.3;
 
@@ -127,6 +131,9 @@ void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatus
   if (state.stream.has_rate && state.stream.rate < kLowRate * image_rate_)
     status.mergeSummaryf(DiagnosticStatus::WARN, "only %.0f images a second%s", state.stream.rate,
                          state.replayed ? "" : kRaiseRate);
+  if (state.stream.returns >= kManyReturns)
+    status.mergeSummaryf(DiagnosticStatus::WARN, "the images stopped %d times in ten minutes%s",
+                         state.stream.returns, state.replayed ? "" : kKeepLink);
   if (!state.shared_with.empty())
     status.mergeSummary(DiagnosticStatus::WARN, state.shared_with);
   if (link.restorations != restorations_)

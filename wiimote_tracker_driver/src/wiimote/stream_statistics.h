@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <deque>
 
 namespace wiimote_tracker::wiimote {
 
@@ -15,11 +16,15 @@ class StreamStatistics {
   /// The rate of a stream that began less than this before take() says little [s].
   static constexpr double kShortest = 0.5;
 
+  /// For so long it is known that the stream began again [s].
+  static constexpr double kMemory = 600.0;
+
   struct Summary {
     double rate = 0.0;         ///< [Hz] Since the stream began, if that was in this window.
     bool has_rate = true;      ///< False: it began less than kShortest ago, and `rate` is too low.
     double longest_gap = 0.0;  ///< [s] Including the time since the last image.
     std::uint64_t gaps = 0;    ///< Since the beginning.
+    int returns = 0;           ///< Streams that began again within kMemory.
   };
 
   /// `now` [s] here and below is any clock that never goes back.
@@ -27,6 +32,8 @@ class StreamStatistics {
 
   /// The stream begins, at first or again.
   void begin(double now) {
+    if (any_image_)
+      returns_.push_back(now);
     window_start_ = now;
     images_ = 0;
     has_begun_ = true;
@@ -53,6 +60,9 @@ class StreamStatistics {
       summary.rate = static_cast<double>(images_) / (summary.has_rate ? duration : kShortest);
     summary.longest_gap = std::max(longest_, now - last_image_);
     summary.gaps = gaps_;
+    while (!returns_.empty() && returns_.front() < now - kMemory)
+      returns_.pop_front();
+    summary.returns = static_cast<int>(returns_.size());
     window_start_ = now;
     images_ = 0;
     has_begun_ = false;
@@ -68,6 +78,7 @@ class StreamStatistics {
   bool has_begun_ = false;  // in this window
   std::uint64_t images_ = 0;
   std::uint64_t gaps_ = 0;
+  std::deque<double> returns_;  // when the stream began again [s]
 };
 
 }  // namespace wiimote_tracker::wiimote

@@ -21,7 +21,7 @@ BundleProblem::BundleProblem(Reconstruction* reconstruction,
   addObservations();
   holdPoses();
   for (std::size_t i = 0; i < (options.one_lens ? 1 : cameras_.size()); ++i)
-    holdOrKnowLens(i);
+    holdLensOrAddPrior(i);
 }
 
 void BundleProblem::addObservations() {
@@ -60,7 +60,7 @@ void BundleProblem::holdPoses() {
   }
 }
 
-void BundleProblem::holdOrKnowLens(std::size_t index) {
+void BundleProblem::holdLensOrAddPrior(std::size_t index) {
   adjust::CameraBlocks& camera = cameras_[index];
   if (!problem_.HasParameterBlock(camera.lens.data()))
     return;

@@ -43,7 +43,7 @@ class BundleProblem {
 
   void addObservations();
   void holdPoses();
-  void holdOrKnowLens(std::size_t index);
+  void holdLensOrAddPrior(std::size_t index);
   ceres::Solver::Options solverOptions();
 
   Reconstruction& reconstruction_;

@@ -14,7 +14,8 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-/// Of so many points. @param by_parameters of the rig: the points' errors
+/// RMS error of points by the rig's covariance [m]. @param by_parameters derivatives of their
+/// coordinates by the rig's parameters, three rows a point
 double rms(const Eigen::MatrixXd& by_parameters, const geometry::Rig& rig, std::size_t points) {
   return std::sqrt((by_parameters * rig.covariance).cwiseProduct(by_parameters).sum() /
                    static_cast<double>(points));

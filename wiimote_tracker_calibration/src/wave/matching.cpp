@@ -112,7 +112,8 @@ void addSightings(const CameraRecording& recording,
   }
 }
 
-/// Per knot interval: whether two cameras or more see an LED there or in the next intervals.
+/// Per knot interval: whether two cameras or more see an LED there or in a neighbouring
+/// interval.
 std::vector<bool> seenBySeveral(const std::vector<Sighting>& sightings,
                                 Eigen::Index led,
                                 Eigen::Index intervals) {

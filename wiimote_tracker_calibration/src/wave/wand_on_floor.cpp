@@ -21,7 +21,7 @@ const char kAgain[] = ", and begin again";
 /// How far the wand may seem to be from what it must be.
 struct Limits {
   double spot;    ///< Error of a spot at rest [px].
-  double length;  ///< Error of its length, as a share of it.
+  double length;  ///< Error of its length, as a share of it [1].
   double tilt;    ///< From level, beyond what is uncertain [rad].
 };
 constexpr Limits kByStart = {9.0, 0.1, 0.1};
@@ -122,6 +122,7 @@ void requireWand(const std::optional<Measured>& wand,
                       kAgain);
 }
 
+/// @param rise sine of the wand's angle from level.
 /// @throws WandMislaid: by the accelerometers the wand was not level.
 void requireLevel(const Recording& recording,
                   const square::Uncertainty& uncertainty,

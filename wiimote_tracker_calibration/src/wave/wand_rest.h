@@ -14,11 +14,11 @@ namespace wiimote_tracker::wave {
 /// Where a camera saw the two LEDs of a wand, distorted [px].
 using WandSpots = std::array<Eigen::Vector2d, 2>;
 
-/// Finds where one camera saw a wand that lay still: two spots, and no other, within 3 px for 2 s,
-/// but for a few images.
+/// Finds where one camera saw a wand that lay still: two spots, and no other, within 3 px for 2 s
+/// and 30 images. Glitches of up to 0.1 s, and images with another number of spots, do not count.
 class WandRest {
  public:
-  /// Frames in the order of their stamps. Those with another number of spots are ignored.
+  /// Frames in the order of their stamps.
   void add(const Frame& frame);
 
   /// Mean spots of the first rest, in any order; nothing until it has lasted long enough.

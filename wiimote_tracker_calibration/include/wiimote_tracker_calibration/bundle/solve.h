@@ -46,8 +46,8 @@ struct Held {
 Reconstruction solve(Reconstruction observed, const Options& options);
 
 /// Bundle adjustment: minimises the reprojection errors of the inliers (Huber loss) over cameras
-/// and points except what is held, and selects the inliers again until they no longer change. If no
-/// positions are held, the first camera keeps its pose.
+/// and points except what is held, and selects the inliers again until they no longer change, at
+/// most 20 times. If no positions are held, the first camera keeps its pose.
 /// @throws BundleError: no point is determined, or the minimisation fails.
 void adjust(Reconstruction* reconstruction, const Options& options, const Held& held);
 

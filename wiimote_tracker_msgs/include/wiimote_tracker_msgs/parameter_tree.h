@@ -57,7 +57,7 @@ class ParameterTree {
     return value.getType() == Value::TypeString ? "the text '" + shown + "'" : shown;
   }
 
-  /// @throws Error: what ought to be a group of the key is a value.
+  /// Sets a text, and makes the groups of its key. @throws Error: one of them is a value.
   void set(const std::string& key, const std::string& value) {
     Value* place = &values_;
     std::istringstream levels(key);

@@ -80,7 +80,7 @@ class BodyFilter {
   const InertialOptions* inertial_;
   std::variant<PoseFilter, InertialFilter> filter_;
   double distrusted_until_ = -std::numeric_limits<double>::infinity();  // the IMU [s]
-  double pause_ = 0.0;                                                  // that ends then [s]
+  double pause_ = 0.0;  // length of the pause that ends then [s]
 };
 
 }  // namespace wiimote_tracker::body

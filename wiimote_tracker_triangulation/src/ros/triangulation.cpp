@@ -153,7 +153,7 @@ void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
     ROS_INFO("Rigid bodies to track: %zu.", bodies.size());
 }
 
-/// The same for an IMU whose body and topic stay.
+/// An IMU whose body and topic stay keeps its subscription, too.
 void Triangulation::subscribeToImus(const std::vector<body::Constellation>& bodies) {
   std::map<std::string, ros::Subscriber> subscribers;
   for (const body::Constellation& body : bodies) {

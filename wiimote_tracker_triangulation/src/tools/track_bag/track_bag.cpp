@@ -57,7 +57,7 @@ class Player {
     }
   }
 
-  /// Where a rig is given, with that one instead of the recorded ones.
+  /// Plays a whole recording. @param own_rig replaces the recorded ones, if there is one.
   /// @param before called with each message before it is played.
   /// @throws BagError: the tracker got no rig or could use no image. Interrupted.
   void play(const Recording& recording,

@@ -12,8 +12,8 @@ LAG = 0.5  # of rotations that tell the axes [s]
 LEAST_TURN = np.radians(3.0)  # RMS about the second axis in LAG, to tell the transform
 GRID = 0.01  # of the search for the offset [s]
 LONGEST_GAP = 0.1  # between two poses to interpolate [s]
-FASTEST = 4.0  # turns of the base, times those of the body; in degrees they are up to 57
-INDEPENDENT = 0.035  # errors of the body's poses are, if so far apart [s]
+MOST_RATIO = 4.0  # of the base's rate of rotation to the body's; 57 if it is in degrees
+INDEPENDENT = 0.035  # between poses of the body whose errors do not depend on each other [s]
 
 
 def start(body, base, largest_offset):
@@ -43,7 +43,7 @@ def start_of_offset(body, base, largest):
         speed = np.linalg.norm(turns(poses, times, lag), axis=1)
         turned.append(speed.mean())
         speeds.append(speed - speed.mean())
-    if turned[1] > FASTEST * turned[0]:
+    if turned[1] > MOST_RATIO * turned[0]:
         raise Refusal(f'the base turns {turned[1] / turned[0]:.0f} times as fast as the '
                       'body: do both topics belong to one robot, and are rates in rad/s?')
     product = np.correlate(*speeds, mode='full')  # at 0: the last of base with the first of body
@@ -70,7 +70,7 @@ def common_part(body, base):
 
 
 def start_of_rotation(body, base):
-    """Throws Refusal if the rotations do not tell the transform."""
+    """Rotation body_from_base. Throws Refusal if the rotations do not tell the transform."""
     end = min(body.times[-1], base.times[-1]) - LAG
     times = body.times[body.times < end]
     times = times[body.covers(times + LAG, LONGEST_GAP)]

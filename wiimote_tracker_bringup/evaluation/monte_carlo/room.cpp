@@ -10,8 +10,8 @@
 namespace wiimote_tracker::monte_carlo {
 namespace {
 
-// Of the LEDs, as reported by the sensor; with a given size the brightness does not depend on
-// distance.
+// Of the LEDs: size as reported by the sensor [0..15], and brightness at 1 m, which with a given
+// size holds at any distance (simulation::Lamp).
 constexpr double kLedSize = 3.0;
 constexpr double kLedBrightness = 1.0;
 // Of all cameras: the middle one of the console's settings.
@@ -86,8 +86,7 @@ void Room::expose(std::size_t number) {
 
 std::vector<RoomImage> record(Room* room, double duration) {
   std::vector<RoomImage> images;
-  // Greatest delay of an image.
-  constexpr double kLatest = 1.0;
+  constexpr double kLatest = 1.0;  // greatest delay of an image [s]
   while (images.empty() || images.back().image.arrival < duration + kLatest)
     images.push_back(room->next());
   images.erase(std::remove_if(images.begin(), images.end(),

@@ -28,7 +28,8 @@ std::string firstMatch(const std::string& pattern) {
   return paths.empty() ? "" : paths.front();
 }
 
-std::string withoutError(const fs::path& path) {
+/// Its first line; empty when it cannot be read.
+std::string firstLineOf(const fs::path& path) {
   std::ifstream file(path);
   std::string line;
   std::getline(file, line);
@@ -89,7 +90,7 @@ std::string ledFileOf(const std::string& address, int led) {
 
 std::string inputNodeOf(const std::string& address, const std::string& name) {
   for (const fs::path path : matches(hidFolderOf(address) / "input/*/name")) {
-    if (withoutError(path) == name) {
+    if (firstLineOf(path) == name) {
       const fs::path node = firstMatch(path.parent_path() / "event*");
       return node.empty() ? "" : "/dev/input/" + node.filename().string();
     }

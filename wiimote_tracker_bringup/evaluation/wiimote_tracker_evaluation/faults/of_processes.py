@@ -11,7 +11,7 @@ IN_ONE = {'one_manager': True}
 
 
 def killed(name, what, node, last=0.0, **how):
-    """kill -9 of a node. last: until the points are judged [s]."""
+    """kill -9 of a node. last: until its end is judged [s]; how: other fields of the Fault."""
     def cause(room):
         room.kill(node)
         yield last

@@ -2,6 +2,7 @@
 
 import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -37,6 +38,12 @@ def test_without_a_master_it_ends_with_what_to_do():
     assert (done.returncode, done.stdout) == (1, '')
     assert done.stderr == ('find_sensitivity: there is no ROS master at http://localhost:1: start '
                            'the driver with roslaunch\n')
+
+
+def test_every_sensitivity_of_the_driver_is_tried():
+    with open(os.path.join(SCRIPTS, '../config/driver.yaml')) as file:
+        names = re.search(r'\[(wii_1, .*), custom\]', file.read()).group(1)
+    assert sorted(program.LEVELS) == sorted(names.split(', '))
 
 
 class FakeCamera:

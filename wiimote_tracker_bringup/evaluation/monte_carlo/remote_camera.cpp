@@ -3,6 +3,8 @@
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <array>
 #include <stdexcept>
 
@@ -19,8 +21,8 @@ RemoteCamera::RemoteCamera(const std::string& sensitivity)
     : device_(std::make_unique<virtual_wiimote::Device>()) {
   const auto setting = protocol::irSensitivity(sensitivity);
   if (!setting)
-    throw std::invalid_argument("there is no sensitivity '" + sensitivity +
-                                "'; wii_1 to wii_5, marcan and max are known");
+    throw std::invalid_argument("there is no sensitivity '" + sensitivity + "': choose one of " +
+                                joined(protocol::irSensitivityNames()));
   for (const protocol::Report& report :
        {protocol::setIrClock(true), protocol::setIrLogic(true),
         writeRegisters(protocol::kIrControlRegister, std::array{protocol::kIrControlSetup}),

@@ -1,5 +1,7 @@
 #include "driver_parameters.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <array>
 #include <cctype>
 #include <cstddef>
@@ -101,9 +103,8 @@ protocol::IrSensitivity sensitivity(const std::string& name,
   if (const auto known = protocol::irSensitivity(name))
     return *known;
   if (name != kCustom)
-    throw std::invalid_argument("'" + name +
-                                "' is not a sensitivity: choose wii_1 to wii_5, marcan, "
-                                "max or custom");
+    throw std::invalid_argument("'" + name + "' is not a sensitivity: choose one of " +
+                                joined(sensitivityNames()));
   if (block1.empty() || block2.empty())
     throw std::invalid_argument(
         "the sensitivity custom needs both of its blocks, such as '07 00 00 71 01 00 72 00 20' and "

@@ -37,6 +37,7 @@ class KnownTerms {
   /// distortion.
   void addLenses(const std::vector<CameraSightings>& sightings);
 
+  /// Not for a wave with a square, against which accelerometers are only checked (wave/checks).
   /// @param up in the world.
   void addGravity(const std::vector<CameraSightings>& sightings, const Eigen::Vector3d& up);
 

@@ -16,10 +16,10 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kPlaceMemory = 10.0;  // [s]
+constexpr double kPlaceMemory = 10.0;  // later an LED may be anywhere [s]
 constexpr double kNear = 0.1;          // error of a place after no time [m]
 constexpr double kLeastSpeed = 0.3;    // of an LED out of sight, per axis [m/s]
-constexpr double kSteady = 2.0;        // for how long it goes on as before [s]
+constexpr double kSameCourse = 2.0;    // for how long it goes on as before [s]
 constexpr double kAnywhere = 0.003;    // density of an LED that was carried off [1/m^3]
 constexpr char kRig[] = "rig:";        // begins a file of places; no label has a colon
 
@@ -39,7 +39,7 @@ double densityAt(const Eigen::Vector3d& position, const LedLabels::Place& place,
   if (age > kPlaceMemory)
     return kAnywhere;
   const double way = (kLeastSpeed + speed / std::sqrt(3.0)) * age;
-  const double variance = kNear * kNear + way * way / (1.0 + age / kSteady);
+  const double variance = kNear * kNear + way * way / (1.0 + age / kSameCourse);
   return kAnywhere + std::exp(-0.5 * (position - place.position).squaredNorm() / variance) /
                          std::pow(2.0 * M_PI * variance, 1.5);
 }

@@ -217,3 +217,25 @@ def test_parameters_without_effect_are_refused(given, complaint):
     with pytest.raises(Refusal, match=complaint):
         drivers.check_parameters(given)
     drivers.check_parameters({'file': 'f', 'driver': {'ir_sensitivity': 'wii_3'}})
+
+
+@pytest.mark.parametrize('is_ended', (True, False))
+def test_drivers_that_are_ended_while_they_start_say_nothing(monkeypatch, is_ended):
+    """Ctrl-C also ends rosversion, which roslaunch runs at its start."""
+    ended = []
+
+    class Launch:
+        def start(self):
+            raise drivers.roslaunch.core.RLException('rosversion returned with code [-2]')
+
+        def stop(self):
+            ended.append(self)
+    monkeypatch.setattr(drivers.nodes, 'start', lambda *_: None)
+    monkeypatch.setattr(drivers.roslaunch.scriptapi, 'ROSLaunch', Launch)
+    monkeypatch.setattr(drivers.rospy, 'is_shutdown', lambda: is_ended)
+    if is_ended:
+        assert drivers.main() == 0
+    else:
+        with pytest.raises(drivers.roslaunch.core.RLException):
+            drivers.main()
+    assert len(ended) == 1

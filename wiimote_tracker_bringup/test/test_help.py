@@ -7,6 +7,7 @@ import subprocess
 import sys
 
 import pytest
+import rospy
 from wiimote_tracker_bringup import nodes
 
 PACKAGE = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..')
@@ -57,6 +58,19 @@ def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
                           capture_output=True, text=True, env=dict(os.environ, PYTHONPATH=path))
     assert (done.returncode, done.stdout, done.stderr) == (-signal.SIGINT, '', '')
+
+
+def test_a_node_that_is_ended_while_it_registers_says_nothing(monkeypatch):
+    def interrupted(_):
+        raise rospy.ROSInitException('init_node interrupted before it could complete')
+    monkeypatch.setattr(sys, 'argv', ['probe'])
+    monkeypatch.setattr(nodes, 'master_problem', lambda _: '')
+    monkeypatch.setattr(rospy, 'init_node', interrupted)
+    with pytest.raises(rospy.ROSInitException):
+        nodes.start('probe', '')
+    monkeypatch.setattr(rospy, 'is_shutdown', lambda: True)
+    with pytest.raises(SystemExit):
+        nodes.start('probe', '')
 
 
 def without(packages, program):

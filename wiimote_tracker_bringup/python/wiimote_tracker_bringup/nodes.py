@@ -32,7 +32,12 @@ def start(name: str, documentation: str, arguments: str = '') -> List[str]:
     problem = master_problem('start roscore or use roslaunch')
     if problem:
         sys.exit(f'{name}: {problem}')
-    rospy.init_node(name)
+    try:
+        rospy.init_node(name)
+    except rospy.ROSInitException:
+        if rospy.is_shutdown():  # Ctrl-C meanwhile
+            sys.exit(1)
+        raise
     return getattr(given, arguments, [])
 
 

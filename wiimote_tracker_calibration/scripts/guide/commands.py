@@ -43,7 +43,7 @@ def number(text: str, what: str) -> float:
     except ValueError:
         value = float('nan')
     if not -1e9 < value < 1e9:
-        raise UsageError(f'{what} must be a number, not "{text}"')
+        raise UsageError(f'{what} must be a number such as 2.5, not "{text}"')
     return value
 
 

@@ -103,7 +103,8 @@ class Terminal:
         elif command is not None:
             self._dialogue.command(sign)
         elif sign.isprintable() and sign:
-            self._dialogue.guide.say(f'there is no key "{sign}"; the last lines list the keys')
+            name = f'key "{sign}"' if sign.isascii() else 'such key'
+            self._dialogue.guide.say(f'there is no {name}; the last lines list the keys')
         return True
 
     def _is_direct(self, command: Command) -> bool:

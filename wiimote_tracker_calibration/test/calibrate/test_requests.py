@@ -65,6 +65,11 @@ def test_words_that_make_no_sense_are_refused_with_what_would(line):
     assert len(str(refusal.value)) > 15
 
 
+def test_a_decimal_comma_is_refused_with_a_number_as_it_must_be():
+    with pytest.raises(commands.UsageError, match='a number such as 2.5, not "2,5"'):
+        commands.find(commands.RIG, 'start').build(None, ['2,5'])
+
+
 @pytest.mark.parametrize('line', ['solve fisheye', 'solve equidistant plumb_bob', 'start 0.1 x',
                                   'start 0.1 0.1 0.1'])
 def test_words_for_a_board_that_make_no_sense_are_refused(line):

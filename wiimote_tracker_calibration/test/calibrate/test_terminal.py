@@ -124,3 +124,9 @@ def test_a_key_without_a_command_is_said():
     dialogue = dialogue_with(FakeNode({}), status(CalibrationStatus.READY))
     Terminal(dialogue, lambda *_: [''] * 24, {})._loop(Window('?'))  # no views, as with --board
     assert 'the last lines list the keys' in dialogue.guide.answer
+
+
+def test_a_key_that_the_screen_cannot_show_is_not_named():
+    dialogue = dialogue_with(FakeNode({}), status(CalibrationStatus.READY))
+    Terminal(dialogue, lambda *_: [''] * 24, {})._loop(Window('\xe4'))
+    assert dialogue.guide.answer.startswith('there is no such key; ')

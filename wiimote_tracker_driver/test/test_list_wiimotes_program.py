@@ -194,6 +194,14 @@ def test_a_pipe_is_no_list(remotes, tmp_path):
         assert path + ' is a pipe, device or socket' in text
 
 
+def test_a_list_that_cannot_be_looked_at_is_refused_with_a_reason(remotes, tmp_path):
+    path = tmp_path / 'cameras.yaml'
+    path.symlink_to(path)
+    status, text = list_wiimotes('--write', str(path), '--virtual', remotes[0].path)
+    assert status == 1
+    assert f'{path} cannot be read (Too many levels of symbolic links): correct the path' in text
+
+
 def test_a_remote_that_is_not_there_is_not_written(tmp_path):
     path = tmp_path / 'cameras.yaml'
     _, text = list_wiimotes('--write', str(path), '--virtual', str(tmp_path / 'nowhere.sock'))

@@ -24,6 +24,9 @@ TEST(BodyParameters, SayThatTheFileOfBodiesDoesNotExist) {
   std::ofstream(file.string()) << "format: wiimote_tracker_bodies\n";
   EXPECT_EQ("", describeMissingFile(file.string()));
   fs::remove(file);
+  fs::create_symlink(file, file);  // whether it exists cannot be told
+  EXPECT_NO_THROW(describeMissingFile(file.string()));
+  fs::remove(file);
 }
 
 TEST(BodyParameters, WarnOnceOfTwoBodiesOfOneShape) {

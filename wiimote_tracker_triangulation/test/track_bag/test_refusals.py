@@ -39,6 +39,8 @@ def test_no_such_file_and_no_bag(tmp_path):
     assert 'name a bag' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
     (tmp_path / 'in.bag').write_text('not a bag')
     assert 'cannot be read as a bag' in refused(tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
+    (tmp_path / 'loop.bag').symlink_to('loop.bag')
+    assert 'name a bag' in refused(tmp_path, tmp_path / 'loop.bag', tmp_path / 'out.bag')
 
 
 def test_a_recording_that_was_cut_off(bag, tmp_path):

@@ -178,7 +178,8 @@ std::string write(const std::string& path, CameraList list, std::vector<Row>* ro
 CameraList listOf(const Arguments& arguments) {
   if (!arguments.write.empty()) {
     requireFile(arguments.write);
-    if (!std::filesystem::exists(arguments.write))
+    std::error_code unknown;  // such as a folder of others: reading says why
+    if (!std::filesystem::exists(arguments.write, unknown) && !unknown)
       return CameraList();
   }
   const std::string& path = arguments.write.empty() ? arguments.cameras : arguments.write;

@@ -14,7 +14,8 @@ namespace {
 
 std::vector<body::Constellation> readKnown(const std::string& file,
                                            const std::vector<std::string>& labels) {
-  if (file.empty() || !std::filesystem::exists(file))
+  std::error_code unknown;  // such as a folder of others: reading says why
+  if (file.empty() || (!std::filesystem::exists(file, unknown) && !unknown))
     return {};
   std::vector<body::Constellation> bodies = body::readBodies(file);
   for (const body::Constellation& body : bodies) {
@@ -64,7 +65,8 @@ BodyParameters BodyParameters::read(ParameterReader* reader,
 }
 
 std::string describeMissingFile(const std::string& file) {
-  if (file.empty() || std::filesystem::exists(file))
+  std::error_code ignored;
+  if (file.empty() || std::filesystem::exists(file, ignored))
     return "";
   return "There is no file " + std::filesystem::absolute(file).string() +
          ", so tracking starts without bodies: learn one with the service learn_body, which "

@@ -27,8 +27,9 @@ std::uint64_t arrivalOf(const IrBlobArray& image) {
 }  // namespace
 
 Recording::Recording(const std::string& path) : path_(path) {
-  if (!std::filesystem::is_regular_file(path))
-    throw BagError("there is no file " + path + ": name a bag");
+  std::error_code ignored;
+  if (!std::filesystem::is_regular_file(path, ignored))
+    throw BagError("there is no file " + path + " that can be read: name a bag");
   try {
     bag_.open(path, rosbag::bagmode::Read);
     view_ = std::make_unique<rosbag::View>(bag_);

@@ -175,7 +175,8 @@ TrackingParameters parametersOf(const Arguments& arguments) {
   if (!arguments.mode.empty())
     tree.set("mode", arguments.mode);
   if (!arguments.bodies.empty()) {
-    if (!std::filesystem::exists(arguments.bodies))
+    std::error_code ignored;
+    if (!std::filesystem::exists(arguments.bodies, ignored))
       throw BagError("there is no file " + arguments.bodies + ": correct --bodies");
     tree.set("bodies/file", arguments.bodies);
   }

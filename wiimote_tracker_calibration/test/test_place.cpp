@@ -197,7 +197,7 @@ TEST(CheckPlace, StatesErrorAndExpectedError) {
   EXPECT_FALSE(check.consistent);
   EXPECT_NEAR(check.error, 0.1, 1e-6);
   EXPECT_SAYS(check.message, "100.0 mm");
-  EXPECT_SAYS(check.message, "check the place");
+  EXPECT_SAYS(check.message, "too much: check the place");
   EXPECT_TRUE(checkPlace(measurePlace(rig, corner, kPixel), wrong, 0.1).consistent);
 
   rig.covariance.resize(0, 0);

@@ -34,8 +34,8 @@ std::string advice(const MeasuredPlace& measured, bool consistent) {
   if (!measured.calibration_known)
     return "the rig does not say how certain its cameras are, so only the pixels' noise was "
            "expected: compare the error with what you need";
-  return "more than that explains: check the place and its coordinates [m], and calibrate again "
-         "if they are right";
+  return "that is too much: check the place and its coordinates [m], and calibrate again if they "
+         "are right";
 }
 
 }  // namespace

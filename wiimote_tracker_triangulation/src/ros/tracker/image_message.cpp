@@ -81,7 +81,7 @@ std::string describe(ImageFault fault,
     case ImageFault::kNoTime:
       return "images of " + calibrated.name +
              " carry no time and are ignored: repair their driver, or, when no bag is played, run "
-             " rosparam set use_sim_time false  and start all nodes again";
+             " rosparam set /use_sim_time false  and start all nodes again";
     case ImageFault::kImpossibleTime:
       return "images of " + calibrated.name + " are stamped more than " +
              std::to_string(static_cast<int>(kLongestDelay)) +
@@ -97,7 +97,7 @@ std::string describe(ImageFault fault,
     case ImageFault::kOtherDevice:
       return calibrated.name + " is device " + message.identity + ", but was calibrated as " +
              calibrated.identity +
-             ", and is ignored: exchange them, or do what calibration_node says of it";
+             ", and is ignored: exchange them, or do what calibrate says of it";
     case ImageFault::kOtherSize:
       return "images of " + calibrated.name + " have " + sizeOf(message.width, message.height) +
              ", but it was calibrated with " + sizeOf(lens.width, lens.height) +
@@ -113,8 +113,8 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
     case tracking::CameraFault::Kind::kMisfit:
       return format(
           "the spots of %s are not where other cameras see LEDs, and its images are "
-          "ignored: if it was moved or exchanged, do what calibration_node says of it; mask "
-          "lamps and reflections",
+          "ignored: if it was moved or exchanged, move an LED in its view and do what calibrate "
+          "then says; mask lamps and reflections",
           name);
     case tracking::CameraFault::Kind::kInaccurate:
       return format(

@@ -25,7 +25,7 @@ std::string spotCountProblem(std::size_t blobs) {
 std::string stampProblem(double stamp, double delay) {
   if (stamp <= 0.0)
     return "sends images without stamps: repair its driver, or, when no bag is played, run  "
-           "rosparam set use_sim_time false  and start all nodes again";
+           "rosparam set /use_sim_time false  and start all nodes again";
   if (delay > kLongestDelay)
     return format(
         "sends images that are %.1f s old by their stamps: set the clock of its computer, or "

@@ -107,7 +107,7 @@ bool NodeContext::waitUntil(Lock* lock, double end, const std::function<bool()>&
 
 const char* NodeContext::whyEndedEarly() {
   return ros::ok() ? "the clock stands still: let the bag play on, or, when none is played, run  "
-                     "rosparam set use_sim_time false  and start all nodes again"
+                     "rosparam set /use_sim_time false  and start all nodes again"
                    : "the calibration node ends";
 }
 

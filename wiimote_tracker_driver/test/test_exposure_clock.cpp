@@ -343,19 +343,6 @@ TEST(ExposureClock, a_burst_after_a_stall_is_stale_and_gets_its_own_times) {
   EXPECT_GE(run.clock.statistics().stale, 10u);
 }
 
-// A reader that takes 20 ms for each report: a queue grows, and images are up to 0.3 s old.
-TEST(ExposureClock, reports_that_waited_keep_their_own_times) {
-  Running run(1000);
-  double now = run.time();
-  for (int read = 0; read < 30; ++read, ++run.frame) {
-    run.arrival();
-    now += 0.020;
-    const Estimate e = run.clock.update(now, read > 0);
-    EXPECT_LT(std::abs(e.exposure - run.time()), 2.0 * e.stddev + 1e-3) << read;
-    EXPECT_LT(e.stddev, 0.030) << read;
-  }
-}
-
 TEST(ExposureClock, equal_arrivals_are_two_frames) {
   Running run(500);
   const Estimate first = run.clock.update(run.time() + kPeriod + 0.001);

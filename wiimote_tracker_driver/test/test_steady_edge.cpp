@@ -170,7 +170,7 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
     FrameCounter counter;
     counter.start(0);
     FrameHistory history;
-    history.add(counter, 0.0, 1.0);
+    history.add(counter, 0.0);
     for (int r = 1; r < kReports; ++r) {
       counter.predict(r == 1 ? 2 : 4);
       for (int i = 0; i < counter.size(); ++i) {
@@ -180,7 +180,7 @@ TEST(FrameHistory, agrees_with_the_enumeration_of_all_paths) {
         counter[i] *= likelihood[r][frame];
       }
       counter.normalise();
-      history.add(counter, r, 1.0);
+      history.add(counter, r);
     }
     double marginal[kReports][kNumbers] = {}, lost[kReports] = {}, kept[kReports] = {};
     for (int a = 0; a < kNumbers; ++a)
@@ -220,7 +220,7 @@ TEST(FrameHistory, is_complete_when_the_latest_number_is_certain_or_memory_is_fu
   EXPECT_FALSE(history.complete());
   FrameCounter counter;
   counter.start(5);
-  history.add(counter, 0.0, 1.0);
+  history.add(counter, 0.0);
   EXPECT_TRUE(history.complete());
   history.clear();
   int reports = 0;
@@ -228,10 +228,10 @@ TEST(FrameHistory, is_complete_when_the_latest_number_is_certain_or_memory_is_fu
     ASSERT_LT(reports, 1000);
     counter.predict(counter.frame(0) + 3);  // equally likely early and late, always
     counter.normalise();
-    history.add(counter, reports, 1.0);
+    history.add(counter, reports);
   }
   EXPECT_EQ(history.smooth(counter), reports);
-  history.add(counter, reports, 1.0);
+  history.add(counter, reports);
   EXPECT_FALSE(history.complete());
   EXPECT_EQ(history.smooth(counter), 2) << "the latest and this one";
 }

@@ -20,6 +20,13 @@ constexpr double kMinVarianceRatio = 0.5;
 // Exponentials of smaller mean, relative to the uncertainty, are negligible.
 constexpr double kMinRelativeSpread = 0.05;
 
+// SteadyEdge leaves out a report that is this much too early [s]: its number is wrong.
+constexpr double kTooEarly = 1e-3;
+// An exact state that is this far from that of a better filter [s] has wrong numbers.
+constexpr double kMaxEdgeError = 0.5e-3;
+// Time over which the wander of a steady clock is added to its variance [s].
+constexpr double kEdgeMemory = 3.0;
+
 // Standard deviations below the mean that have no probability.
 constexpr double kImpossible = -6.0;
 constexpr double kInvSqrt2 = 0.70710678118654752;
@@ -47,15 +54,28 @@ ClockFilter::ClockFilter(const DelayModel& model, double period, double period_s
       nominal_period_(period),
       period_tolerance_(3.0 * period_stddev),
       state_{0.0, period, 0.0, 0.0, square(period_stddev)},
-      spread_(model.hard_edge ? kFirstEdgeSpread : kFirstBellSpread) {}
+      spread_(model.hard_edge ? kFirstEdgeSpread : kFirstBellSpread) {
+  if (model.exact)
+    edge_.emplace(period, period_tolerance_);
+}
 
-void ClockFilter::start(double arrival) {
+void ClockFilter::start(std::int64_t frame, double arrival) {
+  frame_ = frame;
   state_.time = model_.hard_edge ? arrival - spread_ : arrival;
   state_.p00 = square(state_.period);
   state_.p01 = 0.0;
+  if (edge_)
+    edge_->clear();
 }
 
-void ClockFilter::advance(double frames) {
+void ClockFilter::advanceTo(std::int64_t frame) {
+  const auto frames = static_cast<double>(frame - frame_);
+  frame_ = frame;
+  if (exact()) {
+    state_ = edge_->state(frame, spread_);
+    state_.p00 += square(model_.wander) * kEdgeMemory;
+    return;
+  }
   state_.time += frames * state_.period;
   state_.p00 += frames * (2.0 * state_.p01 + frames * state_.p11) +
                 square(model_.wander) * std::max(0.0, frames) * state_.period;
@@ -66,12 +86,14 @@ double ClockFilter::time() const {
   return model_.hard_edge ? state_.time : state_.time - kTypicalBellSpread;
 }
 
-ClockFilter::Prediction ClockFilter::predict(double offset) const {
+ClockFilter::Prediction ClockFilter::predict(std::int64_t frame) const {
+  const auto offset = static_cast<double>(frame - frame_);
   // Covariances of z with the state's time and period.
   const double c0 = state_.p00 + offset * state_.p01;
   const double c1 = state_.p01 + offset * state_.p11;
   Prediction z;
   z.mean = state_.time + offset * state_.period;
+  z.exposure = z.mean - (model_.hard_edge ? 0.0 : kTypicalBellSpread);
   z.variance = c0 + offset * c1 + square(model_.hard_edge ? model_.blur : spread_);
   z.stddev = std::sqrt(z.variance);
   z.time_gain = c0 / z.variance;
@@ -152,8 +174,8 @@ void ClockFilter::apply(const Hypotheses& sums) {
 }
 
 void ClockFilter::learnSpread(const Hypotheses& sums) {
-  sample_count_ = std::min(sample_count_ + sums.weight, kSpreadMemory);
-  const double rate = 1.0 / (sample_count_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
+  reports_ = std::min(reports_ + sums.weight, kSpreadMemory);
+  const double rate = 1.0 / (reports_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
   if (model_.hard_edge)
     spread_ += rate * (sums.spread - sums.weight * spread_);
   else
@@ -161,13 +183,22 @@ void ClockFilter::learnSpread(const Hypotheses& sums) {
   spread_ = std::max(spread_, kMinSpread);
 }
 
-void ClockFilter::copyStateFrom(const ClockFilter& better) {
-  const DelayModel mine = model_;
-  *this = better;
-  model_ = mine;
-  if (mine.hard_edge && !better.model_.hard_edge)
+void ClockFilter::learn(std::int64_t frame, double arrival, double on_time) {
+  if (edge_ && arrival - predict(frame).exposure > -kTooEarly)
+    edge_->add(frame, arrival, on_time, state_.period);
+}
+
+void ClockFilter::follow(const ClockFilter& better) {
+  if (exact() && std::abs(time() - better.time()) < kMaxEdgeError)
+    return;
+  if (edge_)
+    edge_->clear();
+  state_ = better.state_;
+  spread_ = better.spread_;
+  reports_ = better.reports_;
+  if (model_.hard_edge && !better.model_.hard_edge)
     state_.time -= spread_;
-  if (!mine.hard_edge && better.model_.hard_edge)
+  if (!model_.hard_edge && better.model_.hard_edge)
     state_.time += spread_;
 }
 

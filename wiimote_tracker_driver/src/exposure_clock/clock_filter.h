@@ -1,16 +1,15 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H
 #define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H
 
+#include "exposure_clock/steady_edge.h"
+
+#include <cstdint>
+#include <optional>
+
 namespace wiimote_tracker::exposure_clock {
 
 /// Aligns a normal with the edge of an exponential of the same mean and spread [s].
 constexpr double kTypicalBellSpread = 0.0024;
-
-/// Time of a frame and period of the clock, with their covariance.
-struct ClockState {
-  double time = 0.0, period = 0.0;         ///< [s]
-  double p00 = 0.0, p01 = 0.0, p11 = 0.0;  ///< [s^2]
-};
 
 /// Assumptions of a ClockFilter about delays and clock. The spread of the delays is estimated.
 struct DelayModel {
@@ -20,6 +19,8 @@ struct DelayModel {
   double blur = 0.0;
   /// Random walk of the camera's phase: standard deviation after one second [s].
   double wander = 0.0;
+  /// Use SteadyEdge: for a sharp edge and a clock that hardly wanders.
+  bool exact = false;
 };
 
 /// Gaussian estimate of phase and period of a periodic camera, from arrivals under one delay model.
@@ -28,20 +29,21 @@ struct DelayModel {
 /// edge). Given the arrival, z is a truncated normal; its first two moments are kept (assumed
 /// density filtering: Maybeck, Stochastic Models, Estimation and Control, vol. 2, 1982, ch. 12;
 /// moments: Johnson, Kotz, Balakrishnan, Continuous Univariate Distributions, vol. 1, 1994,
-/// eq. 13.134). Without a hard edge this is the Kalman filter.
+/// eq. 13.134). Without a hard edge this is the Kalman filter. Behind a sharp edge of a steady
+/// clock the posterior is far from normal: SteadyEdge computes it exactly after a few seconds.
 class ClockFilter {
  public:
   /// @param period nominal [s]. @param period_stddev of it [s]; estimates stay within three times
   /// this.
   ClockFilter(const DelayModel& model, double period, double period_stddev);
 
-  /// Resets the phase: the state is now that of a frame that arrived at `arrival` [s].
-  void start(double arrival);
-  /// Predicts the state `frames` periods ahead; back when negative, without removing process noise.
-  void advance(double frames);
+  /// Resets the phase: the state is now that of `frame`, which arrived at `arrival` [s].
+  void start(std::int64_t frame, double arrival);
+  /// Predicts the state of `frame`; of an earlier one without removing process noise.
+  void advanceTo(std::int64_t frame);
 
-  /// Exposure time of the state's frame plus a constant: the least delay with a hard edge, else the
-  /// mean delay less a typical spread [s].
+  /// Exposure of the state's frame plus a constant: the least delay with a hard edge, else the mean
+  /// delay less a typical spread [s].
   double time() const;
   double timeVariance() const { return state_.p00; }
   double period() const { return state_.period; }
@@ -50,13 +52,13 @@ class ClockFilter {
   double spread() const { return spread_; }
   const DelayModel& model() const { return model_; }
 
-  /// Of z [s], and how the state follows it.
+  /// Of a frame's z [s], and how the state follows it.
   struct Prediction {
+    double exposure;  ///< As time().
     double mean, variance, stddev;
     double time_gain, period_gain;
   };
-  /// Of the frame `offset` frames after the state's.
-  Prediction predict(double offset) const;
+  Prediction predict(std::int64_t frame) const;
   /// Density [1/s] of an arrival of this frame at `arrival`.
   double likelihood(const Prediction& frame, double arrival) const;
   /// Probability that this frame was ready to arrive before `time`: the integral of likelihood().
@@ -78,21 +80,26 @@ class ClockFilter {
   /// Updates the state with all hypotheses of an arrival.
   void apply(const Hypotheses& sums);
 
-  /// Replaces phase and period of the state's frame by those of a better method.
-  void setState(const ClockState& state) { state_ = state; }
-  /// Copies phase, period and spread of a filter that explains the arrivals better.
-  void copyStateFrom(const ClockFilter& better);
+  /// A report whose number is certain by now, and the probability that it came without waiting.
+  void learn(std::int64_t frame, double arrival, double on_time);
+  /// Copies phase, period and spread of a filter that explains the arrivals better. An exact state
+  /// near that stays.
+  void follow(const ClockFilter& better);
 
  private:
+  /// Whether the state is that of SteadyEdge.
+  bool exact() const { return edge_ && edge_->ready(); }
   /// False also where the exponential is negligible beside the uncertainty.
   bool hasExponential(const Prediction& z) const;
   void learnSpread(const Hypotheses& sums);
 
   DelayModel model_;
   double nominal_period_, period_tolerance_;
+  std::int64_t frame_ = 0;  // of the state
   ClockState state_;
   double spread_;
-  double sample_count_ = 0.0;  // number of reports used for the spread
+  double reports_ = 0.0;  // number used for the spread
+  std::optional<SteadyEdge> edge_;
 };
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -99,7 +99,8 @@ void ExposureClock::endTrial() {
 }
 
 Estimate ExposureClock::challenge(double arrival, bool waited) {
-  if (arrival < last_arrival_ || arrival > progressed_at_ + kTrial) {
+  // It begins with an arrival, which a report that waited does not have.
+  if (arrival < last_arrival_ || (!waited && arrival > progressed_at_ + kTrial)) {
     *challenger_ = ClockEstimator(challenger_->nominalPeriod());
     challenger_->copyLinkFrom(*leader_);
     trial_begin_ = progressed_at_ = arrival;

@@ -10,13 +10,13 @@ constexpr double kDecided = 0.9999;  // probability of a number that later repor
 constexpr int kNumbersBelow = 4;     // of those kept, below the most probable one
 }  // namespace
 
-void FrameHistory::add(const FrameCounter& numbers, double arrival, double on_time) {
+void FrameHistory::add(const FrameCounter& numbers, double arrival, bool waited) {
   if (complete()) {
     entries_[0] = entries_[static_cast<std::size_t>(size_ - 1)];
     size_ = 1;
   }
   Entry& entry = entries_[static_cast<std::size_t>(size_++)];
-  entry = {{arrival, on_time, 0, 0.0, 0.0, 0.0},
+  entry = {{arrival, waited, 0, 0.0, 0.0, 0.0},
            std::max(numbers.frame(0), numbers.mostProbable() - kNumbersBelow),
            {}};
   int number = static_cast<int>(entry.first - numbers.frame(0));

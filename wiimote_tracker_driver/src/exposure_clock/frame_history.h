@@ -16,7 +16,7 @@ class FrameHistory {
  public:
   struct Report {
     double arrival = 0.0;
-    double on_time = 0.0;      ///< probability that it arrived without waiting
+    bool waited = false;       ///< it arrived at an unknown time before that
     std::int64_t frame = 0;    ///< most probable smoothed number,
     double probability = 0.0;  ///< and its probability
     double lost = 0.0;         ///< probability that frames before it were lost,
@@ -25,7 +25,7 @@ class FrameHistory {
 
   void clear() { size_ = 0; }
   /// The latest report and its possible numbers.
-  void add(const FrameCounter& numbers, double arrival, double on_time);
+  void add(const FrameCounter& numbers, double arrival, bool waited = false);
   /// Whether more reports would not help: the latest number is certain, or memory is full.
   bool complete() const;
   /// Smooths the numbers of all reports so far, of which add() then keeps only the latest.

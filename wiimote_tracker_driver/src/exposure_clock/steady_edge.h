@@ -1,14 +1,18 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
 #define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
 
-#include "exposure_clock/clock_filter.h"
-
 #include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <cstdint>
 
 namespace wiimote_tracker::exposure_clock {
+
+/// Time of a frame and period of the clock, with their covariance.
+struct ClockState {
+  double time = 0.0, period = 0.0;         ///< [s]
+  double p00 = 0.0, p01 = 0.0, p11 = 0.0;  ///< [s^2]
+};
 
 /// Phase and period of a steady clock behind exponential delays: the exact posterior instead of a
 /// normal one.

@@ -112,6 +112,7 @@ class SimulatedTransport : public transport::Transport {
 struct Frame {
   double arrival;  ///< [s]
   std::uint32_t epoch;
+  bool waited;  ///< Perhaps, to be read.
   DataReport image;
 };
 
@@ -134,15 +135,18 @@ inline void expectSame(const std::vector<Frame>& recorded,
     ASSERT_NEAR(recorded[i].arrival - begin, played[i].arrival, 1e-9) << "image " << i;
     ASSERT_TRUE(same(recorded[i].image, played[i].image)) << "image " << i;
     ASSERT_EQ(recorded[i].epoch, played[i].epoch) << "image " << i;
+    ASSERT_EQ(recorded[i].waited, played[i].waited) << "image " << i;
   }
 }
 
 class Replays : public testing::Test {
  protected:
-  /// Lets the driver's core run with a simulated remote and records it.
+  /// Lets the driver's core run with a simulated remote and records it. After each 50th image it
+  /// does not read for `stop` [s].
   std::vector<Frame> recordSimulation(const Faults& faults,
                                       double duration,
-                                      const Options& options = Options()) const {
+                                      const Options& options = Options(),
+                                      double stop = 0.0) const {
     SimulatedRemote remote(faults);
     const auto clock = [&] { return remote.now; };
     auto recorder = std::make_shared<Recorder>(path_, remote.now, 1.7e9);
@@ -162,8 +166,14 @@ class Replays : public testing::Test {
         remote.now += idle;
         remote.sampleUntil(remote.now);
       }
-      if (const auto image = wiimote.step(0.1))
-        frames.push_back({remote.now, wiimote.link().clock_epoch, *image});
+      const auto image = wiimote.step(0.1);
+      if (!image)
+        continue;
+      frames.push_back({remote.now, wiimote.link().clock_epoch, wiimote.imageWaited(), *image});
+      if (frames.size() % 50 == 0) {
+        remote.now += stop;
+        remote.sampleUntil(remote.now);
+      }
     }
     wiimote.close();
     EXPECT_EQ("", recorder->error());
@@ -181,7 +191,7 @@ class Replays : public testing::Test {
       if (const double idle = wiimote.idleTime(); idle > 0.0)
         replay.pass(idle);
       if (const auto image = wiimote.step(0.1))
-        frames.push_back({replay.now(), wiimote.link().clock_epoch, *image});
+        frames.push_back({replay.now(), wiimote.link().clock_epoch, wiimote.imageWaited(), *image});
     }
     if (link != nullptr)
       *link = wiimote.link();

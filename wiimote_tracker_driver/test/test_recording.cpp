@@ -88,6 +88,20 @@ TEST(RecordingFormat, HandWrittenBytesAreRead) {
   EXPECT_EQ("gone", contents.records[3].reason);
 }
 
+TEST(RecordingFormat, AReportThatWaitedIsOfAKindOfItsOwn) {
+  std::string waited = kReceived;
+  waited[0] = 5;
+  const Contents contents = read(kHeader + kReceived + waited);
+  ASSERT_EQ(2u, contents.records.size());
+  EXPECT_EQ(Kind::kReceived, contents.records[1].kind);
+  EXPECT_EQ(contents.records[0].report, contents.records[1].report);
+  EXPECT_FALSE(contents.records[0].waited);
+  EXPECT_TRUE(contents.records[1].waited);
+  std::vector<std::uint8_t> bytes;
+  append(contents.records[1], bytes);
+  EXPECT_EQ(waited, std::string(bytes.begin(), bytes.end()));
+}
+
 TEST(RecordingFormat, SameBytesAreWritten) {
   const Contents contents = read(kAll);
   std::vector<std::uint8_t> bytes;
@@ -141,7 +155,7 @@ TEST(RecordingFormat, ADamagedRecordEndsIt) {
   const std::string time = kReceived.substr(2, 8);
   const std::string place = "damaged at byte " + std::to_string(kHeader.size() + kReceived.size());
   EXPECT_TRUE(contains(damage(text({0, 2}) + time + "xx"), place)) << "kind 0";
-  EXPECT_TRUE(contains(damage(text({5, 2}) + time + "xx"), place)) << "kind 5";
+  EXPECT_TRUE(contains(damage(text({6, 2}) + time + "xx"), place)) << "kind 6";
   EXPECT_TRUE(contains(damage(text({2, 0}) + time), place)) << "empty report";
   EXPECT_TRUE(contains(damage(text({2, 23}) + time + std::string(23, 'x')), place)) << "too long";
   EXPECT_TRUE(contains(damage(kSent), place)) << "back in time";

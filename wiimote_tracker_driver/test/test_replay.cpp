@@ -58,6 +58,19 @@ TEST_F(Replays, SameImagesWithAllFaults) {
   }
 }
 
+// So the exposure clock gives the same stamps.
+TEST_F(Replays, ImagesThatWaitedForTheReaderAreKnown) {
+  for (const double stop : {0.02, 0.3, 0.7}) {
+    const std::vector<Frame> recorded = recordSimulation(Faults(), 10.0, Options(), stop);
+    const auto waited = std::count_if(recorded.begin(), recorded.end(),
+                                      [](const Frame& frame) { return frame.waited; });
+    EXPECT_EQ(stop<0.6, waited> 3) << "images are dropped after a longer stop";
+    Replay replay(path_);
+    expectSame(recorded, 50.0, play(replay));
+    ::unlink(path_.c_str());
+  }
+}
+
 TEST_F(Replays, EndsOnce) {
   recordSimulation(Faults(), 1.0);
   Replay replay(path_);
@@ -311,7 +324,7 @@ TEST_F(Replays, SocketSession) {
           std::this_thread::sleep_for(std::chrono::milliseconds(2));
           now = steadyNow();
         } else if (const auto image = wiimote.step(0.1)) {
-          recorded.push_back({now, wiimote.link().clock_epoch, *image});
+          recorded.push_back({now, wiimote.link().clock_epoch, wiimote.imageWaited(), *image});
         }
       }
       server.setPresent(false);

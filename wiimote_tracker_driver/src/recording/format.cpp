@@ -35,7 +35,7 @@ void append(const FileHeader& header, std::vector<std::uint8_t>& bytes) {
 void append(const Record& record, std::vector<std::uint8_t>& bytes) {
   const auto add = [&](const auto* payload, std::size_t whole) {
     const std::size_t size = std::min(whole, kLongestPayload);
-    bytes.push_back(static_cast<std::uint8_t>(record.kind));
+    bytes.push_back(record.waited ? kWaitedKind : static_cast<std::uint8_t>(record.kind));
     bytes.push_back(static_cast<std::uint8_t>(size));
     appendLittleEndian(nanoseconds(record.time), 8, bytes);
     bytes.insert(bytes.end(), payload, payload + size);

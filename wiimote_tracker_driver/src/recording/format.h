@@ -36,8 +36,11 @@ struct Record {
   protocol::Report report;   ///< Of kReceived and kSent.
   transport::Remote remote;  ///< Of kConnected.
   std::string reason;        ///< Of kDisconnected: one sentence; empty: by the host.
+  bool waited = false;       ///< Of kReceived: perhaps until the host read it.
 };
 
+/// In the file: the kind of a received report that may have waited.
+constexpr std::uint8_t kWaitedKind = 5;
 constexpr std::size_t kMagicSize = 8;
 /// The first byte is not text, and the line ends reveal a transfer as text.
 constexpr std::uint8_t kMagic[kMagicSize] = {0x89, 'W', 'I', 'I', '\r', '\n', 0x1a, '\n'};

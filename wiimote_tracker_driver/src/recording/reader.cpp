@@ -30,8 +30,7 @@ bool isReport(Record::Kind kind) {
 }
 
 bool isKind(std::uint8_t kind) {
-  return kind >= static_cast<std::uint8_t>(Record::Kind::kConnected) &&
-         kind <= static_cast<std::uint8_t>(Record::Kind::kDisconnected);
+  return kind >= static_cast<std::uint8_t>(Record::Kind::kConnected) && kind <= kWaitedKind;
 }
 
 transport::Remote remoteOf(const std::string& text) {
@@ -106,7 +105,8 @@ bool Reader::next(Record& record) {
   const std::int64_t time = endian::load_little_s64(&head[2]);
   if (!isKind(head[0]) || time < time_ || 1e-9 * static_cast<double>(time) > kLongest)
     return end("is damaged");
-  record.kind = static_cast<Record::Kind>(head[0]);
+  record.waited = head[0] == kWaitedKind;
+  record.kind = record.waited ? Record::Kind::kReceived : static_cast<Record::Kind>(head[0]);
   if (isReport(record.kind) && (size == 0 || size > protocol::Report::kCapacity))
     return end("is damaged");
   payload_.resize(size);

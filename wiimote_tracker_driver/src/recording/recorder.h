@@ -34,8 +34,9 @@ class Recorder {
   void connected(const transport::Remote& remote, double now) {
     add({Record::Kind::kConnected, now, {}, remote, ""});
   }
-  void received(const protocol::Report& report, double now) {
-    add({Record::Kind::kReceived, now, report, {}, ""});
+  /// `waited`: perhaps until the host read it.
+  void received(const protocol::Report& report, double now, bool waited = false) {
+    add({Record::Kind::kReceived, now, report, {}, "", waited});
   }
   void sent(const protocol::Report& report, double now) {
     add({Record::Kind::kSent, now, report, {}, ""});

@@ -1,4 +1,5 @@
 #include "recording/recorder.h"
+#include "transport/queue_watch.h"
 
 #include <utility>
 
@@ -10,7 +11,10 @@ class RecordingTransport : public transport::Transport {
   RecordingTransport(std::unique_ptr<transport::Transport> transport,
                      std::shared_ptr<Recorder> recorder,
                      std::function<double()> clock)
-      : transport_(std::move(transport)), recorder_(std::move(recorder)), clock_(std::move(clock)) {
+      : transport_(std::move(transport)),
+        recorder_(std::move(recorder)),
+        clock_(std::move(clock)),
+        queue_(clock_()) {
     recorder_->connected(transport_->remote(), clock_());
   }
   ~RecordingTransport() override { lose(""); }
@@ -20,8 +24,10 @@ class RecordingTransport : public transport::Transport {
   bool read(protocol::Report& report, double timeout) override {
     bool received = false;
     orLose([&] { received = transport_->read(report, timeout); });
+    const double now = clock_();
+    queue_.readEnded(received, timeout, now);
     if (received)
-      recorder_->received(report, clock_());
+      recorder_->received(report, now, queue_.waited());
     return received;
   }
 
@@ -52,6 +58,7 @@ class RecordingTransport : public transport::Transport {
   std::unique_ptr<transport::Transport> transport_;
   std::shared_ptr<Recorder> recorder_;
   std::function<double()> clock_;
+  transport::QueueWatch queue_;
   bool lost_ = false;
 };
 

@@ -142,7 +142,9 @@ bool Replay::read(Report& report, double timeout) {
   }
   const double until = now_ + timeout;
   while (readAhead(until)) {
-    if (isAfter(ahead_.front().record, until)) {
+    // What had waited was there when the host read next; by then time had passed.
+    const Record& next = ahead_.front().record;
+    if (isAfter(next, until) && !next.waited) {
       passUntil(until);
       return false;
     }

@@ -11,8 +11,6 @@ using protocol::DataReport;
 namespace {
 // The kernel's buffer of 63 reports holds this much of a stream [s].
 constexpr double kBufferedTime = 0.6;
-// A report that waited for less is as good as one that did not [s].
-constexpr double kPrompt = 0.002;
 // Between two attempts to connect [s]; doubles with each failure.
 constexpr double kShortestPause = 0.25;
 constexpr double kLongestPause = 0.5;
@@ -61,7 +59,7 @@ void Wiimote::connect() {
   link_.status.reset();
   ++link_changes_;
   beginEpoch();
-  none_waited_ = clock_();
+  queue_ = transport::QueueWatch(clock_());
   backlog_ = false;
   session_.emplace(
       options_, [this](const protocol::Report& report) { transport_->write(report); }, clock_());
@@ -70,20 +68,19 @@ void Wiimote::connect() {
 std::optional<DataReport> Wiimote::receive(double max_wait) {
   const double wait = std::clamp(session_->deadline() - clock_(), 0.0, max_wait);
   protocol::Report report;
-  bool received = transport_->read(report, 0.0);
-  const bool found = received;
-  if (!found) {
+  double now = 0.0;
+  const auto read = [&](double timeout) {
+    const bool received = transport_->read(report, timeout);
+    now = clock_();
+    queue_.readEnded(received, timeout, now);
+    return received;
+  };
+  bool received = read(0.0);
+  if (!received) {
     backlog_ = false;
-    none_waited_ = clock_();
-    received = wait > 0.0 && transport_->read(report, wait);
+    received = wait > 0.0 && read(wait);
   }
-  const double now = clock_();
-  const double age = now - none_waited_;  // the report is at most so old
-  // If the read took longer than `wait`, the process was stopped, and the report may be older.
-  waited_ = age > (found ? 0.0 : wait) + kPrompt;
-  backlog_ = received && (backlog_ || age > std::max(kBufferedTime, 2.0 * wait));
-  if (!found && !waited_)
-    none_waited_ = now;
+  backlog_ = received && (backlog_ || queue_.age() > std::max(kBufferedTime, 2.0 * wait));
   std::optional<DataReport> image;
   if (received)
     image = session_->handle(report, now);
@@ -94,7 +91,7 @@ std::optional<DataReport> Wiimote::receive(double max_wait) {
     beginEpoch();
   // The exposure clock takes the time of an epoch's first image for its arrival.
   const bool first = new_epoch_ || !had_image_;
-  if (backlog_ || (waited_ && first))
+  if (backlog_ || (queue_.waited() && first))
     image.reset();
   if (image) {
     had_image_ = true;

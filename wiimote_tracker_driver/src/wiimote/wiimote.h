@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H
 #define WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H
 
+#include "transport/queue_watch.h"
 #include "transport/transport.h"
 #include "wiimote/session.h"
 
@@ -53,7 +54,7 @@ class Wiimote {
 
   /// Whether the image that step() returned last may have waited for more than 2 ms, so that the
   /// time now does not tell when it arrived.
-  bool imageWaited() const { return waited_; }
+  bool imageWaited() const { return queue_.waited(); }
 
   /// Time until step() will have something to do [s]; 0 while connected.
   double idleTime() const;
@@ -103,12 +104,11 @@ class Wiimote {
   Link link_;
   std::uint64_t link_changes_ = 0;
   protocol::AccelerometerCalibration accelerometer_;
-  double none_waited_ = 0.0;  ///< When the queue of reports was last empty [s].
-  bool waited_ = false;       ///< The latest report may have waited to be read.
-  bool backlog_ = false;      ///< Reports have waited for too long.
-  bool had_image_ = false;    ///< Since the start, from any remote.
-  bool delivered_ = false;    ///< Images have come from the remote that was opened last.
-  bool new_epoch_ = false;    ///< The next image is the first of another epoch.
+  transport::QueueWatch queue_{0.0};
+  bool backlog_ = false;    ///< Reports have waited for too long.
+  bool had_image_ = false;  ///< Since the start, from any remote.
+  bool delivered_ = false;  ///< Images have come from the remote that was opened last.
+  bool new_epoch_ = false;  ///< The next image is the first of another epoch.
 };
 
 }  // namespace wiimote_tracker::wiimote

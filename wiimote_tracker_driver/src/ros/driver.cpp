@@ -20,8 +20,9 @@
 namespace wiimote_tracker::driver {
 namespace {
 
-// Longest wait for a report or a remote [s], which bounds the delay of callbacks' requests and of
-// shutdown.
+// Longest wait for a report [s], three images: only longer stops of the reader are noticed.
+constexpr double kLongestRead = 0.03;
+// Longest wait for a remote [s], which bounds the delay of callbacks' requests and of shutdown.
 constexpr double kLongestWait = 0.1;
 constexpr double kUsersCheck = 10.0;  // [s]; takes milliseconds
 
@@ -155,7 +156,7 @@ void Driver::run() {
 
 void Driver::readAndPublish() {
   control_.apply(wiimote_, source_.now());
-  const auto image = wiimote_.step(kLongestWait);
+  const auto image = wiimote_.step(kLongestRead);
   if (wiimote_.linkChanges() != seen_changes_) {
     seen_changes_ = wiimote_.linkChanges();
     linkChanged();

@@ -1,8 +1,8 @@
 #include "association/associate_views.h"
 #include "association/exhaustive.h"
-#include "association/shared_views.h"
 #include "association/simulated_views.h"
 #include "benchmark_sections.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include <algorithm>
 #include <limits>
@@ -52,7 +52,7 @@ BenchmarkRow runCase(const Case& c, const BenchmarkSettings& settings) {
   Random random(settings.seed);
   const geometry::Rig rig = association::test::ringRig(c.cameras);
   const auto options = association::typicalCosts(rig, c.disturbance.pixel_stddev);
-  association::ViewAssociator associator(rig, association::sharedViews(rig, 10.0), options);
+  association::ViewAssociator associator(rig, geometry::sharedViews(rig, 10.0), options);
   const std::size_t cameras = rig.cameras.size();
   int frames = 0;
   int identical = 0;

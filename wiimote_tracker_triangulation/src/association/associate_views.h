@@ -55,7 +55,7 @@ struct Association {
 class ViewAssociator {
  public:
   /// @param rig copied. @param partners for each camera the others that can see a point together
-  /// with it, ascending and mutual (see sharedViews).
+  /// with it, ascending and mutual (see geometry::sharedViews).
   ViewAssociator(const geometry::Rig& rig,
                  std::vector<std::vector<std::size_t>> partners,
                  const AssociationOptions& options);

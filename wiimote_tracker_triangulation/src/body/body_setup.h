@@ -29,7 +29,7 @@ struct BodySetup {
   BodyTrackerOptions options;
   geometry::Rig rig;
   std::vector<geometry::Camera> cameras;           ///< As Rig::rayCamera.
-  std::vector<std::vector<std::size_t>> partners;  ///< See association::sharedViews.
+  std::vector<std::vector<std::size_t>> partners;  ///< See geometry::sharedViews.
   std::vector<BodyModel> bodies;
 };
 

@@ -1,11 +1,11 @@
 #include "wiimote_tracker_triangulation/body/body_tracker.h"
 
-#include "association/shared_views.h"
 #include "body/body_search.h"
 #include "body/body_setup.h"
 #include "body/body_state.h"
 #include "body/body_update.h"
 #include "tracking/arrival_clocks.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -64,7 +64,7 @@ BodyTracker::~BodyTracker() = default;
 void BodyTracker::useRig(const geometry::Rig& rig) {
   setup_->rig = rig;
   setup_->cameras = rig.rayCameras();
-  setup_->partners = association::sharedViews(rig, setup_->options.maximum_range);
+  setup_->partners = geometry::sharedViews(rig, setup_->options.maximum_range);
   search_ = std::make_unique<BodySearch>(*setup_, state_.get(), update_.get());
   state_->images.assign(rig.cameras.size(), {});
 }

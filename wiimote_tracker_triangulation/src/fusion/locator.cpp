@@ -1,6 +1,6 @@
 #include "locator.h"
 
-#include "association/shared_views.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include <algorithm>
 #include <limits>
@@ -23,7 +23,7 @@ Locator::Locator(const geometry::Rig& rig, const InstantFuserOptions& options)
     : options_(options),
       ray_cameras_(rig.rayCameras()),
       associator_(rig,
-                  association::sharedViews(rig, options.maximum_range),
+                  geometry::sharedViews(rig, options.maximum_range),
                   associationOptions(rig, options)),
       sights_(rig.cameras.size()),
       spot_of_sight_(rig.cameras.size()),

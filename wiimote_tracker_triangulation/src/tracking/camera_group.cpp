@@ -327,26 +327,4 @@ void CameraGroup::clear() {
   std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());
 }
 
-std::vector<std::vector<std::size_t>> groupsOf(
-    const std::vector<std::vector<std::size_t>>& partners) {
-  std::vector<std::vector<std::size_t>> groups;
-  std::vector<bool> taken(partners.size());
-  for (std::size_t first = 0; first < partners.size(); ++first) {
-    if (taken[first])
-      continue;
-    std::vector<std::size_t> group = {first};
-    taken[first] = true;
-    for (std::size_t i = 0; i < group.size(); ++i) {
-      for (const std::size_t partner : partners[group[i]]) {
-        if (!taken[partner])
-          group.push_back(partner);
-        taken[partner] = true;
-      }
-    }
-    std::sort(group.begin(), group.end());
-    groups.push_back(group);
-  }
-  return groups;
-}
-
 }  // namespace wiimote_tracker::tracking

@@ -26,7 +26,7 @@ class CameraGroup {
   enum class Outcome { kAdded, kLate, kRepeated, kDropped };
 
   /// @param members indices of the cameras in the rig, ascending.
-  /// @param partners of all cameras of the rig, see association::sharedViews.
+  /// @param partners of all cameras of the rig, see geometry::sharedViews.
   /// @param options must outlive the group and the tracks, also those that another group adopts.
   /// @param ids, views must live longer; `views`, one per camera of the rig, get the use of spots.
   CameraGroup(const geometry::Rig& rig,
@@ -96,10 +96,6 @@ class CameraGroup {
   std::uint64_t next_step_ = 0;
   History<StoredImage, GroupState> history_;
 };
-
-/// Divides the cameras of a rig into groups that share no view.
-std::vector<std::vector<std::size_t>> groupsOf(
-    const std::vector<std::vector<std::size_t>>& partners);
 
 }  // namespace wiimote_tracker::tracking
 

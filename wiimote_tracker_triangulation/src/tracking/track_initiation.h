@@ -24,7 +24,7 @@ struct StartSpot {
 /// is ready, it may turn out to continue a track that lost its LED.
 class TrackInitiation {
  public:
-  /// @param rig the group's cameras only. @param partners see association::sharedViews.
+  /// @param rig the group's cameras only. @param partners see geometry::sharedViews.
   /// @param options must outlive the tracks: their filters refer to options.motion.
   /// @param ids must live longer.
   TrackInitiation(const geometry::Rig& rig,

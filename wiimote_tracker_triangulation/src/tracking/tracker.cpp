@@ -1,9 +1,9 @@
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
-#include "association/shared_views.h"
 #include "camera_group.h"
 #include "ids.h"
 #include "tracking/arrival_clocks.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include <algorithm>
 #include <cmath>
@@ -43,14 +43,14 @@ Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
       newest_arrival_(kNever),
       last_output_(kNever) {
   rig.check();
-  useRig(rig, association::sharedViews(rig, options_.maximum_range));
+  useRig(rig, geometry::sharedViews(rig, options_.maximum_range));
 }
 
 Tracker::~Tracker() = default;
 
 void Tracker::setRig(const geometry::Rig& rig) {
   rig.check();
-  const Partners partners = association::sharedViews(rig, options_.maximum_range);
+  const Partners partners = geometry::sharedViews(rig, options_.maximum_range);
   if (hasSameGroups(rig, partners)) {
     rig_ = rig;
     uncertainty_.emplace(rig_);
@@ -66,7 +66,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
 
 /// Whether a rig has the same cameras at the same places, with the same clocks in the same groups.
 bool Tracker::hasSameGroups(const geometry::Rig& rig, const Partners& partners) const {
-  const auto groups = groupsOf(partners);
+  const auto groups = geometry::groupsOf(partners);
   return std::equal(rig.cameras.begin(), rig.cameras.end(), rig_.cameras.begin(),
                     rig_.cameras.end(), isSameCamera) &&
          std::equal(
@@ -79,7 +79,7 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
   uncertainty_.emplace(rig_);
   groups_.clear();
   cameras_.resize(rig_.cameras.size());
-  for (const std::vector<std::size_t>& members : groupsOf(partners)) {
+  for (const std::vector<std::size_t>& members : geometry::groupsOf(partners)) {
     for (std::size_t i = 0; i < members.size(); ++i)
       cameras_[members[i]] = CameraState{groups_.size(), i};
     groups_.push_back(

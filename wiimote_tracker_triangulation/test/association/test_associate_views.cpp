@@ -1,8 +1,8 @@
 // Spots of several cameras to points, against exhaustive search.
 #include "association/associate_views.h"
 #include "association/exhaustive.h"
-#include "association/shared_views.h"
 #include "association/simulated_views.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include <gtest/gtest.h>
 

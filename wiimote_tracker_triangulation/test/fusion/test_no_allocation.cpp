@@ -2,10 +2,10 @@
 #include "allocation_counter.h"
 #include "association/assign_spots.h"
 #include "association/associate_views.h"
-#include "association/shared_views.h"
 #include "association/simulated_views.h"
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ class Lights {
 
 TEST(NoAllocation, ViewAssociator) {
   Lights lights;
-  association::ViewAssociator associator(lights.rig(), association::sharedViews(lights.rig(), 10.0),
+  association::ViewAssociator associator(lights.rig(), geometry::sharedViews(lights.rig(), 10.0),
                                          {});
   std::size_t points = 0;
   int allocations = 0;

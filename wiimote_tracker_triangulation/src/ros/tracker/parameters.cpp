@@ -1,7 +1,7 @@
 #include "parameters.h"
 
-#include "association/shared_views.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 #include "wiimote_tracker_triangulation/identity/codes_file.h"
 
@@ -209,8 +209,8 @@ std::string describeLoneCamera(const geometry::Rig& rig,
   const double range = tracks ? options.tracks.maximum_range : options.instant.maximum_range;
   if (!far_camera.empty() || range >= geometry::kFarthestLed)
     return far_camera;
-  const auto shared = association::sharedViews(rig, range);
-  const auto visible = association::sharedViews(rig, geometry::kFarthestLed);
+  const auto shared = geometry::sharedViews(rig, range);
+  const auto visible = geometry::sharedViews(rig, geometry::kFarthestLed);
   for (std::size_t i = 0; i < shared.size(); ++i) {
     if (shared[i].empty() && !visible[i].empty())
       return format(

@@ -1,14 +1,14 @@
-#include "association/shared_views.h"
+#include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <algorithm>
 
-namespace wiimote_tracker::association {
+namespace wiimote_tracker::geometry {
 namespace {
 
 /// A grid of points in a camera's view: pixels, at distances that grow by a constant factor.
-std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double range) {
+std::vector<Eigen::Vector3d> pointsInView(const Camera& camera, double range) {
   constexpr int kColumns = 12;
   constexpr int kRows = 9;
   constexpr double kGrowth = 1.25;  // ratio of successive distances
@@ -18,7 +18,7 @@ std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double
     for (int column = 0; column <= kColumns; ++column) {
       const Eigen::Vector2d pixel((camera.intrinsics.width - 1.0) * column / kColumns,
                                   (camera.intrinsics.height - 1.0) * row / kRows);
-      const auto sight = geometry::sightFromPixel(camera, pixel);
+      const auto sight = sightFromPixel(camera, pixel);
       if (!sight)
         continue;
       for (double distance = range; distance >= std::min(kNearest, range); distance /= kGrowth)
@@ -28,9 +28,7 @@ std::vector<Eigen::Vector3d> pointsInView(const geometry::Camera& camera, double
   return points;
 }
 
-bool seesAny(const geometry::Camera& camera,
-             const std::vector<Eigen::Vector3d>& points,
-             double range) {
+bool seesAny(const Camera& camera, const std::vector<Eigen::Vector3d>& points, double range) {
   return std::any_of(points.begin(), points.end(), [&](const Eigen::Vector3d& point) {
     return (point - camera.center()).squaredNorm() <= range * range && camera.sees(point);
   });
@@ -38,11 +36,11 @@ bool seesAny(const geometry::Camera& camera,
 
 }  // namespace
 
-std::vector<std::vector<std::size_t>> sharedViews(const geometry::Rig& rig, double range) {
-  const std::vector<geometry::Camera> cameras = rig.rayCameras();
+std::vector<std::vector<std::size_t>> sharedViews(const Rig& rig, double range) {
+  const std::vector<Camera> cameras = rig.rayCameras();
   const std::size_t count = cameras.size();
   std::vector<std::vector<Eigen::Vector3d>> points;
-  for (const geometry::Camera& camera : cameras)
+  for (const Camera& camera : cameras)
     points.push_back(pointsInView(camera, range));
   std::vector<std::vector<std::size_t>> shared(count);
   for (std::size_t a = 0; a < count; ++a) {
@@ -58,4 +56,26 @@ std::vector<std::vector<std::size_t>> sharedViews(const geometry::Rig& rig, doub
   return shared;
 }
 
-}  // namespace wiimote_tracker::association
+std::vector<std::vector<std::size_t>> groupsOf(
+    const std::vector<std::vector<std::size_t>>& partners) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::vector<bool> taken(partners.size());
+  for (std::size_t first = 0; first < partners.size(); ++first) {
+    if (taken[first])
+      continue;
+    std::vector<std::size_t> group = {first};
+    taken[first] = true;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      for (const std::size_t partner : partners[group[i]]) {
+        if (!taken[partner])
+          group.push_back(partner);
+        taken[partner] = true;
+      }
+    }
+    std::sort(group.begin(), group.end());
+    groups.push_back(group);
+  }
+  return groups;
+}
+
+}  // namespace wiimote_tracker::geometry

@@ -7,6 +7,7 @@
 #include "screenshot.h"
 
 #include <QApplication>
+#include <QComboBox>
 #include <QKeyEvent>
 #include <QLabel>
 #include <QLocale>
@@ -62,6 +63,36 @@ TEST(CalibratePage, AppliesAndRevertsWhatContinuousCalibrationProposes) {
   EXPECT_EQ(sent, "continuous/apply");
   page.findChild<QPushButton*>("Revert")->click();
   EXPECT_EQ(sent, "continuous/revert");
+}
+
+TEST(CalibratePage, OffersCamerasToSolveAddAndRemove) {
+  std::string sent;
+  CalibratePage page(nullptr, [&](const Request& request) { sent = request.name; });
+  Guide guide;
+  wiimote_tracker_msgs::CalibrationStatus status;
+  status.step = status.SAVED;
+  status.rig_id = "f00";
+  status.cameras.resize(1);
+  status.cameras[0].name = "new";
+  wiimote_tracker_msgs::CalibrationVerdict verdict;
+  verdict.rig_id = status.rig_id;
+  verdict.cameras.resize(1);
+  verdict.cameras[0].name = "gone";
+  guide.onStatus(status, 0.0);
+  guide.onVerdict(verdict);
+  page.show(guide, 0.1);
+  auto* cameras = page.findChild<QComboBox*>("camera");
+  cameras->setCurrentIndex(cameras->findText("gone"));
+  page.findChild<QPushButton*>("Remove it")->click();
+  EXPECT_EQ(sent, "remove_camera");
+  // Of another rig: what was chosen does not become another camera.
+  status.rig_id = "f01";
+  guide.onStatus(status, 0.2);
+  page.show(guide, 0.3);
+  EXPECT_EQ(cameras->currentText().toStdString(), "gone");
+  cameras->setCurrentIndex(cameras->findText("new"));
+  page.findChild<QPushButton*>("Solve or add it")->click();
+  EXPECT_EQ(sent, "recalibrate_camera");
 }
 
 TEST(CalibratePage, ItsButtonWaitsWhenAProposalChangesIt) {

@@ -181,7 +181,26 @@ TEST_F(Panel, CalibratesByPressingTheButtonThatItOffers) {
   EXPECT_TRUE(waitFor([this] { return title() == "Solve"; })) << title().toStdString();
 }
 
-/// With the rig that the test before has saved.
+/// While the tracker runs.
+TEST_F(Panel, RemovesACameraAndAddsItAgain) {
+  std_srvs::Trigger drop;  // what the test before captured
+  ASSERT_TRUE(ros::service::call("calibration/cancel", drop));
+  open(1);
+  auto* camera = find<QComboBox>("camera");
+  ASSERT_TRUE(waitFor([&] { return camera->count() == 4; }));
+  camera->setCurrentIndex(camera->findText("wiimote_4"));
+  answerTo("Remove it", "wiimote_4 was removed");
+  open(0);
+  EXPECT_TRUE(waitFor([this] { return label("summary").endsWith("1 not calibrated, 3 fine"); }))
+      << label("summary").toStdString();
+  open(1);
+  answerTo("Solve or add it", "wiimote_4 was added; it is known to ");
+  open(0);
+  EXPECT_TRUE(waitFor([this] { return camerasAre("4 cameras: 4 fine"); }))
+      << label("summary").toStdString();
+}
+
+/// With the rig that the first test has saved.
 TEST_F(Panel, CorrectsACameraThatWasMovedAndRevertsThat) {
   std::string rig_file;
   ASSERT_TRUE(ros::param::get("calibration/rig_file", rig_file));

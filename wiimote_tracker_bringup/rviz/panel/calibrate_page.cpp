@@ -3,7 +3,7 @@
 #include "big_words.h"
 #include "number_box.h"
 #include "square_drawing.h"
-#include "table.h"
+#include "verdict_table.h"
 
 #include <QCheckBox>
 #include <QComboBox>
@@ -24,6 +24,8 @@
 #include <wiimote_tracker_msgs/LearnMasks.h>
 #include <wiimote_tracker_msgs/LoadRig.h>
 #include <wiimote_tracker_msgs/MeasureLength.h>
+#include <wiimote_tracker_msgs/RecalibrateCamera.h>
+#include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 #include <wiimote_tracker_msgs/SolveCalibration.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
@@ -61,19 +63,8 @@ QLabel* wrappedLabel(const QString& name, QWidget* parent) {
   return label;
 }
 
-/// How right points are, and what to measure next to improve that; empty: not known.
-QString measurementWords(const wiimote_tracker_msgs::CalibrationVerdict& verdict) {
-  QString words;
-  if (verdict.expected_error > 0.0)
-    words += "\nExpected error at the corners and above them: " +
-             figure(1e3 * verdict.expected_error, 1) + " mm (RMS).";
-  if (!verdict.next_measurement.empty())
-    words += "\nBest to measure next: " + text(verdict.next_measurement);
-  return words;
-}
-
-/// Of a corner. The wheel scrolls the page.
-class CornerBox : public QComboBox {
+/// The wheel scrolls the page.
+class ChoiceBox : public QComboBox {
  public:
   using QComboBox::QComboBox;
 
@@ -104,13 +95,13 @@ CalibratePage::CalibratePage(QWidget* parent, std::function<void(const Request&)
   layout->addWidget(square_ = new SquareDrawing(content));
   square_->setObjectName("square");
   layout->addWidget(remarks_ = wrappedLabel("remarks", content));
-  layout->addWidget(verdict_ = wrappedLabel("verdict", content));
-  addTable(layout);
+  layout->addWidget(verdict_ = new VerdictTable(content));
   addLengths(layout);
   addButtons(layout);
   addFile(layout);
   addPlace(layout);
   addTape(layout);
+  addCamera(layout);
   layout->addStretch();
 
   auto* scroll = new QScrollArea(this);
@@ -176,23 +167,6 @@ QPushButton* CalibratePage::addButton(const QString& words, const std::string& r
   if (request != "cancel")
     buttons_.push_back(button);
   return button;
-}
-
-/// Quality of each camera.
-void CalibratePage::addTable(QVBoxLayout* layout) {
-  const QStringList columns = {"camera", "px", "mm", "fits %", "± mm", "± °"};
-  layout->addWidget(table_ = new Table("table", columns, this));
-  const QStringList meanings = {"",
-                                "residual in the image [px]",
-                                "residual at the distance of the LED [mm]",
-                                "share of the spots that fit",
-                                "standard deviation of the camera's place",
-                                "standard deviation of the camera's orientation"};
-  for (int column = 0; column < meanings.size(); ++column)
-    table_->horizontalHeaderItem(column)->setToolTip(meanings[column]);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::Stretch);
-  table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::ResizeToContents);
-  table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
 }
 
 void CalibratePage::addLengths(QVBoxLayout* layout) {
@@ -288,9 +262,9 @@ void CalibratePage::addPlace(QVBoxLayout* layout) {
 void CalibratePage::addTape(QVBoxLayout* layout) {
   auto* row = new QHBoxLayout;
   row->addWidget(new QLabel("Corner", this));
-  std::array<CornerBox*, 2> ends{};
+  std::array<ChoiceBox*, 2> ends{};
   for (int i = 0; i < 2; ++i) {
-    auto* box = ends[static_cast<std::size_t>(i)] = new CornerBox(this);
+    auto* box = ends[static_cast<std::size_t>(i)] = new ChoiceBox(this);
     box->setObjectName(QStringList({"from", "to"})[i]);
     box->addItems({"1", "2", "3", "4"});
     row->addWidget(box);
@@ -308,6 +282,35 @@ void CalibratePage::addTape(QVBoxLayout* layout) {
   });
   row->addWidget(addButton("Take length", "measure_length"));
   layout->addLayout(row);
+}
+
+/// To solve one camera of the rig again, to add one, or to remove one.
+void CalibratePage::addCamera(QVBoxLayout* layout) {
+  auto* row = new QHBoxLayout;
+  row->addWidget(camera_ = new ChoiceBox(this), 1);
+  camera_->setObjectName("camera");
+  const auto fillCamera = [this](auto* one) { one->camera = camera_->currentText().toStdString(); };
+  addRequest<RecalibrateCamera>("recalibrate_camera", fillCamera);
+  addRequest<RemoveCamera>("remove_camera", fillCamera);
+  QPushButton* solve = addButton("Solve or add it", "recalibrate_camera");
+  solve->setToolTip("solves this camera again, or adds it to the rig, while you wave the LED");
+  row->addWidget(solve);
+  row->addWidget(addButton("Remove it", "remove_camera"));
+  layout->addLayout(row);
+}
+
+/// Cameras of the rig, and those that are there, can be chosen. What was chosen stays so.
+void CalibratePage::offerCameras(const Guide& guide) {
+  const auto offer = [this](const auto& cameras) {
+    for (const auto& camera : cameras) {
+      if (camera_->findText(text(camera.name)) < 0)
+        camera_->addItem(text(camera.name));
+    }
+  };
+  if (guide.verdict())
+    offer(guide.verdict()->cameras);
+  if (guide.status())
+    offer(guide.status()->cameras);
 }
 
 double CalibratePage::side() const {
@@ -353,7 +356,8 @@ void CalibratePage::show(const Guide& guide, double now) {
     if (!guide.isWaiting())
       hands_free_->setChecked(guide.status()->hands_free != 0);
   }
-  showVerdict(guide.verdict());
+  verdict_->show(guide.verdict());
+  offerCameras(guide);
 }
 
 void CalibratePage::showWords(const Guide& guide, const Advice& advice) {
@@ -371,30 +375,6 @@ void CalibratePage::showWords(const Guide& guide, const Advice& advice) {
     list += QString("• and %1 more").arg(remarks.size() - kMostRemarks);
   remarks_->setText(list.trimmed());
   remarks_->setVisible(!list.isEmpty());
-}
-
-void CalibratePage::showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* verdict) {
-  const std::string rig = verdict ? verdict->rig_id : "";
-  verdict_->setVisible(verdict != nullptr);
-  table_->setVisible(verdict != nullptr);
-  if (rig == shown_rig_)
-    return;
-  shown_rig_ = rig;
-  if (!verdict)
-    return;
-  verdict_->setText(text(verdict->text) + measurementWords(*verdict));
-  std::vector<QStringList> rows;
-  for (const auto& camera : verdict->cameras)
-    rows.push_back({text(camera.name), figure(camera.residual_px, 2),
-                    figure(1e3 * camera.residual_m, 1), figure(1e2 * camera.inlier_share, 0),
-                    figure(1e3 * camera.position_stddev, 1),
-                    figure(camera.rotation_stddev * 180.0 / M_PI, 3)});
-  table_->show(rows);
-  table_->resizeRowsToContents();
-  int height = table_->horizontalHeader()->sizeHint().height() + 2 * table_->frameWidth();
-  for (int row = 0; row < table_->rowCount(); ++row)
-    height += table_->rowHeight(row);
-  table_->setFixedHeight(height);
 }
 
 }  // namespace wiimote_tracker::panel

@@ -12,6 +12,7 @@
 #include <vector>
 
 class QCheckBox;
+class QComboBox;
 class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
@@ -23,7 +24,7 @@ namespace wiimote_tracker::panel {
 
 class BigWords;
 class SquareDrawing;
-class Table;
+class VerdictTable;
 
 /// Leads through a calibration: the one thing to do next, the square, what is missing, the verdict.
 class CalibratePage : public QWidget {
@@ -49,31 +50,31 @@ class CalibratePage : public QWidget {
   void sendRequest(const std::string& name);
   QPushButton* addButton(const QString& text, const std::string& request);
   void addAdvice();
-  void addTable(QVBoxLayout* layout);
   void addLengths(QVBoxLayout* layout);
   void addButtons(QVBoxLayout* layout);
   void addFile(QVBoxLayout* layout);
   void addPlace(QVBoxLayout* layout);
   void addTape(QVBoxLayout* layout);
+  void addCamera(QVBoxLayout* layout);
   void showWords(const Guide& guide, const Advice& advice);
-  void showVerdict(const wiimote_tracker_msgs::CalibrationVerdict* verdict);
+  void offerCameras(const Guide& guide);
 
   std::function<void(const Request&)> send_;
   std::map<std::string, std::function<Request()>> requests_;  // by name, with what is typed
   Advice advice_;
   double proposed_at_ = -1.0;  // When a correction was proposed, or withdrawn [s].
   BigWords* title_;
-  QLabel *sentence_, *answer_, *remarks_, *verdict_;
+  QLabel *sentence_, *answer_, *remarks_;
   QProgressBar* progress_;
   QPushButton* next_;
   SquareDrawing* square_;
   QDoubleSpinBox *side_, *wand_length_;
   QCheckBox *without_square_, *hands_free_;
   QLineEdit* path_;
-  Table* table_;
+  VerdictTable* verdict_;
+  QComboBox* camera_;
   QPushButton* cancel_;
   std::vector<QPushButton*> buttons_;  // that wait for an answer
-  std::string shown_rig_;
 };
 
 }  // namespace wiimote_tracker::panel

@@ -1,6 +1,5 @@
 // The services and the watch that need a calibrated rig, with cameras that this test plays: the
-// rig that is loaded is not always the true one. More than 400 lines, because all of them need the
-// same calibrated node.
+// rig that is loaded is not always the true one.
 
 #include "calibrated_node.h"
 
@@ -12,8 +11,6 @@
 #include <wiimote_tracker_msgs/CheckPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
 #include <wiimote_tracker_msgs/LearnMasks.h>
-#include <wiimote_tracker_msgs/RecalibrateCamera.h>
-#include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 
 #include <atomic>
@@ -28,8 +25,6 @@ using wiimote_tracker_msgs::AddKnownPlace;
 using wiimote_tracker_msgs::CheckPlace;
 using wiimote_tracker_msgs::FitRemap;
 using wiimote_tracker_msgs::LearnMasks;
-using wiimote_tracker_msgs::RecalibrateCamera;
-using wiimote_tracker_msgs::RemoveCamera;
 
 TEST_F(CalibratedNode, ChecksAKnownPlace) {
   load(trueRig());
@@ -225,74 +220,6 @@ TEST_F(CalibratedNode, NamesCamerasThatAreNotInTheRig) {
   EXPECT_EQ(found.level, diagnostic_msgs::DiagnosticStatus::WARN);
   load(trueRig());
   EXPECT_TRUE(says("no camera seems to have moved"));
-}
-
-TEST_F(CalibratedNode, RecalibratesOneCamera) {
-  geometry::Rig rig = trueRig();
-  Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
-  pose.translation() += Eigen::Vector3d(0.05, 0.0, 0.0);
-  pose.linear() = pose.linear() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY());
-  load(rig);
-  RecalibrateCamera::Request request;
-  request.camera = "camera_9";
-  EXPECT_SAYS(call<RecalibrateCamera>("calibration/recalibrate_camera", request).message,
-              "no camera 'camera_9', and none of that name sends images: start its driver, or "
-              "name one of camera_1, camera_2, camera_3, camera_4");
-  request.camera = "camera_2";
-  request.duration = 2.0;
-  putLed({1.0, 1.0, 1.0});
-  const auto refused = call<RecalibrateCamera>("calibration/recalibrate_camera", request);
-  EXPECT_FALSE(refused.success);
-
-  cameras_->waveLed(true);
-  request.duration = 6.0;
-  const auto response = call<RecalibrateCamera>("calibration/recalibrate_camera", request);
-  ASSERT_TRUE(response.success) << response.message;
-  EXPECT_NEAR(response.moved, 0.05, 0.01);
-  EXPECT_NEAR(response.turned, 0.05, 0.003);
-  Latest<RigCalibration> published("calibration/rig");
-  ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
-  const geometry::Rig result = fromMessage(*published.get());
-  EXPECT_LT((result.cameras[1].camera.center() - cameras_->truth[1].center()).norm(), 0.01);
-  EXPECT_TRUE(waitUntil([&] { return status_->get()->message == response.message; }));
-}
-
-TEST_F(CalibratedNode, RemovesACameraAndAddsIt) {
-  const auto rigOf = [](std::size_t cameras) {
-    Latest<RigCalibration> published("calibration/rig");
-    EXPECT_TRUE(
-        waitUntil([&] { return published.get() && published.get()->cameras.size() == cameras; }));
-    return fromMessage(*published.get());
-  };
-  load(trueRig());
-  RemoveCamera::Request remove;
-  remove.camera = "camera_9";
-  EXPECT_SAYS(call<RemoveCamera>("calibration/remove_camera", remove).message,
-              "no camera 'camera_9': name one of");
-  remove.camera = "camera_2";
-  const auto removed = call<RemoveCamera>("calibration/remove_camera", remove);
-  ASSERT_TRUE(removed.success) << removed.message;
-  EXPECT_SAYS(removed.message, "camera_2 was removed");
-  const geometry::Rig three = rigOf(3);
-  EXPECT_EQ(three.cameras[1].camera.name, "camera_3");
-  EXPECT_EQ(three.verdict.find("usable: camera_2 was removed"), 0u) << three.verdict;
-
-  cameras_->waveLed(true);
-  RecalibrateCamera::Request request;
-  request.camera = "camera_2";
-  request.duration = 6.0;
-  const auto response = call<RecalibrateCamera>("calibration/recalibrate_camera", request);
-  ASSERT_TRUE(response.success) << response.message;
-  EXPECT_SAYS(response.message, "camera_2 was added");
-  EXPECT_EQ(response.moved, 0.0);
-  const geometry::Rig rig = rigOf(4);
-  EXPECT_EQ(rig.cameras[3].camera.identity, "00:1e:35:00:00:02");
-  EXPECT_LT((rig.cameras[3].camera.center() - cameras_->truth[1].center()).norm(), 0.05);
-  EXPECT_EQ(rig.covariance.rows(), 64);
-  wiimote_tracker_msgs::SaveRig::Request save;
-  save.path = folder_ + "/added.yaml";
-  ASSERT_TRUE(call<wiimote_tracker_msgs::SaveRig>("calibration/save", save).success);
-  EXPECT_EQ(geometry::readRigFile(save.path).id(), rig.id());
 }
 
 TEST_F(CalibratedNode, BringsBackAKnockedCamera) {

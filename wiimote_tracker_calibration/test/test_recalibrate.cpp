@@ -164,6 +164,32 @@ TEST(Recalibrate, RemovesACamera) {
   EXPECT_SAYS(refusalOf([&] { withoutCamera(two, "camera_3"); }), "a rig needs two cameras");
 }
 
+TEST(Recalibrate, SaysWhichCamerasSharedViewsOnlyThroughOne) {
+  geometry::Rig rig = paperRigWith(wellCalibrated());
+  for (const geometry::RigCamera& camera : rig.cameras)
+    EXPECT_EQ(describeSplit(rig, camera.camera.name), "") << "all see the same volume";
+  // camera_2 sees both what camera_1 sees and what the others see, which look the other way.
+  const auto look = [&](std::size_t camera, double x, double to_x, double y) {
+    rig.cameras[camera].camera.world_from_camera =
+        geometry::lookAt({x, y, 1.0}, {to_x, 0.0, 1.0}, Eigen::Vector3d::UnitZ());
+  };
+  look(0, 0.0, -5.0, 0.0);
+  look(1, 0.5, 0.5, -6.0);
+  look(2, 1.0, 6.0, 0.0);
+  look(3, 1.0, 6.0, 0.3);
+  EXPECT_SAYS(describeSplit(rig, "camera_2"),
+              "camera_2 alone linked the views of camera_1 with those of camera_3, camera_4:");
+  EXPECT_EQ(describeSplit(rig, "camera_3"), "");
+  EXPECT_EQ(describeSplit(rig, "camera_1"), "") << "what is alone links nothing";
+  // Another room, which never had a view in common.
+  for (geometry::RigCamera camera : paperRigWith(wellCalibrated()).cameras) {
+    camera.camera.name += "_far";
+    camera.camera.world_from_camera.pretranslate(Eigen::Vector3d(50.0, 0.0, 0.0));
+    rig.cameras.push_back(camera);
+  }
+  EXPECT_EQ(describeSplit(rig, "camera_1_far"), "");
+}
+
 // With right covariances the mean of the normalised squared error is 1, and 95 % are within the
 // 95 % region.
 TEST(ExtensiveRecalibrate, HasTheStatedUncertainty) {
@@ -284,11 +310,23 @@ TEST(Recalibrate, RefusesWithTheReason) {
     camera.time_offset_rule = geometry::TimeOffsetRule::kNone;
   }
   WavedLed in_step(unclocked.cameras, 34);
-  EXPECT_SAYS(refusal(unclocked, record(&in_step, "camera_2")),
-              "those of camera_1, camera_3, camera_4 are not known");
-
+  const char* const square_alone =
+      "at most one of the other cameras has a known clock, as after a calibration by the square "
+      "alone, so that camera_2 cannot be solved against them: calibrate all cameras again, with a "
+      "waved LED";
+  EXPECT_EQ(whyUnsolvable(unclocked, "camera_2", {}), square_alone);
   EXPECT_SAYS(refusal(withoutCamera(unclocked, "camera_2"), record(&in_step, "camera_2", 30.0)),
-              "calibrate all cameras again, with a waved LED");
+              square_alone);
+  Options lenient;
+  lenient.maximum_offset_stddev = 0.01;
+  EXPECT_EQ(whyUnsolvable(unclocked, "camera_2", lenient), "");
+  // As of a room that was joined: nobody knows before whether these see the LED.
+  geometry::Rig joined = unclocked;
+  for (const std::size_t i : {0, 2})
+    joined.cameras[i].time_offset_rule = geometry::TimeOffsetRule::kAlways;
+  EXPECT_EQ(whyUnsolvable(joined, "camera_2", {}), "");
+  EXPECT_SAYS(refusal(joined, record(&in_step, "camera_2", 45.0)),
+              "those of camera_4 are not known; calibrate all cameras again, with a waved LED");
 
   // As after new batteries: continuous calibration solves that clock alone.
   request = good;

@@ -45,12 +45,10 @@ constexpr Eigen::Index kHeldSize = adjust::kHigherDistortionSize;
 // Number of matches for which the derivatives by the others' parameters are computed.
 constexpr std::size_t kDerivatives = 200;
 
-void checkInput(const geometry::Rig& rig, const Request& request) {
+void checkInput(const geometry::Rig& rig, const Request& request, const Options& options) {
   rig.check();
-  if (rig.ray_model != geometry::RayModel::kCalibrated)
-    throw Error(
-        "the rig's rays are built through the image centre, which does not fit its cameras: "
-        "calibrate all of it again");
+  if (const std::string reason = whyUnsolvable(rig, request.camera, options); !reason.empty())
+    throw Error(reason);
   bool sends_images = false;
   for (const capture::Image& image : request.images) {
     if (!std::isfinite(image.stamp))
@@ -275,10 +273,35 @@ geometry::RigCamera rigCamera(const geometry::RigCamera& before,
 
 }  // namespace
 
+std::string whyUnsolvable(const geometry::Rig& rig,
+                          const std::string& camera,
+                          const Options& options) {
+  if (rig.ray_model != geometry::RayModel::kCalibrated)
+    return "the rig's rays are built through the image centre, which does not fit its cameras: "
+           "calibrate all of it again";
+  int others = 0, clocks = 0;
+  for (const geometry::RigCamera& each : rig.cameras) {
+    if (each.camera.name == camera)
+      continue;
+    ++others;
+    clocks += each.time_offset_rule != geometry::TimeOffsetRule::kNone;
+  }
+  if (others < 2)
+    return "one camera is solved against two others or more, but the rig has " +
+           std::to_string(others) + " beside " + camera + ": calibrate all cameras again";
+  // The offset is against the mean of the others, at best.
+  if (clocks < 2 && geometry::hasCovariance(rig) &&
+      capture::kUnknownOffset > options.maximum_offset_stddev * std::sqrt(others))
+    return "at most one of the other cameras has a known clock, as after a calibration by the "
+           "square alone, so that " +
+           camera + " cannot be solved against them: calibrate all cameras again, with a waved LED";
+  return "";
+}
+
 Recalibration recalibrateCamera(const geometry::Rig& before,
                                 const Request& request,
                                 const Options& options) {
-  checkInput(before, request);
+  checkInput(before, request, options);
   const bool is_new = !before.find(request.camera);
   const geometry::Rig rig = is_new ? withCamera(before, request.camera) : before;
   const auto index = static_cast<std::size_t>(rig.find(request.camera) - rig.cameras.data());

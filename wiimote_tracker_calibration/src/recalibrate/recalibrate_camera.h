@@ -49,13 +49,19 @@ struct Recalibration {
   std::string message;           ///< One sentence: how far it moved, how sure that is.
 };
 
+/// Why no recording could solve a camera of this rig, or one to be added, and what to do; empty:
+/// one may.
+std::string whyUnsolvable(const geometry::Rig& rig,
+                          const std::string& camera,
+                          const Options& options);
+
 /// Estimates pose, lens and time offset of one camera, the others being fixed: maximum a posteriori
 /// by Levenberg-Marquardt. The LED's positions are triangulated from the others, interpolated to
 /// the camera's times. The prior of the lens is the rig's lens with its covariance, or the
 /// request's for a new camera and another device. False detections are left out by gating.
 /// @throws Error: the camera sent no images, or fewer than two others saw the LED; too
 /// few common images; an LED that hardly moved, or in a plane only; contradictory images; a result
-/// that is too uncertain; a rig with RayModel::kImageCenter.
+/// that is too uncertain; what whyUnsolvable() says.
 Recalibration recalibrateCamera(const geometry::Rig& before,
                                 const Request& request,
                                 const Options& options);

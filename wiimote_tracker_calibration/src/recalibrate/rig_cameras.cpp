@@ -3,10 +3,13 @@
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
+#include <wiimote_tracker_triangulation/geometry/shared_views.h>
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::recalibrate {
@@ -44,6 +47,28 @@ geometry::Rig withoutCamera(const geometry::Rig& rig, const std::string& name) {
     covariance.conservativeResize(first + after, first + after);
   }
   return result;
+}
+
+std::string describeSplit(const geometry::Rig& rig, const std::string& name) {
+  auto shared = geometry::sharedViews(rig, geometry::kFarthestLed);
+  const auto removed = static_cast<std::size_t>(rig.find(name) - rig.cameras.data());
+  const std::vector<std::size_t> partners = std::exchange(shared[removed], {});
+  for (std::vector<std::size_t>& others : shared)
+    others.erase(std::remove(others.begin(), others.end(), removed), others.end());
+  std::vector<std::string> parts;
+  for (const std::vector<std::size_t>& group : geometry::groupsOf(shared)) {
+    std::vector<std::string> names;
+    for (const std::size_t camera : group)
+      names.push_back(rig.cameras[camera].camera.name);
+    if (std::find_first_of(group.begin(), group.end(), partners.begin(), partners.end()) !=
+        group.end())
+      parts.push_back(joined(names));
+  }
+  if (parts.size() < 2)
+    return "";
+  return name + " alone linked the views of " + joined(parts, " with those of ") +
+         ": no LED is tracked from one to the other now, nor by one camera; add it again, or turn "
+         "another camera so that it sees both, and recalibrate that";
 }
 
 }  // namespace wiimote_tracker::recalibrate

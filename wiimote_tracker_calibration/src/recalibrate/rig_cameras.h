@@ -16,6 +16,10 @@ geometry::Rig withCamera(const geometry::Rig& rig, const std::string& name);
 /// @throws Error: the rig lacks the camera, or has no more than two.
 geometry::Rig withoutCamera(const geometry::Rig& rig, const std::string& name);
 
+/// Which of the others had views in common only through this camera of the rig, and what to do;
+/// empty: none.
+std::string describeSplit(const geometry::Rig& rig, const std::string& name);
+
 }  // namespace wiimote_tracker::recalibrate
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H

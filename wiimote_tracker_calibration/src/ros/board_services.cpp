@@ -81,6 +81,9 @@ class BoardServices {
 
   Reply start(wiimote_tracker_msgs::StartBoard& call, Lock& lock) {
     context_.discover(&lock);
+    if (const std::string reason = context_.inputs().whyIgnored({call.request.camera});
+        !reason.empty())
+      throw Refusal(reason);
     const auto input = context_.inputs().cameras().find(call.request.camera);
     if (input == context_.inputs().cameras().end() || input->second.width < 0)
       throw Refusal("no image of a camera '" + call.request.camera +

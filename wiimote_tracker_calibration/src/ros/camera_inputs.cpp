@@ -3,6 +3,7 @@
 #include <ros/master.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <wiimote_tracker_msgs/camera_topics.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <set>
 #include <utility>
@@ -131,14 +132,36 @@ std::vector<std::string> CameraInputs::names() const {
   return names;
 }
 
-std::vector<std::string> CameraInputs::withoutImages(const geometry::Rig& rig) const {
-  std::vector<std::string> silent;
-  for (const geometry::RigCamera& camera : rig.cameras) {
-    const auto input = cameras_.find(camera.camera.name);
-    if (input == cameras_.end() || input->second.width < 0)
-      silent.push_back(camera.camera.name);
+std::string CameraInputs::whyIgnored(const std::vector<std::string>& cameras) const {
+  std::vector<std::string> left_out;
+  for (const std::string& name : cameras) {
+    if (!name.empty() && name == ignored_)
+      return name +
+             " is the button_remote, which moves when its button is pressed: calibrate the "
+             "others, or set button_remote to another remote";
+    if (!discovers_ && cameras_.count(name) == 0)
+      left_out.push_back(name);
   }
-  return silent;
+  if (left_out.empty())
+    return "";
+  return "the parameter " + ros::this_node::getName() + "/cameras names " + joined(names()) +
+         ", but not " + joined(left_out) + ": add that there, and start the calibration node again";
+}
+
+std::string CameraInputs::describeSilent(const geometry::Rig& rig) const {
+  std::vector<std::string> silent, ignored;
+  for (const geometry::RigCamera& camera : rig.cameras) {
+    const std::string& name = camera.camera.name;
+    const auto input = cameras_.find(name);
+    if (input == cameras_.end() || input->second.width < 0)
+      (whyIgnored({name}).empty() ? silent : ignored).push_back(name);
+  }
+  std::string text = whyIgnored(ignored);
+  if (!silent.empty())
+    text += (text.empty() ? "" : "; ") + ("no image has come yet from " + joined(silent)) +
+            ": check that this is the rig of your cameras, and start their drivers; one that is "
+            "gone for good is removed by R in calibrate";
+  return text;
 }
 
 void CameraInputs::restartGravity() {

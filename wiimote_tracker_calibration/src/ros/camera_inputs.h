@@ -101,8 +101,11 @@ class CameraInputs {
 
   std::vector<std::string> names() const;
 
-  /// Cameras of a rig that have sent no image since the start.
-  std::vector<std::string> withoutImages(const geometry::Rig& rig) const;
+  /// Why images of some of these cameras would not be used, and what to do; empty: all would.
+  std::string whyIgnored(const std::vector<std::string>& cameras) const;
+
+  /// Which cameras of a rig have sent no image since the start, and what to do; empty: none.
+  std::string describeSilent(const geometry::Rig& rig) const;
 
   /// Light in these regions is ignored from the next image on. Lock the mutex.
   void setMasks(const capture::Masks& masks) { masks_ = masks; }

@@ -265,14 +265,11 @@ class CaptureServices {
 
   /// The cameras to calibrate; all when none is named.
   /// @throws Refusal: one of them is not there, or is the hand-held remote.
-  std::vector<std::string> chooseCameras(const std::vector<std::string>& names, const Lock& lock) {
+  std::vector<std::string> chooseCameras(const std::vector<std::string>& names, const Lock&) {
     const std::vector<std::string> known = context_.inputs().names();
+    if (const std::string reason = context_.inputs().whyIgnored(names); !reason.empty())
+      throw Refusal(reason);
     for (const std::string& name : names) {
-      if (!name.empty() && name == context_.parameters(lock).button_remote)
-        throw Refusal(
-            name +
-            " is the button_remote, which moves when its button is pressed: calibrate the "
-            "others, or set button_remote to another remote");
       if (context_.inputs().cameras().count(name) == 0)
         throw Refusal("there is no camera '" + name + "': " +
                       (known.empty() ? "start the drivers" : "name some of " + joined(known)));

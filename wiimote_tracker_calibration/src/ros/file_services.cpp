@@ -107,9 +107,9 @@ class FileServices {
     Reply reply = loadRig(path, &lock);
     if (!reply.success)
       return reply;
-    const auto silent = context_.inputs().withoutImages(*context_.rig(lock));
+    const std::string silent = context_.inputs().describeSilent(*context_.rig(lock));
     if (!silent.empty())
-      reply.message += "; " + workflow::describeSilent(silent);
+      reply.message += "; " + silent;
     reply.message += nextStart(path, context_.parameters(lock));
     return reply;
   }

@@ -228,9 +228,11 @@ class PlaceServices {
                                           const capture::CornerCaptureOptions& options,
                                           Lock* lock) {
     using State = capture::CornerCapture::State;
-    std::vector<std::string> names;
-    for (const geometry::RigCamera& camera : rig.cameras)
-      names.push_back(camera.camera.name);
+    std::vector<std::string> names, ignored;
+    for (const geometry::RigCamera& each : rig.cameras) {
+      const std::string& name = each.camera.name;
+      (context_.inputs().whyIgnored({name}).empty() ? names : ignored).push_back(name);
+    }
     const double start = NodeContext::now();
     capture::CornerCapture led(names, options, start);
     const auto watching =
@@ -248,7 +250,8 @@ class PlaceServices {
     if (!over && NodeContext::now() < end_time)
       throw Refusal(NodeContext::whyEndedEarly());
     if (context_.isCancelled(*lock) || led.state() != State::kDone)
-      throw Refusal(led.message());
+      throw Refusal(led.message() + (ignored.empty() ? "" : "; ") +
+                    context_.inputs().whyIgnored(ignored));
     return led.result();
   }
 

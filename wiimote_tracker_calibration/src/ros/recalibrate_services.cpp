@@ -39,26 +39,22 @@ class RecalibrateServices {
       throw Refusal("the duration must be within 0 and 300 s: correct it");
     const std::string in_use = context_.existingRig("with this camera", lock).id();
     const geometry::Rig rig = rigToChange(lock);
-    if (!rig.find(camera))
-      requireNewCamera(rig, camera, lock);
+    const recalibrate::Options options = context_.parameters(lock).recalibrateOptions();
+    requireSolvable(rig, camera, options, lock);
     const Job job = {Step::kMeasuring,
                      "wave the LED where " + camera + " and two other cameras or more see it",
                      "the rig is as it was", true};
     return context_.run(job, &lock, [&] {
       const recalibrate::Request recording = record(camera, duration, &lock);
-      const recalibrate::Options options = context_.parameters(lock).recalibrateOptions();
       recalibrate::Recalibration result = context_.compute(
           &lock, [&] { return recalibrate::recalibrateCamera(rig, recording, options); });
       context_.requireNotCancelled(lock);
       context_.requireSameRig(in_use, lock);
       call.response.moved = result.moved;
       call.response.turned = result.turned;
-      // A new camera gets the masks that its images have.
-      const auto masks = context_.inputs().masks().find(camera);
-      if (!rig.find(camera) && masks != context_.inputs().masks().end())
-        result.rig.cameras.back().masks = masks->second;
       result.rig.solved_at = NodeContext::now();
-      const std::string message = result.message + voidCorrection(rig);
+      const std::string message = result.message + voidCorrection(rig) +
+                                  (rig.find(camera) ? "" : maskNew(&result.rig.cameras.back()));
       context_.setRig(result.rig, message, lock);
       return workflow::Reply{true, message};
     });
@@ -68,6 +64,19 @@ class RecalibrateServices {
   geometry::Rig rigToChange(const Lock& lock) const {
     const geometry::Rig& in_use = context_.existingRig("with this camera", lock);
     return context_.calibration(lock).goal().value_or(in_use);
+  }
+
+  /// A new camera gets the masks that its images have. @returns what to do if it has none yet.
+  std::string maskNew(geometry::RigCamera* camera) const {
+    const capture::Masks& masks = context_.inputs().masks();
+    const auto own = masks.find(camera->camera.name);
+    if (own != masks.end())
+      camera->masks = own->second;
+    const bool lacks_masks =
+        own == masks.end() && std::any_of(masks.begin(), masks.end(),
+                                          [](const auto& other) { return !other.second.empty(); });
+    return lacks_masks ? "; it has no masks yet: switch the LED off, and learn the lights again"
+                       : "";
   }
 
   /// What is said when a rig with other cameras replaces this one.
@@ -97,20 +106,55 @@ class RecalibrateServices {
     return recording;
   }
 
-  /// @throws Refusal: a camera that the rig lacks sends no images, or its starting intrinsics do
-  /// not fit them.
-  void requireNewCamera(const geometry::Rig& rig, const std::string& name, const Lock& lock) {
-    std::set<std::string> names;
-    for (const geometry::RigCamera& camera : rig.cameras)
-      names.insert(camera.camera.name);
-    for (const auto& [camera, input] : context_.inputs().cameras()) {
-      if (input.width >= 0)
-        names.insert(camera);
+  /// Before a person waves for nothing.
+  /// @throws Refusal: whatever is seen, the camera cannot be solved, or added.
+  void requireSolvable(const geometry::Rig& rig,
+                       const std::string& name,
+                       const recalibrate::Options& options,
+                       const Lock& lock) {
+    const CameraInputs& inputs = context_.inputs();
+    if (const std::string reason = inputs.whyIgnored({name}); !reason.empty())
+      throw Refusal(reason);
+    std::set<std::string> sending;
+    for (const auto& [camera, input] : inputs.cameras()) {
+      if (input.monitor.summary(NodeContext::now()).connected)
+        sending.insert(camera);
     }
-    if (names.count(name) == 0)
+    if (!rig.find(name))
+      requireNewCamera(rig, name, sending, lock);
+    else if (sending.count(name) == 0)
+      throw Refusal(name + " " + capture::kSendsNoImages);
+    if (const std::string reason = recalibrate::whyUnsolvable(rig, name, options); !reason.empty())
+      throw Refusal(reason);
+    std::vector<std::string> others;
+    for (const geometry::RigCamera& each : rig.cameras) {
+      if (each.camera.name != name)
+        others.push_back(each.camera.name);
+    }
+    const std::string reason = inputs.whyIgnored(others);
+    if (std::count_if(others.begin(), others.end(),
+                      [&](const std::string& other) { return sending.count(other) > 0; }) < 2)
+      throw Refusal("two of " + joined(others) +
+                    " are to see the LED, too, but fewer send images: " +
+                    (reason.empty() ? "start their drivers" : reason));
+  }
+
+  /// @param sending names of the cameras that send images.
+  void requireNewCamera(const geometry::Rig& rig,
+                        const std::string& name,
+                        std::set<std::string> sending,
+                        const Lock& lock) {
+    std::vector<std::string> names = {name};
+    for (const geometry::RigCamera& camera : rig.cameras)
+      names.push_back(camera.camera.name);
+    if (sending.count(name) == 0) {
+      sending.insert(names.begin() + 1, names.end());
       throw Refusal("the rig has no camera '" + name +
                     "', and none of that name sends images: start its driver, or name one of " +
-                    joined(names));
+                    joined(sending));
+    }
+    if (const std::string clash = geometry::nameClash(names); !clash.empty())
+      throw Refusal(clash);
     context_.facts({name}, lock);
   }
 
@@ -124,10 +168,14 @@ class RecalibrateServices {
         std::max(samples::gradeOf(before.verdict), samples::Grade::kUsable);
     rig.verdict =
         samples::nameOf(grade) + ": " + camera + " was removed; with it: " + before.verdict;
-    context_.inputs().setMasks(camera, {});  // It may stand elsewhere when it comes back.
-    const std::string message = camera +
-                                " was removed; save the rig, and take it out of cameras.yaml" +
-                                voidCorrection(before);
+    capture::Masks masks = context_.inputs().masks();
+    masks.erase(camera);  // It may stand elsewhere when it comes back.
+    context_.inputs().setMasks(masks);
+    const std::string split = recalibrate::describeSplit(before, camera);
+    const std::string message =
+        camera + " was removed; save the rig, and take it out of cameras.yaml; " +
+        geometry::opticalFrame(camera) + " stays in TF until all nodes are started again" +
+        (split.empty() ? "" : "; " + split) + voidCorrection(before);
     context_.setRig(rig, message, lock);
     return {true, message};
   }

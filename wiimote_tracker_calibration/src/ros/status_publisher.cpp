@@ -165,7 +165,7 @@ workflow::Findings StatusPublisher::findings() const {
   findings.correctable = correctable_;
   findings.cause = cause_;
   if (calibration_.rig())
-    findings.silent = inputs_.withoutImages(*calibration_.rig());
+    findings.silent = inputs_.describeSilent(*calibration_.rig());
   return findings;
 }
 

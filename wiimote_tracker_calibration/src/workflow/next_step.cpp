@@ -143,12 +143,6 @@ NextStep solved(const samples::Verdict& verdict) {
 
 }  // namespace
 
-std::string describeSilent(const std::vector<std::string>& cameras) {
-  return "no image has come yet from " + joined(cameras) +
-         ": check that this is the rig of your cameras, and start their drivers; one that is gone "
-         "for good is removed by R in calibrate";
-}
-
 NextStep nextStep(const Calibration& calibration,
                   const samples::Verdict& verdict,
                   const Findings& findings) {
@@ -180,7 +174,7 @@ NextStep nextStep(const Calibration& calibration,
       return {"Hold still", "Keep the LED still."};
     case Step::kSaved:
       if (!findings.silent.empty())  // scripts/guide/guide.py looks for this title
-        return {"No images", "The rig is in use, but " + describeSilent(findings.silent) + "."};
+        return {"No images", "The rig is in use, but " + findings.silent + "."};
   }
   return {"Ready", "The rig is calibrated. To check it, put the LED on a place that you know."};
 }

@@ -27,11 +27,8 @@ struct Findings {
   std::string remedy{};                  ///< What to do about these.
   std::vector<std::string> correctable;  ///< By what continuous calibration proposes.
   continuous::Cause cause{};             ///< Of that proposal.
-  std::vector<std::string> silent;       ///< Have sent no image since the start.
+  std::string silent;  ///< Which sent no image since the start, and what to do; empty: none.
 };
-
-/// What to say of the silent cameras of a rig.
-std::string describeSilent(const std::vector<std::string>& cameras);
 
 /// @param verdict of the rig in use, if there is one.
 NextStep nextStep(const Calibration& calibration,

@@ -4,6 +4,7 @@
 #include "waved_led.h"
 
 #include "continuous/continuous_calibration.h"
+#include "health/led_selection.h"
 
 #include <Eigen/Geometry>
 
@@ -53,6 +54,7 @@ KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed) {
     led.ghosts = 0.05;
     led.wrong_share = 0.0;
   }
+  std::optional<health::LedSelection> selection(rig);
   std::optional<continuous::ContinuousCalibration> watch;
   watch.emplace(rig, continuous::Options{});
   KnockTrial trial;
@@ -60,7 +62,7 @@ KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed) {
   double last_knock = kBefore;
   const auto runUntil = [&](double time) {
     led.runUntil(time, [&](const capture::Image& image) {
-      const auto proposal = trial.found ? std::nullopt : watch->add(image);
+      const auto proposal = trial.found ? std::nullopt : watch->add(selection->select(image));
       if (!proposal || proposal->cause == continuous::Cause::kDrift)
         return;
       for (const std::size_t i : changedCameras(rig, proposal->rig))
@@ -68,6 +70,7 @@ KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed) {
       trial.found = missing.empty() && image.stamp > WavedLed::kClock + last_knock;
       trial.seconds = image.stamp - WavedLed::kClock - last_knock;
       rig = proposal->rig;
+      selection.emplace(rig);
       watch.emplace(rig, continuous::Options{});
     });
   };

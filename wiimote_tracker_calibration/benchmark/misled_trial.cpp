@@ -4,6 +4,7 @@
 #include "waved_led.h"
 
 #include "continuous/continuous_calibration.h"
+#include "health/led_selection.h"
 
 #include <Eigen/Core>
 
@@ -102,6 +103,7 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed, std::size_t leds, bool
 
   MisledTrial trial;
   const double before = wave::volumeError(led.truth, rig);
+  std::optional<health::LedSelection> selection(rig);
   std::optional<continuous::ContinuousCalibration> watch;
   watch.emplace(rig, continuous::Options{});
   led.runUntil(kMisledDuration, [&](capture::Image image) {
@@ -118,10 +120,11 @@ MisledTrial runMisledTrial(Misled by, std::uint64_t seed, std::size_t leds, bool
           WavedLed::addSpot(*pixel, &image.spots);
       }
     }
-    const auto proposal = watch->add(image);
+    const auto proposal = watch->add(selection->select(image));
     if (!proposal)
       return;
     rig = proposal->rig;
+    selection.emplace(rig);
     watch.emplace(rig, continuous::Options{});
     ++trial.changes;
   });

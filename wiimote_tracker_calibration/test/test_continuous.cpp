@@ -288,7 +288,7 @@ TEST(Continuous, JudgesTheMotionAfterAPause) {
     WavedLed led(drawTruth(rig, random), 1000);
     led.truth[1] = turned(led.truth[1], 2.0 * kDegree, random);
     Options options;
-    options.knock.motion = {140, 120};
+    options.suspects.motion = {140, 120};
     ContinuousCalibration watch(rig, options);
     double end = 0.0;
     led.runUntil(40.0, [&](capture::Image image) {

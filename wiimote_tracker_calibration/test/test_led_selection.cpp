@@ -246,7 +246,8 @@ TEST(ExtensiveLedSelection, NamesTheCameraThatWasTurned) {
       leds.truth[index].camera.world_from_camera.rotate(
           Eigen::AngleAxisd(0.5 * kDegrees, Eigen::Vector3d(0.6, 0.8, 0.0)));
       health::HealthWatch watch(rig, {});
-      leds.runUntil(62.0, [&](const capture::Image& image) { watch.addImage(image); });
+      leds.runUntil(62.0,
+                    [&](const capture::Image& image) { watch.addImage(selection.select(image)); });
       for (const auto& [name, health] : watch.healths()) {
         SCOPED_TRACE(std::to_string(scene.leds) + (scene.on_body ? " of a body" : " persons"));
         EXPECT_EQ(health.text.empty(), name != rig.cameras[index].camera.name)
@@ -284,11 +285,12 @@ TEST(ExtensiveLedSelection, ANewClockIsSolved) {
       if (image.camera == leds.truth[1].camera.name)
         image.clock_epoch = 8;
       if (!proposal)
-        proposal = watch.add(image);
+        proposal = watch.add(selection.select(image));
     });
     ASSERT_TRUE(proposal) << scene.leds;
     EXPECT_EQ(proposal->cause, Cause::kReconnect);
     EXPECT_NEAR(proposal->rig.cameras[1].time_offset, -0.015, 0.0005);
+      LedSelection selection(rig);
     EXPECT_EQ(proposal->rig.solved_at, rig.solved_at);
   }
 }
@@ -306,3 +308,4 @@ TEST(ExtensiveLedSelection, OtherLightsNeverMakeTheRigAMillimetreWorse) {
 
 }  // namespace
 }  // namespace wiimote_tracker::continuous
+    LedSelection selection(rig);

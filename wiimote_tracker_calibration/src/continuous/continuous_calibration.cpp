@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -55,11 +54,7 @@ std::optional<std::size_t> offAlone(const geometry::Rig& rig,
 }  // namespace
 
 ContinuousCalibration::ContinuousCalibration(const geometry::Rig& rig, const Options& options)
-    : rig_(rig),
-      options_(options),
-      selection_(rig),
-      knock_(rig, options.knock),
-      motion_(options.drift) {}
+    : rig_(rig), options_(options), suspects_(rig, options.suspects), motion_(options.adjustment) {}
 
 std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) {
   const geometry::RigCamera* camera = rig_.find(image.camera);
@@ -74,21 +69,31 @@ std::optional<Proposal> ContinuousCalibration::add(const capture::Image& image) 
         image.clock_epoch;
     *this = ContinuousCalibration(rig, options_);
   }
-  const capture::Image& of_one_led = selection_.select(image);
-  const auto suspect = knock_.add(of_one_led);
-  if (!knock_.severalAreSuspect())
+  const auto evidence = suspects_.add(image);
+  if (!suspects_.severalAreSuspect())
     contradiction_.clear();
-  const bool has_moved = motion_.add(of_one_led);
-  if (suspect) {
-    if (auto proposal = solvedSuspect(*suspect))
+  const bool is_enough = motion_.add(image);
+  if (evidence) {
+    if (auto proposal = solvedSuspect(*evidence))
       return proposal;
   }
-  return has_moved ? solvedFromMotion() : std::nullopt;
+  if (!is_enough)
+    return std::nullopt;
+  from_motion_ = solvedFromMotion();
+  return from_motion_;
+}
+
+bool ContinuousCalibration::isCurrent(const Proposal& proposal) const {
+  if (suspects_.areSuspect(proposal.cameras))
+    return true;
+  if (!from_motion_ || proposal.cause != Cause::kKnock)
+    return from_motion_.has_value();
+  return from_motion_->cause == Cause::kKnock && from_motion_->cameras == proposal.cameras;
 }
 
 void ContinuousCalibration::addAcceleration(const std::string& camera,
                                             const Eigen::Vector3d& specific_force) {
-  knock_.addAcceleration(camera, specific_force);
+  suspects_.addAcceleration(camera, specific_force);
 }
 
 std::optional<Proposal> ContinuousCalibration::solvedSuspect(const Evidence& evidence) {
@@ -106,13 +111,9 @@ std::optional<Proposal> ContinuousCalibration::solvedFromMotion() {
   auto proposal = adjusted ? proposeAdjustment(rig_, *adjusted, images.to_check) : std::nullopt;
   if (adjusted && !proposal)
     proposal = adjustedWithoutKnocked(*adjusted, images);
-  has_drifted_ = proposal.has_value();
-  turned_.clear();
   if (proposal && proposal->cause == Cause::kDrift) {
-    if (auto knock = knockFoundBy(*proposal, images)) {
-      turned_ = knock->cameras;
-      proposal = std::move(knock);
-    }
+    if (auto knock = knockFoundBy(*proposal, images))
+      return knock;
   }
   return proposal;
 }

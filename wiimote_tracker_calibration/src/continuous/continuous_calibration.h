@@ -5,7 +5,6 @@
 #include "continuous/motion_window.h"
 #include "continuous/proposal.h"
 #include "continuous/suspect_watch.h"
-#include "health/led_selection.h"
 #include "recalibrate/recalibrate_camera.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -22,8 +21,8 @@ struct Options {
   // {{limit [px], window [s]}, {samples to solve, samples to check}}; 20 samples a second. Noticed
   // in 6 s; 7 s solve it, 3 s check it. Of several, four cameras see a sample, and up to 28 s solve
   // them: two cameras that face each other locate few points.
-  SuspectOptions knock = {{3.0, 6.0}, {140, 60}, {140, 60, 560, 4}};
-  MotionOptions drift = {600, 200};  ///< 30 s and 10 s.
+  SuspectOptions suspects = {{3.0, 6.0}, {140, 60}, {140, 60, 560, 4}};
+  MotionOptions adjustment = {600, 200};  ///< Of all cameras: 30 s and 10 s.
   recalibrate::Options recalibrate;
 };
 
@@ -34,20 +33,18 @@ class ContinuousCalibration {
  public:
   ContinuousCalibration(const geometry::Rig& rig, const Options& options);
 
-  /// One image of any camera; of one camera in the order of their stamps. Images of another device
-  /// than was calibrated take no part. It may take some seconds when there is enough motion. After
-  /// a lower clock epoch than the rig's it starts anew, with that epoch in its rig.
+  /// One image of any camera; of one camera in the order of their stamps. Images of several spots
+  /// take no part (health::LedSelection leaves one), nor those of another device than was
+  /// calibrated. It may take some seconds when there is enough motion. After a lower clock epoch
+  /// than the rig's it starts anew, with that epoch in its rig.
   std::optional<Proposal> add(const capture::Image& image);
 
   /// Whether the latest images still speak for a proposal.
-  bool isCurrent(const Proposal& proposal) const {
-    return knock_.areSuspect(proposal.cameras) ||
-           (proposal.cause == Cause::kKnock ? proposal.cameras == turned_ : has_drifted_);
-  }
+  bool isCurrent(const Proposal& proposal) const;
 
   /// Names of the cameras whose time offset is unknown, since they reconnected. While there are
   /// several, no camera is solved against the others; these get their clocks first.
-  std::vector<std::string> newClocks() const { return knock_.newClocks(); }
+  std::vector<std::string> newClocks() const { return suspects_.newClocks(); }
 
   /// Which cameras contradict each other, and what to do, if nothing tells which of them were
   /// moved; else empty. It stays while several cameras are off.
@@ -79,12 +76,10 @@ class ContinuousCalibration {
 
   geometry::Rig rig_;
   Options options_;
-  health::LedSelection selection_;
-  SuspectWatch knock_;
+  SuspectWatch suspects_;
   MotionWindow motion_;
   std::string contradiction_;
-  bool has_drifted_ = false;         // The latest adjustment was proposed.
-  std::vector<std::string> turned_;  // The camera that knockFoundBy() then found.
+  std::optional<Proposal> from_motion_;  // The latest result of solvedFromMotion().
 };
 
 }  // namespace wiimote_tracker::continuous

@@ -54,7 +54,7 @@ HealthWatch::Watched::Watched(const geometry::RigCamera& rig_camera, const TiltO
 }
 
 HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
-    : options_(options), rig_(rig), selection_(rig), drift_(rig, options.drift) {
+    : options_(options), rig_(rig), drift_(rig, options.drift) {
   for (const geometry::RigCamera& camera : rig.cameras)
     cameras_.emplace_back(camera, options.tilt);
 }
@@ -72,7 +72,6 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
       cameras_[i] = Watched(rig.cameras[i], options_.tilt);
   }
   rig_ = rig;
-  selection_ = LedSelection(rig);
   drift_ = DriftWatch(rig, options_.drift);
   return true;
 }
@@ -101,7 +100,7 @@ void HealthWatch::addImage(const capture::Image& image) {
     seen_by->other_device = other_device;
     describe(seen_by);
   }
-  if (!drift_.add(selection_.select(image)))
+  if (!drift_.add(image))
     return;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     const std::optional<Drift>& drift = drift_.drifts()[i];

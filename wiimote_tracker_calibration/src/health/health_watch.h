@@ -3,7 +3,6 @@
 
 #include "health/alarm.h"
 #include "health/drift_watch.h"
-#include "health/led_selection.h"
 #include "health/tilt_watch.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
@@ -40,7 +39,7 @@ class HealthWatch {
   /// @returns false if it has other cameras: nothing has changed.
   bool follow(const geometry::Rig& rig);
 
-  /// One image of any camera.
+  /// One image of any camera. Of several LEDs LedSelection leaves one.
   void addImage(const capture::Image& image);
 
   /// A reading of a camera's accelerometer at rest, optical frame [m/s^2].
@@ -74,7 +73,6 @@ class HealthWatch {
   HealthOptions options_;
   geometry::Rig rig_;
   std::vector<Watched> cameras_;  // In the rig's order.
-  LedSelection selection_;
   DriftWatch drift_;
   std::vector<std::string> news_;
 };

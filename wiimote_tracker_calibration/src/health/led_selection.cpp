@@ -68,9 +68,10 @@ const capture::Image& LedSelection::select(const capture::Image& image) {
   }
   follow(leds, time);
   useTurnOf(index, time);
-  // The tracker gets no image of a camera that was just turned, since it would move the tracks. A
-  // camera with an unknown clock is not left out: the tracker estimates its clock.
-  if (!time_offset || !matches.isAstray())
+  // The tracker gets no image of another device, nor of a camera that was just turned, since it
+  // would move the tracks. A camera with an unknown clock is not left out: the tracker estimates
+  // its clock.
+  if (!found->camera.isOtherDevice(image.identity) && (!time_offset || !matches.isAstray()))
     track(index, image);
   return selected_;
 }

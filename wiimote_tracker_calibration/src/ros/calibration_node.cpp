@@ -9,8 +9,8 @@ CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& pa
     : context_(nh, parameters),
       units_({fileServices(&context_), captureServices(&context_), maskServices(&context_),
               solveServices(&context_), boardServices(&context_), placeServices(&context_),
-              recalibrateServices(&context_), continuousServices(&context_),
-              healthMonitor(&context_)}) {
+              recalibrateServices(&context_), continuousServices(&context_, &of_one_led_),
+              healthMonitor(&context_, &of_one_led_)}) {
   context_.inputs().start();
   status_timer_ = context_.everyHalfSecond("the status", [this] {
     const Lock lock(context_.mutex());

@@ -22,6 +22,7 @@ class CalibrationNode {
   void endRecordingOfOtherTime(const Lock& lock);
 
   NodeContext context_;
+  InputQueue of_one_led_;
   double time_ = 0.0;  // at the last status [s]; only for its timer
   std::vector<Unit> units_;
   ros::WallTimer status_timer_;

@@ -1,4 +1,3 @@
-#include "input_queue.h"
 #include "rig_storage.h"
 #include "units.h"
 
@@ -30,16 +29,14 @@ const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
 
 class ContinuousServices {
  public:
-  explicit ContinuousServices(NodeContext* context) : context_(*context) {
+  ContinuousServices(NodeContext* context, InputQueue* of_one_led)
+      : context_(*context), of_one_led_(*of_one_led) {
     using Self = ContinuousServices;
     context->offer("continuous/apply", &Self::apply, this);
     context->offer("continuous/revert", &Self::revert, this);
     const Lock lock(context_.mutex());
     policy_ = context_.parameters(lock).continuous_policy;
     options_.recalibrate = context_.parameters(lock).recalibrateOptions();
-    if (policy_ == ContinuousPolicy::kOff)
-      return;
-    inputs_.emplace(&context_.inputs(), [this](const Lock& inner) { return isCalibrated(inner); });
     timer_ = context_.everyHalfSecond("continuous calibration", [this] { update(); });
   }
 
@@ -54,13 +51,14 @@ class ContinuousServices {
   /// Only the timer calls it, once at a time.
   void update() {
     Lock lock(context_.mutex());
-    const std::vector<Input> inputs = inputs_->take(lock);
+    const std::vector<Input> inputs = of_one_led_.take(lock);
+    if (policy_ == ContinuousPolicy::kOff)
+      return;
     watchRig(lock);
     tellGoal(lock);
-    if (!continuous_ || inputs.empty())
+    if (inputs.empty() || !isCalibrated(lock))
       return;
-    if (isCalibrated(lock))
-      stepTowardsGoal(inputs, lock);
+    stepTowardsGoal(inputs, lock);
     const auto proposal = NodeContext::unlocked(&lock, [&] { return newestProposal(inputs); });
     new_clocks_ = continuous_->newClocks();
     if (proposal_ && !continuous_->isCurrent(*proposal_))
@@ -253,9 +251,9 @@ class ContinuousServices {
   }
 
   NodeContext& context_;
+  InputQueue& of_one_led_;
   ContinuousPolicy policy_;
   continuous::Options options_;
-  std::optional<InputQueue> inputs_;  // Nothing when the policy is off.
   continuous::RigChanges changes_;
   std::string watched_;                                          // idToWatch() of the last update.
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
@@ -267,8 +265,8 @@ class ContinuousServices {
 
 }  // namespace
 
-Unit continuousServices(NodeContext* context) {
-  return std::make_shared<ContinuousServices>(context);
+Unit continuousServices(NodeContext* context, InputQueue* of_one_led) {
+  return std::make_shared<ContinuousServices>(context, of_one_led);
 }
 
 }  // namespace wiimote_tracker

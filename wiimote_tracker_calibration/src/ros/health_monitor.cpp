@@ -1,7 +1,7 @@
-#include "input_queue.h"
 #include "units.h"
 
 #include "health/health_watch.h"
+#include "health/led_selection.h"
 #include "health/remedy.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -20,9 +20,18 @@ namespace {
 
 class HealthMonitor {
  public:
-  explicit HealthMonitor(NodeContext* context)
-      : context_(*context),
-        inputs_(&context_.inputs(), [this](const Lock&) { return watch_.has_value(); }) {
+  HealthMonitor(NodeContext* context, InputQueue* of_one_led)
+      : context_(*context), of_one_led_(*of_one_led) {
+    context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
+      if (watch_)
+        inputs_.add({image, std::nullopt}, lock);
+    });
+    context_.inputs().subscribeGravity([this](const std::string& camera, double stamp,
+                                              const Eigen::Vector3d& specific_force,
+                                              const Lock& lock) {
+      if (watch_)
+        inputs_.add({{camera, stamp, 0, {}, {}}, specific_force}, lock);
+    });
     diagnostics_.setHardwareID("none");
     diagnostics_.add("cameras", this, &HealthMonitor::report);
     timer_ = context_.everyHalfSecond("the health of the cameras", [this] { update(); });
@@ -33,9 +42,11 @@ class HealthMonitor {
   void update() {
     {
       Lock lock(context_.mutex());
-      const std::vector<Input> inputs = inputs_.take(lock);
+      std::vector<Input> inputs = inputs_.take(lock);
       if (watch_)
-        NodeContext::unlocked(&lock, [&] { watch(inputs); });
+        NodeContext::unlocked(&lock, [&] { watch(&inputs); });
+      for (Input& input : inputs)
+        of_one_led_.add(std::move(input), lock);
       const auto& rig = context_.rig(lock);
       const std::string id = rig ? rig->id() : "";
       if (id != rig_id_) {
@@ -55,6 +66,8 @@ class HealthMonitor {
   }
 
   void useRig(const std::optional<geometry::Rig>& rig, const Lock& lock) {
+    if (rig)
+      selection_.emplace(*rig);
     if (rig && watch_ && watch_->follow(*rig))
       return;
     watch_.reset();
@@ -63,13 +76,15 @@ class HealthMonitor {
       watch_.emplace(*rig, context_.parameters(lock).health);
   }
 
-  /// Judging drift takes longer than images may wait.
-  void watch(const std::vector<Input>& inputs) {
-    for (const Input& input : inputs) {
-      if (input.specific_force)
+  /// Judging drift takes longer than images may wait. Leaves one LED in the images.
+  void watch(std::vector<Input>* inputs) {
+    for (Input& input : *inputs) {
+      if (input.specific_force) {
         watch_->addAcceleration(input.image.camera, input.image.stamp, *input.specific_force);
-      else
+      } else {
+        input.image = selection_->select(input.image);
         watch_->addImage(input.image);
+      }
     }
   }
 
@@ -119,8 +134,10 @@ class HealthMonitor {
 
   NodeContext& context_;
   InputQueue inputs_;
+  InputQueue& of_one_led_;
   std::string rig_id_;
-  std::optional<health::HealthWatch> watch_;  // Nothing without a rig.
+  std::optional<health::LedSelection> selection_;  // Of the rig.
+  std::optional<health::HealthWatch> watch_;       // Nothing without a rig.
   // What to do about cameras that the rig does not have, by their names.
   std::map<std::string, std::string> unknown_cameras_;
   SteadyUpdater diagnostics_;
@@ -129,8 +146,8 @@ class HealthMonitor {
 
 }  // namespace
 
-Unit healthMonitor(NodeContext* context) {
-  return std::make_shared<HealthMonitor>(context);
+Unit healthMonitor(NodeContext* context, InputQueue* of_one_led) {
+  return std::make_shared<HealthMonitor>(context, of_one_led);
 }
 
 }  // namespace wiimote_tracker

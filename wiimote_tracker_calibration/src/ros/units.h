@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_UNITS_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_UNITS_H
 
+#include "input_queue.h"
 #include "node_context.h"
 
 #include <memory>
@@ -37,11 +38,13 @@ Unit placeServices(NodeContext* context);
 Unit recalibrateServices(NodeContext* context);
 
 /// A rig that corrects itself from ordinary tracking: continuous/apply, continuous/revert.
-Unit continuousServices(NodeContext* context);
+/// @param of_one_led what the health monitor hands on.
+Unit continuousServices(NodeContext* context, InputQueue* of_one_led);
 
 /// Reports cameras of the current rig that were moved, and cameras that it lacks: in the status, in
 /// /diagnostics, and once in the log. It never changes the rig.
-Unit healthMonitor(NodeContext* context);
+/// @param of_one_led gets what the cameras sent: of several LEDs images show one.
+Unit healthMonitor(NodeContext* context, InputQueue* of_one_led);
 
 }  // namespace wiimote_tracker
 

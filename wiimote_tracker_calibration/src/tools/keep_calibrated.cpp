@@ -4,6 +4,7 @@
 #include "capture/masks.h"
 #include "continuous/continuous_calibration.h"
 #include "continuous/rig_changes.h"
+#include "health/led_selection.h"
 #include "ros/camera_inputs.h"
 
 #include <rosbag/bag.h>
@@ -42,6 +43,7 @@ class KeptRig {
     rig_ = rig;
     for (const geometry::RigCamera& camera : rig.cameras)
       masks_[camera.camera.name] = camera.masks;
+    selection_.emplace(rig);
     continuous_.emplace(rig, continuous::Options{});
   }
 
@@ -50,7 +52,7 @@ class KeptRig {
       return;
     ++images_;
     capture::applyMasks(masks_, &image);
-    if (const auto proposal = continuous_->add(image)) {
+    if (const auto proposal = continuous_->add(selection_->select(image))) {
       std::printf("%.3f: %s\n", image.stamp, proposal->message.c_str());
       use(continuous::appliedRig(proposal->rig, *rig_));
       ++changes_;
@@ -74,6 +76,7 @@ class KeptRig {
  private:
   std::optional<geometry::Rig> rig_;
   capture::Masks masks_;  // of the rig
+  std::optional<health::LedSelection> selection_;
   std::optional<continuous::ContinuousCalibration> continuous_;
   std::string contradiction_;  // That was printed.
   std::size_t images_ = 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace wiimote_tracker::health {
 
@@ -24,8 +25,10 @@ constexpr double kMerged = 24.0;
 // A spot is ambiguous if another one is nearer to the predicted pixel than twice its own distance
 // plus this [px].
 constexpr double kClearance = 6.0;
-// LEDs are extrapolated from the tracker's newest image by at most this [s].
+// LEDs are extrapolated from one of the tracker's images by at most this [s].
 constexpr double kLongestWay = 0.05;
+// Images are late by at most this, as in the tracker's history [s].
+constexpr double kLatest = 0.2;
 
 }  // namespace
 
@@ -53,9 +56,9 @@ const capture::Image& LedSelection::select(const capture::Image& image) {
     return selected_;
   time -= tracker_->clockError(index, image.clock_epoch).offset;
   Camera& camera = cameras_[index];
-  const std::vector<tracking::TrackedLed> leds = trackedAt(time);
+  const std::vector<Led> leds = ledsAt(time);
   std::vector<Eigen::Vector3d> places;
-  for (const tracking::TrackedLed& led : leds)
+  for (const Led& led : leds)
     places.push_back(led.position);
   const LedMatches matches = camera.turned.add(time, places, image.spots);
   for (std::size_t i = 0; i < leds.size(); ++i) {
@@ -63,10 +66,11 @@ const capture::Image& LedSelection::select(const capture::Image& image) {
     if (!spot)
       continue;
     camera.shown[leds[i].id] = time;
-    if (leds[i].id == followed_ && !isSilent(time))
+    if (leds[i].id == followedAt(time))
       selected_.spots.push_back(*spot);
   }
-  follow(leds, time);
+  if (!moments_.empty() && time > moments_.back().time - kLongestWay)
+    follow(leds, time);
   useTurnOf(index, time);
   // The tracker gets no image of another device, nor of a camera that was just turned, since it
   // would move the tracks. A camera with an unknown clock is not left out: the tracker estimates
@@ -112,8 +116,9 @@ void LedSelection::startAnew(bool are_several, double time) {
   tracker_.reset();
   if (are_several)
     tracker_ = std::make_unique<tracking::Tracker>(tracked_rig_, tracking::TrackerOptions());
-  leds_.clear();
+  moments_.clear();
   followed_.reset();
+  followed_before_.reset();
   for (Camera& camera : cameras_)
     camera.shown.clear();
   silence_ = time + capture::kLongestGap;
@@ -126,34 +131,41 @@ void LedSelection::track(std::size_t camera, const capture::Image& image) {
   for (const Eigen::Vector2d& spot : image.spots)
     seen.spots.push_back({spot, -1});
   tracker_->add(camera, seen);
-  if (const tracking::Snapshot* const snapshot = tracker_->next()) {
-    time_ = snapshot->time;
-    leds_ = snapshot->leds;
-    for (const tracking::TrackedLed& led : leds_) {
-      if (led.state != tracking::TrackState::kLost)
-        continue;
-      for (Camera& each : cameras_)
-        each.shown.erase(led.id);
-    }
+  const tracking::Snapshot* const snapshot = tracker_->next();
+  if (snapshot == nullptr)
+    return;
+  if (!moments_.empty() && snapshot->time < moments_.back().time)
+    moments_.clear();  // Time jumped back.
+  moments_.push_back({snapshot->time, {}});
+  while (moments_.front().time < snapshot->time - kLatest)
+    moments_.pop_front();
+  for (const tracking::TrackedLed& led : snapshot->leds) {
+    if (led.state == tracking::TrackState::kTracked && led.velocity)
+      moments_.back().leds.push_back({led.id, led.position, *led.velocity});
+    if (led.state != tracking::TrackState::kLost)
+      continue;
+    for (Camera& each : cameras_)
+      each.shown.erase(led.id);
   }
 }
 
-/// The tracked LEDs where they are at a time.
-std::vector<tracking::TrackedLed> LedSelection::trackedAt(double time) const {
-  std::vector<tracking::TrackedLed> tracked;
-  for (const tracking::TrackedLed& led : leds_) {
-    if (led.state != tracking::TrackState::kTracked || !led.velocity ||
-        std::abs(time - time_) > kLongestWay)
-      continue;
-    tracked.push_back(led);
-    tracked.back().position += (time - time_) * *led.velocity;
-  }
-  return tracked;
+/// The tracked LEDs where they were at a time.
+std::vector<LedSelection::Led> LedSelection::ledsAt(double time) const {
+  const auto nearest =
+      std::min_element(moments_.begin(), moments_.end(), [&](const Moment& a, const Moment& b) {
+        return std::abs(time - a.time) < std::abs(time - b.time);
+      });
+  if (nearest == moments_.end() || std::abs(time - nearest->time) > kLongestWay)
+    return {};
+  std::vector<Led> leds = nearest->leds;
+  for (Led& led : leds)
+    led.position += (time - nearest->time) * led.velocity;
+  return leds;
 }
 
 /// How many cameras show an LED unambiguously; 0 while it rests.
-std::size_t LedSelection::worthOf(const tracking::TrackedLed& led, double time) const {
-  if (led.velocity->norm() < kLeastSpeed)
+std::size_t LedSelection::worthOf(const Led& led, double time) const {
+  if (led.velocity.norm() < kLeastSpeed)
     return 0;
   return static_cast<std::size_t>(
       std::count_if(cameras_.begin(), cameras_.end(), [&](const Camera& camera) {
@@ -164,11 +176,11 @@ std::size_t LedSelection::worthOf(const tracking::TrackedLed& led, double time) 
 
 /// Changes to the LED that most cameras show, if the present one has not been that one for
 /// kHesitation, or was followed for kLongestFollowed.
-void LedSelection::follow(const std::vector<tracking::TrackedLed>& leds, double time) {
+void LedSelection::follow(const std::vector<Led>& leds, double time) {
   std::size_t worth = 0;  // Cameras that show the one that is followed.
-  const tracking::TrackedLed* best = nullptr;
+  const Led* best = nullptr;
   std::size_t most = 0;
-  for (const tracking::TrackedLed& led : leds) {
+  for (const Led& led : leds) {
     if (led.id == followed_) {
       worth = worthOf(led, time);
     } else if (worthOf(led, time) > most) {
@@ -184,8 +196,15 @@ void LedSelection::follow(const std::vector<tracking::TrackedLed>& leds, double 
   // As in startAnew().
   if (followed_)
     silence_ = time + capture::kLongestGap;
-  followed_ = best->id;
+  followed_before_ = std::exchange(followed_, best->id);
   followed_since_ = last_best_ = time;
+}
+
+/// An image that comes late shows the LED that was followed then.
+std::optional<std::uint32_t> LedSelection::followedAt(double time) const {
+  if (isSilent(time))
+    return std::nullopt;
+  return time < followed_since_ ? followed_before_ : followed_;
 }
 
 /// The spot of an LED, unless it may be that of another one, or of both.

@@ -145,11 +145,9 @@ void Month::takePoints(MonthFigures* figures) {
 /// What cameras at rest read.
 void Month::addAccelerations(double time) {
   for (const geometry::RigCamera& camera : led_.truth) {
-    const Eigen::Vector3d up = 9.81 * camera.camera.world_from_camera.linear().row(2).transpose();
-    Eigen::Vector3d reading;
-    for (Eigen::Index i = 0; i < 3; ++i)
-      reading[i] = kStep * std::round((up[i] + square::normal(random_, 0.03)) / kStep);
-    health_.addAcceleration(camera.camera.name, WavedLed::kClock + clock_step_ + time, reading);
+    const Eigen::Vector3d up = camera.camera.world_from_camera.linear().row(2);
+    health_.addAcceleration(camera.camera.name, WavedLed::kClock + clock_step_ + time,
+                            reading(9.81 * up, 0.03, kStep, random_));
   }
 }
 

@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Geometry>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -106,6 +107,23 @@ inline geometry::RigCamera turned(geometry::RigCamera camera,
                                   square::Random& random) {
   camera.camera.world_from_camera.rotate(Eigen::AngleAxisd(angle, square::anyDirection(random)));
   return camera;
+}
+
+/// The camera after it was turned about its own axes [rad].
+inline geometry::RigCamera turned(geometry::RigCamera camera, const Eigen::Vector3d& rotation) {
+  camera.camera.world_from_camera.rotate(geometry::so3::exp(rotation));
+  return camera;
+}
+
+/// What an accelerometer with a resolution and noise [m/s^2] reads.
+inline Eigen::Vector3d reading(const Eigen::Vector3d& force,
+                               double noise,
+                               double step,
+                               square::Random& random) {
+  Eigen::Vector3d value = force;
+  for (Eigen::Index i = 0; i < 3; ++i)
+    value[i] = step * std::round((value[i] + square::normal(random, noise)) / step);
+  return value;
 }
 
 /// True cameras of a rig, drawn from its covariance.

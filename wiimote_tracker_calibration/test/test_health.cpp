@@ -1,18 +1,14 @@
-// Whether cameras that were moved are noticed, and only these: over many simulated minutes.
+// Whether tilt and drift are noticed, and only these: over many simulated minutes.
 
-#include "expect_says.h"
 #include "waved_led.h"
 
 #include "health/drift_watch.h"
-#include "health/health_watch.h"
-#include "health/remedy.h"
 #include "health/tilt_watch.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 #include <string>
 #include <vector>
@@ -34,20 +30,6 @@ std::set<std::string> drifted(const geometry::Rig& rig, const DriftWatch& watch)
       names.insert(rig.cameras[i].camera.name);
   }
   return names;
-}
-
-/// A camera that is turned about its own axes [rad].
-geometry::RigCamera turned(geometry::RigCamera camera, const Eigen::Vector3d& rotation) {
-  camera.camera.world_from_camera.rotate(geometry::so3::exp(rotation));
-  return camera;
-}
-
-/// What an accelerometer reads that counts in steps.
-Eigen::Vector3d reading(const Eigen::Vector3d& force, double noise, double step, Random& random) {
-  Eigen::Vector3d value = force;
-  for (Eigen::Index i = 0; i < 3; ++i)
-    value[i] = step * std::round((value[i] + normal(random, noise)) / step);
-  return value;
 }
 
 /// Share of tilts of one size that reach the limit, over cameras in any attitude that are turned
@@ -279,140 +261,6 @@ TEST(ExtensiveDriftWatch, StartsAnewWhenTheClockIsSetBack) {
   again.runUntil(12.0, [&](const capture::Image& image) { judged = watch.add(image) || judged; });
   EXPECT_TRUE(judged);
   EXPECT_TRUE(watch.drifts()[0]);
-}
-
-/// Feeds a watch with images and readings for a while.
-void track(WavedLed* scene, double from, double until, HealthWatch* watch, Random* random) {
-  const std::vector<geometry::RigCamera>& truth = scene->truth;
-  double next = from;
-  scene->runUntil(until, [&](capture::Image image) {
-    for (const geometry::RigCamera& camera : truth) {
-      if (camera.camera.name == image.camera)
-        image.identity = camera.camera.identity;
-    }
-    watch->addImage(image);
-    for (; next < image.stamp - WavedLed::kClock; next += 0.05) {
-      for (const geometry::RigCamera& camera : truth) {
-        const Eigen::Vector3d up = camera.camera.world_from_camera.linear().row(2);
-        watch->addAcceleration(camera.camera.name, next, reading(9.81 * up, 0.03, 0.18, *random));
-      }
-    }
-  });
-}
-
-TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
-  Random random(31);
-  const geometry::Rig rig = paperRigWith(calibratedByWave());
-  HealthWatch watch(rig, {});
-  WavedLed scene(drawTruth(rig, random), 700);
-  track(&scene, 0.0, 90.0, &watch, &random);
-  EXPECT_TRUE(watch.takeNews().empty());
-  for (const auto& camera : watch.healths()) {
-    EXPECT_EQ(camera.second.text, "");
-    EXPECT_TRUE(camera.second.tilt) << camera.first;
-    EXPECT_TRUE(camera.second.drift) << camera.first;
-  }
-
-  const geometry::RigCamera before = scene.truth[2];
-  scene.truth[2] = turned(before, Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
-  track(&scene, 90.0, 180.0, &watch, &random);
-  const std::vector<std::string> news = watch.takeNews();
-  ASSERT_EQ(news.size(), 1u) << (news.empty() ? "" : news.back());
-  EXPECT_SAYS(news.front(), "camera_3 ");
-  EXPECT_SAYS(news.front(), "recalibrate");
-  const std::string text = watch.healths().at("camera_3").text;
-  EXPECT_SAYS(text, "tilted by");
-  EXPECT_SAYS(text, "; drifted");
-  EXPECT_EQ(watch.healths().at("camera_3").advice,
-            "put it back, or recalibrate it (r in calibrate)");
-  EXPECT_EQ(watch.healths().at("camera_1").text, "");
-
-  scene.truth[2] = before;
-  int named = 0;
-  for (double time = 180.0; time < 300.0; time += 2.0) {
-    track(&scene, time, time + 2.0, &watch, &random);
-    const std::string now = watch.healths().at("camera_3").text;
-    const std::size_t found = now.find(" px (+-");
-    if (found != std::string::npos) {
-      const std::size_t number = now.rfind(' ', found - 1);
-      EXPECT_GE(std::stod(now.substr(number)), DriftOptions().limit) << now;
-      ++named;
-    }
-  }
-  EXPECT_GT(named, 0);
-  EXPECT_EQ(watch.healths().at("camera_3").text, "");
-}
-
-TEST(HealthWatch, OffersToRecalibrateOnlyWhereThatCanWork) {
-  geometry::Rig rig = paperRigWith(calibratedByWave());
-  EXPECT_EQ(putBack(rig, true), "put it back, or recalibrate it (r in calibrate)");
-  EXPECT_EQ(putBack(rig, false),
-            "see which was moved, put it back, or recalibrate it (r in calibrate)");
-  geometry::Rig of_centers = rig;
-  of_centers.ray_model = geometry::RayModel::kImageCenter;
-  geometry::Rig of_square = rig;
-  of_square.cameras[3].time_offset_rule = geometry::TimeOffsetRule::kNone;
-  for (const geometry::Rig& other : {of_centers, of_square}) {
-    EXPECT_EQ(putBack(other, true), "put it back, or calibrate all cameras again");
-    EXPECT_EQ(addCamera(other, "wiimote_5"), "calibrate all cameras again");
-  }
-  rig.cameras.resize(2);
-  rig.covariance.resize(0, 0);
-  EXPECT_EQ(addCamera(rig, "wiimote_5"), "add it (r wiimote_5 in calibrate)");
-  rig.cameras[0].camera.identity = "00:1e:35:00:00:01";
-  HealthWatch watch(rig, {});
-  watch.addImage({rig.cameras[0].camera.name, 0.0, 0, {}, {}, "00:1e:35:00:00:02"});
-  EXPECT_EQ(watch.healths().at(rig.cameras[0].camera.name).advice, "calibrate all cameras again");
-}
-
-TEST(HealthWatch, FindingsStayWhenTheRigIsAdjustedAndEndWhenItIsSolvedAnew) {
-  Random random(33);
-  geometry::Rig rig = paperRigWith(calibratedByWave());
-  rig.solved_at = WavedLed::kClock;
-  HealthWatch watch(rig, {});
-  WavedLed scene(drawTruth(rig, random), 701);
-  scene.truth[2] = turned(scene.truth[2], Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
-  track(&scene, 0.0, 90.0, &watch, &random);
-  ASSERT_EQ(watch.takeNews().size(), 1u);
-  const std::string text = watch.healths().at("camera_3").text;
-
-  rig.cameras[0].camera.world_from_camera.translation().x() += 0.0002;
-  EXPECT_TRUE(watch.follow(rig));
-  EXPECT_EQ(watch.healths().at("camera_3").text, text);
-  track(&scene, 90.0, 120.0, &watch, &random);
-  EXPECT_TRUE(watch.takeNews().empty());
-  EXPECT_SAYS(watch.healths().at("camera_3").text, "tilted by");
-
-  // Another camera was solved.
-  rig.solved_at += 100.0;
-  rig.cameras[1] = turned(rig.cameras[1], Eigen::Vector3d(3.0 * kDegree, 0.0, 0.0));
-  EXPECT_TRUE(watch.follow(rig));
-  EXPECT_SAYS(watch.healths().at("camera_3").text, "tilted by");
-  track(&scene, 120.0, 123.0, &watch, &random);
-  EXPECT_TRUE(watch.takeNews().empty());
-
-  geometry::Rig anew = rig;
-  anew.cameras[2].gravity->x() += 0.1;
-  EXPECT_TRUE(watch.follow(anew));
-  EXPECT_EQ(watch.healths().at("camera_3").text, "");
-  anew.cameras[2].camera.name = "another";
-  EXPECT_FALSE(watch.follow(anew));
-}
-
-TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
-  Random random(34);
-  geometry::Rig rig = paperRigWith(calibratedByWave());
-  for (geometry::RigCamera& camera : rig.cameras)
-    camera.gravity.reset();
-  HealthWatch watch(rig, {});
-  WavedLed scene(drawTruth(rig, random), 702);
-  const Eigen::Vector3d turn(0.05 * kDegree, 0.0, 0.0);
-  scene.truth[2] = turned(scene.truth[2], turn);
-  track(&scene, 0.0, 90.0, &watch, &random);
-  EXPECT_SAYS(watch.healths().at("camera_3").text, "drifted");
-  rig.cameras[2] = turned(rig.cameras[2], turn);
-  EXPECT_TRUE(watch.follow(rig));
-  EXPECT_EQ(watch.healths().at("camera_3").text, "");
 }
 
 }  // namespace

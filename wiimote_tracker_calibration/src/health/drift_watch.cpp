@@ -1,6 +1,7 @@
 #include "health/drift_watch.h"
 
 #include "drift_residuals.h"
+#include "exchanged_cameras.h"
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +22,8 @@ constexpr double kKnownOffset = 0.0005;  // [s]
 constexpr double kLargestShift = 0.5;    // [px]
 // Judgements per window.
 constexpr double kJudgements = 12.0;
+// Residuals of a camera that scatter by more are not those of a turn alone [px].
+constexpr double kMisplaced = 10.0;
 
 }  // namespace
 
@@ -164,11 +167,34 @@ double DriftWatch::worstRatio(const std::vector<bool>& active) const {
 
 void DriftWatch::judge() {
   drifts_.assign(cameras_.size(), std::nullopt);
-  judgePairs(judgeAgainstOthers());
+  std::vector<bool> active(cameras_.size(), true);
+  judgeAgainstOthers(&active);
+  if (std::any_of(drifts_.begin(), drifts_.end(),
+                  [](const auto& drift) { return drift && drift->scatter > kMisplaced; }))
+    noteExchange(&active);
+  judgePairs(active);
 }
 
-std::vector<bool> DriftWatch::judgeAgainstOthers() {
-  std::vector<bool> active(cameras_.size(), true);
+/// Judges the others without two cameras that seem exchanged, if there are such.
+void DriftWatch::noteExchange(std::vector<bool>* active) {
+  const auto exchanged = exchangedCameras(rig_, samples_);
+  if (!exchanged)
+    return;
+  const auto [a, b] = *exchanged;
+  Drifts found(cameras_.size());
+  for (const std::size_t i : {a, b}) {
+    found[i] = drifts_[i].value_or(Drift());
+    found[i]->ratio = std::max(1.0, found[i]->ratio);
+    found[i]->exchanged_with = cameras_[i == a ? b : a].rays.name;
+  }
+  drifts_ = found;
+  active->assign(cameras_.size(), true);
+  (*active)[a] = (*active)[b] = false;
+  judgeAgainstOthers(active);
+}
+
+void DriftWatch::judgeAgainstOthers(std::vector<bool>* remaining) {
+  std::vector<bool>& active = *remaining;
   // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
   // the camera without which the rest fit best, and judge the rest without it.
   while (true) {
@@ -201,7 +227,6 @@ std::vector<bool> DriftWatch::judgeAgainstOthers() {
     if (!active[i])
       drifts_[i]->or_others = removed > 1 && judged < 3;
   }
-  return active;
 }
 
 /// Judges cameras that share their view with one other camera only.

@@ -41,7 +41,8 @@ struct Drift {
   double stddev = 0.0;    ///< Of the bias, from noise and from the calibration: root of trace [px].
   double ratio = 0.0;     ///< Of the bias to the tolerance; 1 or more: drifted [1].
   std::string or_camera;  ///< The other camera, if one of both drifted and it is unknown which.
-  bool or_others = false;  ///< Several drifted, perhaps not this one.
+  bool or_others = false;      ///< Several drifted, perhaps not this one.
+  std::string exchanged_with;  ///< The camera in whose place it seems to stand, if one does.
 };
 
 /// Per camera of a rig; nothing: it was not judged.
@@ -86,9 +87,10 @@ class DriftWatch {
   void sampleAt(double time);
   std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const;
   std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
-  /// Removes the cameras that drifted, one after the other. @returns which ones remain.
-  std::vector<bool> judgeAgainstOthers();
+  /// Removes the cameras that drifted, one after the other.
+  void judgeAgainstOthers(std::vector<bool>* active);
   void judgePairs(const std::vector<bool>& active);
+  void noteExchange(std::vector<bool>* active);
   /// The largest ratio among these cameras.
   double worstRatio(const std::vector<bool>& active) const;
   void restart();

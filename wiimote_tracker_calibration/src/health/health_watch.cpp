@@ -34,6 +34,19 @@ std::string driftText(const Drift& drift) {
   return "drifted: " + off;
 }
 
+/// The camera of a rig that is this device; empty: none.
+std::string cameraOf(const geometry::Rig& rig, const std::string& device) {
+  const auto found =
+      std::find_if(rig.cameras.begin(), rig.cameras.end(), [&](const geometry::RigCamera& camera) {
+        return !device.empty() && camera.camera.identity == device;
+      });
+  return found == rig.cameras.end() ? "" : found->camera.name;
+}
+
+/// What to do about two cameras that each stand in the other's place.
+constexpr char kPutBackBoth[] =
+    "put each where the other one is now, or calibrate all cameras again";
+
 /// Whether what was found of a camera holds with another calibration of it, too.
 bool isStillCalibratedAs(const geometry::RigCamera& before, const geometry::RigCamera& now) {
   // Half of what is found as drift, 3 m away.
@@ -147,14 +160,23 @@ void HealthWatch::describe(Watched* camera) {
     if (health.advice.empty())
       health.advice = advice;
   };
-  if (!camera->other_device.empty())
-    add("is another device (" + camera->other_device + ") than was calibrated (" +
+  const std::string& other_device = camera->other_device;
+  const std::string calibrated_as = cameraOf(rig_, other_device);
+  if (!calibrated_as.empty())
+    add("is the device (" + other_device + ") that was calibrated as " + calibrated_as,
+        "give the driver of each camera the address that was calibrated");
+  else if (!other_device.empty())
+    add("is another device (" + other_device + ") than was calibrated (" +
             camera->calibrated.camera.identity + ")",
         calibrateAgain(rig_));
-  if (camera->tilt_alarm.on())
-    add(tiltText(*health.tilt), putBack(rig_, true));
   const Drift& drift = camera->drift_finding;
-  if (camera->drift_alarm.on())
+  const bool is_exchanged = camera->drift_alarm.on() && !drift.exchanged_with.empty();
+  if (is_exchanged)
+    add("seems exchanged with " + drift.exchanged_with + ": each sees what the other one should",
+        kPutBackBoth);
+  if (camera->tilt_alarm.on() && !is_exchanged)
+    add(tiltText(*health.tilt), putBack(rig_, true));
+  if (camera->drift_alarm.on() && !is_exchanged)
     add(driftText(drift), putBack(rig_, drift.or_camera.empty() && !drift.or_others));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())

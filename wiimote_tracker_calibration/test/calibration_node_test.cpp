@@ -1,4 +1,5 @@
-// Drives the calibration node like a person, with cameras that this test plays.
+// Drives the calibration node like a person, with cameras that this test plays. More than 400
+// lines, because one test goes on with the rig file of another.
 
 #include "node_fixture.h"
 

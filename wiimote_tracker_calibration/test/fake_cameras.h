@@ -86,6 +86,11 @@ class FakeCameras {
     waves_ = waves;
     waved_at_ = 0.0;
   }
+  /// Adds an LED that another person waves.
+  void waveSecondLed(bool waves) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    waves_second_ = waves;
+  }
   /// Adds an LED half a metre behind the other one, as seen from camera_1: the other end of a wand,
   /// which turns while it is waved.
   void holdWand(bool holds) {
@@ -166,6 +171,8 @@ class FakeCameras {
             lights.push_back(led_);
           if (holds_wand_)
             lights.push_back(otherEnd(stamp.toSec()));
+          if (waves_second_)
+            lights.push_back(wavedAt(stamp.toSec() + 10.0));
           for (const Eigen::Vector3d& light : lights) {
             const Eigen::Vector2d pixel = truth[i].project(light).value();
             wiimote_tracker_msgs::IrBlob blob;
@@ -200,11 +207,15 @@ class FakeCameras {
     }
     if (!waves_)
       return;
-    // From its beginning always the same way, and through the whole volume within three seconds.
     waved_at_ = waved_at_ > 0.0 ? waved_at_ : now;
-    const double t = now - waved_at_;
-    led_ = Eigen::Vector3d(1.25 + 0.9 * std::sin(2.6 * t), 1.25 + 0.9 * std::cos(3.4 * t),
-                           1.0 + 0.7 * std::sin(4.2 * t));
+    led_ = wavedAt(now);
+  }
+
+  /// From its beginning always the same way, and through the whole volume within three seconds.
+  Eigen::Vector3d wavedAt(double time) const {
+    const double t = time - waved_at_;
+    return {1.25 + 0.9 * std::sin(2.6 * t), 1.25 + 0.9 * std::cos(3.4 * t),
+            1.0 + 0.7 * std::sin(4.2 * t)};
   }
 
   template <typename Message>
@@ -235,6 +246,7 @@ class FakeCameras {
   double led_speed_ = 0.0;
   bool led_on_ = true;
   bool waves_ = false;
+  bool waves_second_ = false;
   bool holds_wand_ = false;
   double waved_at_ = 0.0;  // [s]; 0: not yet
   Eigen::Vector3d carried_from_ = Eigen::Vector3d::Zero();

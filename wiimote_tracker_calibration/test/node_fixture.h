@@ -141,6 +141,7 @@ class Node : public ::testing::Test {
     cameras_->switchLed(true);
     cameras_->setLamps({});
     cameras_->waveLed(false);
+    cameras_->waveSecondLed(false);
     cameras_->holdWand(false);
   }
 

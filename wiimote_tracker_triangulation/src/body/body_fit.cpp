@@ -75,9 +75,8 @@ bool BodyUpdate::isExplained(const Candidate& led,
   }
   const Eigen::Vector3d position = state_.bodies[led.body]->filter.state().worldFromBody() *
                                    setup_.bodies[led.body].constellation.leds[led.led];
-  return residual &&
-         tracking::isByCalibration(setup_.rig, position, image.camera, others.data(), others.size(),
-                                   *residual, led.prediction->covariance);
+  return residual && tracking::isByCalibration(setup_.rig, position, image.camera, others,
+                                               *residual, led.prediction->covariance);
 }
 
 }  // namespace wiimote_tracker::body

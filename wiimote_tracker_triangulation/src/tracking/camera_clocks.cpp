@@ -25,8 +25,14 @@ double squared(double x) {
 
 }  // namespace
 
+CameraClocks::CameraClocks(const std::vector<std::size_t>& members) {
+  for (const std::size_t member : members)
+    clocks_[member];
+  offsets_.reserve(members.size());
+}
+
 ClockError CameraClocks::correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known) {
-  Clock& clock = clocks_[camera];
+  Clock& clock = clocks_.at(camera);
   if (clock.epoch != epoch || clock.is_known != is_known) {
     clock = clock.in(epoch, is_known);
     ++version_;
@@ -48,49 +54,51 @@ CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t another_epoch,
 }
 
 ClockError CameraClocks::errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
-  return clocks_[camera].in(epoch, is_known).correction();
+  return clocks_.at(camera).in(epoch, is_known).correction();
 }
 
 double CameraClocks::errorOf(std::size_t camera) const {
-  const Clock& clock = clocks_[camera];
+  const Clock& clock = clocks_.at(camera);
   return clock.is_known ? clock.correction().offset : 0.0;
 }
 
 /// Whether the median of the offsets counts it: a known one, or any if none is known.
 bool CameraClocks::isReference(const Clock& clock) const {
   return clock.is_known || std::none_of(clocks_.begin(), clocks_.end(),
-                                        [](const Clock& other) { return other.is_known; });
+                                        [](const auto& other) { return other.second.is_known; });
 }
 
 /// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
 ClockError CameraClocks::commonRemainder() {
   offsets_.clear();
   double variances = 0.0;
-  for (std::size_t i = 0; i < clocks_.size(); ++i) {
-    if (!remainders_[i] || !isReference(clocks_[i]))
+  for (const auto& [camera, clock] : clocks_) {
+    if (!clock.remainder || !isReference(clock))
       continue;
-    offsets_.push_back(remainders_[i]->offset);
-    variances += remainders_[i]->variance + remainders_[i]->bias;
+    offsets_.push_back(clock.remainder->offset);
+    variances += clock.remainder->variance + clock.remainder->bias;
   }
   if (offsets_.empty())
     return {};
   return {medianOf(&offsets_), variances / squared(static_cast<double>(offsets_.size()))};
 }
 
-void CameraClocks::update(const std::vector<CameraFit>& fits,
-                          const std::vector<ClockRegression>& regressions) {
-  if (std::none_of(regressions.begin(), regressions.end(),
-                   [](auto& regression) { return regression.count() >= kSpots; }))
+void CameraClocks::update(const CameraStates& cameras) {
+  if (std::none_of(cameras.begin(), cameras.end(), [](const auto& camera) {
+        return camera.second.clock_regression.count() >= kSpots;
+      }))
     return;
-  for (std::size_t i = 0; i < fits.size(); ++i)
-    remainders_[i] = fits[i].isMisfit() ? std::nullopt : regressions[i].estimate(turn_stddevs_[i]);
+  for (const auto& [camera, state] : cameras)
+    clocks_.at(camera).remainder = state.fit.isMisfit()
+                                       ? std::nullopt
+                                       : state.clock_regression.estimate(turn_stddevs_[camera]);
   const ClockError common = commonRemainder();
-  for (std::size_t i = 0; i < fits.size(); ++i) {
-    const auto& remainder = remainders_[i];
+  for (auto& [camera, clock] : clocks_) {
+    const auto& remainder = clock.remainder;
     if (!remainder)
       continue;
-    ClockError& offset = clocks_[i].offset;
-    const double seen = clocks_[i].correction().offset + remainder->offset - common.offset;
+    ClockError& offset = clock.offset;
+    const double seen = clock.correction().offset + remainder->offset - common.offset;
     const double innovation = seen - offset.offset;
     if (squared(innovation) <= 4.0 * remainder->bias)
       continue;  // it may be the calibration's, which does not average out
@@ -103,12 +111,12 @@ void CameraClocks::update(const std::vector<CameraFit>& fits,
     offset.variance = (1.0 - gain) * variance;
   }
   offsets_.clear();
-  for (const Clock& clock : clocks_) {
+  for (const auto& [camera, clock] : clocks_) {
     if (isReference(clock))
       offsets_.push_back(clock.offset.offset);
   }
   const double middle = medianOf(&offsets_);
-  for (Clock& clock : clocks_) {
+  for (auto& [camera, clock] : clocks_) {
     clock.offset.offset = std::clamp(clock.offset.offset - middle, -kLargest, kLargest);
     clock.is_used = !clock.is_known ||
                     std::abs(clock.offset.offset) >= (clock.is_used ? 0.5 : 1.0) * kNoticeable;

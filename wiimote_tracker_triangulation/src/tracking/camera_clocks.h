@@ -1,9 +1,11 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
 
-#include "camera_fit.h"
 #include "clock_regression.h"
+#include "group_state.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
+
+#include <boost/container/flat_map.hpp>
 
 #include <cstddef>
 #include <cstdint>
@@ -21,10 +23,10 @@ namespace wiimote_tracker::tracking {
 /// Motion tells differences of clocks only: the median of the known ones is 0.
 class CameraClocks {
  public:
-  explicit CameraClocks(std::size_t cameras)
-      : turn_stddevs_(cameras), clocks_(cameras), remainders_(cameras), offsets_(cameras) {}
+  /// @param members the group's cameras
+  explicit CameraClocks(const std::vector<std::size_t>& members);
 
-  /// @param turn_stddevs of each camera, see ClockRegression::estimate().
+  /// @param turn_stddevs of each camera of the rig, see ClockRegression::estimate().
   void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
 
   /// To be subtracted from the times of a camera's images; its variance is for their deviation.
@@ -38,8 +40,8 @@ class CameraClocks {
   double errorOf(std::size_t camera) const;
 
   /// Corrects the offsets once LEDs have moved enough since the last time.
-  /// @param fits, regressions of all cameras, the latter of images with the corrections so far
-  void update(const std::vector<CameraFit>& fits, const std::vector<ClockRegression>& regressions);
+  /// @param cameras of the group, after images with the corrections so far
+  void update(const CameraStates& cameras);
 
   /// Changes with the corrections.
   std::uint32_t version() const { return version_; }
@@ -50,18 +52,17 @@ class CameraClocks {
     bool is_known = true;
     bool is_used = false;  // the offset corrects the images: it is unknown or large
     ClockError offset;
+    std::optional<ClockRegression::Estimate> remainder = {};  // of the last update()
     ClockError correction() const { return is_used ? offset : ClockError(); }
     Clock in(std::uint32_t another_epoch, bool is_known_there) const;
   };
 
-  using Remainders = std::vector<std::optional<ClockRegression::Estimate>>;
   bool isReference(const Clock& clock) const;
   ClockError commonRemainder();
 
-  std::vector<double> turn_stddevs_;  // per camera
-  std::vector<Clock> clocks_;         // the same
-  Remainders remainders_;             // per camera, of the last update()
-  std::vector<double> offsets_;       // reused [s]
+  std::vector<double> turn_stddevs_;                       // per camera of the rig
+  boost::container::flat_map<std::size_t, Clock> clocks_;  // by camera
+  std::vector<double> offsets_;                            // reused [s]
   std::uint32_t version_ = 0;
 };
 

@@ -3,6 +3,7 @@
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
 #include <Eigen/Core>
 
@@ -74,13 +75,12 @@ constexpr double kFarthestByCalibration = 64.0;
 /// Whether errors of the calibration, within three standard deviations, may have moved a spot away
 /// from the prediction of its LED. Does not allocate.
 /// @param led its position [m]. @param camera that of the spot, in the rig.
-/// @param others in the rig, `count`, that see the LED.
+/// @param others that see the LED.
 /// @param residual spot less prediction [px]. @param covariance of this without such errors [px^2].
 bool isByCalibration(const geometry::Rig& rig,
                      const Eigen::Vector3d& led,
                      std::size_t camera,
-                     const std::size_t* others,
-                     std::size_t count,
+                     const CameraList& others,
                      const Eigen::Vector2d& residual,
                      const Eigen::Matrix2d& covariance);
 

@@ -20,39 +20,15 @@ constexpr CameraFit::Limits kFitOfTwo{30.0, 0.55, 0.1};
 
 constexpr double kLeastInterval = 1e-4;  // between exposures of one camera [s]
 
-geometry::Rig rigOf(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
-  geometry::Rig result;
-  for (const std::size_t member : members) {
-    geometry::RigCamera camera = rig.cameras[member];
-    camera.camera = rig.rayCamera(camera);
-    result.cameras.push_back(camera);
-  }
-  return result;
-}
-
-/// The partners of each member, as indices among the members.
-std::vector<std::vector<std::size_t>> partnersOf(
-    const std::vector<std::vector<std::size_t>>& partners,
-    const std::vector<std::size_t>& members) {
-  std::vector<std::vector<std::size_t>> result(members.size());
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    for (const std::size_t partner : partners[members[i]]) {
-      const auto place = std::lower_bound(members.begin(), members.end(), partner);
-      result[i].push_back(place - members.begin());
-    }
-  }
-  return result;
-}
-
-/// Standard deviation of each member's turn about its optical axis [rad] or of its focal length, as
+/// Standard deviation of each camera's turn about its optical axis [rad] or of its focal length, as
 /// a share of it, the larger one; 0 without a covariance.
-std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std::size_t>& members) {
-  std::vector<double> result(members.size(), 0.0);
+std::vector<double> turnStddevs(const geometry::Rig& rig) {
+  std::vector<double> result(rig.cameras.size(), 0.0);
   if (!geometry::hasCovariance(rig))
     return result;
-  for (std::size_t i = 0; i < members.size(); ++i) {
-    const geometry::Camera& camera = rig.cameras[members[i]].camera;
-    const Eigen::Index first = geometry::firstParameter(members[i]);
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    const geometry::Camera& camera = rig.cameras[i].camera;
+    const Eigen::Index first = geometry::firstParameter(i);
     const Eigen::Index focal = first + geometry::kIntrinsics;
     const Eigen::Vector3d axis = camera.world_from_camera.linear().col(2);
     const Eigen::Matrix3d turn = rig.covariance.block<3, 3>(first, first);
@@ -67,36 +43,38 @@ std::vector<double> turnStddevs(const geometry::Rig& rig, const std::vector<std:
 CameraGroup::CameraGroup(const geometry::Rig& rig,
                          const std::vector<std::size_t>& members,
                          const std::vector<std::vector<std::size_t>>& partners,
+                         const std::vector<TrackerCamera>& cameras,
                          const TrackerOptions& options,
                          Ids* ids,
                          std::vector<CameraView>* views)
-    : options_(options), ids_(ids), views_(views), members_(members), clocks_(members.size()) {
-  state_.fits.resize(members_.size(),
-                     {options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo});
-  state_.clock_regressions.resize(members_.size());
-  state_.unassigned.resize(members_.size());
-  state_.crowd = Crowd(members_.size());
+    : options_(options),
+      ids_(ids),
+      views_(views),
+      members_(members),
+      cameras_(cameras),
+      clocks_(members) {
+  const CameraFit fit(options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo);
+  for (const std::size_t member : members_)
+    state_.cameras.emplace(member, CameraState{fit, {}, {}});
   useRig(rig, partners);
 }
 
 void CameraGroup::useRig(const geometry::Rig& rig,
                          const std::vector<std::vector<std::size_t>>& partners) {
-  cameras_.clear();
-  for (const std::size_t member : members_)
-    cameras_.emplace_back(rig, member, options_);
-  update_.emplace(rig, members_, options_);
-  initiation_.emplace(rigOf(rig, members_), partnersOf(partners, members_), options_, ids_);
-  clocks_.setTurnStddevs(turnStddevs(rig, members_));
+  update_.emplace(rig, options_);
+  initiation_.emplace(rig, partners, cameras_, options_, ids_);
+  clocks_.setTurnStddevs(turnStddevs(rig));
   // The rays of unassigned spots are those of the former cameras.
   const auto forgetRays = [](GroupState* state) {
-    std::fill(state->unassigned.begin(), state->unassigned.end(), UnassignedSpots());
+    for (auto& [camera, of_camera] : state->cameras)
+      of_camera.unassigned = UnassignedSpots();
   };
   forgetRays(&state_);
   history_.changeStates(forgetRays);
 }
 
 bool CameraGroup::isDoubtful() const {
-  return state_.fits.size() == 2 && (isMisfit(0) || isMisfit(1));
+  return members_.size() == 2 && (isMisfit(members_[0]) || isMisfit(members_[1]));
 }
 
 CameraGroup::Outcome CameraGroup::add(const StoredImage& image) {
@@ -132,7 +110,7 @@ void CameraGroup::update() {
     step(history_.images().at(next_step_));
   }
   if (state_.clocks == clocks_.version())
-    clocks_.update(state_.fits, state_.clock_regressions);
+    clocks_.update(state_.cameras);
 }
 
 /// Finds an image of the same camera at nearly the same time. A busy computer delivers delayed
@@ -154,7 +132,8 @@ std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
 void CameraGroup::step(const StoredImage& image) {
   std::vector<Track>& tracks = state_.tracks;
   if (image.clocks != state_.clocks) {
-    std::fill(state_.clock_regressions.begin(), state_.clock_regressions.end(), ClockRegression());
+    for (auto& [camera, state] : state_.cameras)
+      state.clock_regression = ClockRegression();
     state_.clocks = image.clocks;
   }
   update_->apply(cameras_[image.camera], image, &state_);
@@ -163,7 +142,7 @@ void CameraGroup::step(const StoredImage& image) {
   const bool in_crowd = noteCrowd(image) && members_.size() > 2;
   show(image);
   collectUnassigned(image);
-  initiation_->apply(cameras_, image.camera, &state_);
+  initiation_->apply(image.camera, &state_);
   showStarts();
   for (Track& track : tracks) {
     const bool was_confirmed = track.isConfirmed();
@@ -208,10 +187,9 @@ Eigen::Matrix3d CameraGroup::mergingCovariance(const Track& track,
     return Eigen::Matrix3d::Zero();
   const double stddev = 0.25 * options_.merging_distance;  // of a coordinate in the circle [px]
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
-  for (std::size_t i = 0; i < members_.size(); ++i) {
+  for (const std::size_t camera : led.cameras) {
     Eigen::Matrix<double, 2, 3> jacobian;
-    if (std::binary_search(led.cameras.begin(), led.cameras.end(), members_[i]) &&
-        cameras_[i].forRays().project(led.position, &jacobian))
+    if (cameras_[camera].forRays().project(led.position, &jacobian))
       information.noalias() += jacobian.transpose() * jacobian;
   }
   const double trace = information.trace();
@@ -259,7 +237,7 @@ Track* CameraGroup::continuing(std::uint32_t id, double since) {
 
 /// None of an image that does not fit, unless there are only two cameras.
 void CameraGroup::collectUnassigned(const StoredImage& image) {
-  UnassignedSpots& rest = state_.unassigned[image.camera];
+  UnassignedSpots& rest = state_.cameras.at(image.camera).unassigned;
   if (rest.spots.empty())
     rest.since = image.time;
   rest.time = image.time;
@@ -267,7 +245,7 @@ void CameraGroup::collectUnassigned(const StoredImage& image) {
   rest.full = image.full;
   rest.spots.clear();
   rest.sights.clear();
-  if (isMisfit(image.camera) && state_.fits.size() > 2)
+  if (isMisfit(image.camera) && members_.size() > 2)
     return;
   for (std::size_t spot = 0; spot < image.spot_count; ++spot) {
     if (update_->trackOfSpot()[spot] != association::kFalseDetection)
@@ -281,7 +259,7 @@ void CameraGroup::collectUnassigned(const StoredImage& image) {
 }
 
 void CameraGroup::show(const StoredImage& image) const {
-  CameraView& view = (*views_)[members_[image.camera]];
+  CameraView& view = (*views_)[image.camera];
   view.time = image.time;
   view.stamp_stddev = image.stamp_stddev;
   view.full = image.full;
@@ -303,8 +281,8 @@ void CameraGroup::show(const StoredImage& image) const {
 /// left alone: the steps are being repeated, and its own one follows.
 void CameraGroup::showStarts() const {
   for (const StartSpot& start : initiation_->starts()) {
-    CameraView& view = (*views_)[members_[start.camera]];
-    if (view.time != state_.unassigned[start.camera].time)
+    CameraView& view = (*views_)[start.camera];
+    if (view.time != state_.cameras.at(start.camera).unassigned.time)
       continue;
     view.spots[start.spot].use = SpotUse::kStart;
     view.spots[start.spot].led = start.led;
@@ -323,8 +301,9 @@ void CameraGroup::clear() {
   next_step_ = 0;
   state_.tracks.clear();
   state_.pairs.clear();
-  state_.crowd = Crowd(members_.size());
-  std::fill(state_.unassigned.begin(), state_.unassigned.end(), UnassignedSpots());
+  state_.crowd = Crowd();
+  for (auto& [camera, state] : state_.cameras)
+    state.unassigned = UnassignedSpots();
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -2,11 +2,11 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
 #include "camera_clocks.h"
-#include "group_camera.h"
 #include "group_state.h"
 #include "image_update.h"
 #include "stored_image.h"
 #include "track_initiation.h"
+#include "tracker_camera.h"
 #include "tracking/history.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
@@ -25,19 +25,21 @@ class CameraGroup {
   /// What happened to an image.
   enum class Outcome { kAdded, kLate, kRepeated, kDropped };
 
-  /// @param members indices of the cameras in the rig, ascending.
-  /// @param partners of all cameras of the rig, see geometry::sharedViews.
+  /// @param members the group's cameras, as their indices in the rig, ascending.
+  /// @param partners see geometry::sharedViews.
+  /// @param cameras of the rig; must live longer, with useRig() where they change.
   /// @param options must outlive the group and the tracks, also those that another group adopts.
   /// @param ids, views must live longer; `views`, one per camera of the rig, get the use of spots.
   CameraGroup(const geometry::Rig& rig,
               const std::vector<std::size_t>& members,
               const std::vector<std::vector<std::size_t>>& partners,
+              const std::vector<TrackerCamera>& cameras,
               const TrackerOptions& options,
               Ids* ids,
               std::vector<CameraView>* views);
 
   /// Steps follow with the next image in order, or update(): a late image may come after others.
-  /// @param image of the member image.camera.
+  /// @param image of a member.
   Outcome add(const StoredImage& image);
 
   /// Carries out the steps of all images.
@@ -45,10 +47,10 @@ class CameraGroup {
 
   /// Whether a camera's images do not fit the others'. With more than two cameras they are left
   /// out.
-  bool isMisfit(std::size_t member) const { return state_.fits[member].isMisfit(); }
+  bool isMisfit(std::size_t camera) const { return state_.cameras.at(camera).fit.isMisfit(); }
 
   /// Whether errors of the calibration explain most of that.
-  bool isExplained(std::size_t member) const { return state_.fits[member].isExplained(); }
+  bool isExplained(std::size_t camera) const { return state_.cameras.at(camera).fit.isExplained(); }
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
@@ -61,7 +63,6 @@ class CameraGroup {
   CameraClocks& clocks() { return clocks_; }
   const CameraClocks& clocks() const { return clocks_; }
 
-  const GroupCamera& camera(std::size_t member) const { return cameras_[member]; }
   const std::vector<std::size_t>& members() const { return members_; }
   const std::vector<Track>& tracks() const { return state_.tracks; }
 
@@ -88,7 +89,7 @@ class CameraGroup {
   Ids* ids_;
   std::vector<CameraView>* views_;
   std::vector<std::size_t> members_;
-  std::vector<GroupCamera> cameras_;
+  const std::vector<TrackerCamera>& cameras_;  // of the rig
   std::optional<ImageUpdate> update_;          // never empty
   std::optional<TrackInitiation> initiation_;  // never empty
   CameraClocks clocks_;

@@ -9,21 +9,20 @@ void Crowd::add(const StoredImage& image, bool has_unknown) {
 }
 
 bool Crowd::mayHideLedsNear(const Track& track,
-                            const std::vector<GroupCamera>& cameras,
+                            const std::vector<TrackerCamera>& cameras,
                             const TrackerOptions& options,
                             double time) const {
   constexpr double kOldest = 0.2;  // more than between two images, if some are lost [s]
   const Eigen::Vector3d position = track.approximatePosition(time);
   std::size_t count = 0;
   bool is_crowded_out = false;
-  for (std::size_t i = 0; i < views_.size(); ++i) {
-    const View& view = views_[i];
+  for (const auto& [camera, view] : views_) {
     if (!view.full || view.time < time - kOldest)
       continue;
     // No spot of it now, nor within tracked_time: a false detection hides an LED in one image only.
     const bool is_hidden =
-        track.lastDetectedBy(i) < std::min(view.time, time - options.tracked_time);
-    if (!(is_hidden || view.has_unknown) || !cameras[i].forRays().sees(position))
+        track.lastDetectedBy(camera) < std::min(view.time, time - options.tracked_time);
+    if (!(is_hidden || view.has_unknown) || !cameras[camera].forRays().sees(position))
       continue;
     ++count;
     is_crowded_out = is_crowded_out || (is_hidden && view.has_unknown);

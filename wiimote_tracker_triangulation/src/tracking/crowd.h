@@ -1,10 +1,12 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CROWD_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CROWD_H
 
-#include "group_camera.h"
 #include "stored_image.h"
 #include "track.h"
+#include "tracker_camera.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
+
+#include <boost/container/flat_map.hpp>
 
 #include <cstddef>
 #include <limits>
@@ -18,8 +20,6 @@ namespace wiimote_tracker::tracking {
 /// may face another one.
 class Crowd {
  public:
-  explicit Crowd(std::size_t cameras) : views_(cameras) {}
-
   /// Notes an image. @param has_unknown whether it shows a light of no confirmed LED
   void add(const StoredImage& image, bool has_unknown);
 
@@ -27,7 +27,7 @@ class Crowd {
   /// one shows an unknown light or not the LED. What one camera alone shows may be a lamp, or the
   /// camera was moved.
   bool mayHideLedsNear(const Track& track,
-                       const std::vector<GroupCamera>& cameras,
+                       const std::vector<TrackerCamera>& cameras,
                        const TrackerOptions& options,
                        double time) const;
 
@@ -39,7 +39,7 @@ class Crowd {
     bool has_unknown = false;
   };
 
-  std::vector<View> views_;
+  boost::container::flat_map<std::size_t, View> views_;  // by camera
 };
 
 }  // namespace wiimote_tracker::tracking

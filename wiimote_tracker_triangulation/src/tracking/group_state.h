@@ -11,8 +11,10 @@
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 
 #include <Eigen/Core>
+#include <boost/container/flat_map.hpp>
 #include <boost/container/static_vector.hpp>
 
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -33,15 +35,23 @@ struct UnassignedSpots {
   boost::container::static_vector<geometry::Sight, association::kMaximumSpots> sights;  // theirs
 };
 
+/// What a late image may change of one camera.
+struct CameraState {
+  CameraFit fit;
+  ClockRegression clock_regression;  // since the last correction
+  UnassignedSpots unassigned;
+};
+
+/// Of the cameras of a group, by their indices in the rig.
+using CameraStates = boost::container::flat_map<std::size_t, CameraState>;
+
 /// Everything of a group of cameras that a late image may change.
 struct GroupState {
   std::vector<Track> tracks;
   std::vector<MergedPair> pairs;
-  Crowd crowd{0};
-  std::vector<UnassignedSpots> unassigned;         // per camera
-  std::vector<CameraFit> fits;                     // per camera
-  std::vector<ClockRegression> clock_regressions;  // per camera, since the last correction
-  std::uint32_t clocks = 0;                        // version of the corrections of their clocks
+  Crowd crowd;
+  CameraStates cameras;
+  std::uint32_t clocks = 0;  // version of the corrections of their clocks
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -6,14 +6,12 @@
 
 namespace wiimote_tracker::tracking {
 
-ImageUpdate::ImageUpdate(const geometry::Rig& rig,
-                         const std::vector<std::size_t>& members,
-                         const TrackerOptions& options)
-    : rig_(rig), members_(members), options_(options) {
+ImageUpdate::ImageUpdate(const geometry::Rig& rig, const TrackerOptions& options)
+    : rig_(rig), options_(options) {
   candidates_.reserve(association::kMaximumTracks);
 }
 
-void ImageUpdate::apply(const GroupCamera& camera, const StoredImage& image, GroupState* state) {
+void ImageUpdate::apply(const TrackerCamera& camera, const StoredImage& image, GroupState* state) {
   camera_ = &camera;
   image_ = &image;
   state_ = state;
@@ -22,7 +20,7 @@ void ImageUpdate::apply(const GroupCamera& camera, const StoredImage& image, Gro
   assign();
   measureFit();
   measureClock();
-  if (state->fits[image.camera].isMisfit() && state->fits.size() > 2) {
+  if (state->cameras.at(image.camera).fit.isMisfit() && state->cameras.size() > 2) {
     track_of_spot_.fill(association::kFalseDetection);
     return;
   }
@@ -88,15 +86,16 @@ CameraList ImageUpdate::othersSeeing(const Track& track) const {
 /// other, an LED counts as shown only if its rays meet, and unassigned spots that both have count
 /// as missing LEDs.
 void ImageUpdate::measureFit() const {
-  std::vector<CameraFit>& fits = state_->fits;
-  const bool is_pair = fits.size() == 2;
-  CameraFit& fit = fits[image_->camera];
+  const bool is_pair = state_->cameras.size() == 2;
+  CameraFit& fit = state_->cameras.at(image_->camera).fit;
   const bool is_tested = is_pair && fit.isMisfit();
   const auto end = track_of_spot_.begin() + image_->spot_count;
   std::size_t unassigned = std::count(track_of_spot_.begin(), end, association::kFalseDetection);
   LedFit leds = image_->bodies;
-  if (is_tested)
-    leds.missing += std::min(unassigned, fits[1 - image_->camera].unassigned());
+  for (const auto& [camera, state] : state_->cameras) {
+    if (is_tested && camera != image_->camera)
+      leds.missing += std::min(unassigned, state.fit.unassigned());
+  }
   for (const Candidate& candidate : candidates_) {
     const Track& track = *candidate.track;
     const std::size_t others = othersSeeing(track).size();
@@ -120,11 +119,8 @@ bool ImageUpdate::isExplained(const Candidate& candidate) const {
   const auto spot = nearestUnassigned(predicted, kFarthestByCalibration);
   if (!spot)
     return false;
-  CameraList others = othersSeeing(*candidate.track);
-  for (std::size_t& other : others)
-    other = members_[other];
-  return isByCalibration(rig_, candidate.track->filter.position(), members_[image_->camera],
-                         others.data(), others.size(), image_->pixels[*spot] - predicted,
+  return isByCalibration(rig_, candidate.track->filter.position(), image_->camera,
+                         othersSeeing(*candidate.track), image_->pixels[*spot] - predicted,
                          candidate.prediction.covariance());
 }
 
@@ -138,8 +134,9 @@ void ImageUpdate::measureClock() const {
     const auto residual = residualOf(candidate);
     if (!residual || !(track.filter.velocity().norm() >= kLeastSpeed))
       continue;
-    state_->clock_regressions[image_->camera].add(candidate.prediction.pixel(),
-                                                  candidate.prediction.velocity(), *residual);
+    state_->cameras.at(image_->camera)
+        .clock_regression.add(candidate.prediction.pixel(), candidate.prediction.velocity(),
+                              *residual);
   }
 }
 

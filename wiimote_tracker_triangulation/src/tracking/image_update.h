@@ -2,9 +2,9 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
 
 #include "association/assign_spots.h"
-#include "group_camera.h"
 #include "group_state.h"
 #include "stored_image.h"
+#include "tracker_camera.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <array>
@@ -20,14 +20,12 @@ namespace wiimote_tracker::tracking {
 /// Where two LEDs may have merged into one spot, follows both hypotheses (MergedPair).
 class ImageUpdate {
  public:
-  /// @param members indices of the group's cameras in the rig. @param options must live longer.
-  ImageUpdate(const geometry::Rig& rig,
-              const std::vector<std::size_t>& members,
-              const TrackerOptions& options);
+  /// @param options must live longer.
+  ImageUpdate(const geometry::Rig& rig, const TrackerOptions& options);
 
   /// If the image does not fit, all its spots are false detections; but those of one of only two
   /// cameras are used, or it would never be known to fit again.
-  void apply(const GroupCamera& camera, const StoredImage& image, GroupState* state);
+  void apply(const TrackerCamera& camera, const StoredImage& image, GroupState* state);
 
   /// For each spot of that image its index in `tracks`, or association::kFalseDetection.
   const std::array<int, association::kMaximumSpots>& trackOfSpot() const { return track_of_spot_; }
@@ -70,10 +68,9 @@ class ImageUpdate {
   Candidate* find(std::uint32_t id);
 
   geometry::Rig rig_;
-  std::vector<std::size_t> members_;
   const TrackerOptions& options_;
   // Of the last apply(); the pointers are valid while it runs.
-  const GroupCamera* camera_ = nullptr;
+  const TrackerCamera* camera_ = nullptr;
   const StoredImage* image_ = nullptr;
   GroupState* state_ = nullptr;
   geometry::PixelNoise noise_;

@@ -14,7 +14,7 @@ namespace wiimote_tracker::tracking {
 
 /// An image in the history, with as many spots as one assignment takes.
 struct StoredImage {
-  std::size_t camera = 0;      // in its group
+  std::size_t camera = 0;      // in the rig
   double time = 0.0;           // of the exposure, in the rig's time [s]
   double arrival = 0.0;        // [s]
   double stamp_stddev = 0.0;   // with that of the clock's offset [s]

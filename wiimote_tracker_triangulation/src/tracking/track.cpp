@@ -259,10 +259,7 @@ std::size_t Track::camerasShowing(double since) const {
   });
 }
 
-void Track::report(double time,
-                   const TrackerOptions& options,
-                   const std::vector<std::size_t>& rig_index,
-                   TrackedLed* led) const {
+void Track::report(double time, const TrackerOptions& options, TrackedLed* led) const {
   motion::MotionFilter at_time = filter;
   at_time.predict(time);
   led->position = at_time.position();
@@ -280,7 +277,7 @@ void Track::report(double time,
     cameras->clear();
     for (const CameraRecord& record : records_) {
       if (record.last_detected >= since)
-        cameras->push_back(rig_index[record.camera]);
+        cameras->push_back(record.camera);
     }
     std::sort(cameras->begin(), cameras->end());
   };

@@ -18,7 +18,7 @@ namespace wiimote_tracker::tracking {
 
 /// A camera's latest images of one track.
 struct CameraRecord {
-  std::size_t camera = 0;  // in its group
+  std::size_t camera = 0;  // in the rig
   // Times of the last image [s]:
   double last_expected = 0.0;        // that should show the LED
   double last_saturated = 0.0;       // that should show it, but has as many spots as it can have
@@ -109,11 +109,7 @@ class Track {
   double lastObserved() const { return last_observed_; }  // [s]
 
   /// Writes the LED at a time not before the filter's, without the covariance of the calibration.
-  /// @param rig_index index in the rig of each of the group's cameras
-  void report(double time,
-              const TrackerOptions& options,
-              const std::vector<std::size_t>& rig_index,
-              TrackedLed* led) const;
+  void report(double time, const TrackerOptions& options, TrackedLed* led) const;
 
   motion::MotionFilter filter;
   std::uint32_t id;

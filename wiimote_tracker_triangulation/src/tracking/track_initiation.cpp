@@ -22,19 +22,18 @@ association::AssociationOptions associationOptions(const geometry::Rig& rig,
 
 TrackInitiation::TrackInitiation(const geometry::Rig& rig,
                                  const std::vector<std::vector<std::size_t>>& partners,
+                                 const std::vector<TrackerCamera>& cameras,
                                  const TrackerOptions& options,
                                  Ids* ids)
-    : options_(options),
+    : cameras_(cameras),
+      options_(options),
       ids_(ids),
       partners_(partners),
       associator_(rig, partners, associationOptions(rig, options)),
       views_(rig.cameras.size()) {}
 
-void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
-                            std::size_t newest,
-                            GroupState* state) {
+void TrackInitiation::apply(std::size_t newest, GroupState* state) {
   starts_.clear();
-  cameras_ = &cameras;
   state_ = state;
   if (!collectViews(newest))
     return;
@@ -46,7 +45,7 @@ void TrackInitiation::apply(const std::vector<GroupCamera>& cameras,
     if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
         !isAllowed(point) || mayShowInAnother(point, first))
       continue;
-    start(point, first, state->unassigned[newest].time);
+    start(point, first, unassignedOf(newest).time);
     used_.insert(used_.end(), first, last);
   }
   removeUsed();
@@ -66,8 +65,7 @@ void TrackInitiation::start(const association::AssociatedPoint& point,
   });
   Track& track = state_->tracks.emplace_back(filterOf(point, spots), id);
   for (const auto* spot = spots; spot != end; ++spot) {
-    track.addInitialSpot(spot->view, state_->unassigned[spot->view].time,
-                         point.point.reprojection_error);
+    track.addInitialSpot(spot->view, unassignedOf(spot->view).time, point.point.reprojection_error);
     starts_.push_back({spot->view, spotAt(*spot).key.spot, id});
   }
 }
@@ -76,7 +74,7 @@ void TrackInitiation::start(const association::AssociatedPoint& point,
 void TrackInitiation::removeUsed() {
   std::sort(used_.begin(), used_.end(), [](auto& a, auto& b) { return a.spot > b.spot; });
   for (const association::SpotReference& spot : used_) {
-    UnassignedSpots& rest = state_->unassigned[spot.view];
+    UnassignedSpots& rest = unassignedOf(spot.view);
     rest.spots.erase(rest.spots.begin() + spot.spot);
     rest.sights.erase(rest.sights.begin() + spot.spot);
   }
@@ -89,13 +87,13 @@ motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoin
   constexpr double kVague = 100.0;  // times the point's covariance
   by_time_.assign(spots, spots + point.spot_count);
   std::sort(by_time_.begin(), by_time_.end(), [&](auto& a, auto& b) {
-    return state_->unassigned[a.view].time < state_->unassigned[b.view].time;
+    return unassignedOf(a.view).time < unassignedOf(b.view).time;
   });
-  motion::MotionFilter filter(options_.motion, state_->unassigned[by_time_.front().view].time,
+  motion::MotionFilter filter(options_.motion, unassignedOf(by_time_.front().view).time,
                               point.point.position, kVague * point.point.covariance);
   for (const association::SpotReference& spot : by_time_) {
-    const UnassignedSpots& image = state_->unassigned[spot.view];
-    const GroupCamera& camera = (*cameras_)[spot.view];
+    const UnassignedSpots& image = unassignedOf(spot.view);
+    const TrackerCamera& camera = cameras_[spot.view];
     filter.predict(image.time);
     const auto prediction = filter.predictPixel(camera.forRays(), camera.noise(image.stamp_stddev));
     if (prediction)
@@ -142,9 +140,9 @@ Track* TrackInitiation::formerTrackOf(const Track& found, GroupState* state) con
 
 /// Fills views_ with the recent unassigned spots. False when no two cameras have any.
 bool TrackInitiation::collectViews(std::size_t newest) {
-  const double since = state_->unassigned[newest].time - options_.birth_window;
+  const double since = unassignedOf(newest).time - options_.birth_window;
   const auto viewOf = [&](std::size_t camera) -> association::View {
-    const UnassignedSpots& rest = state_->unassigned[camera];
+    const UnassignedSpots& rest = unassignedOf(camera);
     const bool is_recent = rest.time >= since;
     return {rest.sights.data(), is_recent ? rest.sights.size() : 0, is_recent, rest.full};
   };
@@ -167,10 +165,10 @@ bool TrackInitiation::mayShowInAnother(const association::AssociatedPoint& point
                                        const association::SpotReference* spots) const {
   double since = std::numeric_limits<double>::infinity();
   for (const auto* spot = spots; spot != spots + point.spot_count; ++spot)
-    since = std::min(since, state_->unassigned[spot->view].since);
-  for (std::size_t camera = 0; camera < cameras_->size(); ++camera) {
-    if (views_[camera].watching && state_->unassigned[camera].time < since &&
-        (*cameras_)[camera].forRays().sees(point.point.position))
+    since = std::min(since, unassignedOf(spot->view).since);
+  for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
+    if (views_[camera].watching && unassignedOf(camera).time < since &&
+        cameras_[camera].forRays().sees(point.point.position))
       return true;
   }
   return false;

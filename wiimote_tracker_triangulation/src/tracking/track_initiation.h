@@ -2,9 +2,9 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
 
 #include "association/associate_views.h"
-#include "group_camera.h"
 #include "group_state.h"
 #include "ids.h"
+#include "tracker_camera.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>
@@ -24,17 +24,19 @@ struct StartSpot {
 /// is ready, it may turn out to continue a track that lost its LED.
 class TrackInitiation {
  public:
-  /// @param rig the group's cameras only. @param partners see geometry::sharedViews.
+  /// @param partners see geometry::sharedViews.
+  /// @param cameras of the rig; must live longer.
   /// @param options must outlive the tracks: their filters refer to options.motion.
   /// @param ids must live longer.
   TrackInitiation(const geometry::Rig& rig,
                   const std::vector<std::vector<std::size_t>>& partners,
+                  const std::vector<TrackerCamera>& cameras,
                   const TrackerOptions& options,
                   Ids* ids);
 
   /// Searches for LEDs at the time of camera `newest`'s image, and removes their spots from the
   /// unassigned ones.
-  void apply(const std::vector<GroupCamera>& cameras, std::size_t newest, GroupState* state);
+  void apply(std::size_t newest, GroupState* state);
 
   /// Of the tracks that the last apply() started.
   const std::vector<StartSpot>& starts() const { return starts_; }
@@ -44,8 +46,11 @@ class TrackInitiation {
 
  private:
   bool collectViews(std::size_t newest);
+  UnassignedSpots& unassignedOf(std::size_t camera) const {
+    return state_->cameras.at(camera).unassigned;
+  }
   const UnassignedSpots::Spot& spotAt(const association::SpotReference& spot) const {
-    return state_->unassigned[spot.view].spots[spot.spot];
+    return unassignedOf(spot.view).spots[spot.spot];
   }
   bool isAllowed(const association::AssociatedPoint& point) const;
   bool mayShowInAnother(const association::AssociatedPoint& point,
@@ -57,6 +62,7 @@ class TrackInitiation {
                                 const association::SpotReference* spots);
   void removeUsed();
 
+  const std::vector<TrackerCamera>& cameras_;
   const TrackerOptions& options_;
   Ids* ids_;
   std::vector<std::vector<std::size_t>> partners_;
@@ -66,9 +72,7 @@ class TrackInitiation {
   std::vector<association::SpotReference> by_time_;  // of one point
   std::vector<association::SpotReference> used_;
   std::vector<StartSpot> starts_;
-  // Of the last apply(); valid while it runs.
-  const std::vector<GroupCamera>* cameras_ = nullptr;
-  GroupState* state_ = nullptr;
+  GroupState* state_ = nullptr;  // of the last apply(); valid while it runs
 };
 
 }  // namespace wiimote_tracker::tracking

@@ -52,8 +52,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
   rig.check();
   const Partners partners = geometry::sharedViews(rig, options_.maximum_range);
   if (hasSameGroups(rig, partners)) {
-    rig_ = rig;
-    uncertainty_.emplace(rig_);
+    useCameras(rig);
     for (const auto& group : groups_)
       group->useRig(rig_, partners);
     return;
@@ -74,16 +73,23 @@ bool Tracker::hasSameGroups(const geometry::Rig& rig, const Partners& partners) 
              [](const auto& members, const auto& group) { return members == group->members(); });
 }
 
-void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
+void Tracker::useCameras(const geometry::Rig& rig) {
   rig_ = rig;
   uncertainty_.emplace(rig_);
+  cameras_.clear();
+  for (const geometry::RigCamera& camera : rig_.cameras)
+    cameras_.emplace_back(rig_, camera, options_);
+}
+
+void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
+  useCameras(rig);
   groups_.clear();
-  cameras_.resize(rig_.cameras.size());
+  inputs_.resize(cameras_.size());
   for (const std::vector<std::size_t>& members : geometry::groupsOf(partners)) {
-    for (std::size_t i = 0; i < members.size(); ++i)
-      cameras_[members[i]] = CameraState{groups_.size(), i};
-    groups_.push_back(
-        std::make_unique<CameraGroup>(rig_, members, partners, options_, ids_.get(), &views_));
+    groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, cameras_, options_,
+                                                    ids_.get(), &views_));
+    for (const std::size_t member : members)
+      inputs_[member] = Input{groups_.back().get()};
   }
   arrival_clocks_ = std::make_unique<ArrivalClocks>(
       rig_.cameras.size(), arrival_clocks_ ? arrival_clocks_->newestUsed() : kNever);
@@ -96,10 +102,9 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
     for (const Track& track : old_group->tracks()) {
       const Eigen::Vector3d position = track.filter.position();
       const auto viewers = [&](const std::unique_ptr<CameraGroup>& group) {
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < group->members().size(); ++i)
-          count += group->camera(i).mayShow(position);
-        return count;
+        return std::count_if(
+            group->members().begin(), group->members().end(),
+            [&](std::size_t member) { return cameras_[member].mayShow(position); });
       };
       const auto best = std::max_element(groups_.begin(), groups_.end(),
                                          [&](auto& a, auto& b) { return viewers(a) < viewers(b); });
@@ -120,15 +125,15 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
   if (result == ArrivalClocks::Result::kJumpedBack)
     reset();
   const StoredImage stored_image = stored(camera, image, times.exposure);
-  CameraState& state = cameras_[camera];
-  switch (groups_[state.group]->add(stored_image)) {
+  Input& input = inputs_[camera];
+  switch (input.group->add(stored_image)) {
     case CameraGroup::Outcome::kRepeated:
       ++counters_.repeated;
       return;
     case CameraGroup::Outcome::kDropped:
       ++counters_.dropped;
-      ++state.dropped_in_a_row;
-      state.lateness = newest_time_ - stored_image.time;
+      ++input.dropped_in_a_row;
+      input.lateness = newest_time_ - stored_image.time;
       return;
     case CameraGroup::Outcome::kLate:
       ++counters_.late;
@@ -136,7 +141,7 @@ void Tracker::add(std::size_t camera, const CameraImage& image) {
     case CameraGroup::Outcome::kAdded:
       break;
   }
-  state.dropped_in_a_row = 0;
+  input.dropped_in_a_row = 0;
   newest_time_ = std::max(newest_time_, stored_image.time);
   newest_arrival_ = std::max(newest_arrival_, image.arrival);
   ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
@@ -154,22 +159,21 @@ void Tracker::reset() {
 /// The image at its time by the camera's corrected clock, with the usable spots first, then the
 /// masked ones. Spots outside the image are left out. @param exposure by the rig's time offset [s]
 StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double exposure) {
-  const CameraState& state = cameras_[camera];
-  CameraGroup& group = *groups_[state.group];
-  const ClockError clock = group.clocks().correctionOf(
-      state.member, image.clock_epoch, !rig_.cameras[camera].hasNewClock(image.clock_epoch));
+  CameraClocks& clocks = inputs_[camera].group->clocks();
+  const ClockError clock = clocks.correctionOf(
+      camera, image.clock_epoch, !rig_.cameras[camera].hasNewClock(image.clock_epoch));
   const double stamp_stddev =
       std::isnan(image.stamp_stddev) ? options_.stamp_stddev : image.stamp_stddev;
   StoredImage result;
-  result.camera = state.member;
+  result.camera = camera;
   result.time = exposure - clock.offset;
   result.arrival = image.arrival;
   result.stamp_stddev = std::hypot(stamp_stddev, std::sqrt(clock.variance));
-  result.clocks = group.clocks().version();
+  result.clocks = clocks.version();
   result.number = images_++;
   result.full = image.spots.size() >= image.maximum_spots;
   result.bodies = image.bodies;
-  const GroupCamera& view = group.camera(state.member);
+  const TrackerCamera& view = cameras_[camera];
   const auto collect = [&](bool masked) {
     for (const Spot& spot : image.spots) {
       if (view.isInImage(spot.pixel, 0.5) && view.isMasked(spot.pixel) == masked &&
@@ -233,7 +237,7 @@ void Tracker::report(double time, Snapshot* snapshot) const {
   auto led = snapshot->leds.begin();
   for (const auto& group : groups_) {
     for (const Track& track : group->tracks()) {
-      track.report(time, options_, group->members(), &*led);
+      track.report(time, options_, &*led);
       if (led->state == TrackState::kTracked && group->isDoubtful())
         led->state = TrackState::kPredicted;
       led->position_covariance += group->mergingCovariance(track, *led, time);
@@ -265,31 +269,29 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
     return CameraFault{CameraFault::Kind::kWrongClock, *ahead};
   // More than a driver reads at once after a pause.
   constexpr std::size_t kManyLate = 100;
-  const CameraState& state = cameras_[camera];
-  if (state.dropped_in_a_row >= kManyLate)
-    return CameraFault{CameraFault::Kind::kLate, -state.lateness};
-  const CameraGroup& group = *groups_[state.group];
-  if (group.isMisfit(state.member))
-    return CameraFault{group.isExplained(state.member) ? CameraFault::Kind::kInaccurate
-                                                       : CameraFault::Kind::kMisfit,
-                       0.0};
+  const Input& input = inputs_[camera];
+  if (input.dropped_in_a_row >= kManyLate)
+    return CameraFault{CameraFault::Kind::kLate, -input.lateness};
+  const CameraGroup& group = *input.group;
+  if (group.isMisfit(camera))
+    return CameraFault{
+        group.isExplained(camera) ? CameraFault::Kind::kInaccurate : CameraFault::Kind::kMisfit,
+        0.0};
   constexpr double kNoticeable = 0.004;  // [s]
-  const double error = group.clocks().errorOf(state.member);
+  const double error = group.clocks().errorOf(camera);
   if (std::abs(error) >= kNoticeable)
     return CameraFault{CameraFault::Kind::kCorrectedClock, error};
   return std::nullopt;
 }
 
 bool Tracker::isDoubtful(std::size_t camera) const {
-  const CameraState& state = cameras_[camera];
-  const CameraGroup& group = *groups_[state.group];
-  return group.isDoubtful() || group.isMisfit(state.member);
+  const CameraGroup& group = *inputs_[camera].group;
+  return group.isDoubtful() || group.isMisfit(camera);
 }
 
 ClockError Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
-  const CameraState& state = cameras_.at(camera);
-  return groups_[state.group]->clocks().errorIn(state.member, clock_epoch,
-                                                !rig_.cameras[camera].hasNewClock(clock_epoch));
+  return inputs_.at(camera).group->clocks().errorIn(camera, clock_epoch,
+                                                    !rig_.cameras[camera].hasNewClock(clock_epoch));
 }
 
 }  // namespace wiimote_tracker::tracking

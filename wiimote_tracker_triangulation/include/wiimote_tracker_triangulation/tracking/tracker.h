@@ -17,6 +17,7 @@ namespace wiimote_tracker::tracking {
 class CameraGroup;
 class Ids;
 class ArrivalClocks;
+class TrackerCamera;
 struct StoredImage;
 
 /// Tracks LEDs in continuous time. Each image updates the tracks that its camera may see, at once
@@ -51,9 +52,9 @@ class Tracker : public Estimator {
   bool predictTo(double time, Snapshot* snapshot) override;
 
  private:
-  struct CameraState {
-    std::size_t group;
-    std::size_t member;                // of the group
+  /// The images of a camera.
+  struct Input {
+    CameraGroup* group;                // to which they go
     std::size_t dropped_in_a_row = 0;  // images, because they were too late
     double lateness = 0.0;             // of the last of them, behind the newest of all cameras [s]
   };
@@ -62,6 +63,7 @@ class Tracker : public Estimator {
   using Partners = std::vector<std::vector<std::size_t>>;
 
   bool hasSameGroups(const geometry::Rig& rig, const Partners& partners) const;
+  void useCameras(const geometry::Rig& rig);
   void useRig(const geometry::Rig& rig, const Partners& partners);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
   void reset();
@@ -72,8 +74,9 @@ class Tracker : public Estimator {
 
   TrackerOptions options_;
   geometry::Rig rig_;
+  std::vector<TrackerCamera> cameras_;  // of the rig
   std::vector<std::unique_ptr<CameraGroup>> groups_;
-  std::vector<CameraState> cameras_;  // of the rig
+  std::vector<Input> inputs_;  // per camera
   std::unique_ptr<ArrivalClocks> arrival_clocks_;
   std::unique_ptr<Ids> ids_;
   std::optional<geometry::CalibrationUncertainty> uncertainty_;  // never empty

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACKER_CAMERA_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACKER_CAMERA_H
 
 #include "motion/pixel_prediction.h"
 #include "ray_agreement.h"
@@ -8,16 +8,16 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
 
-/// A camera of a group with precomputed properties of its view.
-class GroupCamera {
+/// A camera of the rig with precomputed properties of its view.
+class TrackerCamera {
  public:
-  /// @param index in the rig
-  GroupCamera(const geometry::Rig& rig, std::size_t index, const TrackerOptions& options);
+  TrackerCamera(const geometry::Rig& rig,
+                const geometry::RigCamera& camera,
+                const TrackerOptions& options);
 
   const geometry::Camera& forRays() const { return for_rays_; }
 
@@ -48,4 +48,4 @@ class GroupCamera {
 
 }  // namespace wiimote_tracker::tracking
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_CAMERA_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACKER_CAMERA_H

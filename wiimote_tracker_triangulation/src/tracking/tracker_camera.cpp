@@ -1,4 +1,4 @@
-#include "group_camera.h"
+#include "tracker_camera.h"
 
 #include <algorithm>
 #include <cmath>
@@ -24,27 +24,28 @@ double squaredCosineOfView(const geometry::Intrinsics& lens) {
 
 }  // namespace
 
-GroupCamera::GroupCamera(const geometry::Rig& rig, std::size_t index, const TrackerOptions& options)
-    : pixel_stddev_(
-          geometry::pixelNoise(rig.cameras[index], options.learnt_noise, options.pixel_stddev)),
+TrackerCamera::TrackerCamera(const geometry::Rig& rig,
+                             const geometry::RigCamera& camera,
+                             const TrackerOptions& options)
+    : pixel_stddev_(geometry::pixelNoise(camera, options.learnt_noise, options.pixel_stddev)),
       // Rays also miss each other by errors of calibration and time, however exact the spots are.
       ray_stddev_(std::max(pixel_stddev_, options.pixel_stddev)),
-      masks_(rig.cameras[index].masks),
-      for_rays_(rig.rayCamera(rig.cameras[index])),
+      masks_(camera.masks),
+      for_rays_(rig.rayCamera(camera)),
       squared_cosine_(squaredCosineOfView(for_rays_.intrinsics)) {}
 
-double GroupCamera::imageArea() const {
+double TrackerCamera::imageArea() const {
   return static_cast<double>(for_rays_.intrinsics.width) * for_rays_.intrinsics.height;
 }
 
-bool GroupCamera::mayShow(const Eigen::Vector3d& point) const {
+bool TrackerCamera::mayShow(const Eigen::Vector3d& point) const {
   const Eigen::Vector3d sight = point - for_rays_.center();
   const double depth = for_rays_.world_from_camera.linear().col(2).dot(sight);
   return depth > 0.0 && depth * depth >= squared_cosine_ * sight.squaredNorm();
 }
 
-RayOffset GroupCamera::rayOffset(const Eigen::Vector3d& led,
-                                 const Eigen::Vector2d& residual) const {
+RayOffset TrackerCamera::rayOffset(const Eigen::Vector3d& led,
+                                   const Eigen::Vector2d& residual) const {
   const Eigen::Vector3d sight = led - for_rays_.center();
   const geometry::Intrinsics& lens = for_rays_.intrinsics;
   const Eigen::Matrix3d& axes = for_rays_.world_from_camera.linear();

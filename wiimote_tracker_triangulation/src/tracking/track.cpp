@@ -112,19 +112,15 @@ void Track::addInitialSpot(std::size_t camera, double time, double residual) {
 }
 
 void Track::continueAs(const Track& found) {
-  const std::uint32_t own_id = id;
-  const double initiated = initiated_;
-  const double same_led_probability = same_led_probability_;
-  const double crowded_since = crowded_since_;
-  const double last_crowded = last_crowded_;
-  *this = found;
-  id = own_id;
-  same_led_probability_ = same_led_probability;
-  crowded_since_ = crowded_since;
-  last_crowded_ = last_crowded;
-  confirmed_ = true;
-  initiated_ = initiated;
-  agreement_.reacquire();
+  Track result = found;
+  result.id = id;
+  result.initiated_ = initiated_;
+  result.same_led_probability_ = same_led_probability_;
+  result.crowded_since_ = crowded_since_;
+  result.last_crowded_ = last_crowded_;
+  result.confirmed_ = true;
+  result.agreement_.reacquire();
+  *this = result;
 }
 
 Track::Visibility Track::visibilityAt(double time, const TrackerOptions& options) const {

@@ -4,16 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iomanip>
-#include <system_error>
 #include <utility>
 
 namespace wiimote_tracker::identity {
-
-namespace fs = std::filesystem;
-
 namespace {
 
 constexpr double kPlaceMemory = 10.0;  // later an LED may be anywhere [s]
@@ -21,7 +14,6 @@ constexpr double kNear = 0.1;          // error of a place after no time [m]
 constexpr double kLeastSpeed = 0.3;    // of an LED out of sight, per axis [m/s]
 constexpr double kSameCourse = 2.0;    // for how long it goes on as before [s]
 constexpr double kAnywhere = 0.003;    // density of an LED that was carried off [1/m^3]
-constexpr char kRig[] = "rig:";        // begins a file of places; no label has a colon
 
 /// Speed of the fastest LED when it was seen last [m/s]. It is used for all LEDs, since one that
 /// paused when it was seen last may have moved on.
@@ -222,59 +214,6 @@ void LedLabels::clear() {
   lost_.clear();
   for (const auto& given : given_)
     lost_.push_back(given.first);
-}
-
-std::string placesFile(const std::string& parameter, const std::string& name_space) {
-  if (parameter.empty() || parameter.back() != '/')
-    return parameter;
-  return fs::path(parameter + name_space + "/label_places").lexically_normal().string();
-}
-
-bool writePlaces(const std::string& file,
-                 const std::string& rig_id,
-                 const LedLabels::Places& places) {
-  const std::string fresh = file + ".new";
-  std::error_code error;
-  fs::create_directories(fs::absolute(file).parent_path(), error);
-  std::ofstream out(fresh);
-  out << kRig << ' ' << std::quoted(rig_id) << '\n';
-  for (const auto& [label, place] : places)
-    out << label << ' ' << place.position.transpose() << ' ' << place.speed << ' '
-        << std::max(0.0, place.age) << ' ' << place.confidence << '\n';
-  out.close();
-  if (!out)
-    return false;
-  fs::rename(fresh, file, error);
-  return !error;
-}
-
-LedLabels::Places readPlaces(const std::string& file,
-                             const std::string& rig_id,
-                             std::chrono::seconds oldest) {
-  std::error_code error;
-  const fs::file_time_type written = fs::last_write_time(file, error);
-  if (error)
-    return {};
-  // Not in the future, where a clock that was set back leaves it.
-  const double age = std::max(
-      0.0, std::chrono::duration<double>(fs::file_time_type::clock::now() - written).count());
-  if (age > oldest.count())
-    return {};
-  std::ifstream in(file);
-  LedLabels::Places places;
-  std::string label, written_rig;
-  if (in >> label && label != kRig)
-    in.seekg(0);
-  else if (in >> std::quoted(written_rig) && written_rig != rig_id)
-    return {};
-  LedLabels::Place place;
-  Eigen::Vector3d& position = place.position;
-  while (in >> label >> position.x() >> position.y() >> position.z() >> place.speed >> place.age >>
-         place.confidence) {
-    place.age += age;
-    places[label] = place;
-  }
-  return in.eof() ? places : LedLabels::Places();
 }
 
 }  // namespace wiimote_tracker::identity

@@ -1,6 +1,7 @@
 #include "triangulation.h"
 
 #include "callbacks.h"
+#include "identity/label_places_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <visualization_msgs/MarkerArray.h>

@@ -1,4 +1,5 @@
 // The labels of the LEDs: by order, by place, by blinking.
+#include "identity/label_places_file.h"
 #include "identity/led_labels.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"
 
@@ -185,42 +186,6 @@ TEST(LedLabels, ReturnByPlaceAfterARestart) {
   std::ofstream(file, std::ios::app) << "e 1.0 x";
   EXPECT_TRUE(readPlaces(file, "rig", std::chrono::seconds(60)).empty()) << "damaged";
   std::remove(file.c_str());
-}
-
-TEST(LedLabels, PlacesOfAnotherRigAreIgnored) {
-  const std::string file = testing::TempDir() + "places_of_rig_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, "a rig", {{"rig", {}}, {"b", {}}}));
-  EXPECT_EQ(2u, readPlaces(file, "a rig", std::chrono::seconds(60)).size());
-  EXPECT_TRUE(readPlaces(file, "another", std::chrono::seconds(60)).empty());
-  std::ofstream(file) << "rig 1 2 3 0 0 1\n";
-  EXPECT_EQ(1u, readPlaces(file, "a rig", std::chrono::seconds(60)).size()) << "older version's";
-  std::remove(file.c_str());
-}
-
-TEST(LedLabels, EachNamespaceHasAFileInTheFolder) {
-  EXPECT_EQ("", placesFile("", "/room"));
-  EXPECT_EQ("/lab/places", placesFile("/lab/places", "/room"));
-  EXPECT_EQ("/lab/label_places", placesFile("/lab/", "/"));
-  EXPECT_EQ("/lab/room/label_places", placesFile("/lab/", "/room"));
-  EXPECT_EQ("/lab/house/room/label_places", placesFile("/lab/", "/house/room"));
-}
-
-TEST(LedLabels, AllOfAPlaceIsInItsFile) {
-  LedLabels::Place place;
-  place.position = {1.5, -2.0, 0.25};
-  place.speed = 0.5;
-  place.age = 4.0;
-  place.confidence = 0.75;
-  const std::string file = testing::TempDir() + "one_place_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, "rig", {{"a", place}}));
-  const LedLabels::Places places = readPlaces(file, "rig", std::chrono::seconds(60));
-  std::remove(file.c_str());
-  ASSERT_EQ(1u, places.size());
-  const LedLabels::Place& found = places.at("a");
-  EXPECT_EQ(place.position, found.position);
-  EXPECT_EQ(place.speed, found.speed);
-  EXPECT_EQ(place.confidence, found.confidence);
-  EXPECT_GE(found.age, 4.0) << "and the age of the file";
 }
 
 /// A tracker without images would give old places the age of its file, which is none.

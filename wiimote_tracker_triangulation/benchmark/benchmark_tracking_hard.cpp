@@ -16,7 +16,7 @@
 namespace wiimote_tracker {
 namespace {
 
-using estimators::Mode;
+using estimators::TrackerMode;
 using geometry::test::Accuracy;
 using tracking::test::Path;
 using tracking::test::SceneImage;
@@ -107,7 +107,7 @@ void runHard(const BenchmarkSettings& settings, const RowCallback& row) {
       Accuracy tracks, smoothed, singles, instants;
       estimators::EstimatorOptions default_options, single, instant;
       single.tracks.motion = singleMode(speed, acceleration);
-      instant.mode = Mode::kInstant;
+      instant.tracker_mode = TrackerMode::kInstant;
       for (int i = 0; i < settings.runs; ++i) {
         geometry::test::Random random(settings.seed + i);
         const Path path = tracking::test::shaken(random, {1.25, 1.25, 1.2}, speed, acceleration);

@@ -14,7 +14,7 @@ namespace wiimote_tracker {
 namespace {
 
 using Eigen::Vector3d;
-using estimators::Mode;
+using estimators::TrackerMode;
 using tracking::test::Path;
 using tracking::test::SceneImage;
 
@@ -71,9 +71,12 @@ std::vector<SceneImage> recording(const Path& path, const Stamping& stamping, un
   }
 }
 
-void track(const std::vector<SceneImage>& images, const Path& path, Mode mode, Errors* errors) {
+void track(const std::vector<SceneImage>& images,
+           const Path& path,
+           TrackerMode mode,
+           Errors* errors) {
   estimators::EstimatorOptions options;
-  options.mode = mode;
+  options.tracker_mode = mode;
   const auto estimator = estimators::makeEstimator(tracking::test::paperRig(), options);
   for (const SceneImage& image : images) {
     estimator->add(image.camera, image.image);
@@ -105,8 +108,8 @@ void runUnsynchronised(const BenchmarkSettings& settings, const RowCallback& row
       for (int i = 0; i < settings.runs; ++i) {
         const Path path = tracking::test::circle({1.25, 1.25, 1.2}, 0.75, speed, 0.3 * i);
         const std::vector<SceneImage> images = recording(path, stamping, settings.seed + i);
-        track(images, path, Mode::kTracks, &tracks);
-        track(images, path, Mode::kInstant, &instants);
+        track(images, path, TrackerMode::kTracks, &tracks);
+        track(images, path, TrackerMode::kInstant, &instants);
       }
       if (std::isnan(exact))
         exact = tracks.rms();

@@ -46,13 +46,13 @@ class Occlusions {
 
 struct Method {
   const char* name;
-  estimators::Mode mode;
+  estimators::TrackerMode mode;
   bool takes_predicted;  // points seen by fewer than two cameras
 };
 
-constexpr Method kMethods[] = {{"tracks", estimators::Mode::kTracks, true},
-                               {"tracked", estimators::Mode::kTracks, false},
-                               {"instants", estimators::Mode::kInstant, true}};
+constexpr Method kMethods[] = {{"tracks", estimators::TrackerMode::kTracks, true},
+                               {"tracked", estimators::TrackerMode::kTracks, false},
+                               {"instants", estimators::TrackerMode::kInstant, true}};
 
 struct Score {
   double squared = 0.0;  // of the errors [m^2]
@@ -68,7 +68,7 @@ Score follow(const geometry::Rig& rig,
              const Method& method) {
   constexpr double kFresh = 0.025;  // greatest age of a fresh point [s]
   estimators::EstimatorOptions options;
-  options.mode = method.mode;
+  options.tracker_mode = method.mode;
   Score score;
   double last = kSettled;
   trackImages(rig, options, images, [&](double time, const tracking::Snapshot& snapshot) {

@@ -20,7 +20,7 @@
 namespace wiimote_tracker::studio {
 
 using Eigen::Vector3d;
-using estimators::Mode;
+using estimators::TrackerMode;
 using geometry::Rig;
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::TrackedPoint;
@@ -73,9 +73,9 @@ struct Heard : MessageSink {
   std::size_t view_count = 0;
 };
 
-inline TrackingParameters parametersOf(Mode mode) {
+inline TrackingParameters parametersOf(TrackerMode mode) {
   TrackingParameters parameters;
-  parameters.estimator.mode = mode;
+  parameters.estimator.tracker_mode = mode;
   return parameters;
 }
 

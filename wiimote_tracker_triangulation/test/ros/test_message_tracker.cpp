@@ -20,9 +20,9 @@ class InBothModes : public testing::TestWithParam<Mode> {};
 
 INSTANTIATE_TEST_SUITE_P(MessageTracker,
                          InBothModes,
-                         testing::Values(Mode::kTracks, Mode::kInstant),
+                         testing::Values(TrackerMode::kTracks, TrackerMode::kInstant),
                          [](const auto& info) {
-                           return info.param == Mode::kTracks ? "Tracks" : "Instant";
+                           return info.param == TrackerMode::kTracks ? "Tracks" : "Instant";
                          });
 
 TEST_P(InBothModes, SeveralLedsHaveTheirLabelsAndPlaces) {
@@ -39,7 +39,7 @@ TEST_P(InBothModes, SeveralLedsHaveTheirLabelsAndPlaces) {
   EXPECT_GT(studio.heard.arrays.size(), 250u);
   const TrackedPointArray& last = *studio.heard.arrays.back();
   EXPECT_EQ(studio.rig.id(), last.rig_id);
-  EXPECT_EQ(GetParam() == Mode::kTracks ? "track" : "maximum_likelihood", last.method);
+  EXPECT_EQ(GetParam() == TrackerMode::kTracks ? "track" : "maximum_likelihood", last.method);
   EXPECT_EQ(2u, last.points.size());
   EXPECT_EQ(3u, studio.heard.view_count);
   EXPECT_TRUE(studio.heard.problems.empty());

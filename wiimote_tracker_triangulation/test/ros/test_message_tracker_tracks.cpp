@@ -24,7 +24,7 @@ bool isInEllipsoid(const Vector3d& error, const Covariance& row_major) {
 }
 
 TEST(Clocks, ACameraWithAnotherClockIsNamedOnceAndLeftOut) {
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
     const ros::Duration ahead(camera == 2 ? 0.5 : 0.0);
     image->header.stamp += ahead;
@@ -39,7 +39,7 @@ TEST(Clocks, ACameraWithAnotherClockIsNamedOnceAndLeftOut) {
 
 /// As continuous calibration does every half minute.
 TEST(Clocks, AFaultThatGoesOnIsNotReportedAgainWithEachRig) {
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   double ahead = 0.5;
   studio.spoil = [&](std::size_t camera, IrBlobArray* image) {
     const ros::Duration error(camera == 2 ? ahead : 0.0);
@@ -65,7 +65,7 @@ TEST(Clocks, AFaultThatGoesOnIsNotReportedAgainWithEachRig) {
 }
 
 TEST(Clocks, AnImageFromAnotherCenturyChangesNothing) {
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   studio.film(0.5, {onCircle});
   IrBlobArray image = studio.image(0, studio.now, {onCircle});
   image.header.stamp = image.arrival = ros::TIME_MAX;
@@ -76,7 +76,7 @@ TEST(Clocks, AnImageFromAnotherCenturyChangesNothing) {
 }
 
 TEST(Labels, ThatMayBeWrongAreNamed) {
-  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  TrackingParameters parameters = parametersOf(TrackerMode::kTracks);
   parameters.labels = {"led", "second"};
   Studio studio(parameters);
   const Paths paths = {onCircle, besideCircle};
@@ -93,7 +93,7 @@ TEST(Labels, ThatMayBeWrongAreNamed) {
 }
 
 TEST(Labels, AreNotRememberedAtPlacesOfAnotherWorld) {
-  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  TrackingParameters parameters = parametersOf(TrackerMode::kTracks);
   parameters.labels = {"led", "second"};
   Studio studio(parameters);
   const auto take = [&](const std::vector<std::size_t>& cameras, double way) {
@@ -121,7 +121,7 @@ TEST(Labels, OfOneLedCannotBeMixedUp) {
   const Paths paths = {
       [&](double time) { return Vector3d(way(1001.5 - time), way(time - 1002.5), 0.5); },
       [](double) { return Vector3d(0.0, 0.0, 0.5); }};
-  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  TrackingParameters parameters = parametersOf(TrackerMode::kTracks);
   for (const std::vector<std::string>& labels :
        std::vector<std::vector<std::string>>{{"led", "second"}, {"led"}}) {
     parameters.labels = labels;
@@ -138,7 +138,7 @@ TEST(Labels, OfOneLedCannotBeMixedUp) {
 TEST(Identity, BlinkingLedsKeepTheirLabelsThroughDarkness) {
   constexpr double kChip = 0.023;
   const std::vector<std::string> words = {"01011111", "01010101"};
-  TrackingParameters parameters = parametersOf(Mode::kTracks);
+  TrackingParameters parameters = parametersOf(TrackerMode::kTracks);
   parameters.labels = {"lamp"};
   parameters.identity.codes =
       identity::cyclicCodes({{"left", words[0]}, {"right", words[1]}}, kChip, 0.01);
@@ -276,7 +276,7 @@ TEST(ImuOfABody, IsNotUsedIfZDoesNotPointUp) {
 /// How often an IMU without samples is reported while its body is seen for 2 s, hidden for 1 s, and
 /// seen for 1.5 s.
 long reportsOfAMissingImu(double up) {
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};
   wand.imu = body::ImuMount{"/imu"};
   studio.tracker.setBodies({wand});
@@ -305,7 +305,7 @@ TEST(ImuOfABody, IsNotMissedIfZDoesNotPointUp) {
 
 TEST(Bodies, ThatAreNoLongerWantedAreReportedLostOnce) {
   using wiimote_tracker_msgs::TrackedBody;
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   const body::Constellation wand{"wand", {{0.2, 0.0, 0.3}, {-0.15, 0.05, 0.3}, {0.0, 0.15, 0.4}}};
   studio.tracker.setBodies({wand});
   Paths leds;
@@ -327,7 +327,7 @@ TEST(Bodies, ThatAreNoLongerWantedAreReportedLostOnce) {
 
 /// Spots of bodies do not show it.
 TEST(Bodies, AskForALedThatShowsTheClockOfACameraThatHasReconnected) {
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   for (geometry::RigCamera& camera : studio.rig.cameras) {
     camera.time_offset = 0.0;
     camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
@@ -359,7 +359,7 @@ TEST(Bodies, AskForALedThatShowsTheClockOfACameraThatHasReconnected) {
 /// Free LEDs show the offset of a camera that has reconnected; the body is in no view.
 TEST(Bodies, AreAtTheTimesThatMotionHasCorrected) {
   constexpr double kLate = 0.002;  // stamps of camera 2, which exposes at 6 ms of each period [s]
-  Studio studio(parametersOf(Mode::kTracks));
+  Studio studio(parametersOf(TrackerMode::kTracks));
   for (geometry::RigCamera& camera : studio.rig.cameras) {
     camera.time_offset = 0.0;
     camera.time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;

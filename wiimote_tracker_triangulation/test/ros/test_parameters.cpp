@@ -77,7 +77,7 @@ TEST(Parameters, SetValuesAreRead) {
   nh.setParam("output/body_transforms", false);
   const TrackingParameters p = read(nh);
   EXPECT_EQ((std::vector<std::string>{"left", "right_hand"}), p.labels);
-  EXPECT_EQ(estimators::Mode::kInstant, p.estimator.mode);
+  EXPECT_EQ(estimators::TrackerMode::kInstant, p.estimator.tracker_mode);
   EXPECT_EQ("mean_closest", methodWord(p.estimator));
   EXPECT_EQ(0.25, p.estimator.tracks.pixel_stddev);
   EXPECT_EQ(0.25, p.estimator.instant.triangulation.pixel_stddev);
@@ -121,7 +121,7 @@ TEST(Parameters, EveryMethodHasAName) {
   using geometry::TriangulationMethod;
   estimators::EstimatorOptions options;
   EXPECT_EQ("track", methodWord(options));
-  options.mode = estimators::Mode::kInstant;
+  options.tracker_mode = estimators::TrackerMode::kInstant;
   for (const auto& [method, word] : std::map<TriangulationMethod, std::string>{
            {TriangulationMethod::kMeanClosest, "mean_closest"},
            {TriangulationMethod::kLeastSquares, "least_squares"},

@@ -289,7 +289,7 @@ TEST(Tracker, CovarianceFollowsTheNoiseThatCamerasLearnt) {
 TEST(Tracker, MakeEstimatorMakesBothKinds) {
   estimators::EstimatorOptions options;
   EXPECT_TRUE(dynamic_cast<Tracker*>(estimators::makeEstimator(paperRig(), options).get()));
-  options.mode = estimators::Mode::kInstant;
+  options.tracker_mode = estimators::TrackerMode::kInstant;
   EXPECT_TRUE(
       dynamic_cast<fusion::InstantFuser*>(estimators::makeEstimator(paperRig(), options).get()));
   EXPECT_THROW(estimators::makeEstimator(geometry::Rig(), options), geometry::Error);

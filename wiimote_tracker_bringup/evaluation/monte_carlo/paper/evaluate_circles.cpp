@@ -21,7 +21,7 @@ constexpr double kSettling = 3.0;   // of clocks and tracks [s]
 constexpr double kInterval = 0.05;  // between rows [s]
 constexpr double kNear = 0.5;       // points farther off are not of the LED [m]
 
-/// A calibration and the mode of tracking with it.
+/// A calibration and the tracker mode.
 struct Method {
   std::string name;
   geometry::Rig rig;
@@ -49,7 +49,7 @@ std::vector<Method> methodsOf(const simulation::Description& described,
                               const PaperSession& session) {
   estimators::EstimatorOptions tracks;
   estimators::EstimatorOptions instants;
-  instants.mode = estimators::Mode::kInstant;
+  instants.tracker_mode = estimators::TrackerMode::kInstant;
   estimators::EstimatorOptions paper = instants;
   paper.instant.triangulation.method = geometry::TriangulationMethod::kMeanClosest;
   std::vector<Method> methods;

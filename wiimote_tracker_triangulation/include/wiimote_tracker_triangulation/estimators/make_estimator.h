@@ -10,13 +10,14 @@
 
 namespace wiimote_tracker::estimators {
 
-enum class Mode {
+/// The parameter `mode`.
+enum class TrackerMode {
   kTracks,   ///< tracking::Tracker
   kInstant,  ///< fusion::InstantFuser, the paper's method
 };
 
 struct EstimatorOptions {
-  Mode mode = Mode::kTracks;
+  TrackerMode tracker_mode = TrackerMode::kTracks;
   tracking::TrackerOptions tracks;      ///< Of kTracks.
   fusion::InstantFuserOptions instant;  ///< Of kInstant.
 };
@@ -24,7 +25,7 @@ struct EstimatorOptions {
 /// @throws geometry::InvalidRigError (see Rig::check).
 inline std::unique_ptr<tracking::Estimator> makeEstimator(const geometry::Rig& rig,
                                                           const EstimatorOptions& options) {
-  if (options.mode == Mode::kInstant)
+  if (options.tracker_mode == TrackerMode::kInstant)
     return std::make_unique<fusion::InstantFuser>(rig, options.instant);
   return std::make_unique<tracking::Tracker>(rig, options.tracks);
 }

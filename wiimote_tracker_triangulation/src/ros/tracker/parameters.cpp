@@ -137,7 +137,7 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
   reader->read("identity/steady", &identity.identifier.steady, 1e-9, 0.5);
   if (file.empty())
     return;
-  if (p->estimator.mode != estimators::Mode::kTracks)
+  if (p->estimator.tracker_mode != estimators::TrackerMode::kTracks)
     throw ParameterError(key + " needs " + reader->nameOf("mode") +
                          " tracks: mode instant cannot follow an LED that is off");
   try {
@@ -149,7 +149,7 @@ void readIdentity(ParameterReader* reader, TrackingParameters* p) {
   p->estimator.tracks = identity::forBlinking(*identity.codes, p->estimator.tracks);
 }
 
-void readOutput(ParameterReader* reader, estimators::Mode mode, OutputOptions* output) {
+void readOutput(ParameterReader* reader, estimators::TrackerMode mode, OutputOptions* output) {
   reader->read("output/on_update", &output->on_update);
   reader->read("tracks/output_interval", &output->interval, 0.0, 1.0);
   reader->read("output/rate", &output->rate, 0.0, 1000.0);
@@ -161,7 +161,7 @@ void readOutput(ParameterReader* reader, estimators::Mode mode, OutputOptions* o
     throw ParameterError(reader->nameOf("output/rate") + " is 0 while " +
                          reader->nameOf("output/on_update") +
                          " is false, so nothing would be published: set one of them");
-  if (output->predict_to_now && mode != estimators::Mode::kTracks)
+  if (output->predict_to_now && mode != estimators::TrackerMode::kTracks)
     throw ParameterError(reader->nameOf("output/predict_to_now") + " needs " +
                          reader->nameOf("mode") + " tracks: mode instant cannot predict");
 }
@@ -169,7 +169,7 @@ void readOutput(ParameterReader* reader, estimators::Mode mode, OutputOptions* o
 }  // namespace
 
 std::string methodWord(const estimators::EstimatorOptions& options) {
-  if (options.mode == estimators::Mode::kTracks)
+  if (options.tracker_mode == estimators::TrackerMode::kTracks)
     return "track";
   return methodNames()[static_cast<std::size_t>(options.instant.triangulation.method)];
 }
@@ -205,7 +205,7 @@ std::string describeIdentity(const TrackingParameters& parameters) {
 std::string describeLoneCamera(const geometry::Rig& rig,
                                const estimators::EstimatorOptions& options) {
   const std::string far_camera = rig.describeFarCamera();
-  const bool tracks = options.mode == estimators::Mode::kTracks;
+  const bool tracks = options.tracker_mode == estimators::TrackerMode::kTracks;
   const double range = tracks ? options.tracks.maximum_range : options.instant.maximum_range;
   if (!far_camera.empty() || range >= geometry::kFarthestLed)
     return far_camera;
@@ -227,10 +227,11 @@ TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   checkLabels(reader->nameOf("labels"), p.labels);
   reader->read("label_places", &p.label_places);
   estimators::EstimatorOptions& estimator = p.estimator;
-  const bool tracks = estimator.mode == estimators::Mode::kTracks;
+  const bool tracks = estimator.tracker_mode == estimators::TrackerMode::kTracks;
   const std::string mode =
       reader->choice("mode", tracks ? "tracks" : "instant", {"tracks", "instant"});
-  estimator.mode = mode == "tracks" ? estimators::Mode::kTracks : estimators::Mode::kInstant;
+  estimator.tracker_mode =
+      mode == "tracks" ? estimators::TrackerMode::kTracks : estimators::TrackerMode::kInstant;
   reader->read("pixel_stddev", &estimator.tracks.pixel_stddev, 0.001, 100.0);
   reader->read("learnt_noise", &estimator.tracks.learnt_noise);
   estimator.instant.triangulation.pixel_stddev = estimator.tracks.pixel_stddev;
@@ -239,7 +240,7 @@ TrackingParameters TrackingParameters::read(ParameterReader* reader) {
   readInstant(reader, &estimator.instant);
   readIdentity(reader, &p);
   p.bodies = BodyParameters::read(reader, estimator.tracks, p.allLabels());
-  readOutput(reader, estimator.mode, &p.output);
+  readOutput(reader, estimator.tracker_mode, &p.output);
   reader->read("zones/hysteresis", &p.zones.hysteresis, 0.0, 10.0);
   reader->read("zones/timeout", &p.zones.timeout, 0.01, 60.0);
   reader->read("trigger/maximum_gap", &p.trigger.maximum_gap, 0.001, 10.0);

@@ -211,7 +211,7 @@ void dropRecordedResults(const Recording& recording,
 
 /// @throws BagError: the outputs are not of the images' times.
 void checkForSmoothing(const TrackingParameters& parameters) {
-  if (parameters.estimator.mode != estimators::Mode::kTracks)
+  if (parameters.estimator.tracker_mode != estimators::TrackerMode::kTracks)
     throw BagError("--smooth needs tracks: set mode to tracks");
   if (parameters.output.predict_to_now)
     throw BagError("--smooth cannot predict: set output/predict_to_now to false");

@@ -1,5 +1,7 @@
 #include "camera_group.h"
 
+#include "crowd.h"
+
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
 #include <Eigen/LU>
@@ -55,7 +57,7 @@ CameraGroup::CameraGroup(const geometry::Rig& rig,
       clocks_(members) {
   const CameraFit fit(options_.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo);
   for (const std::size_t member : members_)
-    state_.cameras.emplace(member, CameraState{fit, {}, {}});
+    state_.cameras.emplace(member, CameraState{fit, {}, {}, {}});
   useRig(rig, partners);
 }
 
@@ -167,12 +169,12 @@ bool CameraGroup::noteCrowd(const StoredImage& image) {
   const bool has_unknown = std::any_of(begin, begin + image.spot_count, [&](int track) {
     return track == association::kFalseDetection || !state_.tracks[track].isConfirmed();
   });
-  state_.crowd.add(image, has_unknown);
+  state_.cameras.at(image.camera).newest = {image.time, image.full, has_unknown};
   bool in_crowd = false;
   for (Track& track : state_.tracks) {
     if (!track.isConfirmed())
       continue;
-    if (state_.crowd.mayHideLedsNear(track, cameras_, options_, image.time))
+    if (isInCrowd(track, state_.cameras, cameras_, options_, image.time))
       track.noteCrowd(image.time);
     in_crowd = in_crowd || track.isCrowded(image.time);
   }
@@ -301,9 +303,10 @@ void CameraGroup::clear() {
   next_step_ = 0;
   state_.tracks.clear();
   state_.pairs.clear();
-  state_.crowd = Crowd();
-  for (auto& [camera, state] : state_.cameras)
+  for (auto& [camera, state] : state_.cameras) {
     state.unassigned = UnassignedSpots();
+    state.newest = NewestImage();
+  }
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -55,7 +55,7 @@ class CameraGroup {
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  /// Covariance of an LED's position where unknown LEDs may be merged with it (see Crowd); else
+  /// Covariance of an LED's position where unknown LEDs may be merged with it (see isInCrowd); else
   /// zero.
   /// @param led as the track reports it at this time [s]
   Eigen::Matrix3d mergingCovariance(const Track& track, const TrackedLed& led, double time) const;

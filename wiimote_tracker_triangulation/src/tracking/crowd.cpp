@@ -4,19 +4,17 @@
 
 namespace wiimote_tracker::tracking {
 
-void Crowd::add(const StoredImage& image, bool has_unknown) {
-  views_[image.camera] = {image.time, image.full, has_unknown};
-}
-
-bool Crowd::mayHideLedsNear(const Track& track,
-                            const std::vector<TrackerCamera>& cameras,
-                            const TrackerOptions& options,
-                            double time) const {
+bool isInCrowd(const Track& track,
+               const CameraStates& states,
+               const std::vector<TrackerCamera>& cameras,
+               const TrackerOptions& options,
+               double time) {
   constexpr double kOldest = 0.2;  // more than between two images, if some are lost [s]
   const Eigen::Vector3d position = track.approximatePosition(time);
   std::size_t count = 0;
   bool is_crowded_out = false;
-  for (const auto& [camera, view] : views_) {
+  for (const auto& [camera, state] : states) {
+    const NewestImage& view = state.newest;
     if (!view.full || view.time < time - kOldest)
       continue;
     // No spot of it now, nor within tracked_time: a false detection hides an LED in one image only.

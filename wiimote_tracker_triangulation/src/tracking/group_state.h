@@ -4,7 +4,6 @@
 #include "association/assign_spots.h"
 #include "camera_fit.h"
 #include "clock_regression.h"
-#include "crowd.h"
 #include "ids.h"
 #include "merged_pair.h"
 #include "track.h"
@@ -16,6 +15,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -35,11 +35,19 @@ struct UnassignedSpots {
   boost::container::static_vector<geometry::Sight, association::kMaximumSpots> sights;  // theirs
 };
 
+/// What a camera's newest image tells of a crowd.
+struct NewestImage {
+  double time = -std::numeric_limits<double>::infinity();  // [s]
+  bool full = false;                                       // StoredImage::full
+  bool has_unknown = false;                                // it shows a light of no confirmed LED
+};
+
 /// What a late image may change of one camera.
 struct CameraState {
   CameraFit fit;
   ClockRegression clock_regression;  // since the last correction
   UnassignedSpots unassigned;
+  NewestImage newest;
 };
 
 /// Of the cameras of a group, by their indices in the rig.
@@ -49,7 +57,6 @@ using CameraStates = boost::container::flat_map<std::size_t, CameraState>;
 struct GroupState {
   std::vector<Track> tracks;
   std::vector<MergedPair> pairs;
-  Crowd crowd;
   CameraStates cameras;
   std::uint32_t clocks = 0;  // version of the corrections of their clocks
 };

@@ -63,7 +63,7 @@ class Track {
   /// Forgets the cameras' records, after a change of the rig.
   void forgetCameras() { records_.clear(); }
 
-  /// Unknown LEDs may be merged with this one, see Crowd.
+  /// Unknown LEDs may be merged with this one, see isInCrowd().
   void noteCrowd(double time);
 
   /// Whether they are, or lately were: the filter forgets merged spots with some delay.

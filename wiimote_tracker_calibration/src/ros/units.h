@@ -34,7 +34,8 @@ Unit boardServices(NodeContext* context);
 /// A still LED on a known place: check, measure_place, and known_places/add, undo, clear, fit.
 Unit placeServices(NodeContext* context);
 
-/// Solves one camera against the others: recalibrate_camera.
+/// Solves one camera against the others, or adds it: recalibrate_camera. Removes one:
+/// remove_camera.
 Unit recalibrateServices(NodeContext* context);
 
 /// A rig that corrects itself from ordinary tracking: continuous/apply, continuous/revert.

@@ -1,5 +1,5 @@
-// Cameras that were moved or exchanged, with cameras that this test plays: the rig that is loaded is
-// not always the true one.
+// Cameras that were moved or exchanged, with cameras that this test plays: the rig that is loaded
+// is not always the true one.
 
 #include "calibrated_node.h"
 

@@ -155,7 +155,7 @@ class Consumers(LiveRigTest):
         for name, group in expected.items():
             own = 'room/' + name.replace('manager: ', 'triangulation: ')
             self.assertEqual(groups_of(own), [group])
-        self.assertEqual(groups_of('room/record_watch_lab_7: recording'), ['recording'])
+        self.assertEqual(groups_of('room/record_watch: recording'), ['recording'])
         # Nodes that wait since their parameters were refused.
         for node, group in [('calibration', 'calibration'), ('wiimote_1/driver', 'cameras'),
                             ('triangulation', 'tracker')]:

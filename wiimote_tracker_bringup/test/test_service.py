@@ -40,7 +40,7 @@ def test_the_launch_file_has_the_arguments_of_the_unit():
     assert '$LAUNCH $ARGUMENTS' in values_of('ExecStart')[0]
 
 
-def test_each_user_may_have_variables_of_the_own():
+def test_each_user_may_have_variables_of_their_own():
     """The later file wins, as where a second user needs another ROS_MASTER_URI."""
     assert values_of('EnvironmentFile') == ['-/etc/default/wiimote-tracker',
                                             '-/etc/default/wiimote-tracker-%i']

@@ -200,7 +200,7 @@ TEST_F(EditRig, NamesTheParameterThatLeavesOutACamera) {
   geometry::writeRigFile(rig, file.path);
   ASSERT_TRUE(call<LoadRig>("/few/calibration/load", file).success);
   EXPECT_SAYS(recalibrate("/camera_2", kForEver, "/few/").message,
-              "but not /camera_5, /camera_6, /camera_4: add that there");
+              "but not /camera_5, /camera_6, /camera_4: correct the name, or add it there");
 }
 
 TEST_F(EditRig, WarnsOfARemovalThatSplitsTheRig) {
@@ -216,8 +216,8 @@ TEST_F(EditRig, WarnsOfARemovalThatSplitsTheRig) {
   look(3, 1.0, 6.0, 0.3);
   load(rig);
   EXPECT_SAYS(remove("camera_2").message,
-              "camera_2 alone linked the views of camera_1 with those of camera_3, camera_4: no "
-              "LED is tracked from one to the other now, nor by one camera; add it again, or turn");
+              "camera_2 alone linked the views of camera_1 with those of camera_3, camera_4: an "
+              "LED that goes from one to the other is lost on the way; add it again, or turn");
 }
 
 }  // namespace

@@ -98,6 +98,23 @@ std::map<std::string, Selected> select(const Scene& scene, std::uint64_t seed, d
   return selected;
 }
 
+TEST(LedSelection, GoesOnWithARigThatDiffersLittle) {
+  const geometry::Rig rig = paperRigWith(wellCalibrated());
+  const LedSelection selection(rig);
+  geometry::Rig other = rig;
+  other.cameras[1].masks.push_back({Eigen::Vector2d(100.0, 200.0), 10.0});
+  other.cameras[1].camera.world_from_camera.translation().x() += 0.0002;
+  EXPECT_TRUE(selection.suits(other));
+  other.cameras[1].camera.world_from_camera.translation().x() += 0.02;
+  EXPECT_FALSE(selection.suits(other));
+  other = rig;
+  other.cameras[1].time_offset += 0.004;
+  EXPECT_FALSE(selection.suits(other));
+  other = rig;
+  other.cameras.pop_back();
+  EXPECT_FALSE(selection.suits(other));
+}
+
 TEST(LedSelection, LeavesTheImagesOfOneLedAlone) {
   WavedLed led(paperRigWith(wellCalibrated()).cameras, 1);
   led.ghosts = 0.05;

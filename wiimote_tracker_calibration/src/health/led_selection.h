@@ -31,6 +31,11 @@ class LedSelection {
  public:
   explicit LedSelection(const geometry::Rig& rig);
 
+  /// Whether it may go on although the rig is another one now: the same devices with the same
+  /// clocks, in nearly the same poses (geometry::haveSamePose). So it is after a step of continuous
+  /// calibration, or with other masks.
+  bool suits(const geometry::Rig& rig) const;
+
   /// One image of any camera; of one camera in the order of their stamps.
   /// @returns it, or the same with at most one spot. Valid until the next call.
   const capture::Image& select(const capture::Image& image);

@@ -67,7 +67,7 @@ std::string describeSplit(const geometry::Rig& rig, const std::string& name) {
   if (parts.size() < 2)
     return "";
   return name + " alone linked the views of " + joined(parts, " with those of ") +
-         ": no LED is tracked from one to the other now, nor by one camera; add it again, or turn "
+         ": an LED that goes from one to the other is lost on the way; add it again, or turn "
          "another camera so that it sees both, and recalibrate that";
 }
 

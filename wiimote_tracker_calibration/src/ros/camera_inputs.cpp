@@ -135,7 +135,9 @@ std::vector<std::string> CameraInputs::names() const {
 std::string CameraInputs::whyIgnored(const std::vector<std::string>& cameras) const {
   std::vector<std::string> left_out;
   for (const std::string& name : cameras) {
-    if (!name.empty() && name == ignored_)
+    if (name.empty())
+      continue;
+    if (name == ignored_)
       return name +
              " is the button_remote, which moves when its button is pressed: calibrate the "
              "others, or set button_remote to another remote";
@@ -145,7 +147,8 @@ std::string CameraInputs::whyIgnored(const std::vector<std::string>& cameras) co
   if (left_out.empty())
     return "";
   return "the parameter " + ros::this_node::getName() + "/cameras names " + joined(names()) +
-         ", but not " + joined(left_out) + ": add that there, and start the calibration node again";
+         ", but not " + joined(left_out) +
+         ": correct the name, or add it there and start the calibration node again";
 }
 
 std::string CameraInputs::describeSilent(const geometry::Rig& rig) const {

@@ -172,7 +172,9 @@ class CaptureServices {
   /// used.
   void requireUp(const std::vector<std::string>& cameras, Lock* lock) {
     const auto tells_up = [this](const std::string& name) {
-      return context_.inputs().cameras().at(name).gravity.mean().has_value();
+      const auto& inputs = context_.inputs().cameras();
+      const auto camera = inputs.find(name);  // it may have been left to another tracker meanwhile
+      return camera != inputs.end() && camera->second.gravity.mean().has_value();
     };
     if (!context_.parameters(*lock).solve.use_gravity)
       throw Refusal(

@@ -66,7 +66,7 @@ class HealthMonitor {
   }
 
   void useRig(const std::optional<geometry::Rig>& rig, const Lock& lock) {
-    if (rig)
+    if (rig && !(selection_ && selection_->suits(*rig)))
       selection_.emplace(*rig);
     if (rig && watch_ && watch_->follow(*rig))
       return;

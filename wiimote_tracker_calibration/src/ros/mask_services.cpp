@@ -79,7 +79,9 @@ class MaskServices {
       masks[name] = camera.masks;
       counts.push_back(name + " " + std::to_string(count));
       one_each = one_each && count == 1;
-      const int most = context_.inputs().cameras().at(name).max_blobs;
+      const auto& inputs = context_.inputs().cameras();
+      const auto input = inputs.find(name);  // it may have been left to another tracker meanwhile
+      const int most = input == inputs.end() ? 0 : input->second.max_blobs;
       if (most > 0 && static_cast<int>(count) >= most)
         warnings.push_back(
             name + " reports " + std::to_string(most) +

@@ -117,7 +117,7 @@ class RecalibrateServices {
       throw Refusal(reason);
     std::set<std::string> sending;
     for (const auto& [camera, input] : inputs.cameras()) {
-      if (input.monitor.summary(NodeContext::now()).connected)
+      if (input.monitor.summary(NodeContext::now()).problem != capture::kSendsNoImages)
         sending.insert(camera);
     }
     if (!rig.find(name))

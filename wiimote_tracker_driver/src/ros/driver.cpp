@@ -223,6 +223,8 @@ void Driver::linkChanged() {
     before = std::exchange(state_.link, now);
     if (now.state == wiimote::Link::State::kStreaming && before.state != now.state)
       statistics_.begin(steadyNow());
+    if (now.state == wiimote::Link::State::kSearching)
+      statistics_.lose();
   }
   log_.report(now, steadyNow());
   log_.notice(source_.notice());

@@ -24,7 +24,7 @@ class StreamStatistics {
     bool has_rate = true;      ///< False: it began less than kShortest ago, and `rate` is too low.
     double longest_gap = 0.0;  ///< [s] Including the time since the last image.
     std::uint64_t gaps = 0;    ///< Since the beginning.
-    int returns = 0;           ///< Streams that began again within kMemory.
+    int returns = 0;           ///< Streams that began again after lose() within kMemory.
   };
 
   /// `now` [s] here and below is any clock that never goes back.
@@ -32,12 +32,16 @@ class StreamStatistics {
 
   /// The stream begins, at first or again.
   void begin(double now) {
-    if (any_image_)
+    if (any_image_ && was_lost_)
       returns_.push_back(now);
+    was_lost_ = false;
     window_start_ = now;
     images_ = 0;
     has_begun_ = true;
   }
+
+  /// The remote is gone.
+  void lose() { was_lost_ = true; }
 
   /// An image has come.
   void add(double now) {
@@ -78,6 +82,7 @@ class StreamStatistics {
   bool has_begun_ = false;  // in this window
   std::uint64_t images_ = 0;
   std::uint64_t gaps_ = 0;
+  bool was_lost_ = false;
   std::deque<double> returns_;  // when the stream began again [s]
 };
 

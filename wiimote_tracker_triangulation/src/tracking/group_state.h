@@ -15,7 +15,10 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::tracking {
@@ -50,8 +53,13 @@ struct CameraState {
   NewestImage newest;
 };
 
-/// Of the cameras of a group, by their indices in the rig.
-using CameraStates = boost::container::flat_map<std::size_t, CameraState>;
+/// Of the cameras of a group, by their indices in the rig. Boost's own allocator does not align
+/// Eigen's vectors where AVX needs it.
+using CameraStates =
+    boost::container::flat_map<std::size_t,
+                               CameraState,
+                               std::less<std::size_t>,
+                               std::allocator<std::pair<std::size_t, CameraState>>>;
 
 /// Everything of a group of cameras that a late image may change.
 struct GroupState {

@@ -188,39 +188,5 @@ TEST(TypicalCosts, AreThoseOfTheDocumentedDensities) {
   EXPECT_EQ(0.0, least.miss);
 }
 
-TEST(SharedViews, AreOnlyCamerasWithCommonVolume) {
-  // Two rooms of four cameras, 30 m apart, and one camera that looks away.
-  geometry::Rig rig = ringRig(4);
-  const geometry::Rig other = ringRig(4);
-  for (geometry::RigCamera camera : other.cameras) {
-    camera.camera.name += "_far";
-    camera.camera.world_from_camera.pretranslate(Vector3d(30.0, 0.0, 0.0));
-    rig.cameras.push_back(camera);
-  }
-  geometry::RigCamera away = rig.cameras[0];
-  away.camera.world_from_camera =
-      geometry::lookAt({0.0, 8.0, 2.0}, {0.0, 20.0, 2.0}, Vector3d::UnitZ());
-  rig.cameras.push_back(away);
-  const auto shared = sharedViews(rig, kRange);
-  const std::vector<std::vector<std::size_t>> expected = {
-      {1, 2, 3}, {0, 2, 3}, {0, 1, 3}, {0, 1, 2}, {5, 6, 7}, {4, 6, 7}, {4, 5, 7}, {4, 5, 6}, {}};
-  EXPECT_EQ(expected, shared);
-}
-
-TEST(SharedViews, AreThoseOfTheRaysOfTheRig) {
-  geometry::Rig rig;
-  for (const double x : {0.0, 1.0}) {
-    geometry::RigCamera camera;
-    camera.camera.intrinsics.fx = camera.camera.intrinsics.fy = 20000.0;
-    camera.camera.world_from_camera =
-        geometry::lookAt({x, 0.0, 0.0}, {x, 1.0, 0.0}, Vector3d::UnitZ());
-    rig.cameras.push_back(camera);
-  }
-  EXPECT_TRUE(sharedViews(rig, kRange)[0].empty()) << "the lenses are long";
-  rig.ray_model = geometry::RayModel::kImageCenter;
-  rig.virtual_hfov = 0.7;  // [rad]
-  EXPECT_EQ(std::vector<std::size_t>{1}, sharedViews(rig, kRange)[0]);
-}
-
 }  // namespace
 }  // namespace wiimote_tracker::association::test

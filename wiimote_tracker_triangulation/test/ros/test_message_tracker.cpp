@@ -16,7 +16,7 @@ namespace {
 using namespace studio;
 using wiimote_tracker_msgs::RigCalibration;
 
-class InBothModes : public testing::TestWithParam<Mode> {};
+class InBothModes : public testing::TestWithParam<TrackerMode> {};
 
 INSTANTIATE_TEST_SUITE_P(MessageTracker,
                          InBothModes,

@@ -8,9 +8,9 @@
 namespace wiimote_tracker::geometry {
 
 /// Reads a rig.yaml (layout: doc/rig.yaml of this package). Numbers come back bit for bit as
-/// written. @throws FileError: missing, unreadable, truncated, foreign, or of an unknown version;
-/// names the file, and the key where there is one. InvalidRigError: well-formed but unusable
-/// values.
+/// written.
+/// @throws FileError: missing, unreadable, truncated, foreign, or of an unknown version; names the
+/// file, and the key where there is one. InvalidRigError: well-formed but unusable values.
 Rig readRigFile(const std::string& path);
 
 /// Writes rig.yaml: to a new file that is then renamed, so that a reader never sees half a file; a

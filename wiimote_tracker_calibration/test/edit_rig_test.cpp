@@ -163,7 +163,7 @@ TEST_F(EditRig, RefusesANewCameraWhoseNameClashesBeforeTheWave) {
 TEST_F(EditRig, NamesTheParameterThatLeavesOutACamera) {
   const char* const left_out =
       "the parameter /few/calibration/cameras names /camera_1, /camera_2, /camera_3, but not "
-      "/camera_4: add that there, and start the calibration node again";
+      "/camera_4: correct the name, or add it there and start the calibration node again";
   LoadRig::Request file;
   file.path = folder_ + "/few.yaml";
   geometry::writeRigFile(withSlashes(), file.path);

@@ -1,6 +1,7 @@
 // Cameras of a rig that are solved again, added and removed, with cameras that this test plays.
 
 #include "calibrated_node.h"
+#include "split_rig.h"
 
 #include "recalibrate/rig_cameras.h"
 
@@ -204,16 +205,8 @@ TEST_F(EditRig, NamesTheParameterThatLeavesOutACamera) {
 }
 
 TEST_F(EditRig, WarnsOfARemovalThatSplitsTheRig) {
-  // camera_1 looks one way, camera_3 and camera_4 the other, camera_2 sees both.
   geometry::Rig rig = trueRig();
-  const auto look = [&](std::size_t camera, double x, double to_x, double y) {
-    rig.cameras[camera].camera.world_from_camera =
-        geometry::lookAt({x, y, 1.0}, {to_x, 0.0, 1.0}, Eigen::Vector3d::UnitZ());
-  };
-  look(0, 0.0, -5.0, 0.0);
-  look(1, 0.5, 0.5, -6.0);
-  look(2, 1.0, 6.0, 0.0);
-  look(3, 1.0, 6.0, 0.3);
+  linkByTheSecond(&rig);
   load(rig);
   EXPECT_SAYS(remove("camera_2").message,
               "camera_2 alone linked the views of camera_1 with those of camera_3, camera_4: an "

@@ -2,6 +2,7 @@
 
 #include "expect_says.h"
 #include "refusal_of.h"
+#include "split_rig.h"
 #include "waved_led.h"
 
 #include "recalibrate/recalibrate_camera.h"
@@ -168,15 +169,7 @@ TEST(Recalibrate, SaysWhichCamerasSharedViewsOnlyThroughOne) {
   geometry::Rig rig = paperRigWith(wellCalibrated());
   for (const geometry::RigCamera& camera : rig.cameras)
     EXPECT_EQ(describeSplit(rig, camera.camera.name), "") << "all see the same volume";
-  // camera_2 sees both what camera_1 sees and what the others see, which look the other way.
-  const auto look = [&](std::size_t camera, double x, double to_x, double y) {
-    rig.cameras[camera].camera.world_from_camera =
-        geometry::lookAt({x, y, 1.0}, {to_x, 0.0, 1.0}, Eigen::Vector3d::UnitZ());
-  };
-  look(0, 0.0, -5.0, 0.0);
-  look(1, 0.5, 0.5, -6.0);
-  look(2, 1.0, 6.0, 0.0);
-  look(3, 1.0, 6.0, 0.3);
+  linkByTheSecond(&rig);
   EXPECT_SAYS(describeSplit(rig, "camera_2"),
               "camera_2 alone linked the views of camera_1 with those of camera_3, camera_4:");
   EXPECT_EQ(describeSplit(rig, "camera_3"), "");

@@ -38,17 +38,9 @@ LedSelection::LedSelection(const geometry::Rig& rig) : rig_(rig), tracked_rig_(r
 }
 
 bool LedSelection::suits(const geometry::Rig& rig) const {
-  constexpr double kSameOffset = 0.001;  // [s]
   return rig_.ray_model == rig.ray_model &&
-         std::equal(
-             rig_.cameras.begin(), rig_.cameras.end(), rig.cameras.begin(), rig.cameras.end(),
-             [](const geometry::RigCamera& a, const geometry::RigCamera& b) {
-               return a.camera.name == b.camera.name && a.camera.identity == b.camera.identity &&
-                      a.time_offset_rule == b.time_offset_rule &&
-                      a.time_offset_epoch == b.time_offset_epoch &&
-                      !(std::abs(a.time_offset - b.time_offset) > kSameOffset) &&
-                      geometry::haveSamePose(a.camera, b.camera);
-             });
+         std::equal(rig_.cameras.begin(), rig_.cameras.end(), rig.cameras.begin(),
+                    rig.cameras.end(), geometry::isSameCamera);
 }
 
 const capture::Image& LedSelection::select(const capture::Image& image) {

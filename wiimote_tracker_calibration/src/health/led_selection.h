@@ -31,8 +31,7 @@ class LedSelection {
  public:
   explicit LedSelection(const geometry::Rig& rig);
 
-  /// Whether it may go on although the rig is another one now: the same devices with the same
-  /// clocks, in nearly the same poses (geometry::haveSamePose). So it is after a step of continuous
+  /// Whether it may go on with this rig (geometry::isSameCamera), as after a step of continuous
   /// calibration, or with other masks.
   bool suits(const geometry::Rig& rig) const;
 

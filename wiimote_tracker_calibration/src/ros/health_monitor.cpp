@@ -136,7 +136,7 @@ class HealthMonitor {
   InputQueue inputs_;
   InputQueue& of_one_led_;
   std::string rig_id_;
-  std::optional<health::LedSelection> selection_;  // Of the rig.
+  std::optional<health::LedSelection> selection_;  // Suits the rig.
   std::optional<health::HealthWatch> watch_;       // Nothing without a rig.
   // What to do about cameras that the rig does not have, by their names.
   std::map<std::string, std::string> unknown_cameras_;

@@ -34,10 +34,10 @@ class StallModel {
   void learn(const Density& density);
 
  private:
-  // As in recordings of two remotes.
-  double probability_ = 0.02;           ///< That a report is held up,
-  double time_ = probability_ * 0.020;  ///< for how long, averaged over all reports [s],
-  double reports_ = 0.0;                ///< and number of reports used for both.
+  // They begin as in recordings of two remotes.
+  double probability_ = 0.02;           ///< That a stall holds a report up.
+  double time_ = probability_ * 0.020;  ///< Of stalls, averaged over all reports [s].
+  double reports_ = 0.0;                ///< That both are estimated from.
 };
 
 }  // namespace wiimote_tracker::exposure_clock

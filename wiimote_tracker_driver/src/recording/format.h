@@ -36,7 +36,7 @@ struct Record {
   protocol::Report report;   ///< Of kReceived and kSent.
   transport::Remote remote;  ///< Of kConnected.
   std::string reason;        ///< Of kDisconnected: one sentence; empty: by the host.
-  bool waited = false;       ///< Of kReceived: perhaps until the host read it.
+  bool waited = false;       ///< Of kReceived: it may have waited to be read.
 };
 
 /// In the file: the kind of a received report that may have waited.

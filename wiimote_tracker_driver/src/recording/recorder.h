@@ -34,7 +34,7 @@ class Recorder {
   void connected(const transport::Remote& remote, double now) {
     add({Record::Kind::kConnected, now, {}, remote, ""});
   }
-  /// `waited`: perhaps until the host read it.
+  /// @param waited whether it may have waited to be read.
   void received(const protocol::Report& report, double now, bool waited = false) {
     add({Record::Kind::kReceived, now, report, {}, "", waited});
   }

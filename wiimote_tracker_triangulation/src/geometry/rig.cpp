@@ -170,6 +170,17 @@ void Rig::check() const {
   }
 }
 
+bool isSameCamera(const RigCamera& a, const RigCamera& b) {
+  constexpr double kNoticeable = 0.001;  // more is no better calibration, but another clock [s]
+  using Rule = TimeOffsetRule;
+  return a.camera.name == b.camera.name && a.camera.identity == b.camera.identity &&
+         a.time_offset_rule == b.time_offset_rule &&
+         (a.time_offset_rule != Rule::kOneEpoch || a.time_offset_epoch == b.time_offset_epoch) &&
+         (a.time_offset_rule == Rule::kNone ||
+          std::abs(a.time_offset - b.time_offset) <= kNoticeable) &&
+         haveSamePose(a.camera, b.camera);
+}
+
 bool haveSameCameras(const Rig& a, const Rig& b) {
   return std::equal(
       a.cameras.begin(), a.cameras.end(), b.cameras.begin(), b.cameras.end(),

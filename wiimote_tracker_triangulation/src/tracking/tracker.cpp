@@ -19,21 +19,6 @@ bool hasSmallerId(const TrackedLed& a, const TrackedLed& b) {
   return a.id < b.id;
 }
 
-/// Whether the two are one device with one clock.
-bool haveSameClock(const geometry::RigCamera& a, const geometry::RigCamera& b) {
-  constexpr double kNoticeable = 0.001;  // more is no better calibration, but another clock [s]
-  using Rule = geometry::TimeOffsetRule;
-  return a.camera.name == b.camera.name && a.camera.identity == b.camera.identity &&
-         a.time_offset_rule == b.time_offset_rule &&
-         (a.time_offset_rule != Rule::kOneEpoch || a.time_offset_epoch == b.time_offset_epoch) &&
-         (a.time_offset_rule == Rule::kNone ||
-          std::abs(a.time_offset - b.time_offset) <= kNoticeable);
-}
-
-bool isSameCamera(const geometry::RigCamera& a, const geometry::RigCamera& b) {
-  return haveSameClock(a, b) && geometry::haveSamePose(a.camera, b.camera);
-}
-
 }  // namespace
 
 Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
@@ -67,7 +52,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
 bool Tracker::hasSameGroups(const geometry::Rig& rig, const Partners& partners) const {
   const auto groups = geometry::groupsOf(partners);
   return std::equal(rig.cameras.begin(), rig.cameras.end(), rig_.cameras.begin(),
-                    rig_.cameras.end(), isSameCamera) &&
+                    rig_.cameras.end(), geometry::isSameCamera) &&
          std::equal(
              groups.begin(), groups.end(), groups_.begin(), groups_.end(),
              [](const auto& members, const auto& group) { return members == group->members(); });

@@ -127,6 +127,10 @@ struct Rig {
   void check() const;
 };
 
+/// Whether the two are one device with one clock in one place (haveSamePose), so that what was
+/// seen with one calibration goes on with the other. Masks and lens may differ.
+bool isSameCamera(const RigCamera& a, const RigCamera& b);
+
 /// Whether both have cameras of the same names, in the same order.
 bool haveSameCameras(const Rig& a, const Rig& b);
 

@@ -101,6 +101,10 @@ class Consumers(LiveRigTest):
         self.assertTrue(30.0 <= float(rate) <= 50.0)
         self.hear(topic, PoseWithCovarianceStamped, True, LEAST_RATE, 410.0, 'pose')
 
+    def test_mavros_misspelt_message(self):
+        with self.assertRaisesRegex(Exception, 'message must be odometry or vision_pose'):
+            load('mavros_vision.launch', 'message:=pose')
+
     def test_robot_localization(self):
         nodes, parameters = load('robot_localization.launch', 'body:=wand')
         self.assertEqual({(n.package, n.type) for n in nodes.values()},

@@ -303,8 +303,8 @@ int main(int argc, char** argv) {
                         "transforms, zone events and points at triggers.");
   parser.positional("IN.bag", &arguments.input);
   parser.positional("OUT.bag", &arguments.output);
-  parser.option("--mode MODE", &arguments.mode,
-                "tracks or instant, instead of the parameters' mode");
+  parser.option("--mode MODE", &arguments.mode, {"tracks", "instant"},
+                "instead of the parameters' mode");
   parser.option("--params FILE", &arguments.parameters,
                 "YAML with the node's parameters, or with a group triangulation of them, as for "
                 "parameters:= of tracker.launch; default: those of config/triangulation.yaml");

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODIES_FILE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODIES_FILE_H
 
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 
 #include <string>
 #include <vector>

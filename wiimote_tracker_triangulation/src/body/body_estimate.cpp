@@ -1,8 +1,6 @@
 // What BodyTracker reports of the bodies.
-#include "body/body_setup.h"
-#include "body/body_state.h"
+#include "body/body_tracker.h"
 #include "pose_uncertainty.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
 
 #include <limits>
 
@@ -47,20 +45,20 @@ void estimateLeds(const BodySetup& setup,
 }  // namespace
 
 void BodyTracker::estimate() {
-  for (std::size_t b = 0; b < state_->bodies.size(); ++b) {
-    if (!state_->bodies[b]) {
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    if (!state_.bodies[b]) {
       estimates_[b].reset();
       continue;
     }
-    const KnownBody& body = *state_->bodies[b];
-    const BodyModel& model = setup_->bodies[b];
+    const KnownBody& body = *state_.bodies[b];
+    const BodyModel& model = setup_.bodies[b];
     BodyFilter filter = body.filter;
     filter.predict(time_, model.inertial);
     const PoseState& now = filter.state();
     if (!estimates_[b])
       estimates_[b].emplace();
     BodyEstimate& estimate = *estimates_[b];
-    estimate.tracked = time_ - body.last_observed <= setup_->options.tracked_time;
+    estimate.tracked = time_ - body.last_observed <= setup_.options.tracked_time;
     estimate.inertial = filter.isInertial();
     estimate.world_from_body = now.worldFromBody();
     estimate.covariance = now.covariance;
@@ -68,8 +66,8 @@ void BodyTracker::estimate() {
     estimate.angular_velocity = now.angular_velocity;
     estimate.first_seen = body.first_seen;
     estimate.last_observed = body.last_observed;
-    estimateLeds(*setup_, *state_, b, time_, &estimate);
-    if (const auto calibration = calibrationCovariance(setup_->rig, model.constellation, estimate))
+    estimateLeds(setup_, state_, b, time_, &estimate);
+    if (const auto calibration = calibrationCovariance(setup_.rig, model.constellation, estimate))
       estimate.covariance.topLeftCorner<6, 6>() += *calibration;
   }
 }

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H
 
-#include "wiimote_tracker_triangulation/body/inertial_filter.h"
+#include "body/inertial_filter.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 
 #include <algorithm>

@@ -3,9 +3,8 @@
 
 #include "body/body_filter.h"
 #include "body/body_setup.h"
+#include "body/constellation.h"
 #include "body/solve_pose.h"
-#include "tracking/history.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
 
 #include <Eigen/Core>
 
@@ -91,9 +90,6 @@ struct BodyImage {
     return time != other.time ? time < other.time : camera < other.camera;
   }
 };
-
-/// The images that late ones may precede, each with the state before it.
-class BodyHistory : public tracking::History<BodyImage, BodyState> {};
 
 }  // namespace wiimote_tracker::body
 

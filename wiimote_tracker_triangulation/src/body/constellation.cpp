@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 
 #include "body/align.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/inertial_filter.h"
+#include "body/inertial_filter.h"
 
 #include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"

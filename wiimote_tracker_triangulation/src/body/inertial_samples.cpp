@@ -1,4 +1,4 @@
-#include "wiimote_tracker_triangulation/body/inertial_samples.h"
+#include "body/inertial_samples.h"
 
 #include <algorithm>
 #include <limits>

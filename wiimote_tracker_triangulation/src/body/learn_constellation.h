@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_LEARN_CONSTELLATION_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_LEARN_CONSTELLATION_H
 
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 
 #include <Eigen/Core>
 

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
 
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 

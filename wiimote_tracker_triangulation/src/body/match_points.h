@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H
 
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

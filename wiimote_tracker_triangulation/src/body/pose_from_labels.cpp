@@ -1,8 +1,6 @@
 #include "body/align.h"
-#include "body/body_setup.h"
-#include "body/body_state.h"
+#include "body/body_tracker.h"
 #include "pixel_update.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
 
 #include <Eigen/Cholesky>
 
@@ -57,16 +55,16 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
 }  // namespace
 
 void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
-  auto& images = history_->images();
+  auto& images = history_.images();
   if (images.empty())
     return;
   BodyImage& newest = images.at(images.end() - 1);
-  for (std::size_t b = 0; b < state_->bodies.size(); ++b) {
-    const Constellation& constellation = setup_->bodies[b].constellation;
-    if (state_->bodies[b] || constellation.labels.empty())
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const Constellation& constellation = setup_.bodies[b].constellation;
+    if (state_.bodies[b] || constellation.labels.empty())
       continue;
     if (const auto pose = poseFromLabels(constellation, points)) {
-      state_->bodies[b].emplace(setup_->options, newest.time, *pose, 0);
+      state_.bodies[b].emplace(setup_.options, newest.time, *pose, 0);
       newest.starts.push_back({b, *pose});  // for when a late image undoes this one
     }
   }

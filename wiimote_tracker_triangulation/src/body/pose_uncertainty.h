@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_UNCERTAINTY_H
 #define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_UNCERTAINTY_H
 
-#include "wiimote_tracker_triangulation/body/body_estimate.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/body_estimate.h"
+#include "body/constellation.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 

@@ -1,6 +1,6 @@
 // Following bodies image by image: accuracy and special cases.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // The tracker of bodies takes their spots out of the images; the rest is for free LEDs.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>

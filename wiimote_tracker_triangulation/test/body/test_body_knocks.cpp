@@ -1,6 +1,6 @@
 // A camera that was turned since its calibration, or is turned while bodies are tracked.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include <gtest/gtest.h>

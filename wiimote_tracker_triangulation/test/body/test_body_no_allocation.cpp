@@ -1,7 +1,7 @@
 // Following a body does not allocate for each image.
 #include "allocation_counter.h"
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 
 #include <gtest/gtest.h>
 

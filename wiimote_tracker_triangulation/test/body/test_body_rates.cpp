@@ -1,6 +1,6 @@
 // Velocity and angular velocity of a followed body, compared with the posterior Cramer-Rao bound.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // A hidden body is silent, also while another LED is lit near its place.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // A body with an IMU. The truth is a formula; what the IMU measures are its differences.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 
 #include <gtest/gtest.h>
 

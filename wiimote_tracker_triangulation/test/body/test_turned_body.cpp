@@ -1,6 +1,6 @@
 // Wrong orientations of a body, in which two of its LEDs are exchanged.
 #include "body/body_scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
+#include "body/body_tracker.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_BODY_BODY_SCENE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_BODY_BODY_SCENE_H
 
+#include "body/body_tracker.h"
 #include "geometry/random_rigs.h"
 #include "tracking/scene.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
 
 #include <Eigen/Geometry>
 

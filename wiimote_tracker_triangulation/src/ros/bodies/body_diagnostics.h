@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
 
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 #include "wiimote_tracker_triangulation/ros/steady_updater.h"
 
 #include <ros/node_handle.h>

@@ -1,9 +1,9 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_LEARNING_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_LEARNING_H
 
+#include "body/constellation.h"
 #include "body/learn_constellation.h"
 #include "geometry/file_guard.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <ros/callback_queue.h>

@@ -1,7 +1,7 @@
 #include "body_markers.h"
 
 #include "../marker_parts.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 
 #include <algorithm>
 

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
 
 #include "../tracker/parameters.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/constellation.h"
 
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>

@@ -1,9 +1,9 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
 
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
-#include "wiimote_tracker_triangulation/body/inertial_samples.h"
+#include "body/body_tracker.h"
+#include "body/constellation.h"
+#include "body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
 #include <geometry_msgs/PoseWithCovarianceStamped.h>

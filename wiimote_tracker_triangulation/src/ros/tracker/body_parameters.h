@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
 
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
+#include "body/body_tracker.h"
+#include "body/constellation.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <wiimote_tracker_msgs/parameter_reader.h>

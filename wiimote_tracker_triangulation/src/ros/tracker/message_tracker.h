@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H
 
+#include "body/body_tracker.h"
 #include "fault_reports.h"
 #include "image_message.h"
 #include "imu_reports.h"
@@ -8,7 +9,6 @@
 #include "parameters.h"
 #include "point_output.h"
 #include "statistics.h"
-#include "wiimote_tracker_triangulation/body/body_tracker.h"
 #include "wiimote_tracker_triangulation/identity/snapshot_sightings.h"
 
 #include <sensor_msgs/Imu.h>

@@ -1,54 +1,29 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_TRACKER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_TRACKER_H
 
-#include "wiimote_tracker_triangulation/body/body_estimate.h"
-#include "wiimote_tracker_triangulation/body/constellation.h"
-#include "wiimote_tracker_triangulation/body/inertial_filter.h"
-#include "wiimote_tracker_triangulation/body/inertial_samples.h"
-#include "wiimote_tracker_triangulation/body/pose_filter.h"
+#include "body/body_estimate.h"
+#include "body/body_search.h"
+#include "body/body_setup.h"
+#include "body/body_state.h"
+#include "body/body_update.h"
+#include "body/constellation.h"
+#include "body/inertial_samples.h"
+#include "tracking/arrival_clocks.h"
+#include "tracking/history.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
-#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace wiimote_tracker::tracking {
-class ArrivalClocks;
-}
-
 namespace wiimote_tracker::body {
-
-class BodyHistory;
-struct BodyImage;
-class BodySearch;
-struct BodySetup;
-struct BodyState;
-class BodyUpdate;
-
-struct BodyTrackerOptions : tracking::ImageOptions {
-  PoseFilterOptions motion;
-  InertialOptions inertial;  ///< Of bodies with an IMU.
-
-  /// Gate: greatest squared Mahalanobis distance of a spot from an LED's prediction [1, > 0].
-  double gate = 16.0;
-
-  double prediction_time = 0.5;  ///< A body unseen for longer is lost [s, > 0].
-  double tracked_time = 0.03;    ///< Tracked if seen this recently, else predicted [s, > 0].
-
-  // Search for bodies that are not tracked.
-  double window = 0.015;         ///< Images this close in time are combined [s, > 0].
-  double window_motion = 0.002;  ///< LED motion within the window (std. dev.) [m, > 0].
-  double minimum_margin = 15.0;  ///< Least Match::margin to start a body [> 0].
-};
 
 /// An LED identified by its blink code.
 struct LabelledPoint {
@@ -83,7 +58,6 @@ class BodyTracker {
   BodyTracker(const geometry::Rig& rig,
               const std::vector<Constellation>& constellations,
               const BodyTrackerOptions& options);
-  ~BodyTracker();
   BodyTracker(const BodyTracker&) = delete;
   BodyTracker& operator=(const BodyTracker&) = delete;
 
@@ -145,11 +119,11 @@ class BodyTracker {
   void reset();
 
   std::vector<Constellation> constellations_;
-  std::unique_ptr<BodySetup> setup_;
-  std::unique_ptr<BodyState> state_;
-  std::unique_ptr<BodyHistory> history_;
-  std::unique_ptr<BodyUpdate> update_;
-  std::unique_ptr<BodySearch> search_;
+  BodySetup setup_;
+  BodyState state_;
+  tracking::History<BodyImage, BodyState> history_;
+  BodyUpdate update_;
+  std::optional<BodySearch> search_;  // nothing without a rig
 
   double inertial_change_ =
       std::numeric_limits<double>::infinity();  // images after it are outdated
@@ -157,13 +131,13 @@ class BodyTracker {
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
-  std::vector<bool> taken_;           // spots of the image added last, by a body
-  tracking::LedFit fit_;              // of that image; each body counts as one LED
-  std::unique_ptr<BodyImage> image_;  // of add(), reused
+  std::vector<bool> taken_;  // spots of the image added last, by a body
+  tracking::LedFit fit_;     // of that image; each body counts as one LED
+  BodyImage image_;          // of add(), reused
 
   // Of take() and next():
-  std::unique_ptr<tracking::ArrivalClocks> arrival_clocks_;  // null without a rig
-  double latest_arrival_ = 0.0;                              // [s]
+  std::optional<tracking::ArrivalClocks> arrival_clocks_;  // nothing without a rig
+  double latest_arrival_ = 0.0;                            // [s]
   double last_output_ = -std::numeric_limits<double>::infinity();
   BodySnapshot snapshot_;
   std::vector<Eigen::Vector2d> pixels_;  // reused
@@ -171,4 +145,4 @@ class BodyTracker {
 
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODY_TRACKER_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_TRACKER_H

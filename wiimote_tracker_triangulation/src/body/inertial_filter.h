@@ -1,7 +1,7 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_INERTIAL_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_INERTIAL_FILTER_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_FILTER_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_FILTER_H
 
-#include "wiimote_tracker_triangulation/body/inertial_samples.h"
+#include "body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
 #include <Eigen/Core>
@@ -71,4 +71,4 @@ class InertialFilter {
 
 }  // namespace wiimote_tracker::body
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_INERTIAL_FILTER_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_FILTER_H

@@ -5,9 +5,7 @@
 
 #include <yaml-cpp/yaml.h>
 
-#include <algorithm>
 #include <cstddef>
-#include <iterator>
 #include <limits>
 
 namespace wiimote_tracker::samples {
@@ -18,15 +16,6 @@ using geometry::YamlMap;
 
 constexpr const char* kFormat = "wiimote_tracker_samples";
 constexpr int kVersion = 1;
-
-/// @param values a std::vector or Eigen's
-template <typename Values>
-std::vector<std::string> exactNumbers(const Values& values) {
-  std::vector<std::string> numbers;
-  std::transform(values.data(), values.data() + values.size(), std::back_inserter(numbers),
-                 exactNumber);
-  return numbers;
-}
 
 /// A list of whatever `emit` writes of each element.
 template <typename List, typename Emit>

@@ -9,10 +9,12 @@
 #include <cstddef>
 #include <cstdio>
 #include <ctime>
+#include <iterator>
 #include <limits>
 #include <locale>
 #include <sstream>
 #include <string>
+#include <vector>
 
 // Text for people: messages of errors, log lines, tables.
 
@@ -47,6 +49,15 @@ inline std::string exactNumber(double value) {
       break;
   }
   return text;
+}
+
+/// Each of several numbers. @param values a std::vector, a std::array or Eigen's
+template <typename Values>
+std::vector<std::string> exactNumbers(const Values& values) {
+  std::vector<std::string> numbers;
+  std::transform(values.data(), values.data() + values.size(), std::back_inserter(numbers),
+                 exactNumber);
+  return numbers;
 }
 
 /// The date of a time since 1970 [s], in UTC. @param pattern of std::strftime

@@ -8,7 +8,6 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
 #include <filesystem>
@@ -39,18 +38,12 @@ ImuMount readImu(geometry::YamlMap map) {
 }
 
 void writeImu(const ImuMount& imu, YAML::Emitter* out) {
-  const auto list = [out](const char* key, const auto& values) {
-    *out << key << YAML::Flow << YAML::BeginSeq;
-    for (const double value : values)
-      *out << exactNumber(value);
-    *out << YAML::EndSeq;
-  };
-  const Eigen::Vector3d& t = imu.body_from_imu.translation();
-  const Eigen::Quaterniond q(imu.body_from_imu.linear());
+  const Eigen::Vector3d translation = imu.body_from_imu.translation();
+  const Eigen::Quaterniond rotation(imu.body_from_imu.linear());
   *out << "imu" << YAML::BeginMap;
   *out << "topic" << YAML::DoubleQuoted << imu.topic;
-  list("translation", std::array<double, 3>{t.x(), t.y(), t.z()});
-  list("quaternion_xyzw", std::array<double, 4>{q.x(), q.y(), q.z(), q.w()});
+  *out << "translation" << YAML::Flow << exactNumbers(translation);
+  *out << "quaternion_xyzw" << YAML::Flow << exactNumbers(rotation.coeffs());
   *out << "clock_offset" << exactNumber(imu.clock_offset);
   *out << YAML::EndMap;
 }
@@ -112,8 +105,7 @@ void writeBodies(const std::string& file, const std::vector<Constellation>& bodi
     out << "name" << YAML::DoubleQuoted << body.name;
     out << "leds" << YAML::Comment("x, y, z [m]") << YAML::BeginSeq;
     for (const Eigen::Vector3d& led : body.leds)
-      out << YAML::Flow << YAML::BeginSeq << exactNumber(led.x()) << exactNumber(led.y())
-          << exactNumber(led.z()) << YAML::EndSeq;
+      out << YAML::Flow << exactNumbers(led);
     out << YAML::EndSeq;
     if (!body.labels.empty()) {
       out << "labels" << YAML::Flow << YAML::BeginSeq;

@@ -7,6 +7,8 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <array>
+
 namespace wiimote_tracker::gesture {
 namespace {
 
@@ -48,9 +50,9 @@ void writeExamples(const std::string& file, const std::vector<Example>& examples
     out << "zone" << YAML::DoubleQuoted << example.zone;
     out << "path" << YAML::Comment("t [s], x, y, z [m]") << YAML::BeginSeq;
     for (const PathPoint& point : example.path) {
-      out << YAML::Flow << YAML::BeginSeq << exactNumber(point.time)
-          << exactNumber(point.position.x()) << exactNumber(point.position.y())
-          << exactNumber(point.position.z()) << YAML::EndSeq;
+      const Eigen::Vector3d& position = point.position;
+      out << YAML::Flow
+          << exactNumbers(std::array{point.time, position.x(), position.y(), position.z()});
     }
     out << YAML::EndSeq << YAML::EndMap;
   }

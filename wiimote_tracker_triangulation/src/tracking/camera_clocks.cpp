@@ -13,9 +13,10 @@ constexpr double kUnknown = 0.005;  // standard deviation of an offset before an
 constexpr double kChange = 0.0002;  // the same of its change between two updates [s]
 constexpr double kLargest = 0.06;   // [s]; larger ones do not fit at all
 
-// Smaller offsets of a clock that should be right may come from the calibration; half of it for one
-// that is corrected already [s].
-constexpr double kNoticeable = 0.001;
+// A clock whose time offset the rig knows is corrected when it is off by the first of these, and
+// until it is off by less than the second [s]. Less may be an error of the calibration.
+constexpr double kCorrected = 0.001;
+constexpr double kStaysCorrected = 0.0005;
 
 constexpr double kSpots = 250.0;  // of a camera between two updates: 2.5 s of one LED
 
@@ -43,14 +44,12 @@ ClockError CameraClocks::correctionOf(std::size_t camera, std::uint32_t epoch, b
 /// What is known of the clock in an epoch, which may be another one.
 CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t another_epoch,
                                             bool is_known_there) const {
-  if (is_known && is_known_there)
-    return {another_epoch, true, is_used, offset};
   if (epoch == another_epoch && is_known == is_known_there)
     return *this;
-  return {another_epoch,
-          is_known_there,
-          !is_known_there,
-          {0.0, is_known_there ? 0.0 : squared(kUnknown)}};
+  if (is_known && is_known_there)
+    return {another_epoch, true, is_used, offset};
+  const ClockError unseen{0.0, is_known_there ? 0.0 : squared(kUnknown)};
+  return {another_epoch, is_known_there, !is_known_there, unseen};
 }
 
 ClockError CameraClocks::errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
@@ -62,7 +61,7 @@ double CameraClocks::errorOf(std::size_t camera) const {
   return clock.is_known ? clock.correction().offset : 0.0;
 }
 
-/// Whether the median of the offsets counts it: a known one, or any if none is known.
+/// Whether medians count it: a known one, or any if none is known.
 bool CameraClocks::isReference(const Clock& clock) const {
   return clock.is_known || std::none_of(clocks_.begin(), clocks_.end(),
                                         [](const auto& other) { return other.second.is_known; });
@@ -83,45 +82,56 @@ ClockError CameraClocks::commonRemainder() {
   return {medianOf(&offsets_), variances / squared(static_cast<double>(offsets_.size()))};
 }
 
+double CameraClocks::medianOffset() {
+  offsets_.clear();
+  for (const auto& [camera, clock] : clocks_) {
+    if (isReference(clock))
+      offsets_.push_back(clock.offset.offset);
+  }
+  return medianOf(&offsets_);
+}
+
 void CameraClocks::update(const CameraStates& cameras) {
-  if (std::none_of(cameras.begin(), cameras.end(), [](const auto& camera) {
-        return camera.second.clock_regression.count() >= kSpots;
-      }))
+  const auto hasSeenMotion = [](const auto& camera) {
+    return camera.second.clock_regression.count() >= kSpots;
+  };
+  if (std::none_of(cameras.begin(), cameras.end(), hasSeenMotion))
     return;
   for (const auto& [camera, state] : cameras)
     clocks_.at(camera).remainder = state.fit.isMisfit()
                                        ? std::nullopt
                                        : state.clock_regression.estimate(turn_stddevs_[camera]);
   const ClockError common = commonRemainder();
-  for (auto& [camera, clock] : clocks_) {
-    const auto& remainder = clock.remainder;
-    if (!remainder)
-      continue;
-    ClockError& offset = clock.offset;
-    const double seen = clock.correction().offset + remainder->offset - common.offset;
-    const double innovation = seen - offset.offset;
-    if (squared(innovation) <= 4.0 * remainder->bias)
-      continue;  // it may be the calibration's, which does not average out
-    const double seen_variance = remainder->variance + remainder->bias + common.variance;
-    double variance = offset.variance + squared(kChange);
-    if (squared(innovation) > 9.0 * (variance + seen_variance))  // the clock was set
-      variance = squared(innovation);
-    const double gain = variance / (variance + seen_variance);
-    offset.offset += gain * innovation;
-    offset.variance = (1.0 - gain) * variance;
-  }
-  offsets_.clear();
-  for (const auto& [camera, clock] : clocks_) {
-    if (isReference(clock))
-      offsets_.push_back(clock.offset.offset);
-  }
-  const double middle = medianOf(&offsets_);
-  for (auto& [camera, clock] : clocks_) {
-    clock.offset.offset = std::clamp(clock.offset.offset - middle, -kLargest, kLargest);
-    clock.is_used = !clock.is_known ||
-                    std::abs(clock.offset.offset) >= (clock.is_used ? 0.5 : 1.0) * kNoticeable;
-  }
+  for (auto& [camera, clock] : clocks_)
+    clock.takeRemainder(common);
+  const double median = medianOffset();
+  for (auto& [camera, clock] : clocks_)
+    clock.setOffset(clock.offset.offset - median);
   ++version_;
+}
+
+/// Kalman update by the remainder, if there is one. @param common what all cameras have of it
+void CameraClocks::Clock::takeRemainder(const ClockError& common) {
+  if (!remainder)
+    return;
+  const double measured = correction().offset + remainder->offset - common.offset;
+  const double innovation = measured - offset.offset;
+  if (squared(innovation) <= 4.0 * remainder->bias)
+    return;  // it may be the calibration's, which does not average out
+  const double noise = remainder->variance + remainder->bias + common.variance;
+  double variance = offset.variance + squared(kChange);
+  if (squared(innovation) > 9.0 * (variance + noise))  // the clock was set
+    variance = squared(innovation);
+  const double gain = variance / (variance + noise);
+  offset.offset += gain * innovation;
+  offset.variance = (1.0 - gain) * variance;
+}
+
+/// @param seconds by how much its times are too late
+void CameraClocks::Clock::setOffset(double seconds) {
+  offset.offset = std::clamp(seconds, -kLargest, kLargest);
+  const double least = is_used ? kStaysCorrected : kCorrected;
+  is_used = !is_known || std::abs(offset.offset) >= least;
 }
 
 }  // namespace wiimote_tracker::tracking

@@ -49,16 +49,19 @@ class CameraClocks {
  private:
   struct Clock {
     std::uint32_t epoch = 0;
-    bool is_known = true;
-    bool is_used = false;  // the offset corrects the images: it is unknown or large
+    bool is_known = true;  // by the rig's time offset
+    bool is_used = false;  // the offset corrects the images: the clock is unknown, or far off
     ClockError offset;
-    std::optional<ClockRegression::Estimate> remainder = {};  // of the last update()
+    std::optional<ClockRegression::Estimate> remainder = {};  // with the correction; by update()
     ClockError correction() const { return is_used ? offset : ClockError(); }
     Clock in(std::uint32_t another_epoch, bool is_known_there) const;
+    void takeRemainder(const ClockError& common);
+    void setOffset(double seconds);
   };
 
   bool isReference(const Clock& clock) const;
   ClockError commonRemainder();
+  double medianOffset();  // [s]
 
   std::vector<double> turn_stddevs_;                       // per camera of the rig
   boost::container::flat_map<std::size_t, Clock> clocks_;  // by camera

@@ -103,23 +103,18 @@ void LedLabels::takeIdentity(std::uint32_t id, const Identifier& identifier) {
     given_.erase(given);
 }
 
-/// A label that was given before goes to the LED with the probability that it is that LED's, among
-/// all that it may be: those of free labels, those of labels given again that may be wrong, and,
-/// while a label was never given, a new one.
-void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
+/// Compares the LED with the places where labels were seen last. It may be the LED of a free label;
+/// that of a label which another LED got again, perhaps wrongly; or, while a label of the list was
+/// never given, a new one.
+LedLabels::Choice LedLabels::choiceFor(const tracking::TrackedLed& led) const {
   const double speed = greatestSpeed(places_);
-  const std::string* best = nullptr;
-  double greatest = 0.0;
-  double sum = 0.0;
-  int candidates = 0;
+  Choice choice;
   bool may_be_new = false;
   for (const std::string& label : listed_) {
     if (const LedLabel* holder = holderOf(label)) {
       const auto former = former_.find(label);
-      if (former != former_.end() && holder->confidence < 1.0) {
-        sum += (1.0 - holder->confidence) * densityAt(led.position, former->second, speed);
-        ++candidates;
-      }
+      if (former != former_.end() && holder->confidence < 1.0)
+        choice.add((1.0 - holder->confidence) * densityAt(led.position, former->second, speed));
       continue;
     }
     const auto place = places_.find(label);
@@ -127,32 +122,37 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     const double density = place != places_.end() && mayBeThatOf(place->second, led.id)
                                ? densityAt(led.position, place->second, speed)
                                : 0.0;
-    sum += density;
-    candidates += density > 0.0;
-    if (!best || density > greatest) {
-      best = &label;
-      greatest = density;
+    choice.add(density);
+    if (!choice.label || density > choice.density) {
+      choice.label = &label;
+      choice.density = density;
     }
   }
-  if (!best)
+  if (may_be_new)
+    choice.add(kAnywhere);
+  return choice;
+}
+
+/// Gives the free label that fits best. The confidence in a label that was given before is the
+/// probability that it is this LED's.
+void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
+  const Choice choice = choiceFor(led);
+  if (!choice.label)
     return;
   LedLabel& given = given_[led.id];
-  given.name = *best;
+  given.name = *choice.label;
   given.same_led_probability = led.same_led_probability;
-  const auto found = places_.find(*best);
+  const auto found = places_.find(given.name);
   if (found == places_.end())
     return;
-  if (may_be_new) {
-    sum += kAnywhere;
-    ++candidates;
-  }
-  Place& place = found->second;
-  former_[*best] = place;
-  // Right if it was right and goes to the same LED, or was that of this one of the others.
-  const double same = sum > 0.0 ? greatest / sum : 0.0;
-  setConfidence(place.confidence * same +
-                    (1.0 - place.confidence) * (1.0 - same) / std::max(1, candidates - 1),
-                same, &given);
+  const Place& place = found->second;
+  former_[given.name] = place;
+  // It is right if it was right at its place and this is the LED from there; or if it was wrong,
+  // and this is that one of the other candidates whose label it is.
+  const double same = choice.sum > 0.0 ? choice.density / choice.sum : 0.0;
+  const int others = std::max(1, choice.candidates - 1);
+  setConfidence(place.confidence * same + (1.0 - place.confidence) * (1.0 - same) / others, same,
+                &given);
   given.since = time;
 }
 

@@ -79,9 +79,23 @@ class LedLabels {
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
  private:
+  /// The free label that fits an LED best.
+  struct Choice {
+    const std::string* label = nullptr;  // null: none is free
+    double density = 0.0;                // of its LED where this one is [1/m^3]
+    double sum = 0.0;                    // of the densities of all LEDs that this one may be
+    int candidates = 0;                  // these LEDs
+
+    void add(double candidate_density) {
+      sum += candidate_density;
+      candidates += candidate_density > 0.0;
+    }
+  };
+
   void agePlaces(double time);
   void giveLabel(double time, const tracking::TrackedLed& led, const Identifier* identifier);
   void takeIdentity(std::uint32_t id, const Identifier& identifier);
+  Choice choiceFor(const tracking::TrackedLed& led) const;
   void giveFreeLabel(double time, const tracking::TrackedLed& led);
   void notePlace(const tracking::TrackedLed& led);
   void setConfidence(double confidence, double same, LedLabel* given);

@@ -52,7 +52,7 @@ class CameraClocks {
     bool is_known = true;  // by the rig's time offset
     bool is_used = false;  // the offset corrects the images: the clock is unknown, or far off
     ClockError offset;
-    std::optional<ClockRegression::Estimate> remainder = {};  // with the correction; by update()
+    std::optional<ClockRegression::Estimate> remainder = {};  // left with it at the last update()
     ClockError correction() const { return is_used ? offset : ClockError(); }
     Clock in(std::uint32_t another_epoch, bool is_known_there) const;
     void takeRemainder(const ClockError& common);

@@ -27,6 +27,10 @@ LARGEST_STDDEV = 0.03  # of a translation that is told [m]
 SLOW = 1.0  # autocorrelation time of the slow errors of the body's poses [s]
 SLOW_NOISE = 5e-4, 5e-4  # a first guess of their standard deviations [rad, m]
 
+# Groups of residuals: two of the base's motion, then the body's rotations and positions, then the
+# slow errors of both.
+BODY_GROUPS, SLOW_GROUPS = [2, 3], [4, 5]
+
 
 @dataclasses.dataclass
 class State:
@@ -101,52 +105,57 @@ def solve(problem, state, names, report):
 
 
 def derivatives(problem, state):
-    """For each group: rows x values x constants, and rows x values x (both states), by forward
-    differences."""
+    """By forward differences. By the constants: of each group, rows x values x constants. By the
+    chain: rows x values x (a state and the next)."""
     here = problem.residuals(state, state)
 
-    def along(count, ends):
-        moved = [problem.residuals(*ends(step)) for step in STEP * np.eye(count)]
-        return [np.stack([(there[group] - here[group]) / STEP for there in moved], axis=2)
-                for group in range(len(problem.noise))]
+    def differences(count, moved):
+        """moved(step): the State of the residuals, and that of the next states in the chain."""
+        there = [problem.residuals(*moved(step)) for step in STEP * np.eye(count)]
+        return [np.stack([(each[group] - here[group]) / STEP for each in there], axis=2)
+                for group in range(len(here))]
 
     size = 3 + state.vectors.shape[1]
-    by_common = along(3 + len(state.vector), lambda step: 2 * [state.moved(step)])
-    before = along(size, lambda step: (state.moved(local=step), state))
-    after = along(size, lambda step: (state, state.moved(local=step)))
-    return [(each, np.concatenate(both, axis=2)) for each, *both in zip(by_common, before, after)]
+    by_constants = differences(3 + len(state.vector), lambda step: 2 * [state.moved(step)])
+    by_before = differences(size, lambda step: (state.moved(local=step), state))
+    by_after = differences(size, lambda step: (state, state.moved(local=step)))
+    return by_constants, [np.concatenate(both, axis=2) for both in zip(by_before, by_after)]
 
 
 class Equations:
     """Linear equations at a state, each divided by its noise; those of the chain are eliminated."""
 
     def __init__(self, problem, state, noise):
-        self.problem = problem
-        firsts, self.size = problem.place(state), 3 + state.vectors.shape[1]
-        self.rest = np.concatenate([values.ravel() / deviation for values, deviation
-                                    in zip(problem.residuals(state, state), noise)])
-        common, local, group, times = [], [], [], []
-        for number, (first, (by_common, by_states)) in enumerate(
-                zip(firsts, derivatives(problem, state))):
-            rows, values, _ = by_states.shape
-            columns = np.repeat(self.size * first[:, None] + np.arange(2 * self.size), values,
-                                axis=0)
-            local.append(sparse.csr_matrix(
-                (by_states.ravel() / noise[number], columns.ravel(),
-                 2 * self.size * np.arange(rows * values + 1)),
-                (rows * values, self.size * len(state.vectors))))
-            common.append(by_common.reshape(rows * values, -1) / noise[number])
-            group.append(np.full(rows * values, number))
-            times.append(problem.times[first].repeat(values))
-        self.group, self.local = np.concatenate(group), sparse.vstack(local, 'csr')
-        interval = np.unique(np.concatenate(times) // CORRELATED, return_inverse=True)[1]
+        self.problem, self.size = problem, 3 + state.vectors.shape[1]
+        firsts = problem.place(state)
+        residuals = problem.residuals(state, state)
+        by_constants, by_states = derivatives(problem, state)
+        self.rest = np.concatenate([values.ravel() / deviation
+                                    for values, deviation in zip(residuals, noise)])
+        self.common = np.concatenate([values.reshape(-1, values.shape[2]) / deviation
+                                      for values, deviation in zip(by_constants, noise)])
+        self.local = sparse.vstack([self.in_chain(first, values / deviation, len(state.vectors))
+                                    for first, values, deviation in zip(firsts, by_states, noise)],
+                                   'csr')
+        self.group = np.repeat(np.arange(len(noise)), [values.size for values in residuals])
+        times = np.concatenate([problem.times[first].repeat(values.shape[1])
+                                for first, values in zip(firsts, residuals)])
+        interval = np.unique(times // CORRELATED, return_inverse=True)[1]
         self.sums = sparse.csr_matrix((np.ones(len(interval)),
                                        (interval, np.arange(len(interval)))))
-        self.common = np.concatenate(common)
         self.solver = splu((self.local.T @ self.local).tocsc(), permc_spec='NATURAL',
                            diag_pivot_thresh=0.0, options={'SymmetricMode': True})
         self.left = self.without_chain(self.common)
         self.inverse = np.linalg.inv(self.left.T @ self.left)
+
+    def in_chain(self, first, values, states):
+        """Derivatives by all states of the chain, sparse. values: those of one group by the states
+        `first` and the next."""
+        rows, count, width = values.shape
+        columns = (self.size * first[:, None] + np.arange(width)).repeat(count, axis=0)
+        return sparse.csr_matrix(
+            (values.ravel(), columns.ravel(), width * np.arange(rows * count + 1)),
+            (rows * count, self.size * states))
 
     def by_chain(self, values):
         return self.solver.solve(self.local.T @ values)
@@ -182,7 +191,7 @@ class Equations:
         features -= features.mean(axis=0)
         features /= np.sqrt((features ** 2).sum() / len(features))  # together 1 (RMS)
         changes = []
-        for group, size in zip((2, 3), noise[4:]):
+        for group, size in zip(BODY_GROUPS, noise[SLOW_GROUPS]):
             rows = np.flatnonzero(self.group == group).reshape(-1, 3)
             for axis in range(3):
                 weights = self.left[rows[:, axis]].T @ features * (size / noise[group])
@@ -206,6 +215,7 @@ class Equations:
             redundancy = np.mean(np.sum(probes * self.without_all(probes), axis=0))
             factors.append(np.sqrt((rest[inside] ** 2).sum() / max(redundancy, 1.0)))
         # Where there are no slow errors, theirs would fall to zero slowly.
-        slow = np.array(factors[4:])
-        factors[4:] = np.where(slow < 1.0, slow ** 4, slow)
+        factors = np.array(factors)
+        slow = factors[SLOW_GROUPS]
+        factors[SLOW_GROUPS] = np.where(slow < 1.0, slow ** 4, slow)
         return np.clip(factors, 0.2, 5.0)

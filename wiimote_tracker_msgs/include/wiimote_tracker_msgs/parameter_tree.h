@@ -8,6 +8,7 @@
 #include <climits>
 #include <cmath>
 #include <cstddef>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -19,29 +20,28 @@ namespace wiimote_tracker {
 class ParameterTree {
  public:
   /// `name`: stands before the keys in error messages, such as the node or the file.
-  ParameterTree(const std::string& name, const XmlRpc::XmlRpcValue& values)
-      : name_(name), values_(values) {}
+  ParameterTree(const std::string& name, const XmlRpc::XmlRpcValue& values) : name_(name) {
+    add(name, values);
+  }
 
   std::string fullName(const std::string& key) const { return name_ + "/" + key; }
 
-  bool has(const std::string& key) const {
-    Value value;
-    return find(key, &value);
-  }
+  bool has(const std::string& key) const { return values_.count(fullName(key)) > 0; }
 
   /// False when it is absent or of the wrong type. A whole number may be written as 3 or 3.0.
   template <typename T>
   bool read(const std::string& key, T* value) const {
-    Value found;
-    return find(key, &found) && convert(found, value);
+    const auto found = values_.find(fullName(key));
+    return found != values_.end() && convert(found->second, value);
   }
 
   /// What the key holds, for people: "the text '1e-2'", "2.5", "a group". Long values are cut off.
   std::string describe(const std::string& key) const {
-    Value value;
-    if (!find(key, &value))
+    const auto found = values_.find(fullName(key));
+    if (found == values_.end())
       return "nothing";
-    if (value.getType() == Value::TypeStruct)
+    const Value& value = found->second;
+    if (isGroup(value))
       return "a group";
     std::ostringstream text;
     if (bool flag = false; convert(value, &flag))
@@ -57,48 +57,47 @@ class ParameterTree {
     return value.getType() == Value::TypeString ? "the text '" + shown + "'" : shown;
   }
 
-  /// Sets a text, and makes the groups of its key. @throws Error: one of them is a value.
+  /// Sets a text. @throws Error: a group of its key is a value.
   void set(const std::string& key, const std::string& value) {
-    Value* place = &values_;
-    std::istringstream levels(key);
-    for (std::string level; std::getline(levels, level, '/');) {
-      if (place->valid() && place->getType() != Value::TypeStruct)
+    for (std::size_t end = key.find('/'); end != std::string::npos; end = key.find('/', end + 1)) {
+      const auto group = values_.find(fullName(key.substr(0, end)));
+      if (group != values_.end() && !isGroup(group->second))
         throw Error(fullName(key) + " cannot be set, since a group of it is a value: remove that");
-      place = &(*place)[level];
     }
-    *place = value;
+    values_[fullName(key)] = value;
   }
 
   /// Full names of all values.
   std::vector<std::string> fullNames() const {
     std::vector<std::string> names;
-    appendNames(name_, values_, &names);
+    for (const auto& [name, value] : values_) {
+      if (!isGroup(value))
+        names.push_back(name);
+    }
     return names;
   }
 
  private:
   using Value = XmlRpc::XmlRpcValue;
 
-  bool find(const std::string& key, Value* found) const {
-    *found = values_;
-    std::istringstream levels(key);
-    for (std::string level; std::getline(levels, level, '/');) {
-      if (found->getType() != Value::TypeStruct || !found->hasMember(level))
-        return false;
-      const Value inner = (*found)[level];
-      *found = inner;
-    }
-    return true;
+  static bool isGroup(const Value& value) { return value.getType() == Value::TypeStruct; }
+
+  void add(const std::string& name, const Value& value) {
+    values_[name] = value;
+    if (!isGroup(value))
+      return;
+    for (const auto& member : value)
+      add(name + "/" + member.first, member.second);
   }
 
-  static bool convert(Value& from, bool* value) {
+  static bool convert(const Value& from, bool* value) {
     if (from.getType() != Value::TypeBoolean)
       return false;
     *value = static_cast<bool>(from);
     return true;
   }
 
-  static bool convert(Value& from, int* value) {
+  static bool convert(const Value& from, int* value) {
     double number = 0.0;
     if (!convert(from, &number) || number != std::floor(number) || std::abs(number) > INT_MAX)
       return false;
@@ -106,7 +105,7 @@ class ParameterTree {
     return true;
   }
 
-  static bool convert(Value& from, double* value) {
+  static bool convert(const Value& from, double* value) {
     if (from.getType() == Value::TypeInt) {
       *value = static_cast<int>(from);
       return true;
@@ -117,7 +116,7 @@ class ParameterTree {
     return true;
   }
 
-  static bool convert(Value& from, std::string* value) {
+  static bool convert(const Value& from, std::string* value) {
     if (from.getType() != Value::TypeString)
       return false;
     *value = static_cast<std::string>(from);
@@ -125,7 +124,7 @@ class ParameterTree {
   }
 
   template <typename T>
-  static bool convert(Value& from, std::vector<T>* values) {
+  static bool convert(const Value& from, std::vector<T>* values) {
     if (from.getType() != Value::TypeArray)
       return false;
     std::vector<T> result(static_cast<std::size_t>(from.size()));
@@ -139,19 +138,8 @@ class ParameterTree {
     return true;
   }
 
-  static void appendNames(const std::string& prefix,
-                          const Value& value,
-                          std::vector<std::string>* names) {
-    if (value.getType() != Value::TypeStruct) {
-      names->push_back(prefix);
-      return;
-    }
-    for (const auto& member : value)
-      appendNames(prefix + "/" + member.first, member.second, names);
-  }
-
   std::string name_;
-  Value values_;
+  std::map<std::string, Value> values_;  // and groups, by their full names
 };
 
 }  // namespace wiimote_tracker

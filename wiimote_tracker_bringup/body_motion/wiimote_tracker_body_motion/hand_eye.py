@@ -25,18 +25,17 @@ def solve(body, base, largest_offset=2.0, report=lambda sentence: None):
 class Problem:
     """Of mount_solver. States: pose of the base in the world at each of times."""
 
-    # Drift [rad, m / sqrt(s)], the body's rotation and position, their slow errors.
-    noise = 1e-3, 1e-3, 0.01, 0.002, *mount_solver.SLOW_NOISE
+    noise = 1e-3, 1e-3  # of the drift [rad, m / sqrt(s)]
 
     def __init__(self, body, base):
         self.body, self.base = body, base
         number = int(np.ceil((body.times[-1] - body.times[0]) / INTERVAL))
         self.times = body.times[0] + INTERVAL * np.arange(number + 1)
-        self.steps = np.arange(number)
-        self.rows = np.minimum(((body.times - body.times[0]) / INTERVAL).astype(int), number - 1)
+        self.durations = np.full((number, 1), INTERVAL)
 
-    def place(self, _):
-        return self.steps, self.steps, self.rows, self.rows, self.steps, self.steps
+    def rows(self, _):
+        since = self.body.times - self.body.times[0]
+        return np.minimum((since / INTERVAL).astype(int), len(self.durations) - 1)
 
     @functools.lru_cache(maxsize=1)
     def base_at(self, offset):
@@ -50,18 +49,20 @@ class Problem:
                                   body.rotations * rotation,
                                   np.hstack([np.zeros((len(self.times), 6)), body.positions]))
 
-    def residuals(self, before, after):
-        states, poses = self.base_at(before.vector[3])
-
-        def moved(first, ends):
-            """States where the odometry comes to."""
-            back = before.rotations[first] * states.rotations[first].inv()
-            return (back * ends.rotations,
-                    before.vectors[first, 6:]
-                    + back.apply(ends.positions - states.positions[first]))
-
-        turned, there = moved(self.steps, states.chosen(slice(1, None)))
+    def motions(self, before, after):
+        states, _ = self.base_at(before.vector[3])
+        turned, there = moved(before, states, slice(-1), states.chosen(slice(1, None)))
         return ((turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(INTERVAL),
-                (there - after.vectors[1:, 6:]) / np.sqrt(INTERVAL),
-                *before.body_residuals(*moved(self.rows, poses), self.body, self.rows),
-                *before.slow_residuals(after, INTERVAL))
+                (there - after.vectors[1:, 6:]) / np.sqrt(INTERVAL))
+
+    def poses(self, state, rows):
+        states, poses = self.base_at(state.vector[3])
+        return moved(state, states, rows, poses)
+
+
+def moved(state, odometry, first, ends):
+    """Where the odometry comes to from the first states: rotations and positions. odometry, ends:
+    its poses at all states, and then."""
+    back = state.rotations[first] * odometry.rotations[first].inv()
+    return (back * ends.rotations,
+            state.vectors[first, 6:] + back.apply(ends.positions - odometry.positions[first]))

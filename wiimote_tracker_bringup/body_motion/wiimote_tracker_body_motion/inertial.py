@@ -91,8 +91,7 @@ class Problem:
     """Of mount_solver. States: orientation, velocity and position of the IMU in the world, at the
     middles between samples, which are constant from one state to the next."""
 
-    # [rad/s, m/s^2 / sqrt(Hz)], the body's rotation and position, their slow errors.
-    noise = 1e-3, 0.01, 0.01, 0.002, *mount_solver.SLOW_NOISE
+    noise = 1e-3, 0.01  # [rad/s, m/s^2 / sqrt(Hz)]
 
     def __init__(self, body, imu, offset):
         self.body, self.offset = body, offset
@@ -102,17 +101,14 @@ class Problem:
         self.times = middles[inside]
         self.rates, self.forces = imu.rates[inside[1:]], imu.forces[inside[1:]]
         self.durations = np.diff(self.times)[:, None]
-        self.steps = np.arange(len(self.durations))
-        self.rows = None
 
     def times_of_poses(self, state):
         """In the clock of the states, which has the first guess of the offset [s]."""
         return self.body.times - (state.vector[3] - self.offset)
 
-    def place(self, state):
-        rows = np.searchsorted(self.times, self.times_of_poses(state)) - 1
-        self.rows = np.clip(rows, 0, self.steps[-1])
-        return self.steps, self.steps, self.rows, self.rows, self.steps, self.steps
+    def rows(self, state):
+        before = np.searchsorted(self.times, self.times_of_poses(state)) - 1
+        return np.clip(before, 0, len(self.durations) - 1)
 
     def start(self, rotation):
         body = self.body.at(np.clip(self.times, *self.body.times[[0, -1]]))
@@ -121,30 +117,30 @@ class Problem:
         return mount_solver.State(rotation, np.r_[0.0, 0.0, 0.0, self.offset, np.zeros(6)],
                                   body.rotations * rotation, vectors)
 
-    def residuals(self, before, after):
-        rate_bias, force_bias = before.vector[4:7], before.vector[7:10]
+    def moved(self, state, first, duration):
+        """Rotations, velocities and positions after durations, n x 1, from the first states."""
+        rate_bias, force_bias = state.vector[4:7], state.vector[7:10]
+        rate, rotations = self.rates[first] - rate_bias, state.rotations[first]
+        middle = rotations * Rotation.from_rotvec(0.5 * duration * rate)
+        gained = duration * (middle.apply(self.forces[first] - force_bias) + GRAVITY)
+        velocities, positions = np.split(state.vectors[first, 6:], 2, axis=1)
+        return (rotations * Rotation.from_rotvec(duration * rate), velocities + gained,
+                positions + duration * (velocities + 0.5 * gained))
 
-        def moved(first, duration):
-            """Rotations, velocities and positions after durations, n x 1."""
-            rate, rotations = self.rates[first] - rate_bias, before.rotations[first]
-            middle = rotations * Rotation.from_rotvec(0.5 * duration * rate)
-            gained = duration * (middle.apply(self.forces[first] - force_bias) + GRAVITY)
-            velocities, positions = np.split(before.vectors[first, 6:], 2, axis=1)
-            return (rotations * Rotation.from_rotvec(duration * rate), velocities + gained,
-                    positions + duration * (velocities + 0.5 * gained))
-
+    def motions(self, before, after):
         h = self.durations
-        turned, velocities, positions = moved(self.steps, h)
+        turned, velocities, positions = self.moved(before, np.arange(len(h)), h)
         faster, further = np.split(np.hstack([velocities, positions]) - after.vectors[1:, 6:], 2,
                                    axis=1)
         # White noise of a step: the position is known from the velocity to h^3 / 12.
         moves = np.hstack([faster / np.sqrt(h),
                            (further - 0.5 * h * faster) * np.sqrt(12.0 / h ** 3)])
-        since = self.times_of_poses(before) - self.times[self.rows]
-        turns, _, places = moved(self.rows, since[:, None])
-        return ((turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(h), moves,
-                *before.body_residuals(turns, places, self.body, self.rows),
-                *before.slow_residuals(after, h))
+        return (turned * after.rotations[1:].inv()).as_rotvec() / np.sqrt(h), moves
+
+    def poses(self, state, rows):
+        since = self.times_of_poses(state) - self.times[rows]
+        rotations, _, positions = self.moved(state, rows, since[:, None])
+        return rotations, positions
 
 
 def numbers(message):

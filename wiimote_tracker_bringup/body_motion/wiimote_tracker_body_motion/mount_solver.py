@@ -1,11 +1,16 @@
 """Where a base sits on a body: maximum likelihood over the path of the base and what is constant.
 
-The path is a chain of states. Each residual depends on the constants, a state and the next one:
-motions of the base between two states (odometry or an IMU), poses of the body, whose errors are
-partly white and partly slow. Gauss-Newton on the sparse normal equations. The noise of each group
-of residuals is estimated along with the rest: its variance is the sum of squares over its
-redundancy (W. Foerstner, "Ein Verfahren zur Schaetzung von Varianz- und Kovarianzkomponenten",
-1979), found by random probes (M. F. Hutchinson, Communications in Statistics 19(2), 1990).
+The path is a chain of states. Each residual depends on the constants, a state and the next one.
+There are six groups of them:
+
+    0, 1  how the base moves from one state to the next, by odometry or an IMU
+    2, 3  rotations [rad] and positions [m] of the base against the poses of the body
+    4, 5  how the slow errors of the body's rotations [rad] and positions [m] change
+
+Gauss-Newton on the sparse normal equations. The noise of each group is estimated along with the
+rest: its variance is the sum of squares over its redundancy (W. Foerstner, "Ein Verfahren zur
+Schaetzung von Varianz- und Kovarianzkomponenten", 1979), found by random probes (M. F. Hutchinson,
+Communications in Statistics 19(2), 1990).
 """
 
 import dataclasses
@@ -25,11 +30,8 @@ CORRELATED = 0.25  # residuals of different intervals of this length are indepen
 LEAST_NOISE = 1e-6  # [rad, m], of what else would be exact
 LARGEST_STDDEV = 0.03  # of a translation that is told [m]
 SLOW = 1.0  # autocorrelation time of the slow errors of the body's poses [s]
-SLOW_NOISE = 5e-4, 5e-4  # a first guess of their standard deviations [rad, m]
-
-# Groups of residuals: two of the base's motion, then the body's rotations and positions, then the
-# slow errors of both.
-BODY_GROUPS, SLOW_GROUPS = [2, 3], [4, 5]
+# First guesses of the standard deviations of groups 2 to 5 [rad, m].
+BODY_NOISE = 0.01, 0.002, 5e-4, 5e-4
 
 
 @dataclasses.dataclass
@@ -43,54 +45,38 @@ class State:
     rotations: Rotation
     vectors: np.ndarray
 
-    def moved(self, common=None, local=None):
-        """By the constants and by the states of the chain: rotation vectors in the body's and the
-        world's frame, then vectors. local: one for all states or one for each."""
-        result = self
-        if common is not None:
-            result = dataclasses.replace(
-                result, rotation=Rotation.from_rotvec(common[:3]) * self.rotation,
-                vector=self.vector + common[3:])
-        if local is not None:
-            result = dataclasses.replace(
-                result, rotations=Rotation.from_rotvec(local[..., :3]) * self.rotations,
-                vectors=self.vectors + local[..., 3:])
-        return result
+    def with_constants(self, change):
+        """Changed by a rotation vector in the body's frame, then a vector."""
+        return dataclasses.replace(self, rotation=Rotation.from_rotvec(change[:3]) * self.rotation,
+                                   vector=self.vector + change[3:])
 
-    def body_residuals(self, rotations, positions, body, first):
-        """Rotations [rad] and positions [m], n x 3: base's poses in the world against body's.
-        first: the number of the state before each."""
-        turned = rotations * self.rotation.inv()
-        slow_turn, slow_shift = np.split(self.vectors[first, :6], 2, axis=1)
-        return ((turned * body.rotations.inv()).as_rotvec() + slow_turn,
-                positions - turned.apply(self.vector[:3]) - body.positions + slow_shift)
-
-    def slow_residuals(self, after, durations):
-        """How the slow errors change from each state to the next: a first-order Gauss-Markov
-        process. durations: n x 1 [s]."""
-        decay = np.exp(-durations / SLOW)
-        change = (after.vectors[1:, :6] - decay * self.vectors[:-1, :6]) / np.sqrt(1.0 - decay ** 2)
-        return np.split(change, 2, axis=1)
+    def with_chain(self, change):
+        """Changed, all states or each, by a rotation vector in the world's frame, then a vector."""
+        return dataclasses.replace(
+            self, rotations=Rotation.from_rotvec(change[..., :3]) * self.rotations,
+            vectors=self.vectors + change[..., 3:])
 
 
 def solve(problem, state, names, report):
     """names: of the body and the base. report: is called with a sentence after each step, which can
     take seconds. @returns Mount. problem has
 
-    times: of the states [s]; noise: a first guess of each group's standard deviation;
-    place(state): chooses and returns, for each group, the number of the first state of each row;
-    residuals(before, after): of each group, rows x values; the constants and first states are those
-    of one State, the next states those of another."""
-    noise = np.array(problem.noise)
+    body: its Poses; times: of the states [s]; durations: from each state to the next, n x 1 [s];
+    noise: a first guess of the standard deviations of groups 0 and 1;
+    rows(state): for each pose of the body the number of the state before it;
+    motions(before, after): residuals of groups 0 and 1, n x values each, where the constants and
+    first states are those of one State, the next states those of another;
+    poses(state, rows): rotations and positions of the base in the world at the body's poses."""
+    noise = np.array(problem.noise + BODY_NOISE)
     for iteration in range(MOST_ITERATIONS):
         equations = Equations(problem, state, noise)
-        common, local = equations.step()
+        constants, chain = equations.step()
         covariance = (equations.covariance() + equations.lasting_covariance(noise))[:7, :7]
-        state = state.moved(common, local)
+        state = state.with_constants(constants).with_chain(chain)
         report(f'step {iteration + 1} of at most {MOST_ITERATIONS}: clock offset '
                f'{1e3 * state.vector[3]:.2f} +- {1e3 * np.sqrt(covariance[6, 6]):.2f} ms')
         if (iteration >= LEAST_ITERATIONS
-                and (np.abs(common[3:7]) < 0.05 * np.sqrt(np.diag(covariance)[3:])).all()):
+                and (np.abs(constants[3:7]) < 0.05 * np.sqrt(np.diag(covariance)[3:])).all()):
             break
         noise = np.maximum(noise * equations.noise_factors(), LEAST_NOISE)
     else:
@@ -104,75 +90,77 @@ def solve(problem, state, names, report):
     return Mount(state.rotation, state.vector[:3], state.vector[3], covariance, *names)
 
 
-def derivatives(problem, state):
-    """By forward differences. By the constants: of each group, rows x values x constants. By the
-    chain: rows x values x (a state and the next)."""
-    here = problem.residuals(state, state)
+def residuals(problem, before, after, rows):
+    """Of each group, rows x values. before, after: as of problem.motions."""
+    rotations, positions = problem.poses(before, rows)
+    turned = rotations * before.rotation.inv()
+    slow_turn, slow_shift = np.split(before.vectors[rows, :6], 2, axis=1)
+    # The slow errors are a first-order Gauss-Markov process.
+    decay = np.exp(-problem.durations / SLOW)
+    changes = (after.vectors[1:, :6] - decay * before.vectors[:-1, :6]) / np.sqrt(1.0 - decay ** 2)
+    return (*problem.motions(before, after),
+            (turned * problem.body.rotations.inv()).as_rotvec() + slow_turn,
+            positions - turned.apply(before.vector[:3]) - problem.body.positions + slow_shift,
+            *np.split(changes, 2, axis=1))
 
-    def differences(count, moved):
-        """moved(step): the State of the residuals, and that of the next states in the chain."""
-        there = [problem.residuals(*moved(step)) for step in STEP * np.eye(count)]
-        return [np.stack([(each[group] - here[group]) / STEP for each in there], axis=2)
+
+def derivatives(problem, state, rows, here):
+    """For each group: rows x values x constants, and rows x values x (both states), by forward
+    differences. here: the residuals at the state."""
+    def along(count, ends):
+        moved = [residuals(problem, *ends(step), rows) for step in STEP * np.eye(count)]
+        return [np.stack([(there[group] - here[group]) / STEP for there in moved], axis=2)
                 for group in range(len(here))]
 
     size = 3 + state.vectors.shape[1]
-    by_constants = differences(3 + len(state.vector), lambda step: 2 * [state.moved(step)])
-    by_before = differences(size, lambda step: (state.moved(local=step), state))
-    by_after = differences(size, lambda step: (state, state.moved(local=step)))
-    return by_constants, [np.concatenate(both, axis=2) for both in zip(by_before, by_after)]
+    by_constants = along(3 + len(state.vector), lambda step: 2 * [state.with_constants(step)])
+    before = along(size, lambda step: (state.with_chain(step), state))
+    after = along(size, lambda step: (state, state.with_chain(step)))
+    return by_constants, [np.concatenate(both, axis=2) for both in zip(before, after)]
 
 
 class Equations:
-    """Linear equations at a state, each divided by its noise; those of the chain are eliminated."""
+    """Linear equations at a state, each divided by its noise: matrix x change + rest = 0. The last
+    columns are the constants, the others the states of the chain in their order."""
 
     def __init__(self, problem, state, noise):
-        self.problem, self.size = problem, 3 + state.vectors.shape[1]
-        firsts = problem.place(state)
-        residuals = problem.residuals(state, state)
-        by_constants, by_states = derivatives(problem, state)
-        self.rest = np.concatenate([values.ravel() / deviation
-                                    for values, deviation in zip(residuals, noise)])
-        self.common = np.concatenate([values.reshape(-1, values.shape[2]) / deviation
-                                      for values, deviation in zip(by_constants, noise)])
-        self.local = sparse.vstack([self.in_chain(first, values / deviation, len(state.vectors))
-                                    for first, values, deviation in zip(firsts, by_states, noise)],
-                                   'csr')
-        self.group = np.repeat(np.arange(len(noise)), [values.size for values in residuals])
-        times = np.concatenate([problem.times[first].repeat(values.shape[1])
-                                for first, values in zip(firsts, residuals)])
-        interval = np.unique(times // CORRELATED, return_inverse=True)[1]
+        rows, steps = problem.rows(state), np.arange(len(problem.durations))
+        here = residuals(problem, state, state, rows)
+        by_constants, by_states = derivatives(problem, state, rows, here)
+        self.body, self.size = problem.body, 3 + state.vectors.shape[1]
+        parts, times = [], []
+        for first, constants, states, stddev in zip(
+                (steps, steps, rows, rows, steps, steps), by_constants, by_states, noise):
+            count, values, width = states.shape
+            columns = np.repeat(self.size * first[:, None] + np.arange(width), values, axis=0)
+            chain = sparse.csr_matrix(
+                (states.ravel() / stddev, columns.ravel(), width * np.arange(count * values + 1)),
+                (count * values, self.size * len(state.vectors)))
+            parts.append(sparse.hstack(
+                [chain, constants.reshape(count * values, -1) / stddev], 'csr'))
+            times.append(problem.times[first].repeat(values))
+        self.rest = np.concatenate([each.ravel() / stddev for each, stddev in zip(here, noise)])
+        self.group = np.repeat(np.arange(len(here)), [each.size for each in here])
+        interval = np.unique(np.concatenate(times) // CORRELATED, return_inverse=True)[1]
         self.sums = sparse.csr_matrix((np.ones(len(interval)),
                                        (interval, np.arange(len(interval)))))
-        self.solver = splu((self.local.T @ self.local).tocsc(), permc_spec='NATURAL',
+        self.matrix = sparse.vstack(parts, 'csr')
+        self.solver = splu((self.matrix.T @ self.matrix).tocsc(), permc_spec='NATURAL',
                            diag_pivot_thresh=0.0, options={'SymmetricMode': True})
-        self.left = self.without_chain(self.common)
-        self.inverse = np.linalg.inv(self.left.T @ self.left)
-
-    def in_chain(self, first, values, states):
-        """Derivatives by all states of the chain, sparse. values: those of one group by the states
-        `first` and the next."""
-        rows, count, width = values.shape
-        columns = (self.size * first[:, None] + np.arange(width)).repeat(count, axis=0)
-        return sparse.csr_matrix(
-            (values.ravel(), columns.ravel(), width * np.arange(rows * count + 1)),
-            (rows * count, self.size * states))
-
-    def by_chain(self, values):
-        return self.solver.solve(self.local.T @ values)
-
-    def without_chain(self, values):
-        """What the states of the chain do not explain."""
-        return values - self.local @ self.by_chain(values)
-
-    def without_all(self, values):
-        """What is left of n x m values after least squares."""
-        left = self.without_chain(values)
-        return left - self.left @ (self.inverse @ (self.left.T @ left))
+        # By how much each equation changes each constant, and from that their covariance.
+        self.number, unknowns = by_constants[0].shape[2], self.matrix.shape[1]
+        self.gains = self.matrix @ self.solver.solve(
+            np.eye(unknowns, self.number, self.number - unknowns))
+        self.inverse = self.gains.T @ self.gains
 
     def step(self):
         """Changes of the constants and of the states of the chain."""
-        common = -self.inverse @ (self.left.T @ self.rest)
-        return common, -self.by_chain(self.rest + self.common @ common).reshape(-1, self.size)
+        change = -self.solver.solve(self.matrix.T @ self.rest)
+        return change[-self.number:], change[:-self.number].reshape(-1, self.size)
+
+    def left(self, values):
+        """What is left of n x m values after least squares."""
+        return values - self.matrix @ self.solver.solve(self.matrix.T @ values)
 
     def covariance(self):
         """Of the constants. Noise that is correlated in time makes it greater, by how much more the
@@ -182,40 +170,37 @@ class Equations:
         scale = np.sqrt(np.maximum(self.variation(self.rest) / expected, 1.0))
         return scale[:, None] * self.inverse * scale
 
+    def variation(self, values):
+        """Sum of squares, over intervals, of what an interval changes each constant by."""
+        changes = self.sums @ (self.gains * self.left(values[:, None]))
+        return (changes ** 2).sum(axis=0)
+
     def lasting_covariance(self, noise):
         """Of the constants, from errors of the body's poses that are the same whenever it comes
         back, as those of the calibration: as large as the slow ones, linear in place and
         orientation."""
-        body = self.problem.body
-        features = np.hstack([body.positions, body.rotations.as_matrix().reshape(-1, 9)])
+        features = np.hstack([self.body.positions, self.body.rotations.as_matrix().reshape(-1, 9)])
         features -= features.mean(axis=0)
         features /= np.sqrt((features ** 2).sum() / len(features))  # together 1 (RMS)
         changes = []
-        for group, size in zip(BODY_GROUPS, noise[SLOW_GROUPS]):
-            rows = np.flatnonzero(self.group == group).reshape(-1, 3)
-            for axis in range(3):
-                weights = self.left[rows[:, axis]].T @ features * (size / noise[group])
-                changes.append(self.inverse @ weights)
+        for group, slow in ((2, 4), (3, 5)):
+            gains = self.gains[self.group == group].reshape(-1, 3, self.number)
+            changes += [gains[:, axis].T @ features * (noise[slow] / noise[group])
+                        for axis in range(3)]
         changes = np.hstack(changes)
         return changes @ changes.T
 
-    def variation(self, values):
-        """Sum of squares, over intervals, of what an interval changes each constant by."""
-        changes = self.sums @ (self.left @ self.inverse * self.without_all(values[:, None]))
-        return (changes ** 2).sum(axis=0)
-
     def noise_factors(self):
         """What to multiply the standard deviation of each group by."""
-        rest = self.without_all(self.rest[:, None])[:, 0]
-        factors = []
+        rest = self.left(self.rest[:, None])[:, 0]
         random = np.random.default_rng(1)
-        for number in range(self.group[-1] + 1):
-            inside = self.group == number
+        factors = []
+        for group in range(self.group[-1] + 1):
+            inside = self.group == group
             probes = inside[:, None] * random.choice([-1.0, 1.0], (len(rest), PROBES))
-            redundancy = np.mean(np.sum(probes * self.without_all(probes), axis=0))
+            redundancy = np.mean(np.sum(probes * self.left(probes), axis=0))
             factors.append(np.sqrt((rest[inside] ** 2).sum() / max(redundancy, 1.0)))
         # Where there are no slow errors, theirs would fall to zero slowly.
-        factors = np.array(factors)
-        slow = factors[SLOW_GROUPS]
-        factors[SLOW_GROUPS] = np.where(slow < 1.0, slow ** 4, slow)
+        slow = np.array(factors[4:])
+        factors[4:] = np.where(slow < 1.0, slow ** 4, slow)
         return np.clip(factors, 0.2, 5.0)

@@ -112,13 +112,6 @@ def target_information(plan, positions, targets, points, covariance):
     return (np.swapaxes(by_pose, -1, -2) @ each @ by_pose).sum(axis=2), located
 
 
-def trace_of_inverse(matrices):
-    """Of symmetric 3 x 3 matrices, by their minors."""
-    (a, b, c), (_, d, e), (_, _, f) = np.moveaxis(matrices, (-2, -1), (0, 1))
-    minors = d * f - e * e, a * f - c * c, a * d - b * b
-    return sum(minors) / (a * minors[0] - b * (b * f - c * e) + c * (b * e - c * d))
-
-
 def prior_information(size):
     """Of a target that nobody sees, as information."""
     return np.diag(([UNSEEN ** -2] * 3 + [UNTURNED ** -2] * 3)[:size])
@@ -127,11 +120,7 @@ def prior_information(size):
 def position_variance(whole):
     """Trace of the covariance of the place alone [m^2], from the information on it, and on the
     turn."""
-    if whole.shape[-1] == 3:
-        return trace_of_inverse(whole)
-    both = whole[..., :3, 3:]
-    return trace_of_inverse(
-        whole[..., :3, :3] - both @ np.linalg.solve(whole[..., 3:, 3:], np.swapaxes(both, -1, -2)))
+    return np.trace(np.linalg.inv(whole)[..., :3, :3], axis1=-2, axis2=-1)
 
 
 def variances(each):

@@ -4,25 +4,14 @@ import argparse
 import sys
 from typing import Dict, List, Set
 
+from wiimote_tracker_launch.master import master_problem
+
 from wiimote_tracker_bringup.errors import Refusal
-
-
-def master_problem(advice: str) -> str:
-    """Why no ROS master can be used, and what to do; empty if one answers. advice: without one."""
-    import rosgraph  # evaluate --help must do without
-    address = rosgraph.get_master_uri()
-    try:
-        is_online = rosgraph.is_master_online()
-    except (OSError, ValueError):  # OSError: neither http nor https
-        return (f'ROS_MASTER_URI is {address or "empty"}, but must be such as http://HOST:11311: '
-                'correct it')
-    return '' if is_online else f'there is no ROS master at {address}: {advice}'
 
 
 def start(name: str, documentation: str, arguments: str = '') -> List[str]:
     """Makes the program a node. Answers --help; ends the program, with what to do, if there is no
-    ROS master: rospy would wait for one for ever, even where none can be. Returns its arguments,
-    which are refused where they have no name here."""
+    ROS master. Returns its arguments, which are refused where they have no name here."""
     import rospy
     parser = argparse.ArgumentParser(
         prog=name, description=documentation, formatter_class=argparse.RawDescriptionHelpFormatter)

@@ -6,8 +6,9 @@ import time
 
 import numpy as np
 
+from wiimote_tracker_launch.master import master_problem
+
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.nodes import master_problem
 from wiimote_tracker_bringup.waiting import wait_until
 from wiimote_tracker_evaluation.live.dialogue import SKIP, Dialogue
 

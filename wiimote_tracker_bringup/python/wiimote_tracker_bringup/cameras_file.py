@@ -33,18 +33,17 @@ class UniqueKeys(yaml.SafeLoader):
         return node
 
 
-def read_file(path, loader=UniqueKeys):
+def read_file(path):
     """The mapping in a cameras.yaml or a rig description; empty for anything else."""
-    content = read_yaml(path, loader)
+    content = read_yaml(path, UniqueKeys)
     return content if isinstance(content, dict) else {}
 
 
-def rig_format():
-    """Format and version of the rig files that this version writes: those of the example."""
+def rig_example():
+    """The documented rig file, of the version that is written."""
     import rospkg
-    example = read_file(os.path.join(
+    return read_file(os.path.join(
         rospkg.RosPack().get_path('wiimote_tracker_triangulation'), 'doc', 'rig.yaml'))
-    return {key: example[key] for key in ('format', 'version')}
 
 
 def is_of_rig(camera):

@@ -1,5 +1,6 @@
 """The true rig, for experiments that do not test calibration."""
 
+from geometry_msgs.msg import Point, Pose, Quaternion
 from scipy.spatial.transform import Rotation
 from wiimote_tracker_msgs.msg import CameraCalibration, RigCalibration
 
@@ -15,17 +16,15 @@ def true_rig(path):
                          virtual_hfov=float('nan'), led_height=float('nan'))
     rig.header.frame_id = 'world'
     for camera in scene.read_scene(path).cameras:
-        fx, fy, cx, cy, k1 = camera.parameters
+        fx, fy, cx, cy, k1 = camera.parameters.tolist()
         message = CameraCalibration(
             name=camera.name, identity=identities[camera.name],
             frame_id=camera.name + '_optical_frame', width=camera.size[0], height=camera.size[1],
             distortion_model='plumb_bob', fx=fx, fy=fy, cx=cx, cy=cy, distortion=[k1, 0, 0, 0, 0],
             time_offset=float('nan'), residual_px=float('nan'), residual_m=float('nan'))
-        pose = message.world_from_camera
-        position, orientation = pose.position, pose.orientation
-        position.x, position.y, position.z = camera.position
-        orientation.x, orientation.y, orientation.z, orientation.w = Rotation.from_matrix(
-            camera.rotation).as_quat()
+        message.world_from_camera = Pose(
+            Point(*camera.position.tolist()),
+            Quaternion(*Rotation.from_matrix(camera.rotation).as_quat().tolist()))
         rig.cameras.append(message)
     return rig
 

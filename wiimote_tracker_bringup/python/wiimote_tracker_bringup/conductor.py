@@ -6,6 +6,7 @@ from typing import Sequence
 
 import actionlib
 import rospy
+from geometry_msgs.msg import Point, Vector3
 from wiimote_tracker_msgs.msg import (CalibrationStatus, CaptureCornerAction, CaptureCornerGoal,
                                       TrackedPoint, TrackedPointArray)
 from wiimote_tracker_msgs.srv import (CheckConnection, SaveRig, SetLed, SetLedRequest,
@@ -94,19 +95,17 @@ class Conductor:
 
     def wave(self, led, middle, side, speed, path):
         """Waves an LED through a cube of this side around its middle [m]."""
-        message = SetLedRequest(led=led, on=True, motion=SetLedRequest.WAVE, speed=speed, path=path)
-        message.target.x, message.target.y, message.target.z = middle
-        message.box.x = message.box.y = message.box.z = side
-        self._succeed('waving the LED', self._call('simulation/set_led', SetLed, message))
+        self._succeed('waving the LED', self._call(
+            'simulation/set_led', SetLed, led=led, on=True, motion=SetLedRequest.WAVE, speed=speed,
+            path=path, target=Point(*middle), box=Vector3(side, side, side)))
 
     def switch(self, led, on):
         """Switches an LED, which then stays where it is."""
         self._succeed('switching the LED', self._call('simulation/set_led', SetLed, led=led, on=on))
 
     def _set_led(self, target, **request):
-        message = SetLedRequest(led=self._led, on=True, **request)
-        message.target.x, message.target.y, message.target.z = target
-        response = self._call('simulation/set_led', SetLed, message)
+        response = self._call('simulation/set_led', SetLed, led=self._led, on=True,
+                              target=Point(*target), **request)
         arrival = self._succeed('moving the LED', response).arrival.to_sec()
         self.wait(lambda: rospy.get_time() >= arrival, 60.0, 'the LED to arrive')
         return arrival

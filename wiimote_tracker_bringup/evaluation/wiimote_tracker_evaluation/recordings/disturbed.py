@@ -12,6 +12,7 @@ import os
 import numpy as np
 import rosbag
 import rospy
+from geometry_msgs.msg import Quaternion
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, programs
@@ -82,10 +83,9 @@ def figures(true_rig, number, played, folder):
 
 def disturb(camera, axis):
     """Turns it by ANGLE about an axis of its own, and sets its clock off by LATE."""
-    orientation = camera.world_from_camera.orientation
     turned = Rotation.from_matrix(camera_of(camera).rotation) * Rotation.from_rotvec(
         ANGLE * axis / np.linalg.norm(axis))
-    orientation.x, orientation.y, orientation.z, orientation.w = turned.as_quat()
+    camera.world_from_camera.orientation = Quaternion(*turned.as_quat())
     camera.time_offset = LATE
 
 

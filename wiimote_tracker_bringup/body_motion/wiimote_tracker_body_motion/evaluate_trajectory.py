@@ -1,7 +1,6 @@
 """evaluate_trajectory: an odometry or SLAM topic against the tracker's."""
 
 import argparse
-import json
 
 from wiimote_tracker_body_motion import comparison, mount, poses
 from wiimote_tracker_bringup import alignment, files, interruption, ranges
@@ -50,9 +49,7 @@ def run(arguments):
                                   arguments.interval, arguments.gap)
     figures = compared.figures()
     print('\n'.join(table(figures)))
-    if arguments.json:
-        with open(arguments.json, 'w') as file:
-            json.dump(figures, file, indent=1)
+    files.write_json(arguments.json, figures)
     if arguments.plot:
         draw(compared, arguments.plot)
 

@@ -11,6 +11,7 @@ from wiimote_tracker_bringup import timeseries
 from wiimote_tracker_bringup.errors import Refusal
 
 BACK = 1.0  # by which stamps go back only where a clock was set, or a replay began again [s]
+NEIGHBOURS = 9  # of a smoothed pose
 
 
 def numbers(pose):
@@ -62,7 +63,7 @@ class Poses:
                                    positions=self.positions + self.rotations.apply(translation))
 
 
-def smoothed(poses, neighbours=9):
+def smoothed(poses):
     """On a grid of a quarter of the median interval, without pauses: local quadratic regression.
 
     Between two noisy poses, linear interpolation is less noisy in the middle than at the ends, so
@@ -71,18 +72,18 @@ def smoothed(poses, neighbours=9):
     """
     interval = np.median(np.diff(poses.times))
     times = np.arange(poses.times[0], poses.times[-1], 0.25 * interval)
-    times = times[poses.covers(times, neighbours // 2 * interval)]
-    first = np.searchsorted(poses.times, times) - neighbours // 2
-    first = np.clip(first, 0, max(len(poses.times) - neighbours, 0))
-    near = np.minimum(first[:, None] + np.arange(neighbours), len(poses.times) - 1)
-    center = near[:, neighbours // 2]
+    times = times[poses.covers(times, NEIGHBOURS // 2 * interval)]
+    first = np.searchsorted(poses.times, times) - NEIGHBOURS // 2
+    first = np.clip(first, 0, max(len(poses.times) - NEIGHBOURS, 0))
+    near = np.minimum(first[:, None] + np.arange(NEIGHBOURS), len(poses.times) - 1)
+    center = near[:, NEIGHBOURS // 2]
     away = (poses.times[near] - times[:, None]) / interval
     powers = away[..., None] ** np.arange(3)
     weighted = powers * np.exp(-0.5 * (away / 1.5) ** 2)[..., None]
     # The value of the parabola at 0, as weights of the neighbours.
     weights = np.linalg.solve(weighted.transpose(0, 2, 1) @ powers,
                               weighted.transpose(0, 2, 1))[:, 0]
-    turns = (poses.rotations[np.repeat(center, neighbours)].inv()
+    turns = (poses.rotations[np.repeat(center, NEIGHBOURS)].inv()
              * poses.rotations[near.reshape(-1)]).as_rotvec().reshape(*near.shape, 3)
     return dataclasses.replace(
         poses, times=times, positions=np.einsum('ij,ijk->ik', weights, poses.positions[near]),

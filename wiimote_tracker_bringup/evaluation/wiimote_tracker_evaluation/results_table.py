@@ -1,11 +1,11 @@
 """Makes a document's results table from figures.json."""
 
 import argparse
-import json
 import types
 from typing import Dict, List, Optional, Tuple
 
 from wiimote_tracker_bringup.errors import Refusal
+from wiimote_tracker_bringup.files import read_json
 from wiimote_tracker_bringup.interruption import answered
 from wiimote_tracker_evaluation.report import words
 
@@ -57,11 +57,10 @@ def written(text: str, content: Dict) -> str:
 
 def read(path: str) -> Dict:
     """What an evaluation wrote."""
-    with open(path, encoding='utf-8') as file:
-        try:
-            content = json.load(file)
-        except ValueError:
-            content = None
+    try:
+        content = read_json(path)
+    except ValueError:
+        content = None
     if not isinstance(content, dict) or 'figures' not in content:
         raise Refusal(f'{path} is no figures.json: name one that evaluate wrote')
     return content

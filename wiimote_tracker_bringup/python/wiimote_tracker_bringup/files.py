@@ -1,6 +1,7 @@
 """Files and folders that people name."""
 
 import argparse
+import json
 import os
 import shutil
 import tempfile
@@ -43,6 +44,18 @@ def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:
 def write_yaml(path: str, content: Any) -> None:
     with open(path, 'w') as file:
         yaml.safe_dump(content, file, sort_keys=False)
+
+
+def read_json(path: str) -> Any:
+    with open(path, encoding='utf-8') as file:
+        return json.load(file)
+
+
+def write_json(path: Optional[str], content: Any) -> None:
+    """Without a path nothing is written."""
+    if path:
+        with open(path, 'w', encoding='utf-8') as file:
+            json.dump(content, file, indent=1)
 
 
 def check_distinct(to_write: Iterable[Optional[str]], to_read: Iterable[Optional[str]]) -> None:

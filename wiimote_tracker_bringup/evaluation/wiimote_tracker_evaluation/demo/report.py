@@ -1,12 +1,12 @@
 """The demonstration's results as a table, a sentence, and files."""
 
 import csv
-import json
 
 import numpy as np
 
 from wiimote_tracker_bringup import charts, experiment
 from wiimote_tracker_bringup.alignment import KINDS
+from wiimote_tracker_bringup.files import write_json
 from wiimote_tracker_evaluation.demo.scoring import milli
 
 
@@ -56,14 +56,12 @@ def sentence(mode, score):
 
 
 def write_summary(path, mode, score, bounds, best):
-    with open(path, 'w') as file:
-        json.dump({
-            'simulated': True, 'mode': mode, 'position_rms_mm': score['position_rms_mm'],
-            'best_for_this_rig_mm': {kind: milli(best[kind]) for kind in KINDS},
-            'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
-            'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
-                                    for kind in KINDS}, **score}, file, indent=2)
-        file.write('\n')
+    write_json(path, {
+        'simulated': True, 'mode': mode, 'position_rms_mm': score['position_rms_mm'],
+        'best_for_this_rig_mm': {kind: milli(best[kind]) for kind in KINDS},
+        'bound_rms_mm': {kind: milli(bounds[kind].rms) for kind in KINDS},
+        'bound_95_percent_mm': {kind: [milli(bounds[kind].low), milli(bounds[kind].high)]
+                                for kind in KINDS}, **score})
 
 
 def write_csv(path, recording, segments):

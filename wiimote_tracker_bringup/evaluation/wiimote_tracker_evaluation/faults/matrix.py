@@ -2,11 +2,11 @@
 
 import argparse
 import dataclasses
-import json
 import subprocess
 from typing import List, Optional
 
 from wiimote_tracker_bringup.errors import Refusal
+from wiimote_tracker_bringup.files import write_json
 from wiimote_tracker_bringup.interruption import answered, raise_when_interrupted
 from wiimote_tracker_bringup.processes import Processes
 from wiimote_tracker_evaluation.faults import (
@@ -118,9 +118,7 @@ def main(arguments: Optional[List[str]] = None) -> int:
                 print(line(results[-1]), flush=True)
         finally:
             matrix.stop()
-            if options.json:
-                with open(options.json, 'w') as file:
-                    json.dump([dataclasses.asdict(result) for result in results], file, indent=1)
+            write_json(options.json, list(map(dataclasses.asdict, results)))
     failed = [result.name for result in results if result.problems]
     print(f'{len(results) - len(failed)} of {len(results)} faults were survived'
           + (f"; not: {', '.join(failed)}" if failed else ''))

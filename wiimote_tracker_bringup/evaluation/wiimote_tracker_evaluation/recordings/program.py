@@ -1,7 +1,6 @@
 """evaluate_recording: accuracy on recordings that others made."""
 
 import argparse
-import json
 
 from wiimote_tracker_bringup import files, interruption, ranges
 from wiimote_tracker_evaluation.recordings import formats, replay, reprojection
@@ -34,6 +33,4 @@ def main():
             result, rows = outcome.result, outcome.rows
         for name, value in rows:
             print(f'{name:35} {value}')
-        if arguments.json:
-            with open(arguments.json, 'w') as file:
-                json.dump(result, file, indent=1)
+        files.write_json(arguments.json, result)

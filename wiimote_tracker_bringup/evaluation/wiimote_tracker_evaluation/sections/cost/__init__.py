@@ -3,13 +3,12 @@
 import dataclasses
 from typing import Dict
 
-import json
 import sys
 
 import numpy as np
 
 from wiimote_tracker_bringup import charts, descriptions, stack, statistics
-from wiimote_tracker_bringup.files import read_yaml
+from wiimote_tracker_bringup.files import read_json, read_yaml
 from wiimote_tracker_bringup.true_rig import publish, true_rig
 from wiimote_tracker_evaluation.sections.cost import load
 from wiimote_tracker_evaluation.trace import Recorder
@@ -118,8 +117,7 @@ def measure_rooms(run):
     run.compute([['wiimote_tracker_triangulation/benchmark_tracking', '--section', 'scale',
                   '--runs', 3 if run.quick else 40, '--seed', run.seed, '--json', path]],
                 'the tracker alone, several rooms', 0.9, 1.0)
-    with open(path) as file:
-        return json.load(file)['scale']
+    return read_json(path)['scale']
 
 
 # --- Report

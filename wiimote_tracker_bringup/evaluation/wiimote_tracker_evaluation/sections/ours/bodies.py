@@ -1,6 +1,6 @@
 """Poses of rigid bodies: rows of the tracker's benchmark."""
 
-import json
+from wiimote_tracker_bringup.files import read_json
 
 PROGRAM = 'wiimote_tracker_triangulation/benchmark_bodies'
 QUICK, FULL = 1, 20  # runs of 10 s
@@ -23,8 +23,7 @@ def commands(run):
 def tell(run):
     rows = {}
     for section in SECTIONS:
-        with open(file(run, section)) as content:
-            rows.update((row['name'], row) for row in json.load(content)[section])
+        rows.update((row['name'], row) for row in read_json(file(run, section))[section])
     run.say(
         '### Body poses\n\n'
         'Bodies of 10 cm radius, with three or four LEDs, before the cameras of Fig. 1; pixels '

@@ -22,7 +22,7 @@ def tell(run, table):
         'An LED circles at 1 m/s. Each camera independently loses sight of it at random, for 0.25 '
         's on average. The covered time is that with a newest published point younger than 25 ms '
         'and less than 5 cm off. *Instant by instant* triangulates as in the paper, which requires '
-        'two cameras (dashed line). *Tracks* continue for up to 1 s with one camera, which does '
+        'two cameras (dashed line). *Tracks* continue for up to 0.7 s with one camera, which does '
         'not measure the distance, and for 0.5 s with none. These points are marked as predicted '
         'and are not on the LED\'s own topic.')
     figure, axes = charts.figure(1, 2)

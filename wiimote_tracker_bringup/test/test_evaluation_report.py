@@ -2,6 +2,7 @@
 
 import base64
 import csv
+import dataclasses
 import html.parser
 import json
 import os
@@ -17,6 +18,7 @@ from wiimote_tracker_bringup import charts
 from wiimote_tracker_evaluation import evaluation, results_table, sections
 from wiimote_tracker_evaluation.recordings import formats
 from wiimote_tracker_evaluation.report import data
+from wiimote_tracker_evaluation.section import Option
 from wiimote_tracker_evaluation.sections import recordings
 
 HERE = os.path.dirname(os.path.realpath(__file__))
@@ -275,10 +277,10 @@ def test_results_do_not_replace_what_the_user_gives(tmp_path, capsys):
 def test_a_section_may_have_options(evaluate):
     seen = []
     section = a_section('a', lambda run: seen.append(run.options.mine))
-    section.add_arguments = lambda parser: parser.add_argument('--mine')
+    section.OPTION = Option('mine', 'TEXT', str, 'of mine')
     assert evaluate([section], '--mine', 'right') == 0
     assert seen == ['right']
-    section.NEEDS = 'mine'
+    section.OPTION = dataclasses.replace(section.OPTION, is_needed=True)
     assert evaluate([section, a_section('b', a_good_run)]) == 0
     assert seen == ['right']
 

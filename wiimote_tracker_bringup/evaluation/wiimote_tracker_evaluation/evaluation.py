@@ -17,21 +17,16 @@ from wiimote_tracker_evaluation.report import write_report
 from wiimote_tracker_evaluation.section import Run
 
 
-def parser_of(module) -> argparse.ArgumentParser:
-    """Of a section's own options."""
-    parser = argparse.ArgumentParser(add_help=False)
-    if hasattr(module, 'add_arguments'):
-        module.add_arguments(parser)
-    return parser
-
-
 def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     modules = {name: sections.load(name) for name in sections.NAMES}
-    own = {name: parser_of(module) for name, module in modules.items()}
+    own = {name: module.OPTION for name, module in modules.items() if hasattr(module, 'OPTION')}
     parser = argparse.ArgumentParser(
-        prog='evaluate', parents=list(own.values()),
+        prog='evaluate',
         description="The paper's evaluation, on the simulated rig or, with --live, on a real one; "
         'writes report.html, report.md, figures.json, tables and plots.')
+    for section, option in own.items():
+        parser.add_argument('--' + option.name, metavar=option.metavar, type=option.kind,
+                            help=f'{option.explanation}, for the section {section}')
     parser.add_argument('--rig', metavar='FILE', type=existing_file,
                         help="description of the rig (default: that of the paper's Fig. 1)")
     parser.add_argument('--sections', metavar='A,B',
@@ -46,30 +41,28 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
                         help='of all random numbers (default: 1)')
     options = parser.parse_args(arguments)
     options.rig = options.rig or package_file('simulation/paper_rig.yaml')
-    used_by = {option: name for name, its in own.items() for option in vars(its.parse_args([]))}
-    choose_sections(parser, options, modules, used_by)
-    check_files(parser, options, [options.rig] + [getattr(options, option) for option in used_by])
+    choose_sections(parser, options, modules, own)
+    check_files(parser, options, [options.rig] + [getattr(options, option.name)
+                                                  for option in own.values()])
     return options
 
 
-def lacks(module, options) -> bool:
-    """Whether the option that the section needs is left out."""
-    return hasattr(module, 'NEEDS') and not getattr(options, module.NEEDS)
-
-
-def choose_sections(parser, options, modules, used_by) -> None:
-    """Replaces options.sections by a list. modules: by section; used_by: sections by option."""
+def choose_sections(parser, options, modules, own) -> None:
+    """Replaces options.sections by a list. modules, own: by section, its module and its Option."""
+    given = {section: getattr(options, option.name) for section, option in own.items()}
+    lacking = [section for section, option in own.items()
+               if option.is_needed and not given[section]]
     chosen = options.sections.split(',') if options.sections is not None else [
-        name for name, module in modules.items() if not lacks(module, options)]
+        name for name in modules if name not in lacking]
     for name in chosen:
         if name not in modules:
             parser.error(f"there is no section {name!r}; choose from {', '.join(modules)}")
-        if lacks(modules[name], options):
-            parser.error(f'the section {name} needs --{modules[name].NEEDS}')
-    for option, section in used_by.items():
-        if options.sections is not None and getattr(options, option) and section not in chosen:
-            parser.error(f'--{option} is for the section {section}, which is not chosen: leave it '
-                         'out, or choose that section, too')
+        if name in lacking:
+            parser.error(f'the section {name} needs --{own[name].name}')
+    for section, value in given.items():
+        if value and section not in chosen:
+            parser.error(f'--{own[section].name} is for the section {section}, which is not '
+                         'chosen: leave it out, or choose that section, too')
     options.sections = [name for name in modules if name in chosen]
     if options.live:
         measured = [name for name, module in modules.items() if hasattr(module, 'live')]

@@ -2,8 +2,7 @@
 
 A section is a module or folder in sections/ with TITLE, SECONDS (which it takes about on two cores:
 quick, full), and run(run), which adds its results to a Run. A section for a person on a real rig
-also has live(run). One with options has add_arguments(parser), each a path of the user's; NEEDS is
-the option without which it does not run.
+also has live(run); one that reads a file or folder of the user's has an OPTION.
 """
 
 import dataclasses
@@ -16,6 +15,18 @@ from typing import Callable, Iterable, List, Optional, Sequence, Tuple
 import numpy as np
 
 from wiimote_tracker_bringup import programs, statistics
+
+
+@dataclasses.dataclass(frozen=True)
+class Option:
+    """Of the command line, for a section. kind: for argparse, of a path. is_needed: whether the
+    section does not run without it."""
+
+    name: str
+    metavar: str
+    kind: Callable[[str], str]
+    explanation: str
+    is_needed: bool = False
 
 
 @dataclasses.dataclass(eq=False)
@@ -79,8 +90,7 @@ class Run:
         """Progress of this section, done of `of` parts, and the present step."""
         self._on_progress(done, of, what)
 
-    def compute(self, commands: List[list], what: str, begin: float = 0.0,
-                end: float = 1.0) -> None:
+    def compute(self, commands: List[list], what: str, begin: float, end: float) -> None:
         """Runs programs, two at a time; each is a list of words, the first `program` of this
         package or `package/program`. They take the section from the share `begin` to `end`."""
         self.progress(begin, 1.0, what)

@@ -16,7 +16,7 @@ def parts_of(sessions, parts):
     return [(first, end - first) for first, end in zip(edges[:-1], edges[1:]) if end > first]
 
 
-def shared(run, program, sessions, parts=2):
+def shared(run, program, sessions, parts):
     """Commands that share the sessions of a program between processes; see read_shared."""
     return [[program, '--rig', run.rig, '--output', run.file(f'{program}_{first}.csv'), '--seed',
              run.seed, '--sessions', number, '--first', first]
@@ -36,6 +36,12 @@ def read_shared(run, program):
 def joined(tables):
     """Tables of the same columns, one below the other."""
     return {name: np.concatenate([table[name] for table in tables]) for name in tables[0]}
+
+
+def simulate(run, program, sessions, parts, what):
+    """The table of a program's sessions. what: is simulated, for a person who waits."""
+    run.compute(shared(run, program, sessions, parts), what, 0.0, 0.9)
+    return read_shared(run, program)
 
 
 def keep(run, name, columns, caption):

@@ -28,9 +28,8 @@ PAPER_LIMIT = 0.03  # the paper's accuracy, static and moving [m]
 
 def run(run):
     number = QUICK if run.quick else FULL
-    run.compute(sessions.shared(run, PROGRAM, number, 4),
-                f'{number} sessions with two cameras, and with four', 0.0, 0.9)
-    tell(run, sessions.read_shared(run, PROGRAM))
+    tell(run, sessions.simulate(run, PROGRAM, number, 4,
+                                f'{number} sessions with two cameras, and with four'))
 
 
 def tell(run, laps):

@@ -1,26 +1,19 @@
 """Faults that fault_matrix caused: what was published before, during and after each."""
 
-import json
-
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.files import existing_file
+from wiimote_tracker_bringup.files import existing_file, read_json
+from wiimote_tracker_evaluation.section import Option
 
 TITLE = 'Faults'
 SECONDS = 1, 1
-NEEDS = 'faults'
+OPTION = Option('faults', 'FILE', existing_file, 'what fault_matrix --json wrote', is_needed=True)
 
 TIMES = ('before', 'during', 'after')
 
 
-def add_arguments(parser):
-    parser.add_argument('--faults', metavar='FILE', type=existing_file,
-                        help='what fault_matrix --json wrote, for the section faults')
-
-
 def run(run):
     try:
-        with open(run.options.faults) as file:
-            results = json.load(file)
+        results = read_json(run.options.faults)
         rows = [row(result) for result in results]
     except (OSError, ValueError, KeyError, TypeError):
         raise Refusal(f'{run.options.faults} is not what fault_matrix --json writes')

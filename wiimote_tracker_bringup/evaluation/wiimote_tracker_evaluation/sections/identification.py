@@ -20,9 +20,7 @@ SHOWN_PERIOD, SHOWN_CHIP = 150.0, 23.0           # of the figures [ms]
 
 
 def run(run):
-    run.compute(sessions.shared(run, PROGRAM, QUICK if run.quick else FULL, 10),
-                'letting LEDs blink', 0.0, 0.95)
-    tries = sessions.read_shared(run, PROGRAM)
+    tries = sessions.simulate(run, PROGRAM, QUICK if run.quick else FULL, 10, 'letting LEDs blink')
     tell(run, tries)
     sessions.keep(run, 'tries', tries, 'Every try.')
 

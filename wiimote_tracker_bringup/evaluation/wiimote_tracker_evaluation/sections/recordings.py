@@ -8,10 +8,12 @@ import numpy as np
 from wiimote_tracker_bringup import charts, statistics
 from wiimote_tracker_bringup.files import existing_folder
 from wiimote_tracker_evaluation.report import words
+from wiimote_tracker_evaluation.section import Option
 
 TITLE = 'Recordings by others'
 SECONDS = 60, 60
-NEEDS = 'recordings'
+OPTION = Option('recordings', 'DIR', existing_folder,
+                'recordings that others made, a folder each', is_needed=True)
 
 PARTS = 10  # of a recording, taken as independent
 # Columns of the figures of a path, and of predicted pixels: name, unit, key, factor.
@@ -21,12 +23,6 @@ PATHS = (('mean', 'mm', 'mean_mm', 1.0), ('rms', 'mm', 'rms_mm', 1.0), ('p95', '
 PIXELS = (('median', 'px', 'median', 1.0), ('mean', 'px', 'mean', 1.0), ('rms', 'px', 'rms', 1.0),
           ('p95', 'px', 'p95', 1.0), ('within_5_px', '', 'inliers', 1.0),
           ('observations', '', 'observations', 1.0))
-
-
-def add_arguments(parser):
-    parser.add_argument('--recordings', metavar='DIR', type=existing_folder,
-                        help='recordings that others made, a folder each, for the section '
-                             'recordings')
 
 
 def run(run):

@@ -9,20 +9,17 @@ from wiimote_tracker_bringup.scene import read_scene
 from wiimote_tracker_evaluation.sections.distance.light import (
     SENSITIVITIES, detection_distance, read_led)
 from wiimote_tracker_evaluation.live import distance as with_a_person
+from wiimote_tracker_evaluation.section import Option
 from wiimote_tracker_evaluation.sessions import by_session, where
 
 TITLE = 'Detection distance'
 SECONDS = 2, 5
+OPTION = Option('led', 'FILE', existing_file, 'description of your own LED')
 live = with_a_person.live
 
 PAPER_CURRENT, PAPER_DISTANCE = 0.56, 10.0  # [A], [m]
 SHOWN = (0.05, 2.0)                         # currents of the plot [A]
 SPEED, TIME_LIMIT = 0.25, 0.5               # of the program evaluate_distance [m/s], [s]
-
-
-def add_arguments(parser):
-    parser.add_argument('--led', metavar='FILE', type=existing_file,
-                        help='description of your own LED, for the section distance')
 
 
 def run(run):

@@ -5,19 +5,20 @@ table, and tell(run, table); the others have tell(run).
 """
 
 from wiimote_tracker_evaluation.sections.ours import bodies, cameras, gestures, occlusion
+from wiimote_tracker_evaluation.section import Option
 from wiimote_tracker_evaluation.sessions import keep, read_shared, shared
 
 TITLE = 'Beyond the paper'
 SECONDS = 20, 190
-
-add_arguments = gestures.add_arguments
+OPTION = Option('gestures', 'DIR', gestures.folder_of_people,
+                'recordings of your own gestures: a folder per person with a CSV per gesture')
 
 PARTS = (occlusion, cameras)
 
 
 def run(run):
     commands = [command for part in PARTS for command in shared(
-        run, part.PROGRAM, part.QUICK if run.quick else part.FULL)]
+        run, part.PROGRAM, part.QUICK if run.quick else part.FULL, 2)]
     run.compute(commands + bodies.commands(run), 'measuring in simulated time', 0.0, 0.9)
     for number, part in enumerate(PARTS):
         run.progress(0.9 + 0.1 * number / (len(PARTS) + 1), 1.0, 'drawing')

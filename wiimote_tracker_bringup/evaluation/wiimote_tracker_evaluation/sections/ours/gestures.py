@@ -1,22 +1,16 @@
 """Confusion of gestures, of simulated people or of the user's recordings."""
 
 import argparse
-import json
 import os
 
 import numpy as np
 
 from wiimote_tracker_bringup import charts, programs
+from wiimote_tracker_bringup.files import read_json
 from wiimote_tracker_evaluation.sections.ours import people
 
 EXAMPLES = 2
 QUICK, FULL = 10, 40  # simulated people
-
-
-def add_arguments(parser):
-    parser.add_argument('--gestures', metavar='DIR', type=folder_of_people,
-                        help='recordings of your own gestures, for the section ours: a folder per '
-                             'person with a CSV per gesture')
 
 
 def folder_of_people(path):
@@ -66,8 +60,7 @@ def recognised(run):
                             folder, '--test', folder, '--json', run.file('gestures.json')]
                            + ([] if run.options.gestures else ['--examples', EXAMPLES])],
                           run.file('programs.log'))
-    with open(run.file('gestures.json')) as file:
-        return json.load(file)
+    return read_json(run.file('gestures.json'))
 
 
 def draw(run, names, confusion):

@@ -29,10 +29,6 @@ class Samples:
     forces: np.ndarray
     child: str = 'imu'
 
-    def chosen(self, which):
-        return dataclasses.replace(self, times=self.times[which], rates=self.rates[which],
-                                   forces=self.forces[which])
-
     def averaged(self):
         """Means of as many samples that their interval is SHORTEST_STEP or more."""
         count = max(1, int(np.ceil(0.99 * SHORTEST_STEP / np.median(np.diff(self.times)))))

@@ -121,7 +121,7 @@ def derivatives(problem, state, rows, here):
 
 class Equations:
     """Linear equations at a state, each divided by its noise: matrix x change + rest = 0. The last
-    columns are the constants, the others the states of the chain in their order."""
+    columns are the constants, so many; the others are the states of the chain in their order."""
 
     def __init__(self, problem, state, noise):
         rows, steps = problem.rows(state), np.arange(len(problem.durations))
@@ -148,15 +148,15 @@ class Equations:
         self.solver = splu((self.matrix.T @ self.matrix).tocsc(), permc_spec='NATURAL',
                            diag_pivot_thresh=0.0, options={'SymmetricMode': True})
         # By how much each equation changes each constant, and from that their covariance.
-        self.number, unknowns = by_constants[0].shape[2], self.matrix.shape[1]
+        unknowns, self.constants = self.matrix.shape[1], by_constants[0].shape[2]
         self.gains = self.matrix @ self.solver.solve(
-            np.eye(unknowns, self.number, self.number - unknowns))
+            np.eye(unknowns, self.constants, self.constants - unknowns))
         self.inverse = self.gains.T @ self.gains
 
     def step(self):
         """Changes of the constants and of the states of the chain."""
         change = -self.solver.solve(self.matrix.T @ self.rest)
-        return change[-self.number:], change[:-self.number].reshape(-1, self.size)
+        return change[-self.constants:], change[:-self.constants].reshape(-1, self.size)
 
     def left(self, values):
         """What is left of n x m values after least squares."""
@@ -184,7 +184,7 @@ class Equations:
         features /= np.sqrt((features ** 2).sum() / len(features))  # together 1 (RMS)
         changes = []
         for group, slow in ((2, 4), (3, 5)):
-            gains = self.gains[self.group == group].reshape(-1, 3, self.number)
+            gains = self.gains[self.group == group].reshape(-1, 3, self.constants)
             changes += [gains[:, axis].T @ features * (noise[slow] / noise[group])
                         for axis in range(3)]
         changes = np.hstack(changes)

@@ -93,5 +93,31 @@ TEST(SampleTable, TakesOnlyTrackedLedsAndSortsThem) {
   EXPECT_EQ(SampleTable().resample(kRate).frames, 0u);
 }
 
+TEST(SampleTable, LedsOfTrackedBodiesComeAfterTheOthers) {
+  SampleTable table;
+  wiimote_tracker_msgs::TrackedBodyArray message;
+  message.bodies.resize(2);
+  for (wiimote_tracker_msgs::TrackedBody& body : message.bodies) {
+    body.name = "arm";
+    body.state = wiimote_tracker_msgs::TrackedBody::TRACKED;
+    body.leds.resize(2);
+    body.leds[0].label = "left";
+    body.leds[1].label = "1";
+    setVector(Vector3d(1.0, 2.0, 3.0), &body.leds[0].position);
+  }
+  message.bodies[1].name = "hidden";
+  message.bodies[1].state = wiimote_tracker_msgs::TrackedBody::PREDICTED;
+  message.header.stamp.fromNSec(kStart - 10000000);
+  table.addBodies(message);
+  add(at(0.0, "led", 1.0), &table);
+  const Samples samples = table.resample(kRate);
+  EXPECT_EQ(samples.labels, (std::vector<std::string>{"led", "arm:1", "arm:left"}));
+  EXPECT_EQ(samples.start, kStart - 10000000);
+  ASSERT_EQ(samples.frames, 2u);
+  EXPECT_EQ(samples.positions[2][0], Vector3d(1.0, 2.0, 3.0));
+  EXPECT_FALSE(samples.positions[2][1].allFinite());
+  EXPECT_EQ(samples.positions[0][1].x(), 1.0);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::measurements

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -260,10 +261,50 @@ TEST_F(WriterTest, KeepsWhatCrashedProgramsLeft) {
   EXPECT_FALSE(fs::exists(path + ".part.bak3")) << "nothing is lost with an empty one";
 }
 
+TEST_F(WriterTest, BodiesHaveACsvOfTheirOwn) {
+  const std::string path = (folder_ / "out.csv").string();
+  makeCsvWriter(path)->finish();
+  EXPECT_FALSE(fs::exists(csvOfBodies(path))) << "there are none";
+  const auto writer = makeCsvWriter(path);
+  wiimote_tracker_msgs::TrackedBodyArray message;
+  writer->addBodies(message);
+  message.header.stamp.fromNSec(1700000000123456789);
+  message.bodies.resize(1);
+  message.bodies[0].name = "wand, left";
+  message.bodies[0].state = wiimote_tracker_msgs::TrackedBody::PREDICTED;
+  message.bodies[0].pose.pose.orientation.w = 1.0;
+  message.bodies[0].pose.covariance[3] = message.bodies[0].pose.covariance[18] = 1e-7;
+  message.bodies[0].twist.covariance[35] = 0.1;
+  writer->addBodies(message);
+  writer->finish();
+  EXPECT_EQ(csvOfBodies(path), (folder_ / "out_bodies.csv").string());
+  std::istringstream stream(contentOf(csvOfBodies(path)));
+  std::string line;
+  std::getline(stream, line);
+  const std::vector<std::string> columns = cellsOf(line);
+  std::getline(stream, line);
+  const std::vector<std::string> row = cellsOf(line);
+  ASSERT_EQ(columns.size(), row.size());
+  const auto cell = [&](const std::string& name) {
+    const auto column = std::find(columns.begin(), columns.end(), name);
+    return column == columns.end() ? "no column " + name : row[column - columns.begin()];
+  };
+  EXPECT_EQ("1700000000.123456789", cell("time [s]"));
+  EXPECT_EQ("wand, left", cell("body"));
+  EXPECT_EQ("predicted", cell("state"));
+  EXPECT_EQ("1", cell("qw"));
+  EXPECT_EQ(1e-7, std::stod(cell("cov_xrx [m*rad]")));
+  EXPECT_EQ(0.1, std::stod(cell("vcov_rzrz [rad^2/s^2]")));
+  EXPECT_FALSE(std::getline(stream, line));
+}
+
 TEST_F(WriterTest, TwoTablesAreNotTheSameFile) {
   std::ofstream(folder_ / "old.csv") << "old";
   fs::create_symlink(folder_ / "old.csv", folder_ / "link");
-  for (const auto& [csv, trc] : {std::pair("out", "out"), {"out", "./out"}, {"old.csv", "link"}}) {
+  for (const auto& [csv, trc] : {std::pair("out", "out"),
+                                 {"out", "./out"},
+                                 {"old.csv", "link"},
+                                 {"o.csv", "o_bodies.csv"}}) {
     OutputNames files;
     files.csv = (folder_ / csv).string();
     files.trc = (folder_ / trc).string();

@@ -41,6 +41,8 @@ def parameters_of(content, first_block):
             else:
                 value = np.frombuffer(raw, dtype)
             found.append((group, name, value))
+            description = begin + len(raw)
+            assert offset in (0, description + 1 + content[description] - at)
         if offset == 0:
             break
         at += offset
@@ -49,7 +51,7 @@ def parameters_of(content, first_block):
 
 def read(path):
     """labels, rate [Hz], units, frames x points x 3 positions (NaN where invalid), analog
-    channels."""
+    channels, time of frame 1 as text [s since 1970]."""
     with open(path, 'rb') as file:
         content = file.read()
     assert len(content) % BLOCK == 0
@@ -76,4 +78,5 @@ def read(path):
               for label in value]
     assert len(labels) == points
     return SimpleNamespace(labels=labels, rate=rate, units=parameters['POINT:UNITS'][0],
-                           positions=positions, analog=analog)
+                           positions=positions, analog=analog,
+                           start=parameters.get('WIIMOTE_TRACKER:START_TIME', [None])[0])

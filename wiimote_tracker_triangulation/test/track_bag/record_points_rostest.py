@@ -14,7 +14,8 @@ import unittest
 import genpy
 import roslib.packages
 import rospy
-from wiimote_tracker_msgs.msg import TrackedBody, TrackedBodyArray, TrackedPoint, TrackedPointArray
+from wiimote_tracker_msgs.msg import (BodyLed, TrackedBody, TrackedBodyArray, TrackedPoint,
+                                      TrackedPointArray)
 
 sys.path.insert(0, os.path.dirname(os.path.realpath(__file__)))
 import c3d  # noqa: E402
@@ -106,15 +107,23 @@ class RecordPoints(unittest.TestCase):
             message = TrackedBodyArray(bodies=[TrackedBody(name='wand', state=state)])
             message.header.stamp = genpy.Time(1600000000, 5)
             message.bodies[0].pose.pose.orientation.w = 1.0
+            message.bodies[0].leds = [BodyLed(label='tip')]
             bodies.publish(message)
         part = os.path.join(self.folder, 'wand.tum.part')
         wait_for(lambda: os.path.exists(part) and os.path.getsize(part) > 0, 'a pose on the disk')
         wait_for(lambda: self.lines(self.path + '.part') == 20, 'the points on the disk')
-        self.stop(process)
+        said = self.stop(process)
         with open(part[:-5]) as file:
             self.assertEqual(file.read(), '1600000000.000000005 0 0 0 0 0 0 1\n')
         found = c3d.read(paths['c3d'])
-        self.assertEqual((found.labels, found.rate, len(found.positions)), (['led'], 50.0, 20))
+        self.assertEqual((found.labels, found.rate, len(found.positions)),
+                         (['led', 'wand:tip'], 50.0, 20))
+        self.assertEqual(found.start, '1600000000.000000000')
+        self.assertIn('out.c3d: frame 1 is at ' + found.start, said)
+        with open(os.path.join(self.folder, 'out_bodies.csv'), newline='') as stream:
+            rows = [(r['time [s]'], r['body'], r['state']) for r in csv.DictReader(stream)]
+        self.assertEqual(rows, [('1600000000.000000005', 'wand', state)
+                                for state in ('tracked', 'lost')])
         self.assertTrue(os.path.exists(paths['trc']))
 
     def test_a_table_that_fails_at_the_end_is_named_and_spoils_no_other(self):

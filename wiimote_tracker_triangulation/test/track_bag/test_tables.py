@@ -6,8 +6,8 @@ import struct
 import numpy as np
 import pytest
 
-from program import read, recorded, run, track, write
-from recording import trigger
+from program import arrays, entries_of, read, recorded, run, track, write
+from recording import images, rig, trigger, walk
 
 
 def csv_rows(path):
@@ -59,6 +59,79 @@ def test_csv_holds_exactly_what_the_bag_holds(tmp_path):
         assert same(float(row['residual [px]']), point.residual)
         assert int(row['last_observed [s]'].replace('.', '')) == point.last_observed.to_nsec()
         assert same(float(row['age [s]']), point.age)
+
+
+BODIES = """
+format: wiimote_tracker_bodies
+version: 1
+bodies:
+  - {name: arm, leds: [[0.05, 0.09, 0.07], [-0.02, 0.02, -0.05], [-0.07, -0.07, 0.03]]}
+"""
+ARM = np.array([[0.05, 0.09, 0.07], [-0.02, 0.02, -0.05], [-0.07, -0.07, 0.03]])
+
+
+@pytest.fixture
+def arm(tmp_path):
+    """A recording of a body, and the arguments of track_bag for it."""
+    write(tmp_path / 'in.bag', [('/calibration/rig', rig(), -0.1)] + entries_of(
+        images(1.0, [lambda t, led=led: walk(t) + led for led in ARM])))
+    (tmp_path / 'bodies.yaml').write_text(BODIES)
+    return tmp_path / 'in.bag', tmp_path / 'out.bag', '--bodies', tmp_path / 'bodies.yaml'
+
+
+def expected_poses(out):
+    """(stamp [ns], body) in the order of the bag."""
+    return [(array.header.stamp.to_nsec(), body) for array in arrays(out, '/bodies')
+            for body in array.bodies]
+
+
+def vector(v, axes='xyz'):
+    return [getattr(v, axis) for axis in axes]
+
+
+def test_csv_holds_the_poses_of_bodies(arm, tmp_path):
+    track(*arm, '--csv', tmp_path / 'out.csv')
+    rows = csv_rows(tmp_path / 'out_bodies.csv')
+    expected = expected_poses(tmp_path / 'out.bag')
+    assert len(rows) == len(expected) > 300
+    triangle = np.triu_indices(6)
+    for row, (stamp, body) in zip(rows, expected):
+        cells = list(row.values())
+        assert int(row['time [s]'].replace('.', '')) == stamp
+        assert (row['body'], row['state'], row['frame']) == ('arm', 'tracked', 'world')
+        numbers = [float(cell) for cell in cells[3:-4]]
+        truth = (vector(body.pose.pose.position) + vector(body.pose.pose.orientation, 'xyzw') +
+                 vector(body.twist.twist.linear) + vector(body.twist.twist.angular) +
+                 list(np.reshape(body.pose.covariance, (6, 6))[triangle]) +
+                 list(np.reshape(body.twist.covariance, (6, 6))[triangle]) + [body.residual])
+        assert len(numbers) == len(truth) and all(map(same, numbers, truth))
+        assert int(row['last_observed [s]'].replace('.', '')) == body.last_observed.to_nsec()
+        assert same(float(row['age [s]']), body.age)
+
+
+def test_matlab_file_holds_the_poses_of_bodies(arm, tmp_path):
+    io = pytest.importorskip('scipy.io')
+    status, _, errors = run(*arm, '--mat', tmp_path / 'out.mat')
+    if 'built without matio' in errors:
+        pytest.skip('built without matio')
+    assert status == 0, errors
+    table = io.loadmat(str(tmp_path / 'out.mat'))['bodies']
+    found = {name: table[name][0, 0] for name in table.dtype.names}
+    expected = expected_poses(tmp_path / 'out.bag')
+    assert found['position'].shape == (len(expected), 3) and len(expected) > 300
+    assert found['names'][0, 0][0] == 'arm' and (found['name'] == 1).all()
+    for i, (stamp, body) in enumerate(expected):
+        assert found['stamp'][i, 0] == stamp
+        assert abs(found['time'][i, 0] - 1e-9 * stamp) < 1e-6
+        assert list(found['position'][i]) == vector(body.pose.pose.position)
+        assert list(found['quaternion'][i]) == vector(body.pose.pose.orientation, 'xyzw')
+        assert list(found['velocity'][i]) == vector(body.twist.twist.linear)
+        assert list(found['angular_velocity'][i]) == vector(body.twist.twist.angular)
+        for kind in ('pose', 'twist'):
+            assert np.array_equal(found[kind + '_covariance'][:, :, i],
+                                  np.reshape(getattr(body, kind).covariance, (6, 6)))
+        assert same(found['residual'][i, 0], body.residual)
+        assert found['last_observed'][i, 0] == body.last_observed.to_nsec()
 
 
 def test_matlab_file_holds_exactly_what_the_bag_holds(tmp_path):

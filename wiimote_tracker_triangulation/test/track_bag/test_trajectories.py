@@ -32,17 +32,23 @@ def files(tmp_path_factory):
         for image in images(2.0, (recording.walk, hidden_for_a_while)):
             bag.write('/%s/ir_blobs' % image.camera, image, image.arrival)
     (folder / 'parameters.yaml').write_text(yaml.safe_dump({'labels': ['left', 'right']}))
-    subprocess.check_call([PROGRAM, 'in.bag', 'out.bag', '--params', 'parameters.yaml', '--c3d',
-                           'out.c3d', '--trc', 'out.trc', '--rate', str(RATE)], cwd=str(folder),
-                          stdout=subprocess.DEVNULL)
+    said = subprocess.check_output([PROGRAM, 'in.bag', 'out.bag', '--params', 'parameters.yaml',
+                                    '--c3d', 'out.c3d', '--trc', 'out.trc', '--rate', str(RATE)],
+                                   cwd=str(folder), universal_newlines=True)
+    (folder / 'said').write_text(said)
     return folder
 
 
-def start_of(files):
-    """Time of the first frame: of the first tracked LED [s after START]."""
+def first_stamp(files):
+    """Of the first frame: of the first tracked LED."""
     with rosbag.Bag(str(files / 'out.bag')) as bag:
-        return next(seconds_of(m.header.stamp) for _, m, _ in bag.read_messages('/points')
+        return next(m.header.stamp for _, m, _ in bag.read_messages('/points')
                     if any(p.state == p.TRACKED for p in m.points))
+
+
+def start_of(files):
+    """Time of the first frame [s after START]."""
+    return seconds_of(first_stamp(files))
 
 
 def check(labels, positions, start):
@@ -72,16 +78,19 @@ def check(labels, positions, start):
 def test_c3d(files):
     found = c3d.read(files / 'out.c3d')
     assert (found.rate, found.units, found.analog) == (RATE, 'mm', 0)
+    stamp = first_stamp(files)
+    assert found.start == '%d.%09d' % (stamp.secs, stamp.nsecs)
+    for name in ('out.c3d', 'out.trc'):
+        assert f'{name}: frame 1 is at {found.start} s since 1970.' in (files / 'said').read_text()
     check(found.labels, found.positions / 1000.0, start_of(files))
 
 
-def test_trc(files):
-    """By OpenSim's description: three lines of header, names, axes, an empty line, rows."""
-    lines = (files / 'out.trc').read_text().split('\n')
-    assert lines[0].split('\t') == ['PathFileType', '4', '(X/Y/Z)', 'out.trc']
+def read_trc(path):
+    """Header, labels and frames x LEDs x 3 positions, by OpenSim's description: three lines of
+    header, names, axes, an empty line, rows."""
+    lines = path.read_text().split('\n')
+    assert lines[0].split('\t') == ['PathFileType', '4', '(X/Y/Z)', path.name]
     header = dict(zip(lines[1].split('\t'), lines[2].split('\t')))
-    assert header['Units'] == 'm'
-    assert float(header['DataRate']) == float(header['CameraRate']) == RATE
     names = lines[3].split('\t')
     assert names[:2] == ['Frame#', 'Time']
     labels = [name for name in names[2:] if name]
@@ -91,17 +100,26 @@ def test_trc(files):
     rows = [line.split('\t') for line in lines[6:-1]]
     assert len(rows) == int(header['NumFrames']) and len(labels) == int(header['NumMarkers'])
     assert [int(row[0]) for row in rows] == list(range(1, len(rows) + 1))
-    assert np.allclose([float(row[1]) for row in rows], np.arange(len(rows)) / RATE, atol=1e-6)
+    times = np.arange(len(rows)) / float(header['DataRate'])
+    assert np.allclose([float(row[1]) for row in rows], times, atol=1e-6)
     positions = np.array([[float(cell) if cell else np.nan for cell in row[2:]] for row in rows])
-    check(labels, positions.reshape(len(rows), -1, 3), start_of(files))
+    return header, labels, positions.reshape(len(rows), -1, 3)
+
+
+def test_trc(files):
+    header, labels, positions = read_trc(files / 'out.trc')
+    assert header['Units'] == 'm'
+    assert float(header['DataRate']) == float(header['CameraRate']) == RATE
+    check(labels, positions, start_of(files))
 
 
 BODY = np.array([[0.05, 0.09, 0.07], [-0.02, 0.02, -0.05],
                  [-0.07, -0.07, 0.03], [0.06, -0.05, -0.05]])
 
 
-def test_tum_of_a_body(tmp_path):
-    """Without --bodies its LEDs are single ones, and the user is told."""
+@pytest.fixture
+def wand(tmp_path):
+    """The folder with in.bag and bodies.yaml."""
     with rosbag.Bag(str(tmp_path / 'in.bag'), 'w') as bag:
         bag.write('/calibration/rig', rig(), time_of(-0.1))
         bag.write('/bodies', TrackedBodyArray(bodies=[TrackedBody(name='wand')]), time_of(0.0))
@@ -110,19 +128,42 @@ def test_tum_of_a_body(tmp_path):
     (tmp_path / 'bodies.yaml').write_text(yaml.safe_dump({
         'format': 'wiimote_tracker_bodies', 'version': 1,
         'bodies': [{'name': 'wand', 'leds': BODY.tolist()}]}))
+    return tmp_path
 
+
+def test_leds_of_a_body(wand):
+    """They are where its pose has them, from the first pose on."""
+    subprocess.check_call([PROGRAM, 'in.bag', 'out.bag', '--bodies', 'bodies.yaml', '--c3d',
+                           'out.c3d', '--trc', 'out.trc'], cwd=str(wand),
+                          stdout=subprocess.DEVNULL)
+    found = c3d.read(wand / 'out.c3d')
+    with rosbag.Bag(str(wand / 'out.bag')) as bag:
+        first = next(m for _, m, _ in bag.read_messages('/bodies') if m.bodies)
+    assert found.start == '%d.%09d' % (first.header.stamp.secs, first.header.stamp.nsecs)
+    times = seconds_of(first.header.stamp) + np.arange(len(found.positions)) / 100.0
+    assert times[-1] == pytest.approx(1.0, abs=0.05)
+    leds = [f'wand:{i}' for i in range(len(BODY))]
+    for labels, positions in [(found.labels, found.positions / 1000.0),
+                              read_trc(wand / 'out.trc')[1:]]:
+        assert labels == leds
+        truth = np.array([recording.walk(t) + BODY for t in times])
+        assert np.linalg.norm(positions - truth, axis=2)[20:].max() < 0.01
+
+
+def test_tum_of_a_body(wand):
+    """Without --bodies its LEDs are single ones, and the user is told."""
     def track(*arguments):
         return subprocess.run([PROGRAM, 'in.bag', 'out.bag', '--tum', 'poses', *arguments],
-                              cwd=str(tmp_path), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
+                              cwd=str(wand), stdout=subprocess.DEVNULL, stderr=subprocess.PIPE,
                               universal_newlines=True)
 
     assert "had a body 'wand'" in track().stderr
-    assert not (tmp_path / 'poses').exists()
+    assert not (wand / 'poses').exists()
     assert 'no file other.yaml' in track('--bodies', 'other.yaml').stderr
-    (tmp_path / 'p.yaml').write_text(yaml.safe_dump({'bodies': {'file': 'misspelt.yaml'}}))
-    assert f'There is no file {tmp_path}/misspelt.yaml, so' in track('--params', 'p.yaml').stderr
+    (wand / 'p.yaml').write_text(yaml.safe_dump({'bodies': {'file': 'misspelt.yaml'}}))
+    assert f'There is no file {wand}/misspelt.yaml, so' in track('--params', 'p.yaml').stderr
     assert track('--bodies', 'bodies.yaml').stderr == ''
-    rows = np.loadtxt(tmp_path / 'poses' / 'wand.tum')[20:]
+    rows = np.loadtxt(wand / 'poses' / 'wand.tum')[20:]
     times = rows[:, 0] - recording.START
     assert len(rows) > 300 and times[-1] > 0.9
     errors = rows[:, 1:4] - np.array([recording.walk(t) for t in times])
@@ -137,7 +178,8 @@ def test_an_empty_recording_gives_empty_files(tmp_path):
             bag.write('/%s/ir_blobs' % image.camera, image, image.arrival)
     subprocess.check_call([PROGRAM, 'in.bag', 'out.bag', '--c3d', 'out.c3d', '--trc', 'out.trc',
                            '--tum', 'poses'], cwd=str(tmp_path), stdout=subprocess.DEVNULL)
-    assert c3d.read(tmp_path / 'out.c3d').labels == []
+    found = c3d.read(tmp_path / 'out.c3d')
+    assert (found.labels, found.start) == ([], None)
     assert '\t0\t0\tm\t' in (tmp_path / 'out.trc').read_text()
     assert not (tmp_path / 'poses').exists()
 

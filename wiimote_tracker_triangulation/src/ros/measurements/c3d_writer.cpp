@@ -45,7 +45,7 @@ class Parameters {
  public:
   void group(const std::string& name) {
     ++groups_;
-    append(static_cast<char>(-groups_), name, std::string(1, '\0'));
+    append(static_cast<char>(-groups_), name, "", "");
   }
 
   /// Numbers of 16 bits.
@@ -59,14 +59,16 @@ class Parameters {
 
   void number(const std::string& name, double value) { add(name, 4, {}, real(value)); }
 
-  void texts(const std::string& name, const std::vector<std::string>& values) {
+  void texts(const std::string& name,
+             const std::vector<std::string>& values,
+             const std::string& description = "") {
     std::size_t longest = 1;
     for (const std::string& value : values)
       longest = std::max(longest, std::min(value.size(), kLongestLabel));
     std::string data;
     for (const std::string& value : values)
       data += padded(value, longest);
-    add(name, -1, {longest, values.size()}, data);
+    add(name, -1, {longest, values.size()}, data, description);
   }
 
   std::string bytes() const {
@@ -81,19 +83,24 @@ class Parameters {
   void add(const std::string& name,
            int type,
            const std::vector<std::size_t>& size,
-           const std::string& data) {
+           const std::string& data,
+           const std::string& description = "") {
     std::string content{static_cast<char>(type), static_cast<char>(size.size())};
     for (const std::size_t length : size)
       content += static_cast<char>(length);
-    append(static_cast<char>(groups_), name, content + data + std::string(1, '\0'));
+    append(static_cast<char>(groups_), name, content + data, description);
   }
 
-  /// `content` includes the description, which is empty.
-  void append(char group, const std::string& name, const std::string& content) {
+  void append(char group,
+              const std::string& name,
+              const std::string& content,
+              const std::string& description) {
     records_ += static_cast<char>(name.size());
     records_ += group + name;
     last_offset_ = records_.size();
-    records_ += integer(content.size() + 2) + content;
+    records_ += integer(2 + content.size() + 1 + description.size()) + content;
+    records_ += static_cast<char>(description.size());
+    records_ += description;
   }
 
   int groups_ = 0;
@@ -130,6 +137,11 @@ std::string parametersOf(const Samples& samples, std::size_t data_block) {
   parameters.group("TRIAL");
   parameters.integers("ACTUAL_START_FIELD", {1, 0});
   parameters.integers("ACTUAL_END_FIELD", {frames & 0xffff, frames >> 16});
+  if (frames > 0) {  // no group of the guide has an absolute time
+    parameters.group("WIIMOTE_TRACKER");
+    parameters.texts("START_TIME", {secondsOf(samples.start)},
+                     "Time of frame 1 [s since 1970-01-01, UTC]");
+  }
   return parameters.bytes();
 }
 

@@ -1,40 +1,27 @@
 #include "ros/measurements/part_file.h"
+#include "ros/measurements/table_fields.h"
 #include "ros/measurements/writer.h"
-#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <cmath>
+#include <filesystem>
+#include <functional>
 #include <locale>
+#include <optional>
 #include <sstream>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::measurements {
 namespace {
 
-const char* const kHeader =
-    "time [s],triggered,id,label,label_confidence,label_since [s],state,"
-    "x [m],y [m],z [m],vx [m/s],vy [m/s],vz [m/s],"
-    "cov_xx [m^2],cov_xy [m^2],cov_xz [m^2],cov_yy [m^2],cov_yz [m^2],cov_zz [m^2],"
-    "vcov_xx [m^2/s^2],vcov_xy [m^2/s^2],vcov_xz [m^2/s^2],vcov_yy [m^2/s^2],vcov_yz [m^2/s^2],"
-    "vcov_zz [m^2/s^2],rays_used,rays_possible,residual [px],last_observed [s],age [s],remapped,"
-    "frame,rig_id,method\n";
-
-/// Rows as text; decimal points in any locale.
-class Rows {
+/// A row as text; decimal points in any locale.
+class Cells {
  public:
-  Rows() {
+  Cells() {
     text_.imbue(std::locale::classic());
     text_.precision(17);
   }
 
-  template <typename... Cells>
-  std::string of(const Cells&... cells) {
-    text_.str("");
-    (add(cells), ...);
-    std::string row = text_.str();
-    row.back() = '\n';  // instead of the last comma
-    return row;
-  }
-
- private:
   template <typename Number>
   void add(const Number& value) {
     if (std::isnan(static_cast<double>(value)))
@@ -43,14 +30,22 @@ class Rows {
       text_ << value << ',';
   }
 
-  void add(const Eigen::Vector3d& v) {
-    for (int i = 0; i < 3; ++i)
+  void add(const ros::Time& time) { text_ << secondsOf(time) << ','; }
+
+  void add(const std::optional<ros::Time>& time) {
+    text_ << (time ? secondsOf(*time) : "nan") << ',';
+  }
+
+  template <int kSize>
+  void add(const Eigen::Matrix<double, kSize, 1>& v) {
+    for (int i = 0; i < kSize; ++i)
       add(v[i]);
   }
 
-  void add(const Eigen::Matrix3d& symmetric) {
-    for (int r = 0; r < 3; ++r) {
-      for (int c = r; c < 3; ++c)
+  template <int kSize>
+  void add(const Eigen::Matrix<double, kSize, kSize>& symmetric) {
+    for (int r = 0; r < kSize; ++r) {
+      for (int c = r; c < kSize; ++c)
         add(symmetric(r, c));
     }
   }
@@ -64,34 +59,88 @@ class Rows {
     text_ << (is_quoted ? "\"," : ",");
   }
 
+  std::string take() {
+    std::string row = text_.str();
+    row.back() = '\n';  // instead of the last comma
+    text_.str("");
+    return row;
+  }
+
+ private:
   std::ostringstream text_;
+};
+
+template <typename Row>
+class CsvTable {
+ public:
+  explicit CsvTable(const std::string& path) : file_(path) {
+    addFields(this);
+    header_.back() = '\n';
+    file_.write(header_);
+  }
+
+  /// See addFields().
+  template <typename Value>
+  void add(const char* /*name*/, const std::string& columns, Value value) {
+    header_ += columns + ",";
+    fields_.push_back([=](const Row& row, Cells* cells) { cells->add(value(row)); });
+  }
+
+  void add(const Row& row) {
+    for (const auto& field : fields_)
+      field(row, &cells_);
+    file_.write(cells_.take());
+  }
+
+  OutputFile& file() { return file_; }
+
+ private:
+  OutputFile file_;
+  std::string header_;
+  std::vector<std::function<void(const Row&, Cells*)>> fields_;
+  Cells cells_;
 };
 
 class CsvWriter : public Writer {
  public:
-  explicit CsvWriter(const std::string& path) : file_(path) { file_.write(kHeader); }
+  explicit CsvWriter(const std::string& path) : path_(path), leds_(path) {}
 
-  void add(const Measurement& m) override {
-    const wiimote_tracker_msgs::TrackedPoint& led = m.led;
-    file_.write(rows_.of(
-        secondsOf(m.message.header.stamp), m.triggered, led.id, led.label, led.label_confidence,
-        led.label_since.isZero() ? "nan" : secondsOf(led.label_since), wordOf(led.state),
-        vectorOf(led.position), vectorOf(led.velocity), matrixOf<3>(led.position_covariance),
-        matrixOf<3>(led.velocity_covariance), led.rays_used, led.rays_possible, led.residual,
-        secondsOf(led.last_observed), led.age, led.remapped != 0, m.message.header.frame_id,
-        m.message.rig_id, m.message.method));
+  void add(const Measurement& measurement) override { leds_.add(measurement); }
+
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& message) override {
+    for (const wiimote_tracker_msgs::TrackedBody& body : message.bodies) {
+      if (!bodies_)
+        bodies_.emplace(csvOfBodies(path_));
+      bodies_->add({message, body});
+    }
   }
 
-  void flush() override { file_.flush(); }
-  void finish() override { file_.finish(); }
-  void discard() override { file_.discard(); }
+  void flush() override { forEach(&OutputFile::flush); }
+  void discard() override { forEach(&OutputFile::discard); }
+  std::string finish() override {
+    forEach(&OutputFile::finish);
+    return "";
+  }
 
  private:
-  OutputFile file_;
-  Rows rows_;
+  void forEach(void (OutputFile::*function)()) {
+    (leds_.file().*function)();
+    if (bodies_)
+      (bodies_->file().*function)();
+  }
+
+  std::string path_;
+  CsvTable<Measurement> leds_;
+  std::optional<CsvTable<Pose>> bodies_;
 };
 
 }  // namespace
+
+std::string csvOfBodies(const std::string& path) {
+  std::filesystem::path name = path;
+  name.replace_filename(name.stem().string() + "_bodies" + name.extension().string());
+  return name.string();
+}
 
 std::unique_ptr<Writer> makeCsvWriter(const std::string& path) {
   return std::make_unique<CsvWriter>(path);

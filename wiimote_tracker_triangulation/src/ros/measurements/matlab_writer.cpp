@@ -1,6 +1,6 @@
 #include "ros/measurements/part_file.h"
+#include "ros/measurements/table_fields.h"
 #include "ros/measurements/writer.h"
-#include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <matio.h>
 #include <unistd.h>
@@ -11,7 +11,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -26,7 +28,10 @@ const char* const kReadme =
     "world frame; their covariances 3 x 3 x rows [m^2], [m^2/s^2]; rays_used of rays_possible "
     "cameras; residual: reprojection error [px]; last_observed [ns since 1970]; age of the track "
     "[s]; remapped: corrected within the measured volume. label, state, frame, rig_id, method: "
-    "numbers of lines of labels, states, frames, rig_ids, methods.";
+    "numbers of lines of labels, states, frames, rig_ids, methods. bodies: the same of bodies by "
+    "name; quaternion x, y, z, w: world from body; velocity of the origin, angular_velocity "
+    "[rad/s] along the world's axes; covariances 6 x 6 x rows: of position and rotation about the "
+    "world's axes [rad], of velocity and angular velocity.";
 
 // The default header contains the date, but equal measurements must give equal files.
 const char* const kFileHeader = "MATLAB 5.0 MAT-file, written by wiimote_tracker_triangulation";
@@ -59,6 +64,32 @@ Variable text(const char* name, const std::string& words) {
                                 const_cast<char*>(words.c_str()), 0));
 }
 
+template <typename T>
+Variable array(const char* name,
+               std::vector<std::size_t> size,
+               const std::vector<T>& values,
+               int flags = 0) {
+  const Type type = typeOf(T());
+  return Variable(Mat_VarCreate(name, type.in_memory, type.in_file, static_cast<int>(size.size()),
+                                size.data(), const_cast<T*>(values.data()), flags));
+}
+
+/// A struct with the variables of a table as fields; null if one is.
+template <typename Table>
+Variable structOf(const char* name, const Table& table) {
+  std::array<std::size_t, 2> size{1, 1};
+  Variable fields(Mat_VarCreateStruct(name, 2, size.data(), nullptr, 0));
+  table.write([&](Variable field) {
+    if (!field || !fields || Mat_VarAddStructField(fields.get(), field->name) != 0) {
+      fields = nullptr;
+      return;
+    }
+    const char* const field_name = field->name;
+    Mat_VarSetStructFieldByName(fields.get(), field_name, 0, field.release());
+  });
+  return fields;
+}
+
 /// Strings that repeat from row to row, each stored once.
 class Words {
  public:
@@ -86,55 +117,122 @@ class Words {
   std::vector<std::uint32_t> rows_;
 };
 
+/// The variables of a table, one for each field.
+template <typename Row>
+class MatlabTable {
+ public:
+  using Sink = std::function<void(Variable)>;
+
+  MatlabTable() {
+    addNumbers<double>("time", [](const Row& row) {
+      return 1e-9 * static_cast<double>(nanosecondsOf(row.message.header.stamp));
+    });
+    addFields(this);
+  }
+
+  /// See addFields().
+  template <typename Value>
+  void add(const char* name, const std::string& /*columns*/, Value value) {
+    using Result = decltype(value(std::declval<const Row&>()));
+    if constexpr (std::is_same_v<Result, bool>)
+      addNumbers<std::uint8_t>(name, value, MAT_F_LOGICAL);
+    else if constexpr (std::is_arithmetic_v<Result>)
+      addNumbers<Result>(name, value);
+    else if constexpr (std::is_same_v<Result, ros::Time>)
+      addNumbers<std::int64_t>(name, [=](const Row& row) { return nanosecondsOf(value(row)); });
+    else if constexpr (std::is_same_v<Result, std::optional<ros::Time>>)
+      addNumbers<std::int64_t>(
+          name, [=](const Row& row) { return nanosecondsOf(value(row).value_or(ros::Time())); });
+    else if constexpr (std::is_same_v<Result, std::string>)
+      addWords(name, value);
+    else
+      addMatrices<Result>(name, value);
+  }
+
+  void add(const Row& row) {
+    for (const Column& column : columns_)
+      column.add(row);
+  }
+
+  /// Gives all variables to a sink.
+  void write(const Sink& sink) const {
+    for (const Column& column : columns_)
+      column.write(sink);
+  }
+
+ private:
+  /// One field of all rows.
+  struct Column {
+    std::function<void(const Row&)> add;
+    std::function<void(const Sink&)> write;
+  };
+
+  template <typename T, typename Value>
+  void addNumbers(const char* name, Value value, int flags = 0) {
+    const auto values = std::make_shared<std::vector<T>>();
+    columns_.push_back({[=](const Row& row) { values->push_back(value(row)); },
+                        [=](const Sink& sink) {
+                          sink(array(name, {values->size(), 1}, *values, flags));
+                        }});
+  }
+
+  template <typename Value>
+  void addWords(const std::string& name, Value value) {
+    const auto words = std::make_shared<Words>();
+    columns_.push_back({[=](const Row& row) { words->add(value(row)); },
+                        [=](const Sink& sink) {
+                          sink(array(name.c_str(), {words->rows().size(), 1}, words->rows()));
+                          sink(words->table(name + "s"));
+                        }});
+  }
+
+  /// Vectors: rows x size; matrices: size x size x rows.
+  template <typename Matrix, typename Value>
+  void addMatrices(const char* name, Value value) {
+    constexpr std::size_t kSize = Matrix::RowsAtCompileTime;
+    const auto values = std::make_shared<std::vector<double>>();
+    const auto add = [=](const Row& row) {
+      const Matrix matrix = value(row);
+      values->insert(values->end(), matrix.data(), matrix.data() + matrix.size());
+    };
+    const auto write = [=](const Sink& sink) {
+      const std::size_t rows = values->size() / Matrix::SizeAtCompileTime;
+      if (Matrix::ColsAtCompileTime > 1)
+        return sink(array(name, {kSize, kSize, rows}, *values));
+      const Eigen::MatrixXd columns =
+          Eigen::Map<const Eigen::MatrixXd>(values->data(), kSize, static_cast<Eigen::Index>(rows))
+              .transpose();
+      values->assign(columns.data(), columns.data() + columns.size());
+      sink(array(name, {rows, kSize}, *values));
+    };
+    columns_.push_back({add, write});
+  }
+
+  std::vector<Column> columns_;
+};
+
 class MatlabWriter : public Writer {
  public:
-  explicit MatlabWriter(const std::string& path) : path_(path) {
-    createPart(path_);
-    const auto stamp = [](const Measurement& m) { return nanosecondsOf(m.message.header.stamp); };
-    addColumn<double>("time", [=](auto& m) { return 1e-9 * static_cast<double>(stamp(m)); });
-    addColumn<std::int64_t>("stamp", stamp);
-    addColumn<std::uint8_t>(
-        "triggered", [](auto& m) { return m.triggered; }, MAT_F_LOGICAL);
-    addColumn<std::uint32_t>("id", [](auto& m) { return m.led.id; });
-    addWords("label", [](auto& m) { return m.led.label; });
-    addColumn<double>("label_confidence", [](auto& m) { return m.led.label_confidence; });
-    addColumn<std::int64_t>("label_since",
-                            [](auto& m) { return nanosecondsOf(m.led.label_since); });
-    addWords("state", [](auto& m) { return wordOf(m.led.state); });
-    addMatrices("position", [](auto& m) { return vectorOf(m.led.position); });
-    addMatrices("velocity", [](auto& m) { return vectorOf(m.led.velocity); });
-    addMatrices("position_covariance",
-                [](auto& m) { return matrixOf<3>(m.led.position_covariance); });
-    addMatrices("velocity_covariance",
-                [](auto& m) { return matrixOf<3>(m.led.velocity_covariance); });
-    addColumn<std::uint32_t>("rays_used", [](auto& m) { return m.led.rays_used; });
-    addColumn<std::uint32_t>("rays_possible", [](auto& m) { return m.led.rays_possible; });
-    addColumn<double>("residual", [](auto& m) { return m.led.residual; });
-    addColumn<std::int64_t>("last_observed",
-                            [](auto& m) { return nanosecondsOf(m.led.last_observed); });
-    addColumn<double>("age", [](auto& m) { return m.led.age; });
-    addColumn<std::uint8_t>(
-        "remapped", [](auto& m) { return m.led.remapped != 0; }, MAT_F_LOGICAL);
-    addWords("frame", [](auto& m) { return m.message.header.frame_id; });
-    addWords("rig_id", [](auto& m) { return m.message.rig_id; });
-    addWords("method", [](auto& m) { return m.message.method; });
+  explicit MatlabWriter(const std::string& path) : path_(path) { createPart(path_); }
+
+  void add(const Measurement& measurement) override { leds_.add(measurement); }
+
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& message) override {
+    for (const wiimote_tracker_msgs::TrackedBody& body : message.bodies)
+      bodies_.add({message, body});
   }
 
-  void add(const Measurement& measurement) override {
-    for (const Column& column : columns_)
-      column.add(measurement);
-  }
-
-  void finish() override {
+  std::string finish() override {
     file_.reset(Mat_CreateVer(partOf(path_).c_str(), kFileHeader, MAT_FT_MAT5));
     if (!file_)
       failToWrite(path_, errno);
     write(text("readme", kReadme));
-    for (const Column& column : columns_)
-      column.write();
+    leds_.write([this](const Variable& variable) { write(variable); });
+    write(structOf("bodies", bodies_));
     if (Mat_Close(file_.release()) != 0)
       failToWrite(path_, errno);
     finishPart(path_);
+    return "";
   }
 
   void discard() override { ::unlink(partOf(path_).c_str()); }
@@ -144,75 +242,16 @@ class MatlabWriter : public Writer {
     void operator()(mat_t* file) const { Mat_Close(file); }
   };
 
-  /// One field of all measurements.
-  struct Column {
-    std::function<void(const Measurement&)> add;
-    std::function<void()> write;
-  };
-
-  template <typename T, typename Field>
-  void addColumn(const char* name, Field field, int flags = 0) {
-    const auto values = std::make_shared<std::vector<T>>();
-    columns_.push_back({[=](const Measurement& m) { values->push_back(static_cast<T>(field(m))); },
-                        [=] {
-                          writeArray(name, {values->size(), 1}, *values, flags);
-                        }});
-  }
-
-  template <typename Field>
-  void addWords(const std::string& name, Field field) {
-    const auto words = std::make_shared<Words>();
-    columns_.push_back({[=](const Measurement& m) { words->add(field(m)); },
-                        [=] {
-                          const auto& rows = words->rows();
-                          writeArray(name.c_str(), {rows.size(), 1}, rows, 0);
-                          write(words->table(name + "s"));
-                        }});
-  }
-
-  /// Vectors: rows x 3; matrices: 3 x 3 x rows.
-  template <typename Field>
-  void addMatrices(const char* name, Field field) {
-    using Matrix = decltype(field(std::declval<const Measurement&>()));
-    const auto values = std::make_shared<std::vector<double>>();
-    const auto add = [=](const Measurement& m) {
-      const Matrix matrix = field(m);
-      values->insert(values->end(), matrix.data(), matrix.data() + matrix.size());
-    };
-    const auto write = [=] {
-      const std::size_t rows = values->size() / Matrix::SizeAtCompileTime;
-      if (Matrix::ColsAtCompileTime == 1) {
-        const Eigen::MatrixX3d columns =
-            Eigen::Map<const Eigen::Matrix3Xd>(values->data(), 3, static_cast<Eigen::Index>(rows))
-                .transpose();
-        values->assign(columns.data(), columns.data() + columns.size());
-        writeArray(name, {rows, 3}, *values, 0);
-      } else {
-        writeArray(name, {3, 3, rows}, *values, 0);
-      }
-    };
-    columns_.push_back({add, write});
-  }
-
   void write(const Variable& variable) {
     errno = 0;
     if (!variable || Mat_VarWrite(file_.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0)
       failToWrite(path_, errno != 0 ? errno : EIO);
   }
 
-  template <typename T>
-  void writeArray(const char* name,
-                  std::vector<std::size_t> size,
-                  const std::vector<T>& values,
-                  int flags) {
-    const Type type = typeOf(T());
-    write(Variable(Mat_VarCreate(name, type.in_memory, type.in_file, static_cast<int>(size.size()),
-                                 size.data(), const_cast<T*>(values.data()), flags)));
-  }
-
   std::string path_;
   std::unique_ptr<mat_t, CloseFile> file_;
-  std::vector<Column> columns_;
+  MatlabTable<Measurement> leds_;
+  MatlabTable<Pose> bodies_;
 };
 
 }  // namespace

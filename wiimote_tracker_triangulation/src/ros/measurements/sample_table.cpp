@@ -25,8 +25,18 @@ double seconds(std::int64_t nanoseconds) {
 
 void SampleTable::add(const Measurement& m) {
   if (m.led.state == wiimote_tracker_msgs::TrackedPoint::TRACKED && !m.triggered)
-    samples_[m.led.label].push_back(
+    samples_[{false, m.led.label}].push_back(
         {nanosecondsOf(m.message.header.stamp), vectorOf(m.led.position)});
+}
+
+void SampleTable::addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+  for (const wiimote_tracker_msgs::TrackedBody& body : bodies.bodies) {
+    if (body.state != wiimote_tracker_msgs::TrackedBody::TRACKED)
+      continue;
+    for (const wiimote_tracker_msgs::BodyLed& led : body.leds)
+      samples_[{true, body.name + ":" + led.label}].push_back(
+          {nanosecondsOf(bodies.header.stamp), vectorOf(led.position)});
+  }
 }
 
 Samples SampleTable::resample(double rate) const {
@@ -34,7 +44,7 @@ Samples SampleTable::resample(double rate) const {
   const auto isEarlier = [](const Sample& a, const Sample& b) { return a.stamp < b.stamp; };
   std::int64_t first = std::numeric_limits<std::int64_t>::max();
   std::int64_t last = 0;
-  for (const auto& [label, samples] : samples_) {
+  for (const auto& [name, samples] : samples_) {
     const auto ends = std::minmax_element(samples.begin(), samples.end(), isEarlier);
     first = std::min(first, ends.first->stamp);
     last = std::max(last, ends.second->stamp);
@@ -51,7 +61,7 @@ Samples SampleTable::resample(double rate) const {
                "most: cut it where its clock was set, or lower the rate",
                seconds(last - first) / 86400.0, frames, kMostSamples));
   result.frames = static_cast<std::size_t>(frames);
-  for (const auto& [label, recorded] : samples_) {
+  for (const auto& [name, recorded] : samples_) {
     std::vector<Sample> samples = recorded;
     std::stable_sort(samples.begin(), samples.end(), isEarlier);
     std::vector<Eigen::Vector3d> positions(result.frames, Eigen::Vector3d::Constant(kNaN));
@@ -72,7 +82,7 @@ Samples SampleTable::resample(double rate) const {
         positions[frame] = before.position + share * (after.position - before.position);
       }
     }
-    result.labels.push_back(label);
+    result.labels.push_back(name.second);
     result.positions.push_back(std::move(positions));
   }
   return result;

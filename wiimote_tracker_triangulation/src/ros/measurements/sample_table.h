@@ -16,7 +16,7 @@
 
 namespace wiimote_tracker::measurements {
 
-/// Positions of all LEDs at the times start + i / rate.
+/// Positions of all LEDs at the times start + i / rate: single ones, then those of bodies.
 struct Samples {
   double rate = 0.0;       ///< [Hz]
   std::int64_t start = 0;  ///< [ns since 1970]
@@ -33,6 +33,9 @@ class SampleTable {
   /// Takes it unless the LED is not tracked, or it answers a trigger.
   void add(const Measurement& measurement);
 
+  /// Takes the LEDs of tracked bodies, also hidden ones, where the pose has them, as "BODY:LED".
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
+
   /// Linear interpolation between neighbours in time. Those further apart than 0.05 s, and more
   /// than 1.5 frames, have a gap between them. @throws Error: more than 1e8 frames, as where a
   /// clock was set meanwhile.
@@ -43,7 +46,7 @@ class SampleTable {
     std::int64_t stamp;  // [ns since 1970]
     Eigen::Vector3d position;
   };
-  std::map<std::string, std::vector<Sample>> samples_;  // by label
+  std::map<std::pair<bool, std::string>, std::vector<Sample>> samples_;  // by "of a body", label
 };
 
 /// A file of a format that wants all positions at one rate.
@@ -53,18 +56,27 @@ class SampledWriter : public Writer {
   SampledWriter(const std::string& path,
                 double rate,
                 std::function<void(const Samples&, OutputFile*)> write)
-      : file_(path), rate_(rate), write_(std::move(write)) {}
+      : path_(path), file_(path), rate_(rate), write_(std::move(write)) {}
 
   void add(const Measurement& measurement) override { table_.add(measurement); }
 
-  void finish() override {
-    write_(table_.resample(rate_), &file_);
+  void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) override {
+    table_.addBodies(bodies);
+  }
+
+  std::string finish() override {
+    const Samples samples = table_.resample(rate_);
+    write_(samples, &file_);
     file_.finish();
+    return path_ + (samples.frames == 0
+                        ? ": no frames, since nothing was tracked"
+                        : ": frame 1 is at " + secondsOf(samples.start) + " s since 1970");
   }
 
   void discard() override { file_.discard(); }
 
  private:
+  std::string path_;
   OutputFile file_;
   double rate_;
   std::function<void(const Samples&, OutputFile*)> write_;

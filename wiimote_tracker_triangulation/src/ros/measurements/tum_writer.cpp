@@ -32,8 +32,11 @@ class TumWriter : public Writer {
   }
 
   void flush() override { forEach(&OutputFile::flush); }
-  void finish() override { forEach(&OutputFile::finish); }
   void discard() override { forEach(&OutputFile::discard); }
+  std::string finish() override {
+    forEach(&OutputFile::finish);
+    return "";
+  }
 
  private:
   void forEach(void (OutputFile::*function)()) {

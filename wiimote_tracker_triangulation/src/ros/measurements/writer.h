@@ -9,7 +9,6 @@
 
 #include <cstdint>
 #include <cstdlib>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -23,21 +22,18 @@ struct Measurement {
   bool triggered;  ///< The message answers a trigger.
 };
 
-/// "tracked", ...
-inline std::string wordOf(std::uint8_t state) {
-  static const char* const kWords[] = {"tentative", "tracked", "predicted", "lost"};
-  return state < std::size(kWords) ? kWords[state]
-                                   : std::to_string(state);  // of a later version of the message
-}
-
 inline std::int64_t nanosecondsOf(const ros::Time& time) {
   return static_cast<std::int64_t>(time.toNSec());
 }
 
 /// [s since 1970], exactly.
-inline std::string secondsOf(const ros::Time& time) {
-  const std::lldiv_t t = std::lldiv(nanosecondsOf(time), 1000000000);
+inline std::string secondsOf(std::int64_t nanoseconds) {
+  const std::lldiv_t t = std::lldiv(nanoseconds, 1000000000);
   return format("%lld.%09lld", t.quot, t.rem);
+}
+
+inline std::string secondsOf(const ros::Time& time) {
+  return secondsOf(nanosecondsOf(time));
 }
 
 /// A file of measurements. It gets its name in finish(), when it is complete; an existing file is
@@ -59,8 +55,9 @@ class Writer {
   /// Writes what was added to disk, if the format allows. @throws Error.
   virtual void flush() {}
 
-  /// Completes the file; nothing may be added afterwards. @throws Error.
-  virtual void finish() = 0;
+  /// Completes the file; nothing may be added afterwards. @returns a sentence for the user, or
+  /// nothing. @throws Error.
+  virtual std::string finish() = 0;
 
   /// Removes what was written if it is not finished.
   virtual void discard() = 0;
@@ -69,12 +66,15 @@ class Writer {
 /// Comma-separated values: one row per measurement; the first line has the columns and their units.
 /// Numbers are read back bit by bit, unknown ones are "nan"; times are in seconds since 1970 with
 /// nine decimals. Rows go to path + ".part" at once, so that a crash loses the last ones only.
+/// Poses of bodies, if there are any, have a file of their own.
 /// @throws Error: the file cannot be created.
 std::unique_ptr<Writer> makeCsvWriter(const std::string& path);
+std::string csvOfBodies(const std::string& path);
 
 /// C3D of version 1 in the format of Intel with floating-point numbers, as biomechanics programs
 /// read it (the C3D File Format User Guide, Motion Lab Systems): the tracked LEDs as points in
 /// millimetres, interpolated to one rate [Hz] (SampleTable), in gaps invalid; no analog channels.
+/// WIIMOTE_TRACKER:START_TIME has the time of frame 1 [s since 1970], which finish() returns, too.
 /// Stays in memory until finish(). @throws Error: the file cannot be created.
 std::unique_ptr<Writer> makeC3dWriter(const std::string& path, double rate);
 
@@ -82,7 +82,8 @@ std::unique_ptr<Writer> makeC3dWriter(const std::string& path, double rate);
 std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate);
 
 /// A compressed MAT-file of version 5: one variable per field of TrackedPoint, with one row per
-/// measurement; the variable `readme` describes them. Strings are 1-based line numbers of tables
+/// measurement, and the struct `bodies` with those of bodies; the variable `readme` describes them.
+/// Strings are 1-based line numbers of tables
 /// (`label` of `labels`, ...). Data stay in memory until finish(), 0.3 kB per measurement.
 /// @throws Error: the file cannot be created, or the program was built without matio.
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path);
@@ -101,7 +102,9 @@ struct OutputNames {
   std::string tum;      ///< Folder.
   double rate = 100.0;  ///< Of C3D and TRC [Hz, > 0].
 
-  std::vector<std::string> tables() const { return {csv, matlab, c3d, trc}; }
+  std::vector<std::string> tables() const {
+    return {csv, csv.empty() ? "" : csvOfBodies(csv), matlab, c3d, trc};
+  }
 };
 
 /// One for each file. @throws Error: one cannot be created, or two are the same; then no part is

@@ -19,13 +19,13 @@ using namespace wiimote_tracker;
 using wiimote_tracker_msgs::TrackedPointArray;
 
 constexpr char kPurpose[] =
-    "Writes points and triggered_points to tables, and bodies to files, until it is ended.\n"
+    "Writes points, triggered_points and bodies to files, until it is ended.\n"
     "\n"
     "  roslaunch wiimote_tracker_triangulation record_points.launch csv:=FILE\n"
     "\n"
     "Private parameters; one file at least is needed:\n"
-    "  csv, matlab    of all points, as CSV or for MATLAB\n"
-    "  c3d, trc       of the tracked LEDs, for other programs\n"
+    "  csv, matlab    of all points and bodies, as CSV (bodies: FILE_bodies) or for MATLAB\n"
+    "  c3d, trc       of the tracked LEDs, also of bodies, for other programs\n"
     "  tum            folder for the poses of bodies, <body>.tum, for evo\n"
     "  rate           of C3D and TRC [Hz], 1 to 1000 (default: 100)\n"
     "  flush_period   time between two writes to the files [s], 0.01 to 3600 (default: 1)";
@@ -51,8 +51,7 @@ class Recorder {
     has_tables_ = writers_.size() > (files.tum.empty() ? 0 : 1);
     topic_ = nh.resolveName("points");
     subscribers_ = {subscribe(&nh, "points", false), subscribe(&nh, "triggered_points", true)};
-    if (!files.tum.empty())
-      subscribers_.push_back(nh.subscribe("bodies", 10000, &Recorder::addBodies, this));
+    subscribers_.push_back(nh.subscribe("bodies", 10000, &Recorder::addBodies, this));
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
   }
 
@@ -61,7 +60,9 @@ class Recorder {
     bool whole = true;
     for (const std::unique_ptr<measurements::Writer>& writer : writers_) {
       try {
-        writer->finish();
+        const std::string sentence = writer->finish();
+        if (!sentence.empty())
+          std::printf("record_points: %s.\n", sentence.c_str());
       } catch (const std::exception& e) {  // the data of the others are still in memory
         std::fprintf(stderr, "record_points: %s\n", e.what());
         whole = false;

@@ -184,8 +184,11 @@ void Output::onProblem(const std::string& sentence) {
 }
 
 void Output::finish() {
-  for (const std::unique_ptr<measurements::Writer>& writer : writers_)
-    writer->finish();
+  for (const std::unique_ptr<measurements::Writer>& writer : writers_) {
+    const std::string sentence = writer->finish();
+    if (!sentence.empty())
+      std::printf("%s.\n", sentence.c_str());
+  }
   try {
     bag_->close();
   } catch (const rosbag::BagException& e) {

@@ -312,10 +312,11 @@ int main(int argc, char** argv) {
   parser.option("--bodies FILE", &arguments.bodies,
                 "rigid bodies to track, instead of the parameters' bodies/file");
   measurements::OutputNames& names = arguments.measurements;
-  parser.option("--csv FILE", &names.csv, "also write the points as CSV");
-  parser.option("--mat FILE", &names.matlab, "also write the points as a MATLAB file");
-  parser.option("--c3d FILE", &names.c3d, "also write the tracked LEDs as C3D");
-  parser.option("--trc FILE", &names.trc, "also write the tracked LEDs as TRC");
+  parser.option("--csv FILE", &names.csv,
+                "also write the points as CSV, and poses of bodies beside it, as FILE_bodies");
+  parser.option("--mat FILE", &names.matlab, "also write points and bodies as a MATLAB file");
+  parser.option("--c3d FILE", &names.c3d, "also write the tracked LEDs, also of bodies, as C3D");
+  parser.option("--trc FILE", &names.trc, "the same as TRC");
   parser.option("--rate HZ", &names.rate, 1.0, 1000.0, "of C3D and TRC [Hz]");
   parser.option("--tum FOLDER", &names.tum,
                 "also write the poses of bodies as FOLDER/<body>.tum, for evo");

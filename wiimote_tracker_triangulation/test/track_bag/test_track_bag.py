@@ -231,6 +231,16 @@ def test_parameters_are_the_nodes(bag, tmp_path):
     assert (tmp_path / 'shipped.bag').read_bytes() == (tmp_path / 'default.bag').read_bytes()
 
 
+def test_labels_of_the_recording_that_are_not_given(bag, tmp_path):
+    (tmp_path / 'p.yaml').write_text('labels: [anna]\n')
+    track(bag, tmp_path / 'anna.bag', '--params', tmp_path / 'p.yaml')
+    again = [tmp_path / 'anna.bag', tmp_path / 'again.bag']
+    assert "had an LED 'anna', which gets another name now" in run(*again)[2]
+    assert run(*again, '--params', tmp_path / 'p.yaml')[2] == ''
+    track(bag, tmp_path / 'led.bag')
+    assert run(tmp_path / 'led.bag', tmp_path / 'again.bag')[2] == ''
+
+
 def test_parameters_may_be_those_of_the_launch_file(bag, tmp_path):
     for number, text in enumerate((
             'triangulation: {mode: instant, labels: [anna]}\n', 'triangulation/labels: [anna]\n',

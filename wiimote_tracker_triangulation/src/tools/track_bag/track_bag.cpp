@@ -15,6 +15,7 @@
 #include <wiimote_tracker_msgs/interruption.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -172,8 +173,11 @@ void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
 
 TrackingParameters parametersOf(const Arguments& arguments) {
   ParameterTree tree = readParameterTree(arguments.parameters, "triangulation");
-  if (!arguments.mode.empty())
-    tree.set("mode", arguments.mode);
+  const std::string& mode = arguments.mode;
+  if (!mode.empty() && mode != "tracks" && mode != "instant")
+    throw BagError("--mode is '" + mode + "', but must be tracks or instant");
+  if (!mode.empty())
+    tree.set("mode", mode);
   if (!arguments.bodies.empty()) {
     std::error_code ignored;
     if (!std::filesystem::exists(arguments.bodies, ignored))
@@ -197,8 +201,16 @@ void dropRecordedResults(const Recording& recording,
     for (const auto& body : message.bodies)
       bodies.insert(body.name);
   });
-  for (const std::string& label : parameters.allLabels())
-    labels.insert(label);
+  const std::vector<std::string> named = parameters.allLabels();
+  const auto renamed = std::find_if(labels.begin(), labels.end(), [&](const std::string& label) {
+    return std::count(named.begin(), named.end(), label) == 0 && label.rfind("led_", 0) != 0;
+  });
+  if (renamed != labels.end())
+    std::fprintf(stderr,
+                 "The recorded tracker had an LED '%s', which gets another name now: give its "
+                 "labels with --params.\n",
+                 renamed->c_str());
+  labels.insert(named.begin(), named.end());
   if (parameters.bodies.known.empty() && !bodies.empty())
     std::fprintf(stderr,
                  "The recorded tracker had a body '%s', whose LEDs are single ones now: name the "

@@ -1,29 +1,45 @@
 #!/usr/bin/env python3
-"""The simulated hand calibrates the rig, walks about, and goes where a person's calibration wants.
-Bodies are dark meanwhile, and move on."""
+"""The simulated hand calibrates the rig, turns its LED off beside a body, and goes where a person's
+calibration wants. Bodies are dark meanwhile, and move on."""
 
 import sys
 
 import numpy as np
 import rospy
 import rostest
-from geometry_msgs.msg import Point, PointStamped, PoseStamped
+from geometry_msgs.msg import Point, PointStamped, PoseStamped, PoseWithCovarianceStamped
 from live_rig import DEADLINE, NodeTest
 from std_srvs.srv import Trigger
-from wiimote_tracker_msgs.msg import CalibrationStatus, IrBlobArray
+from wiimote_tracker_msgs.msg import (CalibrationStatus, IrBlobArray, TrackedPoint,
+                                      TrackedPointArray)
 from wiimote_tracker_msgs.srv import (CheckPlace, RecalibrateCamera, SetLed, SetLedRequest,
                                       SolveCalibration, StartCalibration)
 
-POINTS = 100  # a quarter of a second
-MANY = 1000   # also of times when more than two cameras report the LED: it is one of five lights
+MANY = 1000  # four seconds
+DARK = 4.0  # [s]; beside four other LEDs a fifth is not seen for up to 2 s
 WAVES = 3  # until one is solved
 
 
+def vector(v):
+    return np.array([v.x, v.y, v.z])
+
+
 def position(message):
-    return np.array([message.point.x, message.point.y, message.point.z])
+    return vector(message.point)
 
 
 class SimulatedHand(NodeTest):
+    def wait_until_dark(self):
+        """Until no LED is tracked beside the body for a while."""
+        def is_dark():
+            counts = []
+            subscriber = rospy.Subscriber('points', TrackedPointArray, lambda m: counts.append(
+                sum(p.state == TrackedPoint.TRACKED for p in m.points)))
+            rospy.sleep(DARK)
+            subscriber.unregister()
+            return counts and not any(counts)
+        self.wait(is_dark, 'the hand to turn its LED off')
+
     def solved_by_wand(self):
         """The answer of calibration/solve. It may ask for another wave, since a camera's clock
         jumps where a busy computer halts the simulation."""
@@ -42,22 +58,25 @@ class SimulatedHand(NodeTest):
             self.assertTrue(rospy.ServiceProxy('calibration/cancel', Trigger)().success)
         return solved
 
-    def test_points_come_by_themselves_and_the_hand_follows_a_calibration(self):
+    def test_poses_come_by_themselves_and_the_hand_follows_a_calibration(self):
+        bodies = []
+        rospy.Subscriber('simulation/truth/wand', PoseStamped, bodies.append)
+        poses = []
+        rospy.Subscriber('wand/pose', PoseWithCovarianceStamped, poses.append)
+        self.wait(lambda: len(poses) > MANY, 'the tracked body')
+        self.wait(lambda: bodies[-1].header.stamp > poses[-1].header.stamp, 'the truth')
+        known = list(bodies)  # more arrive meanwhile
+        stamps = [truth.header.stamp.to_sec() for truth in known]
+        at = [pose.header.stamp.to_sec() for pose in poses[:MANY]]
+        truth = np.transpose([np.interp(at, stamps, axis) for axis in np.transpose(
+            [vector(truth.pose.position) for truth in known])])
+        errors = np.linalg.norm([vector(pose.pose.pose.position) for pose in poses[:MANY]] - truth,
+                                axis=1)
+        # Simulated corners are exact; what is left is the lens' starting value and noise.
+        self.assertLess(np.median(errors), 0.03)
+        self.wait_until_dark()
         truths = []
         rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
-        points = []
-        rospy.Subscriber('led/point', PointStamped, points.append)
-        self.wait(lambda: len(points) > MANY, 'tracked points')
-        self.wait(lambda: truths[-1].header.stamp > points[-1].header.stamp, 'the truth')
-        known = list(truths)  # more arrive meanwhile
-        stamps = [truth.header.stamp.to_sec() for truth in known]
-        at = [point.header.stamp.to_sec() for point in points[:MANY]]
-        truth = np.transpose([np.interp(at, stamps, axis)
-                              for axis in np.transpose([position(t) for t in known])])
-        errors = np.linalg.norm([position(point) for point in points[:MANY]] - truth, axis=1)
-        # Simulated corners are exact; what is left is the lens' starting value and noise. The
-        # median: where only two cameras see the LED turn, points are off by some cm.
-        self.assertLess(np.median(errors), 0.03)
 
         rospy.wait_for_service('calibration/start', DEADLINE)
         started = rospy.ServiceProxy('calibration/start', StartCalibration)(
@@ -98,12 +117,7 @@ class SimulatedHand(NodeTest):
         truths = []
         rospy.Subscriber('simulation/truth/led', PointStamped, truths.append)
 
-        def walks_about():  # on a level circle, to which the hand moves the LED only once
-            if len(truths) < POINTS:
-                return False
-            way = np.ptp([position(truth) for truth in truths[-POINTS:]], axis=0)
-            return way[0] > 0.01 and way[2] < 1e-6
-        self.wait(walks_about, 'the hand to walk about')
+        self.wait_until_dark()
         place = Point(1.0, 1.0, 1.0)
         put = rospy.ServiceProxy('simulation/set_led', SetLed)(
             SetLedRequest(led='led', on=True, motion=SetLedRequest.LINE, target=place))

@@ -54,5 +54,5 @@ def render(guide: Guide, now: float, camera: str, rows: int = ROWS, columns: int
     missing = ['- ' + line for text in (board.missing if board is not None else ())
                for line in wrapped(text, columns - 2, 1)]
     lines += padded(missing, rows - len(lines) - len(KEYS) - len(said)) + said
-    lines += prompt_lines(prompt, columns) if prompt is not None else KEYS
-    return [fitted(line, columns) for line in lines[:rows]]
+    lines = [fitted(line, columns) for line in lines[:rows - len(KEYS)]]
+    return lines + (prompt_lines(prompt, columns) if prompt is not None else KEYS)

@@ -160,9 +160,7 @@ class Plain:
     def _look_at_rig(self) -> None:
         guide = self._dialogue.guide
         status = guide.status
-        share = int(status.progress / PROGRESS_STEP) if status.progress >= 0.0 else -1  # NaN: -1
-        self._tell_new('step', (status.step, status.message, share),
-                       f'{figure(100.0 * status.progress, 0, 3)} %  {status.message}')
+        self._look_at_progress(status)
         self._tell_new('missing', tuple(status.missing[:1]),
                        f'missing: {status.missing[0]}' if status.missing else '')
         if guide.trace is not None:
@@ -178,6 +176,21 @@ class Plain:
                 text = getattr(camera, kind)
                 self._tell_new((kind, camera.name), text,
                                f'{camera.name}: {text}' if text else '')
+
+    def _look_at_progress(self, status) -> None:
+        """The progress, and what the node says: not again what it answers, of which the status
+        comes a moment sooner or later."""
+        guide = self._dialogue.guide
+        if guide.running and (guide.is_waving() or not guide.is_busy()):
+            return
+        share = int(status.progress / PROGRESS_STEP) if status.progress >= 0.0 else -1  # NaN: -1
+        answer = guide.answers[-1][1] if guide.answers else ''
+        is_old = answer.startswith(status.message) or status.message == self._told.get('message')
+        self._told['message'] = status.message
+        if not is_old or share != self._told.get('share'):
+            self._told['share'] = share
+            self._tell(f'{figure(100.0 * status.progress, 0, 3)} %' +
+                       ('' if is_old else f'  {status.message}'))
 
     def _tell_new(self, kind: Any, value: Any, text: str) -> None:
         if self._told.get(kind) != value:

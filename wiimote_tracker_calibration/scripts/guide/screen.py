@@ -39,13 +39,13 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     if view == 'keys':
         lines += padded(key_lines(command_list, room), room)
     elif view == 'verdict':
-        lines += padded(verdict_lines(guide, columns), room - len(said)) + said
+        lines += part(verdict_lines(guide, columns), page, room - len(said)) + said
     elif view == 'trace':
-        lines += padded(trace_lines(guide.trace), room - len(said)) + said
+        lines += part(trace_lines(guide.trace), page, room - len(said)) + said
     else:
         lines += camera_lines(guide, page, room - len(said), rows, columns) + said
-    lines += prompt_lines(prompt, columns) if prompt is not None else KEYS
-    return [fitted(line, columns) for line in lines]
+    lines = [fitted(line, columns) for line in lines]
+    return lines + (prompt_lines(prompt, columns) if prompt is not None else KEYS)
 
 
 def is_too_small(rows: int, columns: int) -> bool:
@@ -61,7 +61,18 @@ def too_small(rows: int, columns: int) -> List[str]:
 
 def prompt_lines(prompt: Tuple[str, str], columns: int) -> List[str]:
     question, typed = prompt
-    return [question, '> ' + typed[-(columns - 4):]]
+    room = columns - 4 if typed.isascii() else (columns - 4) // 2  # some letters are twice as wide
+    return [fitted(question, columns), '> ' + typed[-room:]]
+
+
+def part(lines: List[str], page: int, room: int) -> List[str]:
+    """Exactly `room` lines; if there are more, those of a page, and which they are."""
+    if len(lines) <= room:
+        return padded(lines, room)
+    first = page % -(-len(lines) // (room - 1)) * (room - 1)
+    last = min(first + room - 1, len(lines))
+    return padded(lines[first:last], room - 1) + [
+        f'lines {first + 1} to {last} of {len(lines)}; TAB shows others']
 
 
 def title(guide: Guide, now: float, columns: int) -> str:

@@ -3,7 +3,7 @@
 import curses
 import os
 import time
-from typing import Callable, Dict, List
+from typing import Callable, Dict, List, Union
 
 from .commands import Command, find
 from .dialogue import CHANGED, PROPOSED, Dialogue
@@ -11,8 +11,10 @@ from .dialogue import CHANGED, PROPOSED, Dialogue
 PERIOD = 0.1         # [s] Between two drawings.
 BETWEEN_RINGS = 0.3  # [s] So that two are heard.
 READ_WITHIN = 0.5    # [s] Whoever presses SPACE sooner means what was next before.
-# Codes of keys, of which terminals have several for one.
-ESCAPE, BACKSPACE, ENTER = (27,), (curses.KEY_BACKSPACE, 8, 127), (10, 13, curses.KEY_ENTER)
+# Keys of which terminals have several for one.
+ESCAPE = ('\x1b',)
+BACKSPACE = ('\b', '\x7f', curses.KEY_BACKSPACE)
+ENTER = ('\n', '\r', curses.KEY_ENTER)
 
 
 def terminal_problem() -> str:
@@ -59,8 +61,11 @@ class Terminal:
                     time.sleep(BETWEEN_RINGS)
                 curses.beep()
             self._show(window)
-            key = window.getch()
-            if key != -1 and not self._press(key):
+            try:
+                key = window.get_wch()
+            except curses.error:
+                continue  # none was pressed
+            if not self._press(key):
                 return
 
     def _show(self, window) -> None:
@@ -79,12 +84,12 @@ class Terminal:
                            columns - (1 if row == rows - 1 else 0), style)
         window.refresh()
 
-    def _press(self, key: int) -> bool:
-        """Returns False to end."""
+    def _press(self, key: Union[str, int]) -> bool:
+        """key: a character, or the code of another key. Returns False to end."""
         if self._asking:
             self._type(key)
             return True
-        sign = chr(key) if 0 <= key < 256 else ''
+        sign = key if isinstance(key, str) else ''
         command = find(self._dialogue.command_list, sign)
         if sign == 'q':
             return False
@@ -94,10 +99,10 @@ class Terminal:
             self._dialogue.next()
         elif sign == '\t':
             self._page += 1
-        elif key in ESCAPE:
-            self._view = None
-        elif sign in self._views:
-            self._view = None if self._view == self._views[sign] else self._views[sign]
+        elif key in ESCAPE or sign in self._views:
+            view = self._views.get(sign)
+            self._view = None if view == self._view else view
+            self._page = 0
         elif command is not None and command.ask and not self._is_direct(command):
             self._asking, self._typed = command, ''
         elif command is not None:
@@ -114,7 +119,7 @@ class Terminal:
             return guide.is_waving()
         return command.word == 'cancel' and bool(guide.running or guide.is_busy())
 
-    def _type(self, key: int) -> None:
+    def _type(self, key: Union[str, int]) -> None:
         if key in ESCAPE:
             self._asking = None
         elif key in ENTER:
@@ -122,5 +127,5 @@ class Terminal:
             self._dialogue.command(command.word, self._typed.split())
         elif key in BACKSPACE:
             self._typed = self._typed[:-1]
-        elif 32 <= key < 127:
-            self._typed += chr(key)
+        elif isinstance(key, str) and key.isprintable():
+            self._typed += key

@@ -51,6 +51,25 @@ def test_plain_waits_for_a_number_of_seconds():
         assert f'wait needs a number of seconds, not "{text}"' in said
 
 
+def test_plain_tells_an_answer_once_though_the_status_has_it_too():
+    """A moment before the answer, and ever after."""
+    before, after = status(CalibrationStatus.READY), status(
+        CalibrationStatus.READY, message='corner 3 was dropped', progress=0.5)
+
+    class Node(FakeNode):
+        def send(self, word, request):
+            self.events.put(('status', after))
+            super().send(word, request)
+            for _ in range(2):
+                self.events.put(('status', after))
+
+    for answers in ({'undo': (True, after.message)}, {'undo': (False, after.message)},
+                    {'undo': (True, after.message + '\na table')}):
+        said = plain('undo\nwait 30\n', Node(answers), before)[1]
+        assert sum(after.message in line for line in said) == 1, said
+        assert ' 50 %' in said
+
+
 def test_plain_tells_every_answer_also_when_it_is_the_same_again():
     refusal = 'only 2 of 4 corners are captured'
     node = FakeNode({'solve': (False, refusal)})

@@ -168,6 +168,30 @@ def test_a_verdict_is_a_table():
     assert '(0.00, 0.00, 8.00) 10.0 mm' in text  # the highest are the worst
 
 
+def test_a_verdict_that_does_not_fit_is_on_pages():
+    guide = guide_at(status(CalibrationStatus.SOLVED))
+    guide.verdict = CalibrationVerdict(
+        text='Usable. ' * 60, next_measurement='measure ' * 15, expected_error=0.01,
+        cameras=[CameraVerdict(f'wiimote_{i}', *[0.1] * 9) for i in range(9)],
+        predicted_at=[Point(0, 0, z) for z in range(9)], predicted_stddev=[0.01] * 9)
+    first = screen.render(guide, 1.0, 'verdict')
+    assert 'lines 1 to 18 of 25; TAB shows others' in first
+    assert not any('8.00) 10.0 mm' in line for line in first)
+    second = screen.render(guide, 1.0, 'verdict', page=1)
+    assert 'lines 19 to 25 of 25; TAB shows others' in second
+    assert any('8.00) 10.0 mm' in line for line in second)
+    assert screen.render(guide, 1.0, 'verdict', page=2) == first
+    assert any('8.00) 10.0 mm' in line for line in screen.render(guide, 1.0, 'verdict', rows=40))
+
+
+def test_what_is_typed_is_shown_as_it_is():
+    guide = guide_at(status(CalibrationStatus.SOLVED))
+    lines = screen.render(guide, 1.0, prompt=('Rig file', '/home/jörg/rig.yaml'))
+    assert lines[-2:] == ['Rig file', '> /home/jörg/rig.yaml']
+    lines = screen.render(guide, 1.0, prompt=('Rig file', '部' * 99))  # two columns each
+    assert lines[-1] == '> ' + '部' * 38
+
+
 def test_beside_a_verdict_stands_what_was_measured_and_what_to_measure_next():
     guide = guide_at(status(CalibrationStatus.SOLVED))
     guide.verdict = CalibrationVerdict(text='Good.', expected_error=0.0087,

@@ -9,6 +9,7 @@ from fakes import FakeNode, dialogue_with, status
 from guide.terminal import Terminal
 
 ENTER, ESCAPE, BACKSPACE = '\n', '\x1b', '\x7f'
+NONE = '\0'  # no key within the period
 
 
 class Window:
@@ -17,8 +18,11 @@ class Window:
     def __init__(self, keys):
         self._keys = list(keys + 'q')
 
-    def getch(self):
-        return ord(self._keys.pop(0))
+    def get_wch(self):
+        key = self._keys.pop(0)
+        if key == NONE:
+            raise curses.error('no input')
+        return key
 
     def getmaxyx(self):
         return 24, 80
@@ -76,9 +80,9 @@ class Proposes(Window):
         super().__init__(keys)
         self._node, self._newer = node, newer
 
-    def getch(self):
+    def get_wch(self):
         self._node.events.put(('status', self._newer))
-        return super().getch()
+        return super().get_wch()
 
 
 def test_space_does_not_do_what_was_not_read_yet(monkeypatch):
@@ -109,14 +113,18 @@ def test_what_is_typed_is_sent_with_enter():
     assert pressed('n2.5 1q' + ESCAPE, complete)[0] == []  # q is a letter here
     # The same key ends a wave.
     assert pressed('w', status(CalibrationStatus.WAVING))[0] == [('stop_wave', {})]
+    path = '/home/jörg/räume/зал.yaml'
+    sent, drawn = pressed('l' + NONE + path + ENTER, complete)
+    assert sent == [('load', {'path': path})]
+    assert drawn[-2][2][1] == path
 
 
 def test_keys_show_views_and_pages_and_space_does_what_is_next():
     capture = status(CalibrationStatus.READY, 'capture_corner', 'capture')
     sent, drawn = pressed('i\tii?' + ESCAPE + ' ', capture)
     assert [(view, page) for view, page, _ in drawn[:7]] == [
-        (None, 0), ('verdict', 0), ('verdict', 1), (None, 1), ('verdict', 1), ('keys', 1),
-        (None, 1)]
+        (None, 0), ('verdict', 0), ('verdict', 1), (None, 0), ('verdict', 0), ('keys', 0),
+        (None, 0)]
     assert sent == [('capture_corner', {})]
 
 

@@ -1,6 +1,7 @@
 """The unit of systemd that the Debian package installs."""
 
 import os
+import re
 import shlex
 import shutil
 import subprocess
@@ -38,6 +39,13 @@ def test_the_launch_file_has_the_arguments_of_the_unit():
     known = roslaunch.arg_dump.get_args([os.path.join(BRINGUP, 'launch', file)])
     assert {word.split(':=')[0] for word in given} == {'cameras'} <= set(known)
     assert '$LAUNCH $ARGUMENTS' in values_of('ExecStart')[0]
+
+
+def test_no_variable_of_the_command_is_unset():
+    """systemd logs an error about one from version 254 on, as in Debian 13."""
+    given = {word.partition('=')[0] for value in values_of('Environment')
+             for word in shlex.split(value)}
+    assert set(re.findall(r'\$\{?(\w+)', values_of('ExecStart')[0])) <= given | {'HOME'}
 
 
 def test_each_user_may_have_variables_of_their_own():

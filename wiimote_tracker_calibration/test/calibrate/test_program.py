@@ -20,11 +20,15 @@ def test_without_a_master_it_ends_with_what_to_do():
     assert done.stderr.count('\n') == 1
 
 
-def test_a_wand_that_nobody_can_wave_is_refused():
-    done = subprocess.run([sys.executable, PROGRAM, '--wand', '10'], timeout=60,
+@pytest.mark.parametrize('option, length, refusal', [
+    ('--wand', '10', '--wand needs a length above 0 and at most 5 m'),
+    ('--wand', '0,5', 'argument --wand: the length must be a number such as 2.5, not "0,5"'),
+    ('--side', '2,5', 'argument --side: the length must be a number such as 2.5, not "2,5"')])
+def test_a_length_that_cannot_be_is_refused(option, length, refusal):
+    done = subprocess.run([sys.executable, PROGRAM, option, length], timeout=60,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, universal_newlines=True)
     assert (done.returncode, done.stdout) == (2, '')
-    assert '--wand needs a length above 0 and at most 5 m' in done.stderr
+    assert refusal in done.stderr
 
 
 @pytest.mark.parametrize('name', ['', 'no_such_terminal'])

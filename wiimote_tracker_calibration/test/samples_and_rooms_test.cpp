@@ -251,6 +251,27 @@ TEST_F(Rooms, OfAnotherFileAreNotLoadedAtTheNextStart) {
   EXPECT_EQ(std::remove((folder_ + "/rig.yaml").c_str()), 0);
 }
 
+TEST_F(Rooms, OfTwoNodesWithOneFileAreNotReplacedWithoutAWord) {
+  use(room({0, 1}, Eigen::Isometry3d::Identity()));
+  SaveRig::Request save;
+  save.path = "shared.yaml";
+  ASSERT_TRUE(call<SaveRig>("calibration/save", save).success);
+  const Process other("/other", {"_rig_file:=" + folder_ + "/shared.yaml"});
+  ASSERT_TRUE(ros::service::waitForService("/other/calibration/save", ros::Duration(60.0)));
+  const geometry::Rig newer = room({1, 2, 3}, Eigen::Isometry3d::Identity());
+  use(newer);
+  EXPECT_TRUE(call<SaveRig>("calibration/save", save).success) << "the node has saved it before";
+
+  const auto refused = call<SaveRig>("/other/calibration/save");
+  EXPECT_FALSE(refused.success);
+  EXPECT_SAYS(refused.message, "shared.yaml holds a rig of camera_2, camera_3, camera_4 that this");
+  EXPECT_EQ(geometry::readRigFile(folder_ + "/shared.yaml").id(), newer.id());
+  EXPECT_TRUE(call<SaveRig>("/other/calibration/save").success);
+  EXPECT_FALSE(call<SaveRig>("calibration/save", save).success);
+  save.path = "elsewhere.yaml";
+  EXPECT_TRUE(call<SaveRig>("calibration/save", save).success);
+}
+
 TEST_F(Rooms, HaveTheWorldFrameOfTheirFile) {
   geometry::Rig rig = room({0, 1}, Eigen::Isometry3d::Identity());
   rig.world_frame = "map";

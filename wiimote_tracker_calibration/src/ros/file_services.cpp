@@ -12,7 +12,6 @@
 #include <wiimote_tracker_msgs/LoadSamples.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 #include <wiimote_tracker_msgs/SaveSamples.h>
-#include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <filesystem>
@@ -83,7 +82,7 @@ class FileServices {
     const std::string path = call.response.path =
         rigPath(call.request.path, context_.parameters(lock));
     const std::vector<std::string> warnings = context_.compute(&lock, [&] {
-      std::vector<std::string> all = saveRig(rig, path);
+      std::vector<std::string> all = files_.save(rig, path);
       std::vector<geometry::Camera> cameras;
       for (const geometry::RigCamera& camera : rig.cameras)
         cameras.push_back(camera.camera);
@@ -140,9 +139,8 @@ class FileServices {
       const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).points();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
       const std::string path = rigPath(call.request.path, context_.parameters(lock));
-      rooms::JoinedRigs joined = context_.compute(&lock, [&] {
-        return rooms::joinRigs(geometry::readRigFile(path), second, places, stddev);
-      });
+      rooms::JoinedRigs joined = context_.compute(
+          &lock, [&] { return rooms::joinRigs(files_.read(path), second, places, stddev); });
       context_.calibration(lock).requireIdle();
       context_.requireSameRig(second.id(), lock);
       joined.rig.solved_at = NodeContext::now();
@@ -156,7 +154,7 @@ class FileServices {
   }
 
   Reply loadRig(const std::string& path, Lock* lock) {
-    const geometry::Rig rig = context_.compute(lock, [&] { return geometry::readRigFile(path); });
+    const geometry::Rig rig = context_.compute(lock, [&] { return files_.read(path); });
     Reply reply = context_.calibration(*lock).load(rig);
     if (reply.success) {
       const std::string frame = context_.parameters(*lock).calibration.world_frame;
@@ -170,6 +168,7 @@ class FileServices {
   }
 
   NodeContext& context_;
+  RigFiles files_;
 };
 
 }  // namespace

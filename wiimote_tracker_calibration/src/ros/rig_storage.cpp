@@ -3,6 +3,7 @@
 #include "file_paths.h"
 #include "requests.h"
 
+#include <wiimote_tracker_triangulation/geometry/atomic_file.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
@@ -17,6 +18,7 @@
 #include <exception>
 #include <filesystem>
 #include <future>
+#include <optional>
 #include <regex>
 #include <system_error>
 #include <thread>
@@ -28,6 +30,10 @@ namespace {
 
 std::string beside(const std::string& rig_file, const std::string& name) {
   return std::filesystem::path(rig_file).replace_filename(name).string();
+}
+
+std::string wholePath(const std::string& path) {
+  return std::filesystem::absolute(path).lexically_normal().string();
 }
 
 std::string lensFile(const std::string& rig_file, const std::string& camera) {
@@ -49,39 +55,85 @@ std::vector<std::filesystem::path> versionsOf(const std::string& rig_file) {
   return versions;
 }
 
-/// @returns sentences on what only the file has, such as zones that a person wrote into it, or the
-/// cameras of another rig that uses the same file.
-std::vector<std::string> describeLost(const geometry::Rig& rig, const std::string& path) {
-  geometry::Rig old;
+/// What is in a file; empty: there is none.
+std::string contentOf(const std::string& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error) ? geometry::readFile(path) : "";
+}
+
+/// Nothing: there is no rig that could be lost.
+std::optional<geometry::Rig> rigIn(const std::string& path) {
   try {
-    old = geometry::readRigFile(path);
-  } catch (const Error&) {  // there is no rig that could be lost
-    return {};
+    return geometry::readRigFile(path);
+  } catch (const Error&) {
+    return std::nullopt;
   }
-  const std::string kept = path + ".bak until the next save: if ";
-  std::vector<std::string> sentences;
+}
+
+/// Why a person must know what a file holds before it is replaced; empty: it may be.
+/// @param old the rig in it, if any. @param is_known whether the node read or wrote it.
+std::string describeRisk(const geometry::Rig& rig,
+                         const std::optional<geometry::Rig>& old,
+                         const std::string& path,
+                         bool is_known) {
+  std::vector<std::string> cameras;
+  bool are_others = old.has_value();
+  for (const geometry::RigCamera& camera :
+       old ? old->cameras : std::vector<geometry::RigCamera>()) {
+    cameras.push_back(camera.camera.name);
+    const geometry::RigCamera* same = rig.find(camera.camera.name);
+    are_others &= !same || camera.camera.isOtherDevice(same->camera.identity);
+  }
+  const std::string of_cameras = "a rig of " + joined(cameras);
+  if (!is_known)
+    return path + " holds " + (old ? of_cameras : "something") +
+           " that this node has neither loaded nor saved: load it, save to another file, or save "
+           "again to replace it";
+  if (are_others)
+    return path + " holds " + of_cameras +
+           ", which are other cameras: save to another file, so that each rig has a rig_file of "
+           "its own, or save again to replace it";
+  return "";
+}
+
+/// Names the zones that only the file has, as a person may have written them into it.
+std::vector<std::string> lostZones(const geometry::Rig& rig,
+                                   const std::optional<geometry::Rig>& old,
+                                   const std::string& path) {
   std::vector<std::string> zones;
-  for (const geometry::Zone& lost : old.zones) {
+  for (const geometry::Zone& lost : old ? old->zones : std::vector<geometry::Zone>()) {
     if (std::none_of(rig.zones.begin(), rig.zones.end(), [&](const geometry::Zone& zone) {
           return zone.name == lost.name && zone.minimum == lost.minimum &&
                  zone.maximum == lost.maximum;
         }))
       zones.push_back(lost.name);
   }
-  if (!zones.empty())
-    sentences.push_back("the file had other zones (" + joined(zones) + "), which are in " + kept +
-                        "they still hold, copy them into the file, then call calibration/load");
-  std::vector<std::string> cameras;
-  for (const geometry::RigCamera& lost : old.cameras) {
-    const geometry::RigCamera* same = rig.find(lost.camera.name);
-    if (!same || lost.camera.isOtherDevice(same->camera.identity))
-      cameras.push_back(lost.camera.name);
+  if (zones.empty())
+    return {};
+  return {"the file had other zones (" + joined(zones) + "), which are in " + path +
+          ".bak until the next save: if they still hold, copy them into the file, then call "
+          "calibration/load"};
+}
+
+/// Writes each camera's file. @returns warnings, one for each that could not be written.
+std::vector<std::string> writeLenses(const geometry::Rig& rig, const std::string& path) {
+  std::vector<std::string> warnings;
+  for (const geometry::RigCamera& rig_camera : rig.cameras) {
+    const geometry::Camera& camera = rig_camera.camera;
+    const std::string file = lensFile(path, camera.name);
+    const bool is_for_rigs = file == beside(path, kRigFile);
+    if (is_for_rigs || file == beside(path, kSamplesFile)) {
+      warnings.push_back(file + (is_for_rigs ? " is for rigs" : " is for samples") +
+                         ", so the lens of " + camera.name + " has none: rename the camera");
+      continue;
+    }
+    try {
+      geometry::writeCameraInfoFile(camera, file);
+    } catch (const geometry::Error& error) {
+      warnings.emplace_back(error.what());
+    }
   }
-  if (!cameras.empty() && cameras.size() == old.cameras.size())
-    sentences.push_back("the file had a rig of other cameras (" + joined(cameras) +
-                        "), which is in " + kept +
-                        "that rig is in use, too, give each rig a rig_file of its own");
-  return sentences;
+  return warnings;
 }
 
 constexpr char kNoService[] = "there is no such service";
@@ -105,29 +157,31 @@ std::string callDriver(const std::string& name,
 
 }  // namespace
 
-std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path) {
+geometry::Rig RigFiles::read(const std::string& path) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  known_[wholePath(path)] = contentOf(path);
+  return geometry::readRigFile(path);
+}
+
+std::vector<std::string> RigFiles::save(const geometry::Rig& rig, const std::string& path) {
   for (const geometry::RigCamera& camera : rig.cameras) {
     if (lensFile(path, camera.camera.name) == path && path != beside(path, kRigFile))
       throw Refusal(path + " is for the lens of " + camera.camera.name +
                     ": save the rig by another name");
   }
-  std::vector<std::string> warnings = describeLost(rig, path);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  const std::string content = contentOf(path);
+  const std::optional<geometry::Rig> old = rigIn(path);
+  std::string& known = known_[wholePath(path)];
+  const std::string risk = describeRisk(rig, old, path, content.empty() || content == known);
+  const std::string request = risk.empty() ? "" : rig.id() + path + content;
+  if (std::exchange(refused_, request) != request && !risk.empty())
+    throw Refusal(risk);
   geometry::writeRigFile(rig, path);
-  for (const geometry::RigCamera& rig_camera : rig.cameras) {
-    const geometry::Camera& camera = rig_camera.camera;
-    const std::string file = lensFile(path, camera.name);
-    const bool is_for_rigs = file == beside(path, kRigFile);
-    if (is_for_rigs || file == beside(path, kSamplesFile)) {
-      warnings.push_back(file + (is_for_rigs ? " is for rigs" : " is for samples") +
-                         ", so the lens of " + camera.name + " has none: rename the camera");
-      continue;
-    }
-    try {
-      geometry::writeCameraInfoFile(camera, file);
-    } catch (const geometry::Error& error) {
-      warnings.emplace_back(error.what());
-    }
-  }
+  known = contentOf(path);
+  std::vector<std::string> warnings = lostZones(rig, old, path);
+  for (const std::string& warning : writeLenses(rig, path))
+    warnings.push_back(warning);
   return warnings;
 }
 

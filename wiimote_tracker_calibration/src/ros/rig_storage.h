@@ -6,18 +6,35 @@
 #include <ros/node_handle.h>
 
 #include <cstddef>
+#include <map>
+#include <mutex>
 #include <string>
 #include <vector>
 
 namespace wiimote_tracker {
 
-/// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it one camera-info YAML per
-/// camera, named after the camera. Only rig.yaml is read back by this package.
-/// @returns warnings: of zones or cameras that only the file before has, and one for each camera
-/// file that could not be written, or that would replace a rig or samples.
-/// @throws Error: rig.yaml could not be written, or `path` is that of a camera file; nothing has
-/// changed then.
-std::vector<std::string> saveRig(const geometry::Rig& rig, const std::string& path);
+/// The rig files of a node, into which a second tracker with the same ROS_HOME, or a person, may
+/// write, too. Knows what was in each file when the node last read or wrote it. For several
+/// threads.
+class RigFiles {
+ public:
+  /// As geometry::readRigFile().
+  geometry::Rig read(const std::string& path);
+
+  /// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it one camera-info YAML per
+  /// camera, named after the camera. Only rig.yaml is read back by this package.
+  /// @returns warnings: of zones that only the file before has, and one for each camera file that
+  /// could not be written, or that would replace a rig or samples.
+  /// @throws Error: rig.yaml could not be written, `path` is that of a camera file, or, unless the
+  /// call before was the same and refused so, the file would be lost without a word: nobody read or
+  /// wrote here what is in it now, or it has a rig of other cameras. Nothing has changed then.
+  std::vector<std::string> save(const geometry::Rig& rig, const std::string& path);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::string> known_;  // What is in files, by their whole paths.
+  std::string refused_;  // The last call of save(), if it was refused so; empty: it was not.
+};
 
 /// Writes a rig into the folder `versions` beside the rig file, named by a time [s] and its id. Of
 /// more than `most` such files the oldest are removed.

@@ -91,6 +91,27 @@ void track(WavedLed* scene, double from, double until, HealthWatch* watch, Rando
   });
 }
 
+TEST(HealthWatch, SaysWhichCamerasWaitForAMovingLed) {
+  Random random(33);
+  const geometry::Rig rig = paperRigWith(calibratedByWave());
+  HealthWatch watch(rig, {});
+  EXPECT_EQ(watch.waiting().size(), rig.cameras.size());
+  WavedLed scene(drawTruth(rig, random), 701);
+  track(&scene, 0.0, 30.0, &watch, &random);
+  EXPECT_TRUE(watch.waiting().empty());
+  capture::Image image;
+  image.spots = {{512.0, 384.0}};  // It rests for longer than the window.
+  for (double time = 30.0; time < 100.0; time += 0.02) {
+    image.stamp = WavedLed::kClock + time;
+    for (const geometry::RigCamera& camera : rig.cameras) {
+      image.camera = camera.camera.name;
+      watch.addImage(image);
+    }
+  }
+  EXPECT_EQ(watch.waiting().size(), rig.cameras.size());
+  EXPECT_TRUE(watch.healths().at("camera_1").drift) << "the last judgement stays";
+}
+
 TEST(HealthWatch, NamesABumpedCameraOnceAndSaysWhatToDo) {
   Random random(31);
   const geometry::Rig rig = paperRigWith(calibratedByWave());

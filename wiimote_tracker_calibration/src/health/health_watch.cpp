@@ -96,6 +96,15 @@ std::map<std::string, CameraHealth> HealthWatch::healths() const {
   return healths;
 }
 
+std::vector<std::string> HealthWatch::waiting() const {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (rig_.ray_model == geometry::RayModel::kCalibrated && !drift_.drifts()[i])
+      names.push_back(cameras_[i].calibrated.camera.name);
+  }
+  return names;
+}
+
 HealthWatch::Watched* HealthWatch::find(const std::string& name) {
   const auto found = std::find_if(cameras_.begin(), cameras_.end(), [&](const Watched& camera) {
     return camera.calibrated.camera.name == name;

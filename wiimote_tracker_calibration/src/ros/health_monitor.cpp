@@ -127,9 +127,20 @@ class HealthMonitor {
     for (const auto& camera : unknown_cameras_)
       troubles.push_back(camera.second);
     if (troubles.empty())
-      status.summary(diagnostic_msgs::DiagnosticStatus::OK, "no camera seems to have moved");
+      status.summary(diagnostic_msgs::DiagnosticStatus::OK,
+                     "no camera seems to have moved" + describeWaiting());
     else
       status.summary(diagnostic_msgs::DiagnosticStatus::WARN, joined(troubles, "; "));
+  }
+
+  /// What is not judged yet, and what is waited for.
+  std::string describeWaiting() const {
+    const std::vector<std::string> waiting = watch_->waiting();
+    if (waiting.empty())
+      return "";
+    const bool are_all = waiting.size() == watch_->healths().size();
+    return "; the images" + (are_all ? "" : " of " + joined(waiting)) +
+           " are judged while an LED moves where two cameras see it";
   }
 
   NodeContext& context_;

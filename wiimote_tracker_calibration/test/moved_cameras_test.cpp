@@ -133,7 +133,7 @@ TEST_F(MovedCameras, BringsBackAKnockedCamera) {
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
   EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/revert").message,
-              "load the one that you want: one of " + folder_ + "/versions/");
+              "load an earlier rig of " + folder_ + "/: one of versions/");
 
   EXPECT_TRUE(waitUntil([&] { return applied.get()->id != other.id(); }));
   EXPECT_LT(

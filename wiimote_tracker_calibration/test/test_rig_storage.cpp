@@ -184,12 +184,11 @@ TEST_F(RigStorage, OnlyRigsThatAreThereAreOffered) {
   EXPECT_EQ(describeEarlierRigs(path),
             "no earlier one is kept beside " + path + ": calibrate again");
   keepVersion(rig, 1.7e9, path);
-  EXPECT_EQ(describeEarlierRigs(path),
-            "load the one that you want: one of " + folder + "/versions/");
+  EXPECT_EQ(describeEarlierRigs(path), "load an earlier rig of " + folder + "/: one of versions/");
   EXPECT_TRUE(files_.save(rig, path).empty());
   EXPECT_TRUE(files_.save(rig, path).empty());
   EXPECT_EQ(describeEarlierRigs(path),
-            "load the one that you want: " + path + ".bak or one of " + folder + "/versions/");
+            "load an earlier rig of " + folder + "/: rig.yaml.bak or one of versions/");
 }
 
 }  // namespace

@@ -233,13 +233,10 @@ class ContinuousServices {
     requireCalibrated(lock);
     const auto before = changes_.revert(context_.existingRig("to change", lock));
     if (!before)
-      throw Refusal(
-          "the rig in use is not one that continuous calibration has made since the node "
-          "started; " +
-          describeEarlierRigs(context_.parameters(lock).rig_file));
-    const std::string message = "rig " + before->id() +
-                                " from before the last change is in use again; until there is "
-                                "another one, changes are only proposed";
+      throw Refusal("no change of continuous calibration is left to undo; " +
+                    describeEarlierRigs(context_.parameters(lock).rig_file));
+    const std::string message =
+        "the rig before the last change is in use again; changes are only proposed from now on";
     context_.setRig(*before, message, lock);
     return {true, message};
   }

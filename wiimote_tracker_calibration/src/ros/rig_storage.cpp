@@ -200,14 +200,16 @@ std::string keepVersion(const geometry::Rig& rig,
 }
 
 std::string describeEarlierRigs(const std::string& rig_file) {
+  const std::string backup = rig_file + ".bak";
   std::vector<std::string> kept;
   std::error_code error;
-  if (std::filesystem::exists(rig_file + ".bak", error))
-    kept.push_back(rig_file + ".bak");
+  if (std::filesystem::exists(backup, error))
+    kept.push_back(std::filesystem::path(backup).filename());
   if (!versionsOf(rig_file).empty())
-    kept.push_back("one of " + beside(rig_file, "versions/"));
-  return kept.empty() ? "no earlier one is kept beside " + rig_file + ": calibrate again"
-                      : "load the one that you want: " + joined(kept, " or ");
+    kept.emplace_back("one of versions/");
+  return kept.empty()
+             ? "no earlier one is kept beside " + rig_file + ": calibrate again"
+             : "load an earlier rig of " + beside(rig_file, "") + ": " + joined(kept, " or ");
 }
 
 std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cameras,

@@ -57,6 +57,7 @@ class RefusedParameters(unittest.TestCase):
             process = self.start(name, WIIMOTE_TRACKER_RESPAWNS='1')
             said = next(line for line in process.stderr if 'rosnode kill /' + name in line)
             self.assertIn(SAID[name], said)
+            self.assertLessEqual(said.lower().count('correct'), 1, said)
             if name != 'simulated_hand':
                 self.assert_diagnosed(name, said)
             self.assertTrue(rosnode.rosnode_ping('/' + name, max_count=1))

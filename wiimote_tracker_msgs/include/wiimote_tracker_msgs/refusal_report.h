@@ -14,8 +14,8 @@ namespace wiimote_tracker {
 /// Why a parameter was refused, and what to do where the process stays.
 inline std::string refusalOf(const ParameterError& error) {
   return std::string(error.what()) +
-         ". Correct it, and start the launch file again; or correct it by rosparam, and: rosnode "
-         "kill " +
+         ". Change its file, and start the launch file again; or change it by rosparam, and: "
+         "rosnode kill " +
          ros::this_node::getName();
 }
 

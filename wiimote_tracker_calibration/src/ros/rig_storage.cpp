@@ -174,9 +174,11 @@ std::vector<std::string> RigFiles::save(const geometry::Rig& rig, const std::str
   const std::optional<geometry::Rig> old = rigIn(path);
   std::string& known = known_[wholePath(path)];
   const std::string risk = describeRisk(rig, old, path, content.empty() || content == known);
-  const std::string request = risk.empty() ? "" : rig.id() + path + content;
-  if (std::exchange(refused_, request) != request && !risk.empty())
+  const std::string request = rig.id() + path + content;
+  if (std::exchange(refused_, "") != request && !risk.empty()) {
+    refused_ = request;
     throw Refusal(risk);
+  }
   geometry::writeRigFile(rig, path);
   known = contentOf(path);
   std::vector<std::string> warnings = lostZones(rig, old, path);

@@ -72,6 +72,16 @@ TEST(ContinuousTwo, BringsBackTwoKnockedCameras) {
   }
 }
 
+// They locate the LED only far from the line between them. False detections elsewhere were taken
+// for a contradiction of the two.
+TEST(ContinuousTwo, TwoThatFaceEachOtherSolveTheOthers) {
+  for (const std::uint64_t seed : {4, 7, 16}) {
+    const KnockTrial trial = runKnockTrial(twoTurnedBy(2.0), seed);
+    EXPECT_TRUE(trial.found && !trial.others) << seed;
+    EXPECT_LT(trial.error, 0.006) << seed;
+  }
+}
+
 TEST(ContinuousTwo, BringsBackASecondCameraThatWasKnockedSoonAfterTheFirst) {
   Knock knock = twoTurnedBy(2.0);
   knock.pause = 5.0;

@@ -96,7 +96,7 @@ void checkOthers(const geometry::Rig& rig, const SeenPath& path) {
 void checkFit(const Fit& fit, const Options& options) {
   const std::string& name = fit.camera.name;
   const auto found = fit.matches.size();
-  if (fit.contradictory > found)
+  if (fit.contradictory > found + fit.undetermined)
     throw Error(
         "the other cameras contradict each other most of the time: they see different lights, or "
         "another one was moved; see that only the LED shines, or calibrate all of them again");

@@ -150,12 +150,14 @@ void matchSpots(const SeenPath& path,
   fit->matches.clear();
   fit->duration = images.empty() ? 0.0 : images.back().stamp - images.front().stamp;
   fit->expected = 0;
+  fit->undetermined = 0;
   fit->contradictory = 0;
   for (const capture::Image& image : images) {
     if (image.spots.empty())
       continue;
     PathPoint point;
     const SeenPath::Sight sight = path.at(image.stamp + fit->time_offset, &point);
+    fit->undetermined += sight == SeenPath::Sight::kUndetermined ? 1 : 0;
     fit->contradictory += sight == SeenPath::Sight::kContradictory ? 1 : 0;
     if (sight != SeenPath::Sight::kSeen)
       continue;

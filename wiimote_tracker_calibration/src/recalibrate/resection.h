@@ -48,7 +48,8 @@ struct Fit {
   std::vector<Match> matches;
   double duration = 0.0;          ///< Of the camera's images [s].
   std::size_t expected = 0;       ///< Images with spots while the others saw the LED.
-  std::size_t contradictory = 0;  ///< Images for which the others' rays did not meet.
+  std::size_t undetermined = 0;   ///< Images for which the others' rays were nearly one line.
+  std::size_t contradictory = 0;  ///< Images for which they did not meet.
 };
 
 /// Pixel of the LED and its derivatives; that by the time offset is the LED's motion. Nothing when

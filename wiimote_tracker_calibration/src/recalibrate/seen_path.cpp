@@ -76,7 +76,7 @@ SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
   if (!result || result->reprojection_error > largest_miss)
     return Sight::kContradictory;
   if (result->covariance.trace() > kLargestSpread * kLargestSpread)
-    return Sight::kNotSeen;
+    return Sight::kUndetermined;
   point->position = result->position;
   point->unit_covariance = result->covariance;
   return Sight::kSeen;

@@ -33,10 +33,10 @@ class SeenPath {
            const std::string& without);
 
   /// Whether the position is known, or why not.
-  enum class Sight { kSeen, kNotSeen, kContradictory };
+  enum class Sight { kSeen, kNotSeen, kUndetermined, kContradictory };
 
-  /// kNotSeen: fewer than two cameras see the LED at this time, or nearly from opposite sides.
-  /// kContradictory: their rays do not meet.
+  /// kNotSeen: fewer than two cameras see the LED at this time. kUndetermined: they see it nearly
+  /// from opposite sides. kContradictory: their rays do not meet.
   Sight at(double time, PathPoint* point) const;
 
   /// Cameras that saw the LED at all.

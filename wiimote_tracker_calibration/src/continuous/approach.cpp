@@ -1,5 +1,7 @@
 #include "continuous/approach.h"
 
+#include "adjust/camera_blocks.h"
+
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/sight.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
@@ -10,46 +12,6 @@
 #include <cstddef>
 
 namespace wiimote_tracker::continuous {
-
-namespace {
-
-using geometry::firstParameter;
-namespace so3 = geometry::so3;
-
-using Parameters = Eigen::Matrix<double, geometry::kParameters, 1>;
-
-Parameters lensOf(const geometry::Intrinsics& lens) {
-  Parameters parameters = Parameters::Zero();
-  parameters.segment<4>(geometry::kIntrinsics) << lens.fx, lens.fy, lens.cx, lens.cy;
-  parameters.segment<5>(geometry::kDistortion) =
-      Eigen::Map<const Eigen::Matrix<double, 5, 1>>(lens.distortion.data());
-  return parameters;
-}
-
-/// What has to be added to a camera's parameters to get those of another.
-Parameters differenceOf(const geometry::Camera& from, const geometry::Camera& to) {
-  Parameters difference = lensOf(to.intrinsics) - lensOf(from.intrinsics);
-  difference.segment<3>(geometry::kRotation) =
-      so3::log(to.world_from_camera.linear() * from.world_from_camera.linear().transpose());
-  difference.segment<3>(geometry::kPosition) = to.center() - from.center();
-  return difference;
-}
-
-void add(const Parameters& difference, geometry::Camera* camera) {
-  Eigen::Isometry3d& pose = camera->world_from_camera;
-  pose.linear() =
-      so3::exp(difference.segment<3>(geometry::kRotation)).toRotationMatrix() * pose.linear();
-  pose.translation() += difference.segment<3>(geometry::kPosition);
-  geometry::Intrinsics& lens = camera->intrinsics;
-  lens.fx += difference[geometry::kIntrinsics];
-  lens.fy += difference[geometry::kIntrinsics + 1];
-  lens.cx += difference[geometry::kIntrinsics + 2];
-  lens.cy += difference[geometry::kIntrinsics + 3];
-  for (std::size_t i = 0; i < lens.distortion.size(); ++i)
-    lens.distortion[i] += difference[geometry::kDistortion + static_cast<Eigen::Index>(i)];
-}
-
-}  // namespace
 
 double movementOf(const geometry::Rig& from,
                   const geometry::Rig& to,
@@ -74,11 +36,27 @@ double movementOf(const geometry::Rig& from,
 
 geometry::Rig between(const geometry::Rig& from, const geometry::Rig& to, double share) {
   geometry::Rig rig = to;
-  Eigen::VectorXd left(geometry::kParameters * static_cast<Eigen::Index>(to.cameras.size()));
+  // What is left of the way, in the order of the rig's covariance.
+  Eigen::VectorXd left = Eigen::VectorXd::Zero(geometry::firstParameter(to.cameras.size()));
   for (std::size_t i = 0; i < to.cameras.size(); ++i) {
-    const Parameters way = differenceOf(from.cameras[i].camera, to.cameras[i].camera);
-    left.segment<geometry::kParameters>(firstParameter(i)) = (1.0 - share) * way;
-    add((share - 1.0) * way, &rig.cameras[i].camera);
+    const geometry::Camera& start = from.cameras[i].camera;
+    geometry::Camera& camera = rig.cameras[i].camera;
+    adjust::CameraBlocks then(start);
+    Eigen::Vector3d::Map(then.rotation.data()) = geometry::so3::log(
+        start.world_from_camera.linear() * camera.world_from_camera.linear().transpose());
+    adjust::CameraBlocks now(camera);
+    double* next = &left[geometry::firstParameter(i)];
+    const auto goBack = [&](const auto& before, auto* values) {
+      for (std::size_t k = 0; k < before.size(); ++k, ++next) {
+        *next = (1.0 - share) * (before[k] - (*values)[k]);
+        (*values)[k] += *next;
+      }
+    };
+    goBack(then.rotation, &now.rotation);
+    goBack(then.position, &now.position);
+    goBack(then.lens, &now.lens);
+    goBack(then.higher_distortion, &now.higher_distortion);
+    camera = now.cameraLike(camera);
   }
   if (geometry::hasCovariance(rig))
     rig.covariance += left * left.transpose();

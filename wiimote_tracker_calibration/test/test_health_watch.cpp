@@ -9,6 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <deque>
+#include <map>
 #include <string>
 #include <utility>
 #include <vector>
@@ -225,6 +227,40 @@ TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
   rig.cameras[2] = turned(rig.cameras[2], turn);
   EXPECT_TRUE(watch.follow(rig));
   EXPECT_EQ(watch.healths().at("camera_3").text, "");
+}
+
+/// Health after a minute in which the images of camera_3 came so much later [s].
+std::map<std::string, CameraHealth> healthsWithLateImages(double late, WavedLed* led) {
+  HealthWatch watch(paperRigWith(calibratedByWave()), {});
+  std::deque<capture::Image> under_way;
+  led->runUntil(62.0, [&](const capture::Image& image) {
+    while (!under_way.empty() && under_way.front().stamp < image.stamp - late) {
+      watch.addImage(under_way.front());
+      under_way.pop_front();
+    }
+    if (image.camera == "camera_3")
+      under_way.push_back(image);
+    else
+      watch.addImage(image);
+  });
+  return watch.healths();
+}
+
+TEST(HealthWatch, SaysWhyACameraIsNotJudged) {
+  const std::vector<geometry::RigCamera> cameras = paperRigWith(calibratedByWave()).cameras;
+  WavedLed led(cameras, 1);
+  for (const auto& [name, health] : healthsWithLateImages(0.3, &led)) {
+    EXPECT_EQ(health.drift.has_value(), name != "camera_3") << name;
+    EXPECT_SAYS(health.no_drift, name == "camera_3" ? "images of camera_3 come 0.3" : "");
+  }
+  WavedLed of_another_clock(cameras, 2);
+  for (const auto& [name, health] : healthsWithLateImages(3.0, &of_another_clock))
+    EXPECT_SAYS(health.no_drift, "images of camera_3 come 3.0");
+  WavedLed resting(cameras, 3);
+  resting.still = Eigen::Vector3d(1.0, 1.1, 0.9);
+  resting.wrong_share = 0.0;
+  for (const auto& [name, health] : healthsWithLateImages(0.0, &resting))
+    EXPECT_EQ(health.no_drift, "no LED has moved lately where it and others see it") << name;
 }
 
 TEST(HealthWatch, NamesTwoRemotesThatWereExchanged) {

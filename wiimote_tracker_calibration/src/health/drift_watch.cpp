@@ -3,6 +3,8 @@
 #include "drift_residuals.h"
 #include "exchanged_cameras.h"
 
+#include <wiimote_tracker_msgs/text.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -49,7 +51,7 @@ bool allFit(const Drifts& drifts, std::ptrdiff_t cameras) {
 DriftWatch::DriftWatch(const geometry::Rig& rig, const DriftOptions& options)
     : rig_(rig), options_(options), drifts_(rig.cameras.size()) {
   for (const geometry::RigCamera& camera : rig_.cameras)
-    cameras_.push_back({rig_.rayCamera(camera), {}, false, std::nullopt});
+    cameras_.push_back({rig_.rayCamera(camera), {}, false, 0.0, std::nullopt});
 }
 
 bool DriftWatch::add(const capture::Image& image) {
@@ -68,6 +70,7 @@ bool DriftWatch::add(const capture::Image& image) {
     frame.pixel = image.spots.front();
   if (!std::isfinite(frame.time))
     return false;
+  found->late = newest_ - frame.time;
   if (frame.time - newest_ > options_.window + kJump || frame.time < newest_ - kJump) {
     restart();
     newest_ = frame.time;
@@ -83,6 +86,22 @@ bool DriftWatch::add(const capture::Image& image) {
   next_judgement_ = newest_ + options_.window / kJudgements;
   judge();
   return true;
+}
+
+std::string DriftWatch::whyNotJudged(std::size_t camera) const {
+  if (rig_.ray_model != geometry::RayModel::kCalibrated)
+    return "the rig's rays are built through the image centre";
+  // An image later than kJump begins everything anew.
+  const auto latest =
+      std::max_element(cameras_.begin(), cameras_.end(),
+                       [](const Camera& a, const Camera& b) { return a.late < b.late; });
+  const Camera& late = latest->late > kJump ? *latest : cameras_[camera];
+  if (late.late > kPatience)
+    return format(
+        "images of %s come %.2f s later than those of others: see its link, and the clock of its "
+        "computer",
+        late.rays.name.c_str(), late.late);
+  return "no LED has moved lately where it and others see it";
 }
 
 void DriftWatch::restart() {

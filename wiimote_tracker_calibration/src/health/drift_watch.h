@@ -72,6 +72,9 @@ class DriftWatch {
   /// others in the window.
   const Drifts& drifts() const { return drifts_; }
 
+  /// Why a camera without a judgement has none.
+  std::string whyNotJudged(std::size_t camera) const;
+
  private:
   struct Frame {
     double time = 0.0;                     // Of the exposure [s].
@@ -80,7 +83,8 @@ class DriftWatch {
   struct Camera {
     geometry::Camera rays;
     fusion::FrameHistory<Frame> frames;
-    bool clock_known = false;                    // The time offset holds for the latest image.
+    bool clock_known = false;  // The time offset holds for the latest image.
+    double late = 0.0;         // By how much the latest image was older than the newest of all [s].
     std::optional<Eigen::Vector2d> last_sample;  // [px]
   };
   void sampleUntil(double time);

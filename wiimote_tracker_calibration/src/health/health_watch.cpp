@@ -73,12 +73,7 @@ HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
 }
 
 bool HealthWatch::follow(const geometry::Rig& rig) {
-  const bool is_same =
-      std::equal(cameras_.begin(), cameras_.end(), rig.cameras.begin(), rig.cameras.end(),
-                 [](const Watched& watched, const geometry::RigCamera& now) {
-                   return watched.calibrated.camera.name == now.camera.name;
-                 });
-  if (!is_same)
+  if (!geometry::haveSameCameras(rig_, rig))
     return false;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     if (!isStillCalibratedAs(cameras_[i].calibrated, rig.cameras[i]))
@@ -91,8 +86,11 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
 
 std::map<std::string, CameraHealth> HealthWatch::healths() const {
   std::map<std::string, CameraHealth> healths;
-  for (const Watched& camera : cameras_)
-    healths[camera.calibrated.camera.name] = camera.health;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    CameraHealth& health = healths[cameras_[i].calibrated.camera.name] = cameras_[i].health;
+    if (!health.drift)
+      health.no_drift = drift_.whyNotJudged(i);
+  }
   return healths;
 }
 

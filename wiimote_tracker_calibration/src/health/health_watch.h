@@ -27,6 +27,7 @@ struct CameraHealth {
   std::string advice;          ///< What to do then.
   std::optional<Tilt> tilt;    ///< Latest judgement; nothing: none yet.
   std::optional<Drift> drift;  ///< Same.
+  std::string no_drift;        ///< Why there is none; empty: there is one.
 };
 
 /// Watches whether the cameras of a rig are still where they were calibrated.

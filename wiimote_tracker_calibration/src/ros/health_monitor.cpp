@@ -122,7 +122,7 @@ class HealthMonitor {
       status.add(camera.first + " drift [px]",
                  health.drift
                      ? format("%.2f +- %.2f", health.drift->bias.norm(), health.drift->stddev)
-                     : std::string("not judged"));
+                     : "not judged: " + health.no_drift);
     }
     for (const auto& camera : unknown_cameras_)
       troubles.push_back(camera.second);

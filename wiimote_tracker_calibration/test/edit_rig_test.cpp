@@ -53,6 +53,7 @@ TEST_F(EditRig, RecalibratesOneCamera) {
   Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
   pose.translation() += Eigen::Vector3d(0.05, 0.0, 0.0);
   pose.linear() = pose.linear() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY());
+  rig.cameras[1].masks = {{{1000.0, 20.0}, 5.0}};
   load(rig);
   EXPECT_SAYS(recalibrate("camera_9").message,
               "no camera 'camera_9', and none of that name sends images: start its driver, or "
@@ -65,6 +66,7 @@ TEST_F(EditRig, RecalibratesOneCamera) {
   ASSERT_TRUE(response.success) << response.message;
   EXPECT_NEAR(response.moved, 0.05, 0.01);
   EXPECT_NEAR(response.turned, 0.05, 0.003);
+  EXPECT_SAYS(response.message, "the masks of camera_2 cover where lamps were before: switch");
   Latest<RigCalibration> published("calibration/rig");
   ASSERT_TRUE(waitUntil([&] { return published.get() && published.get()->id != rig.id(); }));
   const geometry::Rig result = fromMessage(*published.get());

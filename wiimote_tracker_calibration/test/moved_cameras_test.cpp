@@ -94,6 +94,7 @@ TEST_F(MovedCameras, BringsBackAKnockedCamera) {
   geometry::Rig rig = trueRig();
   Eigen::Isometry3d& pose = rig.cameras[1].camera.world_from_camera;
   pose.linear() = pose.linear() * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY());
+  rig.cameras[1].masks = {{{1000.0, 20.0}, 5.0}};
   load(rig);
   // Soon what was proposed for the rig of the test before is forgotten.
   EXPECT_TRUE(waitUntil([] {
@@ -122,6 +123,7 @@ TEST_F(MovedCameras, BringsBackAKnockedCamera) {
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
   ASSERT_TRUE(reply.success) << reply.message;
   EXPECT_SAYS(reply.message, "camera_2 was turned by 2.8");
+  EXPECT_SAYS(reply.message, "the masks of camera_2 cover where lamps were before: switch");
   EXPECT_SAYS(reply.message, folder_ + "/versions/");
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/apply").message, "nothing");
   Latest<RigCalibration> published("calibration/rig");

@@ -165,6 +165,27 @@ TEST(Recalibrate, RemovesACamera) {
   EXPECT_SAYS(refusalOf([&] { withoutCamera(two, "camera_3"); }), "a rig needs two cameras");
 }
 
+TEST(Recalibrate, SaysWhichMasksMissTheirLamps) {
+  geometry::Rig before = paperRigWith(wellCalibrated());
+  before.cameras[1].masks = {{{500.0, 300.0}, 12.0}};
+  geometry::Rig now = before;
+  const auto turn = [](double pixels, geometry::RigCamera* camera) {
+    camera->camera.world_from_camera.rotate(
+        Eigen::AngleAxisd(pixels / camera->camera.intrinsics.fx, Eigen::Vector3d::UnitY()));
+  };
+  turn(100.0, &now.cameras[0]);
+  turn(8.0, &now.cameras[1]);
+  EXPECT_EQ(describeOldMasks(before, now), "");
+  turn(8.0, &now.cameras[1]);
+  EXPECT_EQ(describeOldMasks(before, now),
+            "; the masks of camera_2 cover where lamps were before: switch the LED off, and learn "
+            "the lights again");
+  // It looks away from the lamp.
+  now.cameras[1].camera.world_from_camera.rotate(Eigen::AngleAxisd(3.0, Eigen::Vector3d::UnitY()));
+  EXPECT_SAYS(describeOldMasks(before, now), "the masks of camera_2");
+  EXPECT_EQ(describeOldMasks(withoutCamera(before, "camera_2"), now), "") << "a new camera";
+}
+
 TEST(Recalibrate, SaysWhichCamerasSharedViewsOnlyThroughOne) {
   geometry::Rig rig = paperRigWith(wellCalibrated());
   for (const geometry::RigCamera& camera : rig.cameras)

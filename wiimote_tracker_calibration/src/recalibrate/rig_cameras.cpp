@@ -4,6 +4,7 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/shared_views.h>
+#include <wiimote_tracker_triangulation/geometry/sight.h>
 
 #include <Eigen/Core>
 
@@ -69,6 +70,30 @@ std::string describeSplit(const geometry::Rig& rig, const std::string& name) {
   return name + " alone linked the views of " + joined(parts, " with those of ") +
          ": an LED that goes from one to the other is lost on the way; add it again, or turn "
          "another camera so that it sees both, and recalibrate that";
+}
+
+std::string describeOldMasks(const geometry::Rig& before, const geometry::Rig& now) {
+  constexpr double kLampDistance = 3.0;  // [m]
+  std::vector<std::string> moved;
+  for (const geometry::RigCamera& camera : now.cameras) {
+    const geometry::RigCamera* const then = before.find(camera.camera.name);
+    const bool misses =
+        std::any_of(camera.masks.begin(), camera.masks.end(), [&](const geometry::ImageMask& mask) {
+          if (!then)
+            return false;
+          const auto sight = geometry::sightFromPixel(then->camera, mask.center);
+          const auto lamp =
+              sight ? camera.camera.project(sight->origin + kLampDistance * sight->direction)
+                    : std::nullopt;
+          return !lamp || (*lamp - mask.center).norm() > mask.radius;
+        });
+    if (misses)
+      moved.push_back(camera.camera.name);
+  }
+  if (moved.empty())
+    return "";
+  return "; the masks of " + joined(moved) +
+         " cover where lamps were before: switch the LED off, and learn the lights again";
 }
 
 }  // namespace wiimote_tracker::recalibrate

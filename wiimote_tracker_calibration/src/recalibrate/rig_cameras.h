@@ -20,6 +20,10 @@ geometry::Rig withoutCamera(const geometry::Rig& rig, const std::string& name);
 /// empty: none.
 std::string describeSplit(const geometry::Rig& rig, const std::string& name);
 
+/// Which cameras were moved so far that their masks miss lamps that they covered 3 m away before,
+/// and what to do, after "; "; empty: none.
+std::string describeOldMasks(const geometry::Rig& before, const geometry::Rig& now);
+
 }  // namespace wiimote_tracker::recalibrate
 
 #endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H

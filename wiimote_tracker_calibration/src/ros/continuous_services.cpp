@@ -4,6 +4,7 @@
 #include "continuous/continuous_calibration.h"
 #include "continuous/rig_changes.h"
 #include "health/remedy.h"
+#include "recalibrate/rig_cameras.h"
 
 #include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -212,7 +213,8 @@ class ContinuousServices {
       tellGoal(lock);
     }
     const geometry::Rig goal = changes_.goal(*context_.rig(lock));
-    return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message + "; " +
+    return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message +
+                      recalibrate::describeOldMasks(before, goal) + "; " +
                       keepVersion(goal, &lock) + "; " + command("revert") +
                       "  goes back, and save keeps it"};
   }

@@ -54,7 +54,8 @@ class RecalibrateServices {
       call.response.turned = result.turned;
       result.rig.solved_at = NodeContext::now();
       const std::string message = result.message + voidCorrection(rig) +
-                                  (rig.find(camera) ? "" : maskNew(&result.rig.cameras.back()));
+                                  (rig.find(camera) ? recalibrate::describeOldMasks(rig, result.rig)
+                                                    : maskNew(&result.rig.cameras.back()));
       context_.setRig(result.rig, message, lock);
       return workflow::Reply{true, message};
     });

@@ -90,7 +90,7 @@ TEST(ExtensiveJoinRooms, StatesTheErrorsOfSomebodyWhoSlowsDownAtTheDoor) {
 TEST(JoinRooms, SaysHowManyMorePassagesAreNeeded) {
   TwoRooms trial(1, 0.0);
   trial.carryOften(1);
-  EXPECT_SAYS(trial.join().message, "by 1 passage through the door. ");
+  EXPECT_SAYS(trial.join().message, "by 1 passage through the door; ");
   trial.carryOften(3);
   const std::string message = trial.join().message;
   EXPECT_SAYS(message, "4 cameras joined to the 4 of the first rig by 4 passages through the door");

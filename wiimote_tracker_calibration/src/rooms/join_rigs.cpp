@@ -1,6 +1,7 @@
 #include "rooms/join_rigs.h"
 
 #include "rooms/joined_rig.h"
+#include "rooms/room_accuracy.h"
 #include "square/usable_cameras.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -33,16 +34,22 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
                 "the rooms again");
 }
 
+/// @param over what they share. @param checked whether that tells what moved in between.
 JoinedRigs finish(const geometry::Rig& first,
                   const geometry::Rig& second,
                   const RigMotion& motion,
-                  const std::string& over) {
+                  const std::string& over,
+                  bool checked) {
   JoinedRigs result{joinedRig(first, second, motion, clockShift(first, second)), motion, ""};
+  const RoomAccuracy accuracy = accuracyOf(motion, middleOfSecond(first, second));
   const std::size_t added = result.rig.cameras.size() - first.cameras.size();
   result.message = format("%zu %s joined to the %zu of the first rig over ", added,
                           added == 1 ? "camera" : "cameras", first.cameras.size()) +
-                   over;
-  if (motion.degrees_of_freedom > 0)
+                   over + "; " + describe(accuracy);
+  if (!accuracy.isAsWanted())
+    result.message += "; for " + wantedAccuracy() +
+                      " let another camera see both rooms, or calibrate both by a longer wave";
+  if (checked)
     result.message +=
         format("; the rigs disagree %.1f times as much as expected from their uncertainties",
                std::sqrt(motion.chi_squared / motion.degrees_of_freedom));
@@ -53,11 +60,24 @@ JoinedRigs finish(const geometry::Rig& first,
   return result;
 }
 
-/// Derivative of the pose of a camera by all parameters of its rig.
-Eigen::MatrixXd poseByParameters(const geometry::Rig& rig, std::size_t camera) {
-  Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(6, rig.covariance.cols());
-  derivative.middleCols<6>(firstParameter(camera)).setIdentity();
-  return derivative;
+/// A camera of both rigs, which has one pose and one lens. The lens counts since its errors turn
+/// the camera in both rigs: what both have in common does not turn the second room.
+Shared sharedCamera(const geometry::Rig& first,
+                    std::size_t in_first,
+                    const geometry::Rig& second,
+                    std::size_t in_second) {
+  const geometry::Camera& a = first.cameras[in_first].camera;
+  const geometry::Camera& b = second.cameras[in_second].camera;
+  const auto by_parameters = [](const geometry::Rig& rig, std::size_t camera) {
+    Eigen::MatrixXd derivative = Eigen::MatrixXd::Zero(10, rig.covariance.cols());
+    derivative.middleCols<10>(firstParameter(camera)).setIdentity();
+    return derivative;
+  };
+  Shared shared{a.world_from_camera, b.world_from_camera, by_parameters(first, in_first),
+                by_parameters(second, in_second)};
+  shared.lens_difference << b.intrinsics.fx - a.intrinsics.fx, b.intrinsics.fy - a.intrinsics.fy,
+      b.intrinsics.cx - a.intrinsics.cx, b.intrinsics.cy - a.intrinsics.cy;
+  return shared;
 }
 
 /// @throws Error: too few places, or all on one line.
@@ -107,7 +127,7 @@ JoinedRigs joinOver(const std::vector<remap::KnownPoint>& places,
                 " does not lie to the other common places in the second rig as in the "
                 "first: measure it again");
   }
-  return finish(first, second, motion, std::to_string(places.size()) + " common places");
+  return finish(first, second, motion, std::to_string(places.size()) + " common places", true);
 }
 
 }  // namespace
@@ -124,9 +144,7 @@ JoinedRigs joinRigs(const geometry::Rig& first,
       if (first.cameras[i].camera.name != second.cameras[j].camera.name)
         continue;
       checkGravity(first.cameras[i], second.cameras[j]);
-      shared.push_back({first.cameras[i].camera.world_from_camera,
-                        second.cameras[j].camera.world_from_camera, poseByParameters(first, i),
-                        poseByParameters(second, j)});
+      shared.push_back(sharedCamera(first, i, second, j));
       names.push_back(first.cameras[i].camera.name);
     }
   }
@@ -140,6 +158,10 @@ JoinedRigs joinRigs(const geometry::Rig& first,
   const Eigen::Isometry3d start = shared[0].in_first * shared[0].in_second.inverse();
   const RigMotion motion = fitMotion(first, second, shared, start);
   if (motion.contradicts()) {
+    if (names.size() == 1)
+      throw Error("the lens of " + names[0] +
+                  " in the second rig is not that in the first, by the uncertainties of both: "
+                  "calibrate one of the rooms again");
     if (names.size() == 2)
       throw Error(names[0] + " and " + names[1] +
                   " do not stand to each other in the second rig as in the first: one of "
@@ -150,7 +172,7 @@ JoinedRigs joinRigs(const geometry::Rig& first,
                 "first: it was moved in between, or was calibrated badly; calibrate one of "
                 "the rooms again");
   }
-  return finish(first, second, motion, square::listOf(names));
+  return finish(first, second, motion, square::listOf(names), names.size() > 1);
 }
 
 }  // namespace wiimote_tracker::rooms

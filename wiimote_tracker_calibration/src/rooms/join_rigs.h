@@ -18,15 +18,15 @@ struct JoinedRigs {
   std::string message;  ///< One sentence: what they share, and how well that agrees.
 };
 
-/// Moves the second rig into the world of the first, such that the shared cameras coincide or,
-/// without any, the common places; weighted by the covariances of both rigs. A shared camera must
-/// not have moved in between, and stays as it is in the first rig. The joint covariance is to first
-/// order, both rigs being independent.
+/// Moves the second rig into the world of the first, such that pose and lens of the shared cameras
+/// agree or, without any, the common places; weighted by the covariances of both rigs. A shared
+/// camera must not have moved in between, and stays as it is in the first rig. The joint covariance
+/// is to first order, both rigs being independent.
 /// @param places known in the first world, and measured with the second rig: three or more, not on
 /// a line. @param stddev of both together, per axis, without the second rig's covariance [m, > 0].
 /// @throws Error: neither shared camera nor place; a camera or a place, counted from 1, that
-/// contradicts (chi-squared test, 99.9 %); a camera that was moved or is another device; a rig
-/// without covariance; different ray models.
+/// contradicts (chi-squared test, 99.9 %); a camera that was moved, has another lens or is another
+/// device; a rig without covariance; different ray models.
 JoinedRigs joinRigs(const geometry::Rig& first,
                     const geometry::Rig& second,
                     const std::vector<remap::KnownPoint>& places = {},

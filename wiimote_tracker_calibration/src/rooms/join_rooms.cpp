@@ -3,6 +3,7 @@
 #include "rooms/joined_rig.h"
 #include "rooms/passage_fit.h"
 #include "rooms/passages.h"
+#include "rooms/room_accuracy.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -21,9 +22,6 @@ constexpr double kDegree = M_PI / 180.0;
 // three standard deviations of an accelerometer, square::Uncertainty::gravity [rad].
 constexpr double kSteepest = 9.0 * kDegree;
 constexpr std::size_t kMostAdvised = 200;  // Passages.
-// How well the second room should be known.
-constexpr double kWantedPosition = 0.05;           // [m]
-constexpr double kWantedRotation = 0.5 * kDegree;  // [rad]
 
 /// The vertical axis of a world, z or -z, as the z axis of the result.
 /// @throws Error: by the accelerometers it is not vertical.
@@ -57,42 +55,18 @@ std::optional<Shared> sharedVertical(const geometry::Rig& first,
                 Eigen::Vector3d::Constant(slope)};
 }
 
-/// Standard deviations of a point of the second room [m] and of its rotation [rad].
-struct Accuracy {
-  double position;
-  double rotation;
-};
-
-/// @param point in the second world
-Accuracy accuracyOf(const RigMotion& motion, const Eigen::Vector3d& point) {
-  Eigen::Matrix<double, 6, 6> by_motion = Eigen::Matrix<double, 6, 6>::Identity();
-  by_motion.block<3, 3>(3, 0) = -geometry::so3::skew(motion.first_from_second.linear() * point);
-  const Eigen::MatrixXd by_errors = by_motion * motion.by_errors;
-  const Eigen::VectorXd variances =
-      (by_errors * motion.error_covariance * by_errors.transpose()).diagonal();
-  return {std::sqrt(variances.tail<3>().sum()), std::sqrt(variances.head<3>().sum())};
-}
-
-Eigen::Vector3d middleOf(const geometry::Rig& rig) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (const geometry::RigCamera& camera : rig.cameras)
-    sum += camera.camera.center();
-  return sum / static_cast<double>(rig.cameras.size());
-}
-
 /// What to do to know a point of the second room, and its rotation, as well as wanted.
 std::string adviceFor(const PassageProblem& problem,
                       const PassageFit& fit,
                       const Eigen::Vector3d& point) {
-  const std::string wanted =
-      format("%.0f cm and %.1f degrees", 100.0 * kWantedPosition, kWantedRotation / kDegree);
+  const std::string wanted = wantedAccuracy();
   const std::size_t passages = fit.used.size();
   for (std::size_t total = passages; total <= kMostAdvised; total += 1 + total / 10) {
     // n times as many passages have the weight of these with a scatter smaller by sqrt(n).
     const double share = static_cast<double>(total) / static_cast<double>(passages);
-    const Accuracy accuracy = accuracyOf(
-        problem.fit(fit.used, fit.motion.first_from_second, fit.scatter / std::sqrt(share)), point);
-    if (accuracy.position > kWantedPosition || accuracy.rotation > kWantedRotation)
+    const RigMotion motion =
+        problem.fit(fit.used, fit.motion.first_from_second, fit.scatter / std::sqrt(share));
+    if (!accuracyOf(motion, point).isAsWanted())
       continue;
     if (total == passages)
       return "that is as good as wanted (" + wanted + ")";
@@ -148,21 +122,17 @@ JoinedRooms joinRooms(const geometry::Rig& first,
   result.first_from_second = fit.motion.first_from_second;
   result.passages = fit.used.size();
   const Eigen::Index known = first.covariance.cols() + second.covariance.cols();
-  const Eigen::Vector3d middle = middleOf(second);
-  const Accuracy accuracy = accuracyOf(fit.motion, middle);
+  const Eigen::Vector3d middle = middleOfSecond(first, second);
+  const RoomAccuracy accuracy = accuracyOf(fit.motion, middle);
   result.position_stddev = accuracy.position;
   result.rotation_stddev = accuracy.rotation;
   // Stamps of both rooms are of one clock, so the offsets of the second rig stay as they are.
   result.rig = joinedRig(first, second, fit.motion, {0.0, Eigen::RowVectorXd::Zero(known)});
   result.message =
-      format(
-          "%zu cameras joined to the %zu of the first rig by %zu %s through the door%s. The "
-          "second room is known to %.1f cm at the middle of its cameras, and %.2f degrees "
-          "(standard deviations); ",
-          second.cameras.size(), first.cameras.size(), result.passages,
-          result.passages == 1 ? "passage" : "passages", left_out.c_str(),
-          100.0 * result.position_stddev, result.rotation_stddev / kDegree) +
-      adviceFor(problem, fit, middle) + lostByJoining(first, second);
+      format("%zu cameras joined to the %zu of the first rig by %zu %s through the door%s; ",
+             second.cameras.size(), first.cameras.size(), result.passages,
+             result.passages == 1 ? "passage" : "passages", left_out.c_str()) +
+      describe(accuracy) + "; " + adviceFor(problem, fit, middle) + lostByJoining(first, second);
   result.rig.verdict = joinedVerdict(first, second, result.message);
   return result;
 }

@@ -1,6 +1,6 @@
 // A solver of its own: the weights turn with the motion that is estimated, and the covariance of
 // the joined rig needs the gain of every error, which the loop below has at hand. Six unknowns, and
-// two, three or six conditions for each thing shared, are solved in closed form a few times.
+// two, three or ten conditions for each thing shared, are solved in closed form a few times.
 #include "rooms/rig_motion.h"
 
 #include "adjust/chi_squared.h"
@@ -11,7 +11,6 @@
 
 #include <Eigen/Geometry>
 
-#include <algorithm>
 #include <limits>
 
 namespace wiimote_tracker::rooms {
@@ -25,7 +24,10 @@ constexpr double kLeastStddev = 1e-5;
 // Conditions of what is shared, which tell its kind.
 constexpr Eigen::Index kVertical = 2;
 constexpr Eigen::Index kPlace = 3;
-constexpr Eigen::Index kCamera = 6;
+constexpr Eigen::Index kCamera = 10;
+// What one lens may differ by from one calibration to the other, beside their covariances, since it
+// warms up and no model is exact [px].
+constexpr double kLensStddev = 0.5;
 
 /// Linearised conditions: residual + by_motion * m + by_errors * e = 0, with the errors m of the
 /// motion and e, both as RigMotion counts them.
@@ -64,15 +66,18 @@ Conditions conditionsAt(const Eigen::Isometry3d& motion, const std::vector<Share
       by_motion.leftCols<3>() = -level * so3::skew(up);
       by_second = one.by_second;
     } else {
+      const Eigen::Index position = rows == kCamera ? 3 : 0;
       if (rows == kCamera) {
         residual.head<3>() = so3::log(moved.linear() * one.in_first.linear().transpose());
+        residual.tail<4>() = one.lens_difference;
         by_motion.topLeftCorner<3, 3>().setIdentity();
+        by_second.bottomRows<4>() = one.by_second.bottomRows<4>();
       }
-      residual.tail<3>() = moved.translation() - one.in_first.translation();
-      by_motion.bottomLeftCorner<3, 3>() =
+      residual.segment<3>(position) = moved.translation() - one.in_first.translation();
+      by_motion.block<3, 3>(position, 0) =
           -so3::skew(motion.linear() * one.in_second.translation());
-      by_motion.bottomRightCorner<3, 3>().setIdentity();
-      for (Eigen::Index k = 0; k < rows; k += 3)
+      by_motion.block<3, 3>(position, 3).setIdentity();
+      for (Eigen::Index k = 0; k <= position; k += 3)
         by_second.middleRows<3>(k) = motion.linear() * one.by_second.middleRows<3>(k);
     }
     row += rows;
@@ -94,17 +99,17 @@ Eigen::MatrixXd errorCovariance(const geometry::Rig& first,
   Eigen::VectorXd common = Eigen::VectorXd::Zero(size);
   for (const Shared& one : shared) {
     const Eigen::Index rows = one.by_second.rows();
-    if (rows == kPlace)
-      common.segment<3>(row) = one.common;
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();
-    if (rows != kVertical)
-      axes = one.in_first.linear();
-    const Eigen::Matrix3d each = axes * one.stddevs.cwiseAbs2().asDiagonal() * axes.transpose();
-    // Of a camera the rotation, then the position.
-    const Eigen::Index size_of_each = std::min<Eigen::Index>(rows, 3);
-    for (const Eigen::Index end = row + rows; row < end; row += size_of_each)
-      covariance.block(row, row, size_of_each, size_of_each) =
-          each.topLeftCorner(size_of_each, size_of_each);
+    if (rows == kCamera) {
+      covariance.diagonal().segment<4>(row + 6).setConstant(kLensStddev * kLensStddev);
+    } else {
+      const Eigen::Matrix3d axes =
+          rows == kPlace ? one.in_first.linear() : Eigen::Matrix3d::Identity().eval();
+      const Eigen::Matrix3d own = axes * one.stddevs.cwiseAbs2().asDiagonal() * axes.transpose();
+      covariance.block(row, row, rows, rows) = own.topLeftCorner(rows, rows);
+      if (rows == kPlace)
+        common.segment<3>(row) = one.common;
+    }
+    row += rows;
   }
   covariance.diagonal().tail(count).array() += kLeastStddev * kLeastStddev;
   covariance += common * common.transpose();

@@ -15,20 +15,22 @@ namespace wiimote_tracker::rooms {
 constexpr double kThinnest = 0.05;
 
 /// A camera, a place or the vertical that two rigs share. Derivatives are by all parameters of a
-/// rig. Their rows are: of a camera the rotation, then the position; of a place the position; of
-/// the vertical, which is the z axis of in_first and in_second, its components along the x and y
-/// axes of in_first.
+/// rig. Their rows are: of a camera the rotation, the position, then fx, fy, cx, cy; of a place the
+/// position; of the vertical, which is the z axis of in_first and in_second, its components along
+/// the x and y axes of in_first.
 struct Shared {
   Eigen::Isometry3d in_first;   ///< [m]
   Eigen::Isometry3d in_second;  ///< [m]
   Eigen::MatrixXd by_first;
   Eigen::MatrixXd by_second;
-  /// Of in_second against in_first, along the axes of in_first, without the rigs' covariances
-  /// [m; rad].
+  /// Of a place or the vertical: of in_second against in_first, along the axes of in_first, without
+  /// the rigs' covariances [m; rad].
   Eigen::Vector3d stddevs = Eigen::Vector3d::Zero();
   /// Standard deviation of an error that all places share: of in_second against in_first, along the
   /// axes of the first world [m].
   Eigen::Vector3d common = Eigen::Vector3d::Zero();
+  /// Of a camera: fx, fy, cx, cy of the second rig minus those of the first [px].
+  Eigen::Vector4d lens_difference = Eigen::Vector4d::Zero();
 };
 
 /// The motion between two rigs that fits best to what they share.

@@ -21,4 +21,4 @@ double oracle(const SimulatedSession& session, const LinkModel& link);
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_REFERENCE_CLOCKS_H

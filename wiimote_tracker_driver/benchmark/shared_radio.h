@@ -38,4 +38,4 @@ std::vector<std::vector<virtual_wiimote::FrameTime>> simulateRadio(const RadioMo
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_SHARED_RADIO_H

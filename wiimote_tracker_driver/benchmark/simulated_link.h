@@ -39,4 +39,4 @@ inline SimulatedSession simulate(const LinkModel& link, double duration, std::ui
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_SIMULATED_LINK_H

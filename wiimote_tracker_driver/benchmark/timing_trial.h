@@ -34,4 +34,4 @@ TimingScore runTiming(const LinkModel& link,
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_TIMING_TRIAL_H

@@ -66,4 +66,4 @@ class ClockEstimator {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_ESTIMATOR_H

@@ -104,4 +104,4 @@ class ClockFilter {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H

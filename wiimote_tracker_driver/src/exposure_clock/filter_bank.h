@@ -56,4 +56,4 @@ class FilterBank {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FILTER_BANK_H

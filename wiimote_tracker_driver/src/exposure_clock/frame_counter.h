@@ -44,4 +44,4 @@ class FrameCounter {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_COUNTER_H

@@ -51,4 +51,4 @@ class FrameHistory {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H

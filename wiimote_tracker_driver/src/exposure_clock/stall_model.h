@@ -42,4 +42,4 @@ class StallModel {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STALL_MODEL_H

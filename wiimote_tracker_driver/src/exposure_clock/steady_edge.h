@@ -63,4 +63,4 @@ class SteadyEdge {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H

@@ -67,4 +67,4 @@ class FrameTimes {
 
 }  // namespace wiimote_tracker::virtual_wiimote
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FRAME_TIMES_H

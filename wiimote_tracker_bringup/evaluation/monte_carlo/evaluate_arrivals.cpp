@@ -36,9 +36,9 @@ constexpr std::array<const char*, 4> kNames{"exact", "clock", "grid", "arrivals"
 
 constexpr char kExplanation[] =
     "Errors of the stamps [ms] against Bayes' rule with the whole recording, told how such remotes "
-    "behave (its own deviation: 0.5 ms). clock: the exposure clock; grid: Bayes' rule with the "
-    "arrivals so far; arrivals: the arrival as stamp; in_2sd: errors within two stated deviations. "
-    "Then RMS errors of a tracked LED [mm]; clock_in_95%: points within their ellipsoids.";
+    "behave (its own deviation: 0.5 ms). grid: that with the arrivals so far; in_2sd: within two "
+    "stated deviations. Then RMS errors of a tracked LED [mm]; clock_in_95%: points within their "
+    "ellipsoids.";
 
 struct Frame {
   std::size_t camera;

@@ -1,6 +1,7 @@
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
 #include "exposure_clock/clock_estimator.h"
+#include "exposure_clock/poll_watch.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,23 +19,13 @@ const double kProgress = std::log(2.0);
 constexpr double kBetter = 6.9;
 // Time over which the errors of replaced leaders are averaged [s].
 constexpr double kErrorMemory = 30.0;
-// In sniff mode a remote sends once in 16 slots of 0.625 ms [s]. The clocks of adapter and computer
-// differ by less than this share.
-constexpr double kSniffInterval = 0.010;
-constexpr double kClockTolerance = 1e-4;
-
-/// Whether this is the period of the adapter's polls. Then the arrivals do not tell when within a
-/// period the images were exposed.
-bool isOfPolls(double period) {
-  const double polls = std::round(period / kSniffInterval);
-  return std::abs(period - polls * kSniffInterval) < kClockTolerance * period;
-}
 
 }  // namespace
 
 ExposureClock::ExposureClock(double period)
     : leader_(std::make_unique<ClockEstimator>(period)),
       challenger_(std::make_unique<ClockEstimator>(period)),
+      polls_(std::make_unique<PollWatch>()),
       progressed_at_(-std::numeric_limits<double>::infinity()),
       leader_begin_(std::numeric_limits<double>::infinity()),
       last_arrival_(progressed_at_),
@@ -51,6 +42,8 @@ void ExposureClock::reset() {
 Estimate ExposureClock::update(double arrival, bool waited) {
   Estimate e = leader_->update(arrival, waited);
   leader_begin_ = std::min(leader_begin_, arrival);
+  if (!waited)
+    polls_->add(arrival);
   if (arrival > last_arrival_)
     error_variance_ *= std::exp((last_arrival_ - arrival) / kErrorMemory);
   e.frame += frame_offset_;
@@ -67,12 +60,9 @@ Estimate ExposureClock::update(double arrival, bool waited) {
     e.restarted = true;
     endTrial();
   }
-  e.stddev = std::hypot(e.stddev, std::sqrt(error_variance_));
-  e.clock_stddev = std::hypot(e.clock_stddev, std::sqrt(error_variance_));
-  if (const double period = leader_->statistics().period; isOfPolls(period)) {
-    e.stddev = std::hypot(e.stddev, period / std::sqrt(12.0));
-    e.clock_stddev = std::hypot(e.clock_stddev, period / std::sqrt(12.0));
-  }
+  const double hidden = std::sqrt(error_variance_ + polls_->waitVariance());
+  e.stddev = std::hypot(e.stddev, hidden);
+  e.clock_stddev = std::hypot(e.clock_stddev, hidden);
   const double earliest = last_exposure_ + kShortestStep;
   if (arrival >= last_arrival_ && e.exposure < earliest) {
     e.stddev = std::hypot(e.stddev, earliest - e.exposure);

@@ -7,6 +7,7 @@
 namespace wiimote_tracker::exposure_clock {
 
 class ClockEstimator;
+class PollWatch;
 
 constexpr double kNominalPeriod = 0.010035;  ///< between frames of a Wii Remote [s]
 
@@ -43,7 +44,8 @@ struct Statistics {
 /// means that the first has a wrong period, or that it took slow changes of the delays (as where
 /// polls beat with the camera) for the camera's own. A replaced estimator's error grew from none to
 /// its distance from the new one, so its mean square is a third of the distance's; the average of
-/// that over the last half minute is added to the stated variances.
+/// that over the last half minute is added to the stated variances, and so is the variance of waits
+/// for polls that are in step with the camera.
 class ExposureClock {
  public:
   /// @param period nominal time between frames [s]. @throws std::invalid_argument when it is not
@@ -69,6 +71,7 @@ class ExposureClock {
   void learnError(double error, double arrival);
 
   std::unique_ptr<ClockEstimator> leader_, challenger_;
+  std::unique_ptr<PollWatch> polls_;
   double trial_begin_ = 0.0;     ///< Of the challenger [s].
   double advantage_ = 0.0;       ///< Of the challenger: logarithm of a ratio of likelihoods,
   double best_advantage_ = 0.0;  ///< its greatest value, in steps of kProgress,
@@ -82,4 +85,4 @@ class ExposureClock {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXPOSURE_CLOCK_H

@@ -1,0 +1,42 @@
+#include "exposure_clock/poll_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::exposure_clock {
+
+namespace {
+// In sniff mode a remote sends once in 16 slots of 0.625 ms [s].
+constexpr double kSniffInterval = 0.010;
+// Reports that a mean is taken over, for the longest interval; for the others less in proportion.
+// So a camera whose period differs from the polls' by 2 us is not in step.
+constexpr double kStepMemory = 1350.0;
+constexpr double kInStep = 0.5;
+
+double phase(double time, double interval) {
+  return 2.0 * M_PI * std::fmod(time, interval) / interval;
+}
+}  // namespace
+
+void PollWatch::add(double arrival) {
+  double interval = kSniffInterval, memory = kStepMemory;
+  for (std::complex<double>& mean : in_step_) {
+    mean += (std::polar(1.0, phase(arrival, interval)) - mean) / memory;
+    interval /= 2.0;
+    memory /= 2.0;
+  }
+  steady_ += (std::cos(phase(arrival - last_arrival_, kSniffInterval)) - steady_) / memory;
+  last_arrival_ = arrival;
+}
+
+double PollWatch::waitVariance() const {
+  double interval = kSniffInterval;
+  for (const std::complex<double>& mean : in_step_) {
+    if (std::abs(mean) > kInStep)  // the wait is distributed uniformly
+      return std::max(0.0, steady_) * interval * interval / 12.0;
+    interval /= 2.0;
+  }
+  return 0.0;
+}
+
+}  // namespace wiimote_tracker::exposure_clock

@@ -49,6 +49,9 @@ class SimulatedHand(NodeTest):
             started = rospy.ServiceProxy('calibration/start', StartCalibration)(
                 without_square=True, wand_length=0.5)
             self.assertTrue(started.success, started.message)
+            # The first one may be from before the start, and want to solve the wave before.
+            self.wait(lambda: any(status.next_request != 'solve' for status in statuses),
+                      'the calibration to start')
             self.wait(lambda: statuses and statuses[-1].next_request == 'solve',
                       'a wand that was laid down and waved')
             subscriber.unregister()

@@ -50,6 +50,7 @@ class Guide:
         self.answer = ''
         self.answers = []       # (good, text) of all answers
         self.measured = ''      # the answer to the last length or known place
+        self.elsewhere = ''     # what to do if the node runs in another namespace only
         self.lost = ''          # LOST from then on until the next request
         self.running = []       # words of the commands that have not been answered
         self.feedback = ''
@@ -114,6 +115,8 @@ class Guide:
 
     def silent(self, now: float) -> str:
         """Why there is nothing to see; empty when all is well."""
+        if self.status is None and self.elsewhere:
+            return f'None here, but {self.elsewhere}'
         if self.status is None and now - self.began < FOUND_WITHIN:
             return 'Looking for the calibration node.'
         if self.status is None:

@@ -21,6 +21,8 @@ SERVICE_TIMEOUT = 1.0   # [s] Longest search for a service.
 ACTION_TIMEOUT = 5.0    # [s] Longest search for the action's server.
 CHECK_PERIOD = 1.0      # [s] Between checks during a capture that both sides still run.
 
+STATUS = '/calibration/status'
+
 TOPICS = (('status', 'status', CalibrationStatus), ('verdict', 'verdict', CalibrationVerdict),
           ('board', 'board', BoardStatus), ('trace', 'principal_point_trace', PrincipalPointTrace),
           ('sound', 'sound', String))
@@ -28,7 +30,8 @@ TOPICS = (('status', 'status', CalibrationStatus), ('verdict', 'verdict', Calibr
 
 class Node:
     """events: a queue.Queue of (event, message) for the events of TOPICS, ('image_size', camera,
-    (width, height)), ('feedback', text, share) and ('answer', word, good, text)."""
+    (width, height)), ('feedback', text, share), ('answer', word, good, text) and, at the start,
+    ('elsewhere', what to do if calibration nodes run in other namespaces only)."""
 
     def __init__(self):
         self.events: queue.Queue = queue.Queue()
@@ -37,6 +40,8 @@ class Node:
         self._images: Dict[str, rospy.Subscriber] = {}
         for event, topic, type_ in TOPICS:
             rospy.Subscriber(f'calibration/{topic}', type_, self._on_message, event)
+        threading.Thread(target=lambda: self.events.put(('elsewhere', elsewhere())),
+                         daemon=True).start()
 
     def send(self, word: str, request: Request) -> None:
         """Sends a request; its answer becomes an event."""
@@ -45,8 +50,8 @@ class Node:
             try:
                 good, text = self._call(name, request)
             except rospy.ROSException:
-                good, text = False, (f'{rospy.resolve_name(name)} does not answer: check that the '
-                                     'calibration node runs, in the same version')
+                good, text = False, (f'{rospy.resolve_name(name)} does not answer: ' + (
+                    elsewhere() or 'check that the calibration node runs, in the same version'))
             # Also errors of sockets and rospy's internal ones, when the node ends meanwhile:
             # without an answer nothing more could be sent.
             except Exception as error:
@@ -104,6 +109,19 @@ class Node:
         if result is None:  # the server does not know the goal
             return False, 'the calibration node was started again: capture again'
         return result.success, sentence(result)
+
+
+def elsewhere() -> str:
+    """What to do where calibration nodes run in other namespaces only; else empty."""
+    try:
+        topics = [topic for topic, _ in rospy.get_published_topics()]
+    except Exception:  # of the connection: the master ends
+        return ''
+    spaces = sorted(topic[:-len(STATUS)] or '/' for topic in topics if topic.endswith(STATUS))
+    if not spaces or rospy.resolve_name(STATUS[1:]) in topics:
+        return ''
+    return (f'a calibration node runs in {" and ".join(spaces)}: type  ROS_NAMESPACE={spaces[0]} '
+            'rosrun wiimote_tracker_calibration calibrate')
 
 
 def fill(message: Any, fields: Dict[str, Any]) -> None:

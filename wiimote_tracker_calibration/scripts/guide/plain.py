@@ -135,8 +135,8 @@ class Plain:
             self._fail(guide.lost)
         self._told['lost'] = guide.lost
         silent = guide.silent(time.monotonic())
-        # Print the sentence once, though it counts the seconds.
-        self._tell_new('silent', bool(silent), silent)
+        # Of a node that was there the sentence is printed once, though it counts the seconds.
+        self._tell_new('silent', silent if guide.status is None else bool(silent), silent)
         if silent:
             return
         if self._board:

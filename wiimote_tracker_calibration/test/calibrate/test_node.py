@@ -70,3 +70,28 @@ def test_a_request_during_which_the_node_ends_is_answered(monkeypatch, error):
     node.send('solve', commands.request('solve', 'SolveCalibration'))
     assert node.events.get(timeout=10.0) == (
         'answer', 'solve', False, f'calibration/solve failed: {error}')
+
+
+@pytest.mark.parametrize('namespace, topics, said', [
+    ('/', ['/second/calibration/status', '/first/calibration/status', '/rosout'],
+     'a calibration node runs in /first and /second: type  ROS_NAMESPACE=/first rosrun '
+     'wiimote_tracker_calibration calibrate'),
+    ('/second/', ['/calibration/status'],
+     'a calibration node runs in /: type  ROS_NAMESPACE=/ rosrun '
+     'wiimote_tracker_calibration calibrate'),
+    ('/second/', ['/calibration/status', '/second/calibration/status'], ''),
+    ('/', ['/rosout'], '')])
+def test_calibration_nodes_of_other_namespaces_are_named(monkeypatch, namespace, topics, said):
+    monkeypatch.setattr(rospy, 'resolve_name', lambda name: namespace + name)
+    monkeypatch.setattr(rospy, 'get_published_topics', lambda: [(each, '') for each in topics])
+    assert node_module.elsewhere() == said
+
+    def call(name, request):
+        raise rospy.ROSException()
+    node = Node.__new__(Node)
+    node.events = queue.Queue()
+    monkeypatch.setattr(node, '_call', call)
+    node.send('start', commands.request('start', 'StartCalibration'))
+    assert node.events.get(timeout=10.0)[3] == (
+        f'{namespace}calibration/start does not answer: ' +
+        (said or 'check that the calibration node runs, in the same version'))

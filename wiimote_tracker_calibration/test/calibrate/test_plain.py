@@ -10,7 +10,7 @@ from wiimote_tracker_msgs.msg import BoardStatus, CalibrationStatus
 from fakes import FakeNode, dialogue_with, status
 from guide import board_screen, commands
 from guide.dialogue import Dialogue
-from guide.guide import Guide
+from guide.guide import FOUND_WITHIN, Guide
 from guide.plain import Plain
 
 
@@ -76,6 +76,30 @@ def test_plain_tells_every_answer_also_when_it_is_the_same_again():
     failures, said = plain('solve\nsolve\n', node, status(CalibrationStatus.READY))
     assert failures == 2
     assert said.count(f'refused: {refusal}') == 2
+
+
+def test_plain_says_what_to_do_without_a_node():
+    said, node = [], FakeNode()
+    guide = Guide(time.monotonic() + 1e6)
+
+    def input_of_a_user():
+        yield from wait_for('Looking for the calibration node.')
+        guide.began = -FOUND_WITHIN
+        yield from wait_for('No calibration node answers at calibration/status: start it')
+        node.events.put(('elsewhere', 'another runs'))
+        yield from wait_for('None here, but another runs')
+        yield 'quit'
+
+    def wait_for(beginning):
+        end = time.monotonic() + 30.0
+        while not any(text.startswith(beginning) for text in said):
+            if time.monotonic() > end:
+                yield 'quit'
+            time.sleep(0.01)
+
+    face = Plain(Dialogue(guide, node, commands.RIG, guide.advice), said.append, input_of_a_user())
+    face.run()
+    assert said[-1] == 'None here, but another runs'
 
 
 def test_plain_next_without_a_node_fails_and_does_not_hang():

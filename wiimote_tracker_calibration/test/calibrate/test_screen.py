@@ -326,6 +326,11 @@ def test_all_keys_are_on_one_screen_and_no_two_are_alike():
 def test_a_silent_node_and_none_at_all_are_one_sentence_each():
     assert screen.render(Guide(0.0), 1.0)[1] == 'Looking for the calibration node.'
     assert 'No calibration node answers' in screen.render(Guide(0.0), 4.0)[1]
+    guide = Guide(0.0)
+    guide.elsewhere = ('a calibration node runs in /second: type  ROS_NAMESPACE=/second rosrun '
+                       'wiimote_tracker_calibration calibrate')
+    assert ' '.join(screen.render(guide, 1.0)[1:3]).split() == (
+        'None here, but ' + guide.elsewhere).split()
     guide = guide_at(status(CalibrationStatus.READY))
     assert 'Do this.' in screen.render(guide, 2.9)[1]
     assert 'has said nothing for 5 s' in screen.render(guide, 5.0)[1]

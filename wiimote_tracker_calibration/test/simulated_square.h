@@ -144,7 +144,7 @@ inline std::vector<Eigen::Isometry3d> paperRig(std::size_t cameras = 4) {
 }
 
 inline double rotationBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
-  return geometry::so3::log(a.linear().transpose() * b.linear()).norm();
+  return geometry::so3::angleBetween(a.linear(), b.linear());
 }
 
 /// What has to be added to the parameters of one camera to get those of another, in the order of a

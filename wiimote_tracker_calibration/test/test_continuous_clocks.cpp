@@ -10,6 +10,7 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <gtest/gtest.h>
 #include <Eigen/Core>
@@ -29,9 +30,8 @@ namespace {
 
 /// [rad]
 double turnBetween(const geometry::RigCamera& a, const geometry::RigCamera& b) {
-  return Eigen::AngleAxisd(a.camera.world_from_camera.linear().transpose() *
-                           b.camera.world_from_camera.linear())
-      .angle();
+  return geometry::so3::angleBetween(a.camera.world_from_camera.linear(),
+                                     b.camera.world_from_camera.linear());
 }
 
 /// Errors of the clocks against the first one, in standard deviations: their squares' sum, which

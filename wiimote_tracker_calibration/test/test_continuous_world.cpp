@@ -7,6 +7,7 @@
 #include "continuous/continuous_calibration.h"
 
 #include <gtest/gtest.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
 
@@ -69,9 +70,9 @@ TEST(Continuous, SolvesARollAtOnce) {
       rig = proposal->rig;
       watch = ContinuousCalibration(rig, {});
     });
-    const Eigen::Matrix3d difference = rolled.world_from_camera.linear().transpose() *
-                                       rig.cameras[seed].camera.world_from_camera.linear();
-    EXPECT_LT(Eigen::AngleAxisd(difference).angle(), 0.002);
+    EXPECT_LT(geometry::so3::angleBetween(rolled.world_from_camera.linear(),
+                                          rig.cameras[seed].camera.world_from_camera.linear()),
+              0.002);
   }
 }
 

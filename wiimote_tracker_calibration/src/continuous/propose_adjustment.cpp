@@ -4,8 +4,7 @@
 #include "health/drift_watch.h"
 
 #include <wiimote_tracker_msgs/text.h>
-
-#include <Eigen/Geometry>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -172,9 +171,8 @@ geometry::Rig withClocks(const geometry::Rig& adjusted, geometry::Rig rig) {
 }
 
 double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b) {
-  return Eigen::AngleAxisd(a.camera.world_from_camera.linear().transpose() *
-                           b.camera.world_from_camera.linear())
-      .angle();
+  return geometry::so3::angleBetween(a.camera.world_from_camera.linear(),
+                                     b.camera.world_from_camera.linear());
 }
 
 }  // namespace wiimote_tracker::continuous

@@ -3,8 +3,7 @@
 #include "health/remedy.h"
 
 #include <wiimote_tracker_msgs/text.h>
-
-#include <Eigen/Geometry>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <algorithm>
 #include <cmath>
@@ -52,10 +51,10 @@ bool isStillCalibratedAs(const geometry::RigCamera& before, const geometry::RigC
   // Half of what is found as drift, 3 m away.
   constexpr double kTurn = 0.00025;  // [rad]
   constexpr double kMove = 0.001;    // [m]
-  const Eigen::AngleAxisd turn(before.camera.world_from_camera.linear().transpose() *
-                               now.camera.world_from_camera.linear());
+  const double turn = geometry::so3::angleBetween(before.camera.world_from_camera.linear(),
+                                                  now.camera.world_from_camera.linear());
   return before.camera.identity == now.camera.identity && before.gravity == now.gravity &&
-         turn.angle() < kTurn && (now.camera.center() - before.camera.center()).norm() < kMove;
+         turn < kTurn && (now.camera.center() - before.camera.center()).norm() < kMove;
 }
 
 }  // namespace

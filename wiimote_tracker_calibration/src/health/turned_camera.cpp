@@ -149,9 +149,8 @@ void TurnedCamera::judge() {
   const auto count = static_cast<double>(explained.size());
   if (explained.size() >= kLeast && count >= kExplained * static_cast<double>(possible) &&
       static_cast<double>(agreeing(others).size()) <= kRival * count) {
-    const Eigen::AngleAxisd turn(calibrated_.world_from_camera.linear().transpose() *
-                                 camera.world_from_camera.linear());
-    is_turned_ = turn.angle() > kLeastTurn;
+    is_turned_ = geometry::so3::angleBetween(calibrated_.world_from_camera.linear(),
+                                             camera.world_from_camera.linear()) > kLeastTurn;
     now_ = is_turned_ ? camera : calibrated_;
   }
 }

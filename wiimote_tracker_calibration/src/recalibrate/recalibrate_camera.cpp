@@ -11,6 +11,7 @@
 #include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/point_sensitivity.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
 
@@ -332,7 +333,7 @@ Recalibration recalibrateCamera(const geometry::Rig& before,
     const Eigen::Isometry3d& then = rig.cameras[index].camera.world_from_camera;
     const Eigen::Isometry3d& now = fit.camera.world_from_camera;
     result.moved = (now.translation() - then.translation()).norm();
-    result.turned = Eigen::AngleAxisd(then.linear().transpose() * now.linear()).angle();
+    result.turned = geometry::so3::angleBetween(then.linear(), now.linear());
     change = format(" moved by %.1f mm and turned by %.2f degrees", 1000.0 * result.moved,
                     result.turned * kDegrees);
   }

@@ -3,6 +3,8 @@
 #include "adjust/opencv.h"
 #include "adjust/pixel.h"
 
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
 #include <ceres/ceres.h>
 
 #include <opencv2/calib3d.hpp>
@@ -154,9 +156,8 @@ PlanarPoses cornerPoses(const geometry::Intrinsics& intrinsics,
 }
 
 bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Corners& corners) {
-  const Eigen::AngleAxisd turn(a.linear().transpose() * b.linear());
   const double distance = (a.translation() - 0.5 * (corners[0] + corners[2])).norm();
-  return std::abs(turn.angle()) < kSameAngle &&
+  return geometry::so3::angleBetween(a.linear(), b.linear()) < kSameAngle &&
          (a.translation() - b.translation()).norm() < kSameDistance * distance;
 }
 

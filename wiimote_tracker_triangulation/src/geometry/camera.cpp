@@ -2,6 +2,7 @@
 
 #include "distortion.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/LU>
 
@@ -173,9 +174,8 @@ bool Camera::sees(const Eigen::Vector3d& point) const {
 bool haveSamePose(const Camera& a, const Camera& b) {
   constexpr double kTurn = 0.002;      // some pixels [rad]
   constexpr double kDistance = 0.005;  // [m]
-  const Eigen::AngleAxisd turn(a.world_from_camera.linear().transpose() *
-                               b.world_from_camera.linear());
-  return turn.angle() < kTurn && (b.center() - a.center()).norm() < kDistance;
+  return so3::angleBetween(a.world_from_camera.linear(), b.world_from_camera.linear()) < kTurn &&
+         (b.center() - a.center()).norm() < kDistance;
 }
 
 Eigen::Isometry3d lookAt(const Eigen::Vector3d& position,

@@ -6,6 +6,7 @@
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
+#include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <gtest/gtest.h>
 
@@ -189,6 +190,15 @@ TEST(Camera, CheckNamesTheBadValue) {
   bad = Intrinsics();
   bad.distortion[2] = kNaN;
   EXPECT_NE(std::string::npos, message(bad).find("distortion"));
+}
+
+TEST(So3, AngleBetweenIsThatOfTheTurn) {
+  const Eigen::Matrix3d a = so3::exp({0.4, -1.0, 2.0}).toRotationMatrix();
+  const Vector3d axis = Vector3d(1.0, -2.0, 0.5).normalized();
+  for (const double angle : {0.0, 1e-6, 1.0, M_PI}) {
+    EXPECT_NEAR(angle, so3::angleBetween(a, a * so3::exp(angle * axis)), 1e-12);
+    EXPECT_NEAR(angle, so3::angleBetween(so3::exp(-angle * axis) * a, a), 1e-12);
+  }
 }
 
 }  // namespace

@@ -26,6 +26,11 @@ inline Eigen::Vector3d log(const Eigen::Matrix3d& rotation) {
   return turn.angle() * turn.axis();
 }
 
+/// The angle by which two attitudes differ [rad, 0..pi].
+inline double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
+  return Eigen::AngleAxisd(a.transpose() * b).angle();
+}
+
 }  // namespace wiimote_tracker::geometry::so3
 
 #endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SO3_H

@@ -11,6 +11,8 @@ constexpr double kSniffInterval = 0.010;
 // Reports that a mean is taken over, for the longest interval; for the others less in proportion.
 // So a camera whose period differs from the polls' by 2 us is not in step.
 constexpr double kStepMemory = 1350.0;
+// Reports that steady_ is a mean over: those of 0.8 s.
+constexpr double kSteadyMemory = kStepMemory / 16.0;
 constexpr double kInStep = 0.5;
 
 double phase(double time, double interval) {
@@ -25,7 +27,7 @@ void PollWatch::add(double arrival) {
     interval /= 2.0;
     memory /= 2.0;
   }
-  steady_ += (std::cos(phase(arrival - last_arrival_, kSniffInterval)) - steady_) / memory;
+  steady_ += (std::cos(phase(arrival - last_arrival_, kSniffInterval)) - steady_) / kSteadyMemory;
   last_arrival_ = arrival;
 }
 

@@ -139,8 +139,8 @@ TEST(ExtensiveClockWander, RemotesPolledAtRandom) {
   EXPECT_GT(score.inside, 0.92);
 }
 
-// Polls every 1.25, 2.5 or 5 ms beat with the camera: the delay grows slowly and jumps back. The clock
-// cannot see that, but that the arrivals are in step with such polls.
+// Polls every 1.25, 2.5 or 5 ms beat with the camera: the delay grows slowly and jumps back. The
+// clock cannot see that, but that the arrivals are in step with such polls.
 TEST(ExtensiveClockWander, RemotesPolledNearTheirPeriod) {
   for (const int remotes : {1, 2, 4})
     for (const double loss : {0.0, 0.05, 0.15})

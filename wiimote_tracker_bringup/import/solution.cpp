@@ -48,6 +48,8 @@ geometry::Rig rigOf(const Reconstruction& reconstruction, const std::string& met
       "%zu of %zu observations fit; their reprojection error: median %.2f px, mean %.2f "
       "px, RMS %.2f px",
       all.inliers, all.observations, all.median, all.mean, all.rms);
+  if (!reconstruction.converged)
+    rig.verdict += "; the adjustment did not converge: check the intrinsics and the frame numbers";
   return rig;
 }
 

@@ -158,6 +158,30 @@ TEST(Bundle, HeldPositionsStayAndOrientationsAreFound) {
   }
 }
 
+TEST(Bundle, TellsWhetherTheAdjustmentConverged) {
+  // Many observations lie near this limit, so that each solution has other inliers.
+  Options narrow;
+  narrow.maximum_error = 1.0;
+  int converged = 0;
+  const int kRuns = 8;
+  for (unsigned seed = 8; seed < 8 + kRuns; ++seed) {
+    SyntheticRig rig(4, 300, seed);
+    rig.addNoise(1.0);
+    Reconstruction solution = solve(rig.observed(), Options());
+    EXPECT_TRUE(solution.converged);
+    triangulatePoints(&solution, narrow.maximum_error);
+    adjust(&solution, narrow, Held());
+    if (!solution.converged)
+      continue;
+    ++converged;
+    const std::vector<bool> inliers = solution.inliers;
+    adjust(&solution, narrow, Held());
+    EXPECT_EQ(solution.inliers, inliers);
+  }
+  EXPECT_GT(converged, 0);
+  EXPECT_LT(converged, kRuns);
+}
+
 TEST(Bundle, RefusesWhatCannotBeSolved) {
   const SyntheticRig rig(3, 60, 10);
   Reconstruction alone;

@@ -14,7 +14,7 @@ namespace wiimote_tracker::self_calibrate {
 namespace {
 
 /// What is printed when every `spoiled`-th observation fits no point.
-std::string printedWith(std::size_t spoiled) {
+std::string printedWith(std::size_t spoiled, bool converged = true) {
   const bundle::SyntheticRig rig(3, 60, 33);
   Report report;
   bundle::Reconstruction& solution = report.solution.reconstruction;
@@ -29,6 +29,7 @@ std::string printedWith(std::size_t spoiled) {
     solution.points.emplace_back();
     solution.inliers.push_back(false);
   }
+  solution.converged = converged;
   report.solution.lenses.assign(rig.cameras.size(), {1.0, true});
   char* text = nullptr;
   std::size_t size = 0;
@@ -43,6 +44,11 @@ std::string printedWith(std::size_t spoiled) {
 TEST(SelfCalibrateReport, SaysThatManyObservationsFitNoPoint) {
   EXPECT_SAYS(printedWith(4), "OBSERVATIONS FIT NO POINT");
   EXPECT_EQ(printedWith(20).find("OBSERVATIONS FIT NO POINT"), std::string::npos);
+}
+
+TEST(SelfCalibrateReport, SaysThatTheAdjustmentDidNotConverge) {
+  EXPECT_SAYS(printedWith(20, false), "NO FINAL SOLUTION");
+  EXPECT_EQ(printedWith(20).find("NO FINAL SOLUTION"), std::string::npos);
 }
 
 }  // namespace

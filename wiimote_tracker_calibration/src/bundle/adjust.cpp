@@ -69,19 +69,19 @@ void BundleProblem::holdLensOrAddPrior(std::size_t index) {
     problem_.SetParameterBlockConstant(camera.higher_distortion.data());
     return;
   }
-  const LensPrior& prior = options_.lens;
+  const ExpectedLens& expected = options_.lens;
   const double weight = 1.0 / options_.pixel_stddev;  // residuals are in px
   geometry::Intrinsics mean = reconstruction_.cameras[index].intrinsics;
   mean.fx = mean.fy =
-      prior.focal_about > 0.0 ? prior.focal_about * mean.width : std::sqrt(mean.fx * mean.fy);
+      expected.focal_about > 0.0 ? expected.focal_about * mean.width : std::sqrt(mean.fx * mean.fy);
   mean.cx = 0.5 * (mean.width - 1);
   mean.cy = 0.5 * (mean.height - 1);
   mean.distortion = {};
-  const adjust::LensPrior lens{mean, prior.focal_length * weight, prior.aspect * weight,
-                               prior.principal_point * mean.width * weight,
-                               prior.distortion[0] * weight};
+  const adjust::LensPrior lens{mean, expected.focal_length * weight, expected.aspect * weight,
+                               expected.principal_point * mean.width * weight,
+                               expected.distortion[0] * weight};
   problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
-  const Eigen::Map<const Eigen::Vector4d> distortion(prior.distortion.data() + 1);
+  const Eigen::Map<const Eigen::Vector4d> distortion(expected.distortion.data() + 1);
   problem_.AddResidualBlock(adjust::priorOf(Eigen::Vector4d::Zero(), weight * distortion), nullptr,
                             camera.higher_distortion.data());
 }
@@ -132,7 +132,7 @@ ceres::Solver::Options BundleProblem::solverOptions() {
   return solver;
 }
 
-void BundleProblem::solve() {
+bool BundleProblem::solve() {
   ceres::Solver::Summary summary;
   ceres::Solve(solverOptions(), &problem_, &summary);
   if (!summary.IsSolutionUsable())
@@ -144,6 +144,7 @@ void BundleProblem::solve() {
     geometry::Camera& camera = reconstruction_.cameras[i];
     camera = cameras_[i].cameraLike(camera);
   }
+  return summary.termination_type == ceres::CONVERGENCE;
 }
 
 std::optional<adjust::Estimate> BundleProblem::estimate(const std::vector<std::size_t>& points) {
@@ -169,7 +170,7 @@ void adjust(Reconstruction* reconstruction, const Options& options, const Held& 
       usable[reconstruction->observations[i].camera] = true;
   }
   for (int round = 0; round < kMaximumRounds; ++round) {
-    BundleProblem(reconstruction, options, held).solve();
+    reconstruction->converged = BundleProblem(reconstruction, options, held).solve();
     if (options.rough)
       return;
     const std::vector<bool> before = reconstruction->inliers;
@@ -180,6 +181,7 @@ void adjust(Reconstruction* reconstruction, const Options& options, const Held& 
       return;
     }
   }
+  reconstruction->converged = false;
 }
 
 }  // namespace wiimote_tracker::bundle

@@ -24,8 +24,8 @@ class BundleProblem {
   /// @throws BundleError: it has no inliers.
   BundleProblem(Reconstruction* reconstruction, const Options& options, const Held& held);
 
-  /// @throws BundleError: the minimisation fails.
-  void solve();
+  /// @returns whether it converged. @throws BundleError: the minimisation fails.
+  bool solve();
 
   /// Adds what no observation shows: how far the farthest camera is from the first.
   void addScale();

@@ -19,8 +19,9 @@ void printErrors(const std::string& name, const bundle::Statistics& errors, std:
                errors.observations, errors.median, errors.mean, errors.p95);
 }
 
-/// Asks for a better recording if too many observations that another camera shares are outliers.
-void printOutliers(const bundle::Reconstruction& reconstruction, std::FILE* file) {
+/// Asks for a better recording if too many observations that another camera shares are outliers, or
+/// the adjustment did not converge.
+void printMisfit(const bundle::Reconstruction& reconstruction, std::FILE* file) {
   std::vector<std::size_t> views(reconstruction.points.size(), 0);
   for (const bundle::Observation& observation : reconstruction.observations)
     ++views[observation.point];
@@ -38,6 +39,11 @@ void printOutliers(const bundle::Reconstruction& reconstruction, std::FILE* file
                  "The cameras may be wrong: record one light only, moved through all of the room, "
                  "with synchronised cameras, and give no intrinsics but the right ones.\n",
                  outliers, shared);
+  if (!reconstruction.converged)
+    std::fprintf(file,
+                 "\nNO FINAL SOLUTION: the adjustment still changed when it was stopped.\n"
+                 "The cameras may be less certain than stated: record the light longer, in more "
+                 "places, with synchronised cameras and without other lights.\n");
 }
 
 void printLenses(const Report& report, std::FILE* file) {
@@ -172,7 +178,7 @@ void print(const Report& report, bool points, std::FILE* file) {
   const std::vector<bundle::Statistics> errors = bundle::statisticsOfCameras(reconstruction);
   for (std::size_t i = 0; i < errors.size(); ++i)
     printErrors(reconstruction.cameras[i].name, errors[i], file);
-  printOutliers(reconstruction, file);
+  printMisfit(reconstruction, file);
   printLenses(report, file);
   printPoses(reconstruction, file);
   if (report.comparison)
@@ -197,7 +203,8 @@ std::string jsonText(const Report& report) {
     points.push_back(point ? jsonList({point->x(), point->y(), point->z()}) : "null");
   std::string text = format("{\"starts\": %zu, \"followed\": %zu, \"agreeing\": %zu,\n ",
                             solution.starts, solution.followed, solution.agreeing) +
-                     "\"pixel_stddev\": " + json(solution.pixel_stddev) + ",\n \"cameras\": [\n" +
+                     "\"converged\": " + (reconstruction.converged ? "true" : "false") +
+                     ", \"pixel_stddev\": " + json(solution.pixel_stddev) + ",\n \"cameras\": [\n" +
                      joined(cameras, ",\n") + "\n ],\n \"points\": [\n  " +
                      joined(points, ",\n  ") + "\n ]";
   if (report.comparison && !report.comparison->own.empty())

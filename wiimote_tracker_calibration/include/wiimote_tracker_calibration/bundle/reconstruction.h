@@ -25,6 +25,7 @@ struct Reconstruction {
   std::vector<Observation> observations;
   std::vector<bool> inliers;  ///< For each observation.
   std::vector<bool> placed;   ///< For each camera, while they are placed one after the other.
+  bool converged = true;      ///< Whether the last adjust() ended at a solution.
 };
 
 /// Distance from the projected point to the observed pixel [px]. Nothing when the point is not

@@ -9,8 +9,8 @@
 
 namespace wiimote_tracker::bundle {
 
-/// Prior of a lens: standard deviations, each > 0.
-struct LensPrior {
+/// What lenses are expected to be: standard deviations of a prior, each > 0.
+struct ExpectedLens {
   double focal_length = std::numeric_limits<double>::infinity();  ///< Of log(f).
   double focal_about = 0.0;       ///< Its mean [image widths]; 0: the start value.
   double aspect = 0.002;          ///< Of log(fx / fy), mean 0.
@@ -23,8 +23,8 @@ struct Options {
   double maximum_error = 5.0;              ///< Of an inlier [px, > 0].
   double loss_scale = 1.0;                 ///< Of the Huber loss [px, > 0].
   std::size_t minimum_common_points = 10;  ///< Of a camera and the others [>= 8].
-  double pixel_stddev = 1.0;               ///< Weight of observations against LensPrior [px, > 0].
-  LensPrior lens;                          ///< Of intrinsics that are not held.
+  double pixel_stddev = 1.0;               ///< Weight of observations against the lens [px, > 0].
+  ExpectedLens lens;                       ///< Of intrinsics that are not held.
   bool one_lens = false;                   ///< All cameras have the first one's intrinsics.
   bool rough = false;                      ///< Start values: stop early, keep the inliers.
 };
@@ -47,7 +47,8 @@ Reconstruction solve(Reconstruction observed, const Options& options);
 
 /// Bundle adjustment: minimises the reprojection errors of the inliers (Huber loss) over cameras
 /// and points except what is held, and selects the inliers again until they no longer change, at
-/// most 20 times. If no positions are held, the first camera keeps its pose.
+/// most 20 times. Reconstruction::converged is false if they still change then, or if the last
+/// minimisation stopped early. If no positions are held, the first camera keeps its pose.
 /// @throws BundleError: no point is determined, or the minimisation fails.
 void adjust(Reconstruction* reconstruction, const Options& options, const Held& held);
 

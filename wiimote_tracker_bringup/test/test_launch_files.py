@@ -288,6 +288,14 @@ def test_rviz_beside_a_service_has_the_coverage(load):
     assert set(all_at_once) == set(service) | started
 
 
+@pytest.mark.parametrize('given, frame', [([], 'world'), (['world:=second_world'], 'second_world')])
+def test_rviz_shows_the_world_frame_of_its_rig(load, given, frame):
+    words = shlex.split(load('rviz.launch', *given)[0]['rviz'].args)
+    assert words[-2:] == ['-f', frame]
+    with open(words[words.index('-d') + 1], encoding='utf-8') as file:
+        assert set(re.findall('(?:Reference|Target) Frame: (.*)', file.read())) == {'<Fixed Frame>'}
+
+
 @pytest.mark.parametrize('name', ['tracker.launch', 'calibrate.launch', 'triangulation.launch',
                                   'several_machines.launch', 'simulated_rig.launch hand:=true',
                                   'rviz.launch'])

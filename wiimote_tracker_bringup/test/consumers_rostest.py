@@ -94,7 +94,7 @@ class Consumers(LiveRigTest):
 
     def test_mavros_vision_pose(self):
         nodes, _ = load('mavros_vision.launch', 'body:=wand', 'message:=vision_pose')
-        self.assertEqual({name for name in nodes if 'check_arguments' not in name},
+        self.assertEqual({name for name in nodes if not name.startswith('check_')},
                          {'odom_in_map', 'world_in_odom', 'mavros_vision_pose'})
         mode, topic, rate, output = nodes['mavros_vision_pose'].args.split()
         self.assertEqual((mode, output), ('messages', 'mavros/vision_pose/pose_cov'))
@@ -110,6 +110,7 @@ class Consumers(LiveRigTest):
         self.assertEqual({(n.package, n.type) for n in nodes.values()},
                          {('robot_localization', 'ekf_localization_node'),
                           ('tf2_ros', 'static_transform_publisher'),
+                          ('wiimote_tracker_bringup', 'check_body'),
                           ('wiimote_tracker_msgs', 'check_arguments')})
         self.assertEqual(nodes['world_in_map'].args.split()[-2:], ['map', 'world'])
         for name, world_frame in (('ekf_odom', 'odom'), ('ekf_map', 'map')):

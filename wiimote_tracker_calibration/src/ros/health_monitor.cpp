@@ -88,7 +88,12 @@ class HealthMonitor {
     }
   }
 
-  void warnOfUnknownCameras(const geometry::Rig& rig, const Lock&) {
+  void warnOfUnknownCameras(const geometry::Rig& rig, const Lock& lock) {
+    const workflow::Step step = context_.calibration(lock).step();
+    const bool is_in_use = step == workflow::Step::kIdle || step == workflow::Step::kSolved ||
+                           step == workflow::Step::kSaved;
+    if (!is_in_use)
+      return;  // A new rig may be on the way, with them.
     for (const auto& camera : context_.inputs().cameras()) {
       if (rig.find(camera.first))
         continue;
@@ -97,7 +102,7 @@ class HealthMonitor {
         continue;
       }
       const std::string text = camera.first + " is not in the rig and makes no points: " +
-                               health::addCamera(rig, camera.first);
+                               health::addCamera(rig, camera.first) + ", or end its driver";
       if (std::exchange(unknown_cameras_[camera.first], text) != text)
         ROS_WARN_STREAM(text);
     }

@@ -119,12 +119,13 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
     case tracking::CameraFault::Kind::kInaccurate:
       return format(
           "the calibration of %s is too inaccurate where the LEDs are now, and its images are "
-          "ignored: calibrate again, with a waved LED",
+          "ignored: calibrate again, and wave the LED there, too",
           name);
     case tracking::CameraFault::Kind::kCorrectedClock:
       return format(
           "the times of the images of %s are %.3g s too %s, by the motion of the LEDs, and "
-          "are corrected: run chrony on all computers, or calibrate again",
+          "are corrected: run chrony on all computers or, where one runs all drivers, calibrate "
+          "again",
           name, seconds, fault.clock_ahead > 0.0 ? "late" : "early");
     case tracking::CameraFault::Kind::kLate:
       return format(

@@ -6,6 +6,10 @@ import pytest
 check_body = program_module.load('launch/check_body')
 
 
+def topics_of(body):
+    return [body + '/odometry', body + '/pose', body + '/twist']
+
+
 @pytest.fixture
 def said(monkeypatch, capsys):
     """What it says of a body in a namespace, while the topics come one list after the other."""
@@ -31,9 +35,9 @@ def said(monkeypatch, capsys):
 
 
 @pytest.mark.parametrize('body, namespace, topics, sentence', [
-    ('robot', '', ['/stick/odometry', '/stick/pose'], 'Nobody publishes /robot/odometry: learn '
-     'this body (learn_body), or name another by body:=; there are /stick.'),
-    ('stick', '', ['/second/stick/odometry'], 'Nobody publishes /stick/odometry: learn '
+    ('robot', '', topics_of('/stick') + ['/wheel/odometry', '/odometry'],
+     'Nobody publishes /robot/odometry: learn this body (learn_body), or name another by body:=; there are /stick.'),
+    ('stick', '', topics_of('/second/stick'), 'Nobody publishes /stick/odometry: learn '
      'this body (learn_body), or name another by body:=; there are /second/stick.'),
     ('stick', '/second', [], 'Nobody publishes /second/stick/odometry: learn '
      'this body (learn_body), or name another by body:=; there is none.')])
@@ -43,8 +47,8 @@ def test_a_body_that_nobody_publishes_is_named(said, body, namespace, topics, se
 
 @pytest.mark.parametrize('namespace, body', [('', 'stick'), ('', '/stick'), ('/second', '/stick')])
 def test_a_body_that_is_published_soon_is_fine(said, namespace, body):
-    assert said(body, namespace, [], ['/rosout'], ['/stick/odometry']) == ''
+    assert said(body, namespace, [], ['/rosout'], topics_of('/stick')) == ''
 
 
 def test_a_body_of_the_own_namespace_is_fine(said):
-    assert said('stick', '/second', ['/second/stick/odometry']) == ''
+    assert said('stick', '/second', topics_of('/second/stick')) == ''

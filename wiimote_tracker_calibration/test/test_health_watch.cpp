@@ -97,10 +97,11 @@ TEST(HealthWatch, SaysWhichCamerasWaitForAMovingLed) {
   Random random(33);
   const geometry::Rig rig = paperRigWith(calibratedByWave());
   HealthWatch watch(rig, {});
-  EXPECT_EQ(watch.waiting().size(), rig.cameras.size());
+  const std::string reason = "no LED has moved lately where it and others see it";
+  EXPECT_EQ(watch.notJudged()[reason].size(), rig.cameras.size());
   WavedLed scene(drawTruth(rig, random), 701);
   track(&scene, 0.0, 30.0, &watch, &random);
-  EXPECT_TRUE(watch.waiting().empty());
+  EXPECT_TRUE(watch.notJudged().empty());
   capture::Image image;
   image.spots = {{512.0, 384.0}};  // It rests for longer than the window.
   for (double time = 30.0; time < 100.0; time += 0.02) {
@@ -110,7 +111,7 @@ TEST(HealthWatch, SaysWhichCamerasWaitForAMovingLed) {
       watch.addImage(image);
     }
   }
-  EXPECT_EQ(watch.waiting().size(), rig.cameras.size());
+  EXPECT_EQ(watch.notJudged()[reason].size(), rig.cameras.size());
   EXPECT_TRUE(watch.healths().at("camera_1").drift) << "the last judgement stays";
 }
 
@@ -256,6 +257,14 @@ TEST(HealthWatch, SaysWhyACameraIsNotJudged) {
   WavedLed of_another_clock(cameras, 2);
   for (const auto& [name, health] : healthsWithLateImages(3.0, &of_another_clock))
     EXPECT_SAYS(health.no_drift, "images of camera_3 come 3.0");
+  HealthWatch watch(paperRigWith(calibratedByWave()), {});
+  WavedLed of_a_clock_ahead(cameras, 2);
+  of_a_clock_ahead.runUntil(62.0, [&](capture::Image image) {
+    image.stamp += image.camera == "camera_3" ? 3.0 : 0.0;
+    watch.addImage(image);
+  });
+  for (const auto& [name, health] : watch.healths())
+    EXPECT_SAYS(health.no_drift, "later than those of camera_3");
   WavedLed resting(cameras, 3);
   resting.still = Eigen::Vector3d(1.0, 1.1, 0.9);
   resting.wrong_share = 0.0;

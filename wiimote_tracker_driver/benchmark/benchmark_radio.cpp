@@ -79,8 +79,10 @@ void addRows(double duration, BenchmarkTables* tables) {
       {Polling::kAtRandom, "random"}, {Polling::kInTurn, "turn"}, {Polling::kSniff, "sniff"}};
   for (const auto& [polling, name] : kPollings) {
     for (const int remotes : {1, 4, 7}) {
-      if (remotes > 1 ? polling == Polling::kSniff : polling == Polling::kInTurn)
-        continue;  // in sniff mode each has its own time; one is polled in each turn
+      if (remotes > 1 && polling == Polling::kSniff)
+        continue;  // each has its own time
+      if (remotes == 1 && polling == Polling::kInTurn)
+        continue;  // as at random
       for (const double loss : {0.0, 0.05, 0.15}) {
         RadioModel model;
         model.remotes = remotes;

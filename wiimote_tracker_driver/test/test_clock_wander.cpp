@@ -155,6 +155,22 @@ TEST(ExtensiveClockWander, RemotesInSniffMode) {
   EXPECT_GT(meanOverRemotes(RadioModel::Polling::kSniff, 0.05).inside, 0.85);
 }
 
+TEST(ClockWander, ARemoteInSniffModeIsKnownAfterFourSeconds) {
+  RadioModel model;
+  model.polling = RadioModel::Polling::kSniff;
+  for (const auto& reports : simulateRadio(model, 10.0, 1)) {
+    ExposureClock clock;
+    double least = 1.0;
+    for (const auto& report : reports) {
+      const double stddev = clock.update(report.arrival).stddev;
+      if (report.exposure > 4.0)
+        least = std::min(least, stddev);
+    }
+    // A wait that is distributed uniformly over 10 ms.
+    EXPECT_GT(least, 2.5e-3);
+  }
+}
+
 // As after a start with wrong frame numbers: the clock is certain of a period that is 0.5 % short.
 // The change falls anywhere within a trial of another estimator.
 TEST(ExtensiveClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {

@@ -51,7 +51,7 @@ bool allFit(const Drifts& drifts, std::ptrdiff_t cameras) {
 DriftWatch::DriftWatch(const geometry::Rig& rig, const DriftOptions& options)
     : rig_(rig), options_(options), drifts_(rig.cameras.size()) {
   for (const geometry::RigCamera& camera : rig_.cameras)
-    cameras_.push_back({rig_.rayCamera(camera), {}, false, 0.0, std::nullopt});
+    cameras_.push_back({rig_.rayCamera(camera), {}, false, 0.0, 0, std::nullopt});
 }
 
 bool DriftWatch::add(const capture::Image& image) {
@@ -70,16 +70,22 @@ bool DriftWatch::add(const capture::Image& image) {
     frame.pixel = image.spots.front();
   if (!std::isfinite(frame.time))
     return false;
-  found->late = newest_ - frame.time;
+  const double late = newest_ - frame.time;
+  const std::size_t later_than = newest_camera_;
   if (frame.time - newest_ > options_.window + kJump || frame.time < newest_ - kJump) {
     restart();
     newest_ = frame.time;
     next_sample_ = frame.time;
     next_judgement_ = frame.time + options_.window / kJudgements;
   }
+  found->late = late;
+  found->later_than = later_than;
   if (found->frames.empty() || frame.time > found->frames.newest().time)
     found->frames.push(frame);
-  newest_ = std::max(newest_, frame.time);
+  if (frame.time >= newest_) {
+    newest_ = frame.time;
+    newest_camera_ = static_cast<std::size_t>(found - cameras_.begin());
+  }
   sampleUntil(newest_ - kPatience);
   if (newest_ < next_judgement_)
     return false;
@@ -98,15 +104,16 @@ std::string DriftWatch::whyNotJudged(std::size_t camera) const {
   const Camera& late = latest->late > kJump ? *latest : cameras_[camera];
   if (late.late > kPatience)
     return format(
-        "images of %s come %.2f s later than those of others: see its link, and the clock of its "
-        "computer",
-        late.rays.name.c_str(), late.late);
+        "images of %s come %.2f s later than those of %s: see their links, and the clocks of their "
+        "computers",
+        late.rays.name.c_str(), late.late, cameras_[late.later_than].rays.name.c_str());
   return "no LED has moved lately where it and others see it";
 }
 
 void DriftWatch::restart() {
   for (Camera& camera : cameras_) {
     camera.frames.clear();
+    camera.late = 0.0;
     camera.last_sample.reset();
   }
   samples_.clear();

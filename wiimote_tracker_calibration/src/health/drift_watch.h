@@ -85,6 +85,7 @@ class DriftWatch {
     fusion::FrameHistory<Frame> frames;
     bool clock_known = false;  // The time offset holds for the latest image.
     double late = 0.0;         // By how much the latest image was older than the newest of all [s].
+    std::size_t later_than = 0;                  // The camera of that newest image.
     std::optional<Eigen::Vector2d> last_sample;  // [px]
   };
   void sampleUntil(double time);
@@ -104,8 +105,9 @@ class DriftWatch {
   std::vector<Camera> cameras_;
   std::deque<DriftSample> samples_;
   double newest_ = -std::numeric_limits<double>::infinity();  // Latest exposure [s].
-  double next_sample_ = 0.0;                                  // [s]
-  double next_judgement_ = 0.0;                               // [s]
+  std::size_t newest_camera_ = 0;
+  double next_sample_ = 0.0;     // [s]
+  double next_judgement_ = 0.0;  // [s]
   Drifts drifts_;
 };
 

@@ -93,13 +93,13 @@ std::map<std::string, CameraHealth> HealthWatch::healths() const {
   return healths;
 }
 
-std::vector<std::string> HealthWatch::waiting() const {
-  std::vector<std::string> names;
+std::map<std::string, std::vector<std::string>> HealthWatch::notJudged() const {
+  std::map<std::string, std::vector<std::string>> cameras;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (rig_.ray_model == geometry::RayModel::kCalibrated && !drift_.drifts()[i])
-      names.push_back(cameras_[i].calibrated.camera.name);
+    if (!drift_.drifts()[i])
+      cameras[drift_.whyNotJudged(i)].push_back(cameras_[i].calibrated.camera.name);
   }
-  return names;
+  return cameras;
 }
 
 HealthWatch::Watched* HealthWatch::find(const std::string& name) {

@@ -51,8 +51,8 @@ class HealthWatch {
   /// Of all cameras of the rig, by name.
   std::map<std::string, CameraHealth> healths() const;
 
-  /// Cameras whose images cannot be judged now, as an LED must move where they and others see it.
-  std::vector<std::string> waiting() const;
+  /// Cameras whose images cannot be judged now, by the reason.
+  std::map<std::string, std::vector<std::string>> notJudged() const;
 
   /// New findings since the last call, one sentence per camera.
   std::vector<std::string> takeNews();

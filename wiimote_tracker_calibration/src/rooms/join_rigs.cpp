@@ -35,11 +35,13 @@ void checkGravity(const geometry::RigCamera& first, const geometry::RigCamera& s
 }
 
 /// @param over what they share. @param checked whether that tells what moved in between.
+/// @param remedy what would determine the motion better.
 JoinedRigs finish(const geometry::Rig& first,
                   const geometry::Rig& second,
                   const RigMotion& motion,
                   const std::string& over,
-                  bool checked) {
+                  bool checked,
+                  const std::string& remedy) {
   JoinedRigs result{joinedRig(first, second, motion, clockShift(first, second)), motion, ""};
   const RoomAccuracy accuracy = accuracyOf(motion, middleOfSecond(first, second));
   const std::size_t added = result.rig.cameras.size() - first.cameras.size();
@@ -47,8 +49,8 @@ JoinedRigs finish(const geometry::Rig& first,
                           added == 1 ? "camera" : "cameras", first.cameras.size()) +
                    over + "; " + describe(accuracy);
   if (!accuracy.isAsWanted())
-    result.message += "; for " + wantedAccuracy() +
-                      " let another camera see both rooms, or calibrate both by a longer wave";
+    result.message +=
+        "; for " + wantedAccuracy() + " " + remedy + ", or calibrate both rooms by a longer wave";
   if (checked)
     result.message +=
         format("; the rigs disagree %.1f times as much as expected from their uncertainties",
@@ -127,7 +129,8 @@ JoinedRigs joinOver(const std::vector<remap::KnownPoint>& places,
                 " does not lie to the other common places in the second rig as in the "
                 "first: measure it again");
   }
-  return finish(first, second, motion, std::to_string(places.size()) + " common places", true);
+  return finish(first, second, motion, std::to_string(places.size()) + " common places", true,
+                "measure more places, farther apart");
 }
 
 }  // namespace
@@ -172,7 +175,8 @@ JoinedRigs joinRigs(const geometry::Rig& first,
                 "first: it was moved in between, or was calibrated badly; calibrate one of "
                 "the rooms again");
   }
-  return finish(first, second, motion, square::listOf(names), names.size() > 1);
+  return finish(first, second, motion, square::listOf(names), names.size() > 1,
+                "let another camera see both rooms");
 }
 
 }  // namespace wiimote_tracker::rooms

@@ -92,8 +92,10 @@ class HealthMonitor {
     const workflow::Step step = context_.calibration(lock).step();
     const bool is_in_use = step == workflow::Step::kIdle || step == workflow::Step::kSolved ||
                            step == workflow::Step::kSaved;
-    if (!is_in_use)
-      return;  // A new rig may be on the way, with them.
+    if (!is_in_use) {  // A new rig may be on the way, with them.
+      unknown_cameras_.clear();
+      return;
+    }
     for (const auto& camera : context_.inputs().cameras()) {
       if (rig.find(camera.first))
         continue;
@@ -133,19 +135,20 @@ class HealthMonitor {
       troubles.push_back(camera.second);
     if (troubles.empty())
       status.summary(diagnostic_msgs::DiagnosticStatus::OK,
-                     "no camera seems to have moved" + describeWaiting());
+                     "no camera seems to have moved" + describeNotJudged());
     else
       status.summary(diagnostic_msgs::DiagnosticStatus::WARN, joined(troubles, "; "));
   }
 
-  /// What is not judged yet, and what is waited for.
-  std::string describeWaiting() const {
-    const std::vector<std::string> waiting = watch_->waiting();
-    if (waiting.empty())
-      return "";
-    const bool are_all = waiting.size() == watch_->healths().size();
-    return "; the images" + (are_all ? "" : " of " + joined(waiting)) +
-           " are judged while an LED moves where two cameras see it";
+  /// Whose images are not judged now, and why.
+  std::string describeNotJudged() const {
+    std::string text;
+    for (const auto& [reason, cameras] : watch_->notJudged()) {
+      const bool are_all = cameras.size() == watch_->healths().size();
+      text +=
+          "; the images" + (are_all ? "" : " of " + joined(cameras)) + " are not judged: " + reason;
+    }
+    return text;
   }
 
   NodeContext& context_;

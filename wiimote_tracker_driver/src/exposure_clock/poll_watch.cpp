@@ -14,6 +14,9 @@ constexpr double kStepMemory = 1350.0;
 // Reports that steady_ is a mean over: those of 0.8 s.
 constexpr double kSteadyMemory = kStepMemory / 16.0;
 constexpr double kInStep = 0.5;
+// Weight of a mean from which on it tells: the polls have then passed once through all waits of a
+// camera of nominal period.
+constexpr double kEnough = 0.2;
 
 double phase(double time, double interval) {
   return 2.0 * M_PI * std::fmod(time, interval) / interval;
@@ -22,8 +25,9 @@ double phase(double time, double interval) {
 
 void PollWatch::add(double arrival) {
   double interval = kSniffInterval, memory = kStepMemory;
-  for (std::complex<double>& mean : in_step_) {
-    mean += (std::polar(1.0, phase(arrival, interval)) - mean) / memory;
+  for (Mean& mean : in_step_) {
+    mean.sum += (std::polar(1.0, phase(arrival, interval)) - mean.sum) / memory;
+    mean.weight += (1.0 - mean.weight) / memory;
     interval /= 2.0;
     memory /= 2.0;
   }
@@ -33,8 +37,9 @@ void PollWatch::add(double arrival) {
 
 double PollWatch::waitVariance() const {
   double interval = kSniffInterval;
-  for (const std::complex<double>& mean : in_step_) {
-    if (std::abs(mean) > kInStep)  // the wait is distributed uniformly
+  for (const Mean& mean : in_step_) {
+    // The wait is then distributed uniformly.
+    if (mean.weight > kEnough && std::abs(mean.sum) > kInStep * mean.weight)
       return std::max(0.0, steady_) * interval * interval / 12.0;
     interval /= 2.0;
   }

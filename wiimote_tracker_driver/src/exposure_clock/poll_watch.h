@@ -17,9 +17,13 @@ class PollWatch {
 
  private:
   static constexpr int kIntervals = 4;
+  struct Mean {
+    std::complex<double> sum;  // Weighted.
+    double weight = 0.0;       // Of all reports: grows to 1.
+  };
   // Means of exp(2 pi i arrival / interval): of length 1 in step, near 0 else (Rayleigh's test:
   // Mardia, Jupp, Directional Statistics, 2000, sec. 6.3.1).
-  std::array<std::complex<double>, kIntervals> in_step_;
+  std::array<Mean, kIntervals> in_step_;
   // Mean of cos(2 pi (arrival - the one before) / 10 ms): 1 if the wait hardly changes. Random
   // delays change it, and the clock averages it.
   double steady_ = 0.0;

@@ -137,11 +137,6 @@ def test_a_rig_after_all_images(tmp_path):
         tmp_path, tmp_path / 'in.bag', tmp_path / 'out.bag')
 
 
-def test_a_mode_that_there_is_not(bag, tmp_path):
-    assert "--mode is 'track', but must be tracks or instant" in refused(
-        tmp_path, bag, tmp_path / 'out.bag', '--mode', 'track')
-
-
 def test_parameters_that_the_node_would_refuse(bag, tmp_path):
     for text, words in [('lables: [led]\n', 'unknown parameter'), ('mode: guess\n', 'one of'),
                         ('zones: {hysteresis: -1}\n', 'zones/hysteresis is -1'),
@@ -217,5 +212,7 @@ def test_usage():
                       ('a.bag', 'b.bag', '--rate', '0'), ('a.bag', 'b.bag', '--fast')]:
         status, _, errors = run(*arguments)
         assert status == 2 and 'usage: track_bag' in errors
+    status, _, errors = run('a.bag', 'b.bag', '--mode', 'track')
+    assert status == 2 and '--mode must be tracks or instant' in errors
     status, output, _ = run('--help')
     assert status == 0 and 'usage: track_bag' in output

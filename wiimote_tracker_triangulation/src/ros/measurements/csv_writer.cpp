@@ -8,6 +8,7 @@
 #include <locale>
 #include <optional>
 #include <sstream>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -119,6 +120,10 @@ class CsvWriter : public Writer {
   void discard() override { forEach(&OutputFile::discard); }
   std::string finish() override {
     forEach(&OutputFile::finish);
+    if (!bodies_) {  // those of an earlier recording are not of this one
+      std::error_code there_are_none;
+      std::filesystem::rename(csvOfBodies(path_), csvOfBodies(path_) + ".bak", there_are_none);
+    }
     return "";
   }
 

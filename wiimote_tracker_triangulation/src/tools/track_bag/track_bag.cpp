@@ -173,11 +173,8 @@ void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
 
 TrackingParameters parametersOf(const Arguments& arguments) {
   ParameterTree tree = readParameterTree(arguments.parameters, "triangulation");
-  const std::string& mode = arguments.mode;
-  if (!mode.empty() && mode != "tracks" && mode != "instant")
-    throw BagError("--mode is '" + mode + "', but must be tracks or instant");
-  if (!mode.empty())
-    tree.set("mode", mode);
+  if (!arguments.mode.empty())
+    tree.set("mode", arguments.mode);
   if (!arguments.bodies.empty()) {
     std::error_code ignored;
     if (!std::filesystem::exists(arguments.bodies, ignored))

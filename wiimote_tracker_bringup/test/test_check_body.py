@@ -36,7 +36,8 @@ def said(monkeypatch, capsys):
 
 @pytest.mark.parametrize('body, namespace, topics, sentence', [
     ('robot', '', topics_of('/stick') + ['/wheel/odometry', '/odometry'],
-     'Nobody publishes /robot/odometry: learn this body (learn_body), or name another by body:=; there are /stick.'),
+     'Nobody publishes /robot/odometry: learn this body (learn_body), or name another by body:=; '
+     'there are /stick.'),
     ('stick', '', topics_of('/second/stick'), 'Nobody publishes /stick/odometry: learn '
      'this body (learn_body), or name another by body:=; there are /second/stick.'),
     ('stick', '/second', [], 'Nobody publishes /second/stick/odometry: learn '

@@ -85,7 +85,8 @@ class SimulatedHand(NodeTest):
         started = rospy.ServiceProxy('calibration/start', StartCalibration)(
             side_x=2.5, side_y=0.0, cameras=[])
         self.assertTrue(started.success, started.message)
-        self.wait(lambda: np.allclose(position(truths[-1]), 0.0), 'the LED at the first corner')
+        self.wait(lambda: truths and np.allclose(position(truths[-1]), 0.0),
+                  'the LED at the first corner')
         # By stamps: images from before may still be on their way.
         there = truths[-1].header.stamp
         images = []

@@ -48,7 +48,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
 
 
 def choose_sections(parser, options, modules, own) -> None:
-    """Replaces options.sections by a list. modules, own: by section, its module and its Option."""
+    """Replaces options.sections by a list. modules: by section. own: the Option of a section."""
     given = {section: getattr(options, option.name) for section, option in own.items()}
     lacking = [section for section, option in own.items()
                if option.is_needed and not given[section]]

@@ -19,8 +19,8 @@ from wiimote_tracker_bringup import programs, statistics
 
 @dataclasses.dataclass(frozen=True)
 class Option:
-    """Of the command line, for a section. kind: for argparse, of a path. is_needed: whether the
-    section does not run without it."""
+    """An option of the command line that one section has. kind: the type that argparse converts
+    its value to. is_needed: the section does not run without it."""
 
     name: str
     metavar: str

@@ -39,7 +39,7 @@ def joined(tables):
 
 
 def simulate(run, program, sessions, parts, what):
-    """The table of a program's sessions. what: is simulated, for a person who waits."""
+    """Runs a program. Returns the table of its sessions. what: what it simulates, for the log."""
     run.compute(shared(run, program, sessions, parts), what, 0.0, 0.9)
     return read_shared(run, program)
 

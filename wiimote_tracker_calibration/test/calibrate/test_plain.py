@@ -52,7 +52,7 @@ def test_plain_waits_for_a_number_of_seconds():
 
 
 def test_plain_tells_an_answer_once_though_the_status_has_it_too():
-    """A moment before the answer, and ever after."""
+    """The status has it before the answer comes, and afterwards."""
     before, after = status(CalibrationStatus.READY), status(
         CalibrationStatus.READY, message='corner 3 was dropped', progress=0.5)
 

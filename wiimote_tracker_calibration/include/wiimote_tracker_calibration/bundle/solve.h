@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::bundle {
 
-/// What lenses are expected to be: standard deviations of a prior, each > 0.
+/// Prior of a lens whose intrinsics are not held: standard deviations, each > 0, and means.
 struct ExpectedLens {
   double focal_length = std::numeric_limits<double>::infinity();  ///< Of log(f).
   double focal_about = 0.0;       ///< Its mean [image widths]; 0: the start value.

@@ -20,7 +20,7 @@ struct Pose {
   const wiimote_tracker_msgs::TrackedBody& body;
 };
 
-/// "tracked", ..., of LEDs and bodies.
+/// The state of an LED or a body as a word, such as "tracked"; a number if it has none.
 inline std::string wordOf(std::uint8_t state) {
   static const char* const kWords[] = {"tentative", "tracked", "predicted", "lost"};
   return state < std::size(kWords) ? kWords[state]

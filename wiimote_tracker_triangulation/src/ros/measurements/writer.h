@@ -66,9 +66,11 @@ class Writer {
 /// Comma-separated values: one row per measurement; the first line has the columns and their units.
 /// Numbers are read back bit by bit, unknown ones are "nan"; times are in seconds since 1970 with
 /// nine decimals. Rows go to path + ".part" at once, so that a crash loses the last ones only.
-/// Poses of bodies, if there are any, have a file of their own.
+/// Poses of bodies, if there are any, are in csvOfBodies(); without any, one that is there becomes
+/// its .bak.
 /// @throws Error: the file cannot be created.
 std::unique_ptr<Writer> makeCsvWriter(const std::string& path);
+/// FOLDER/NAME_bodies.csv of FOLDER/NAME.csv.
 std::string csvOfBodies(const std::string& path);
 
 /// C3D of version 1 in the format of Intel with floating-point numbers, as biomechanics programs
@@ -83,8 +85,8 @@ std::unique_ptr<Writer> makeTrcWriter(const std::string& path, double rate);
 
 /// A compressed MAT-file of version 5: one variable per field of TrackedPoint, with one row per
 /// measurement, and the struct `bodies` with those of bodies; the variable `readme` describes them.
-/// Strings are 1-based line numbers of tables
-/// (`label` of `labels`, ...). Data stay in memory until finish(), 0.3 kB per measurement.
+/// Strings are 1-based line numbers of tables (`label` of `labels`, ...). Data stay in memory until
+/// finish(), 0.3 kB per measurement.
 /// @throws Error: the file cannot be created, or the program was built without matio.
 std::unique_ptr<Writer> makeMatlabWriter(const std::string& path);
 

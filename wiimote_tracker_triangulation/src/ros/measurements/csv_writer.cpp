@@ -5,7 +5,6 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
-#include <locale>
 #include <optional>
 #include <sstream>
 #include <system_error>
@@ -18,11 +17,6 @@ namespace {
 /// A row as text; decimal points in any locale.
 class Cells {
  public:
-  Cells() {
-    text_.imbue(std::locale::classic());
-    text_.precision(17);
-  }
-
   template <typename Number>
   void add(const Number& value) {
     if (std::isnan(static_cast<double>(value)))
@@ -68,16 +62,16 @@ class Cells {
   }
 
  private:
-  std::ostringstream text_;
+  std::ostringstream text_ = plainText(17);
 };
 
 template <typename Row>
 class CsvTable {
  public:
-  explicit CsvTable(const std::string& path) : file_(path) {
+  explicit CsvTable(OutputFile* file) : file_(file) {
     addFields(this);
     header_.back() = '\n';
-    file_.write(header_);
+    file_->write(header_);
   }
 
   /// See addFields().
@@ -90,13 +84,11 @@ class CsvTable {
   void add(const Row& row) {
     for (const auto& field : fields_)
       field(row, &cells_);
-    file_.write(cells_.take());
+    file_->write(cells_.take());
   }
 
-  OutputFile& file() { return file_; }
-
  private:
-  OutputFile file_;
+  OutputFile* file_;
   std::string header_;
   std::vector<std::function<void(const Row&, Cells*)>> fields_;
   Cells cells_;
@@ -104,22 +96,20 @@ class CsvTable {
 
 class CsvWriter : public Writer {
  public:
-  explicit CsvWriter(const std::string& path) : path_(path), leds_(path) {}
+  explicit CsvWriter(const std::string& path) : path_(path), leds_(open(path)) {}
 
   void add(const Measurement& measurement) override { leds_.add(measurement); }
 
   void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& message) override {
     for (const wiimote_tracker_msgs::TrackedBody& body : message.bodies) {
       if (!bodies_)
-        bodies_.emplace(csvOfBodies(path_));
+        bodies_.emplace(open(csvOfBodies(path_)));
       bodies_->add({message, body});
     }
   }
 
-  void flush() override { forEach(&OutputFile::flush); }
-  void discard() override { forEach(&OutputFile::discard); }
   std::string finish() override {
-    forEach(&OutputFile::finish);
+    Writer::finish();
     if (!bodies_) {  // those of an earlier recording are not of this one
       std::error_code there_are_none;
       std::filesystem::rename(csvOfBodies(path_), csvOfBodies(path_) + ".bak", there_are_none);
@@ -128,12 +118,6 @@ class CsvWriter : public Writer {
   }
 
  private:
-  void forEach(void (OutputFile::*function)()) {
-    (leds_.file().*function)();
-    if (bodies_)
-      (bodies_->file().*function)();
-  }
-
   std::string path_;
   CsvTable<Measurement> leds_;
   std::optional<CsvTable<Pose>> bodies_;

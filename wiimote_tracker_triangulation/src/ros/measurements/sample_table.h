@@ -56,7 +56,7 @@ class SampledWriter : public Writer {
   SampledWriter(const std::string& path,
                 double rate,
                 std::function<void(const Samples&, OutputFile*)> write)
-      : path_(path), file_(path), rate_(rate), write_(std::move(write)) {}
+      : path_(path), file_(open(path)), rate_(rate), write_(std::move(write)) {}
 
   void add(const Measurement& measurement) override { table_.add(measurement); }
 
@@ -66,18 +66,16 @@ class SampledWriter : public Writer {
 
   std::string finish() override {
     const Samples samples = table_.resample(rate_);
-    write_(samples, &file_);
-    file_.finish();
+    write_(samples, file_);
+    Writer::finish();
     return path_ + (samples.frames == 0
                         ? ": no frames, since nothing was tracked"
                         : ": frame 1 is at " + secondsOf(samples.start) + " s since 1970");
   }
 
-  void discard() override { file_.discard(); }
-
  private:
   std::string path_;
-  OutputFile file_;
+  OutputFile* file_;
   double rate_;
   std::function<void(const Samples&, OutputFile*)> write_;
   SampleTable table_;

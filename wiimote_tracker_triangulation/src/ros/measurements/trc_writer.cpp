@@ -3,16 +3,13 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <locale>
 #include <sstream>
 
 namespace wiimote_tracker::measurements {
 namespace {
 
 std::string headerOf(const std::string& path, const Samples& samples) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(9);
+  std::ostringstream text = plainText(9);
   text << "PathFileType\t4\t(X/Y/Z)\t" << std::filesystem::path(path).filename().string() << "\n"
        << "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"
           "OrigNumFrames\n"
@@ -30,9 +27,7 @@ std::string headerOf(const std::string& path, const Samples& samples) {
 
 void writeTrc(const std::string& path, const Samples& samples, OutputFile* file) {
   file->write(headerOf(path, samples));
-  std::ostringstream row;
-  row.imbue(std::locale::classic());
-  row.precision(9);
+  std::ostringstream row = plainText(9);
   for (std::size_t frame = 0; frame < samples.frames; ++frame) {
     row.str("");
     row << frame + 1 << "\t" << frame / samples.rate;

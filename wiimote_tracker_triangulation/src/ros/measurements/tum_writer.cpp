@@ -1,7 +1,6 @@
 #include "ros/measurements/part_file.h"
 #include "ros/measurements/writer.h"
 
-#include <locale>
 #include <map>
 #include <sstream>
 
@@ -18,34 +17,23 @@ class TumWriter : public Writer {
     for (const TrackedBody& body : bodies.bodies) {
       if (body.state != TrackedBody::TRACKED)
         continue;
-      std::ostringstream line;
-      line.imbue(std::locale::classic());
-      line.precision(9);
+      std::ostringstream line = plainText(9);
       line << secondsOf(bodies.header.stamp);
       const geometry_msgs::Point& p = body.pose.pose.position;
       const geometry_msgs::Quaternion& q = body.pose.pose.orientation;
       for (const double value : {p.x, p.y, p.z, q.x, q.y, q.z, q.w})
         line << ' ' << value;
       line << '\n';
-      files_.try_emplace(body.name, tumPath(folder_, body.name)).first->second.write(line.str());
+      OutputFile*& file = files_[body.name];
+      if (!file)
+        file = open(tumPath(folder_, body.name));
+      file->write(line.str());
     }
   }
 
-  void flush() override { forEach(&OutputFile::flush); }
-  void discard() override { forEach(&OutputFile::discard); }
-  std::string finish() override {
-    forEach(&OutputFile::finish);
-    return "";
-  }
-
  private:
-  void forEach(void (OutputFile::*function)()) {
-    for (auto& [body, file] : files_)
-      (file.*function)();
-  }
-
   std::string folder_;
-  std::map<std::string, OutputFile> files_;  // by body
+  std::map<std::string, OutputFile*> files_;  // by body
 };
 
 }  // namespace

@@ -9,7 +9,10 @@
 
 #include <cstdint>
 #include <cstdlib>
+#include <deque>
+#include <locale>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -36,8 +39,16 @@ inline std::string secondsOf(const ros::Time& time) {
   return secondsOf(nanosecondsOf(time));
 }
 
-/// A file of measurements. It gets its name in finish(), when it is complete; an existing file is
-/// kept as path + ".bak". Equal measurements give equal files.
+/// Text whose numbers have a decimal point in any locale.
+inline std::ostringstream plainText(int digits) {
+  std::ostringstream text;
+  text.imbue(std::locale::classic());
+  text.precision(digits);
+  return text;
+}
+
+/// A file of measurements, or several. They get their names in finish(), when they are complete; an
+/// existing file is kept as path + ".bak". Equal measurements give equal files.
 class Writer {
  public:
   virtual ~Writer() = default;
@@ -53,14 +64,31 @@ class Writer {
   }
 
   /// Writes what was added to disk, if the format allows. @throws Error.
-  virtual void flush() {}
+  void flush() {
+    for (OutputFile& file : files_)
+      file.flush();
+  }
 
-  /// Completes the file; nothing may be added afterwards. @returns a sentence for the user, or
+  /// Completes the files; nothing may be added afterwards. @returns a sentence for the user, or
   /// nothing. @throws Error.
-  virtual std::string finish() = 0;
+  virtual std::string finish() {
+    for (OutputFile& file : files_)
+      file.finish();
+    return "";
+  }
 
   /// Removes what was written if it is not finished.
-  virtual void discard() = 0;
+  virtual void discard() {
+    for (OutputFile& file : files_)
+      file.discard();
+  }
+
+ protected:
+  /// A further file of this writer. @throws Error.
+  OutputFile* open(const std::string& path) { return &files_.emplace_back(path); }
+
+ private:
+  std::deque<OutputFile> files_;
 };
 
 /// Comma-separated values: one row per measurement; the first line has the columns and their units.

@@ -133,8 +133,7 @@ LedLabels::Choice LedLabels::choiceFor(const tracking::TrackedLed& led) const {
   return choice;
 }
 
-/// Gives the free label that fits best. The confidence in a label that was given before is the
-/// probability that it is this LED's.
+/// Gives the free label that fits best, with a confidence if it was given before.
 void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
   const Choice choice = choiceFor(led);
   if (!choice.label)
@@ -142,18 +141,12 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
   LedLabel& given = given_[led.id];
   given.name = *choice.label;
   given.same_led_probability = led.same_led_probability;
-  const auto found = places_.find(given.name);
-  if (found == places_.end())
+  const auto place = places_.find(given.name);
+  if (place == places_.end())
     return;
-  const Place& place = found->second;
-  former_[given.name] = place;
-  // It is right if it was right at its place and this is the LED from there; or if it was wrong,
-  // and this is that one of the other candidates whose label it is.
-  const double same = choice.sum > 0.0 ? choice.density / choice.sum : 0.0;
-  const int others = std::max(1, choice.candidates - 1);
-  setConfidence(place.confidence * same + (1.0 - place.confidence) * (1.0 - same) / others, same,
-                &given);
   given.since = time;
+  former_[given.name] = place->second;
+  setConfidence(choice.confidence(place->second.confidence), choice.probability(), &given);
 }
 
 /// Where an LED with a label of the list is, and whether it met another one.

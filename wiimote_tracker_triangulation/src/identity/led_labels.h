@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <map>
@@ -89,6 +90,18 @@ class LedLabels {
     void add(double candidate_density) {
       sum += candidate_density;
       candidates += candidate_density > 0.0;
+    }
+
+    /// Probability that this is the LED that was seen at the label's place [0..1].
+    double probability() const { return sum > 0.0 ? density / sum : 0.0; }
+
+    /// Probability that the label is right [0..1]: it was right at its place, and this is the LED
+    /// from there; or it was wrong there, and this is that one of the others whose label it is.
+    /// @param right_at_place probability that it was right there
+    double confidence(double right_at_place) const {
+      const int others = std::max(1, candidates - 1);
+      return right_at_place * probability() +
+             (1.0 - right_at_place) * (1.0 - probability()) / others;
     }
   };
 

@@ -68,6 +68,26 @@ void Synchronizer::add(std::size_t camera_index,
     return;
   }
   FrameHistory<Frame>& frames = camera.frames;
+  noteArrival(frames, counters);
+  if (!frames.empty() && !(frame_.time > frames.newest().time)) {
+    if (hasImageAt(frames, frame_.time)) {
+      ++counters->repeated;
+    } else {
+      ++counters->late;
+      ++counters->dropped;
+    }
+    return;
+  }
+  if (frame_.time <= time_)
+    ++counters->late;
+  if (!frames.empty() && frame_.time - frames.newest().time <= options_.maximum_gap)
+    followSpots(frames.newest(), options_.maximum_spot_speed, &frame_);
+  frames.push(frame_);
+}
+
+/// Begins anew where the camera's image, or all cameras' after a new rig, arrived before earlier
+/// ones.
+void Synchronizer::noteArrival(const FrameHistory<Frame>& frames, tracking::Counters* counters) {
   if (!has_begun_) {
     begin(frame_.arrival);
   } else if (!frames.empty() && frame_.arrival < frames.newest().arrival - InstantFuser::kJump) {
@@ -81,21 +101,6 @@ void Synchronizer::add(std::size_t camera_index,
   if (newest_arrival_ < former_arrival_ - InstantFuser::kJump &&
       newest_arrival_ >= begun_at_ + options_.camera_timeout)
     jumpBack(counters);
-
-  const bool is_newest = frames.empty() || frame_.time > frames.newest().time;
-  if (!is_newest && hasImageAt(frames, frame_.time)) {
-    ++counters->repeated;
-    return;
-  }
-  if (!is_newest || frame_.time <= time_)
-    ++counters->late;
-  if (!is_newest) {
-    ++counters->dropped;
-    return;
-  }
-  if (!frames.empty() && frame_.time - frames.newest().time <= options_.maximum_gap)
-    followSpots(frames.newest(), options_.maximum_spot_speed, &frame_);
-  frames.push(frame_);
 }
 
 bool Synchronizer::advance() {

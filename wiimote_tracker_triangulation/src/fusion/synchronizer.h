@@ -71,6 +71,7 @@ class Synchronizer {
     FrameHistory<Frame> frames;
   };
 
+  void noteArrival(const FrameHistory<Frame>& frames, tracking::Counters* counters);
   void jumpBack(tracking::Counters* counters);
   void begin(double arrival);
   void readFrame(const geometry::RigCamera& camera, const tracking::CameraImage& image);

@@ -11,7 +11,7 @@ std::optional<Path> Segmenter::add(const PathPoint& point, double seen) {
   std::optional<Path> ended = advance(point.time);
   path_.push_back(point);
   seen_ = seen;
-  const bool waits = options_.boundary == Boundary::kButton && !pressed_ && !end_;
+  const bool waits = options_.boundary == Boundary::kButton && !is_pressed_ && !released_at_;
   forgetBefore(point.time - (waits ? kButtonDelay : options_.maximum_duration));
   if (options_.boundary != Boundary::kRest)
     return ended;
@@ -34,7 +34,7 @@ std::optional<Path> Segmenter::add(const PathPoint& point, double seen) {
 }
 
 std::optional<Path> Segmenter::advance(double time) {
-  if (end_ && time > *end_)
+  if (released_at_ && time > *released_at_)
     return cutAtButton();
   if (path_.empty() || time - path_.back().time <= options_.dark_time)
     return std::nullopt;
@@ -46,27 +46,27 @@ std::optional<Path> Segmenter::advance(double time) {
 }
 
 std::optional<Path> Segmenter::button(double time, bool pressed) {
-  if (options_.boundary != Boundary::kButton || pressed == pressed_)
+  if (options_.boundary != Boundary::kButton || pressed == is_pressed_)
     return std::nullopt;
-  pressed_ = pressed;
+  is_pressed_ = pressed;
   if (pressed) {
-    std::optional<Path> ended = end_ && *end_ < time ? cutAtButton() : std::nullopt;
-    end_.reset();  // in the future after a restart of a bag
-    begin_ = time;
+    std::optional<Path> ended = released_at_ && *released_at_ < time ? cutAtButton() : std::nullopt;
+    released_at_.reset();  // in the future after a restart of a bag
+    pressed_at_ = time;
     return ended;
   }
-  end_ = time;
+  released_at_ = time;
   return !path_.empty() && path_.back().time >= time ? cutAtButton() : std::nullopt;
 }
 
 /// The path between pressing and releasing the button.
 std::optional<Path> Segmenter::cutAtButton() {
-  forgetBefore(begin_);
-  const auto after =
-      std::find_if(path_.begin(), path_.end(), [&](const PathPoint& p) { return p.time > *end_; });
+  forgetBefore(pressed_at_);
+  const auto after = std::find_if(path_.begin(), path_.end(),
+                                  [&](const PathPoint& p) { return p.time > *released_at_; });
   Path later(after, path_.end());
   path_.erase(after, path_.end());
-  end_.reset();
+  released_at_.reset();
   std::optional<Path> ended = end();
   path_ = std::move(later);
   return ended;

@@ -63,9 +63,9 @@ class Segmenter {
   double seen_ = 0.0;    // [s]
   bool moving_ = false;  // with kRest
   // With kButton:
-  bool pressed_ = false;
-  double begin_ = 0.0;         // last press [s]
-  std::optional<double> end_;  // release that awaits earlier positions [s]
+  bool is_pressed_ = false;
+  double pressed_at_ = 0.0;            // the last time [s]
+  std::optional<double> released_at_;  // while earlier positions are awaited [s]
 };
 
 }  // namespace wiimote_tracker::gesture

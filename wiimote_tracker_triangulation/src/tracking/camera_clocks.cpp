@@ -26,45 +26,70 @@ double squared(double x) {
 
 }  // namespace
 
+/// What is known of the clock in an epoch, which may be another one.
+CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t other_epoch, bool is_known_there) const {
+  if (epoch == other_epoch && is_known == is_known_there)
+    return *this;
+  if (is_known && is_known_there)
+    return {other_epoch, true, error, is_corrected};
+  const ClockError unseen{0.0, is_known_there ? 0.0 : squared(kUnknown)};
+  return {other_epoch, is_known_there, unseen, !is_known_there};
+}
+
+/// Kalman update by the remainder, if there is one. @param common what all cameras have of it
+void CameraClocks::Clock::updateError(const ClockError& common) {
+  if (!remainder)
+    return;
+  const double measured = correction().offset + remainder->offset - common.offset;
+  const double innovation = measured - error.offset;
+  if (squared(innovation) <= 4.0 * remainder->bias)
+    return;  // it may be the calibration's, which does not average out
+  const double noise = remainder->variance + remainder->bias + common.variance;
+  double variance = error.variance + squared(kChange);
+  if (squared(innovation) > 9.0 * (variance + noise))  // the clock was set
+    variance = squared(innovation);
+  const double gain = variance / (variance + noise);
+  error.offset += gain * innovation;
+  error.variance = (1.0 - gain) * variance;
+}
+
+void CameraClocks::Clock::setOffset(double seconds) {
+  error.offset = std::clamp(seconds, -kLargest, kLargest);
+  const double least = is_corrected ? kStaysCorrected : kCorrected;
+  is_corrected = !is_known || std::abs(error.offset) >= least;
+}
+
 CameraClocks::CameraClocks(const std::vector<std::size_t>& members) {
   for (const std::size_t member : members)
     clocks_[member];
   offsets_.reserve(members.size());
 }
 
-ClockError CameraClocks::correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known) {
+void CameraClocks::enterEpoch(std::size_t camera, std::uint32_t epoch, bool is_known) {
   Clock& clock = clocks_.at(camera);
-  if (clock.epoch != epoch || clock.is_known != is_known) {
-    clock = clock.in(epoch, is_known);
-    ++version_;
-  }
-  return clock.correction();
+  if (clock.epoch == epoch && clock.is_known == is_known)
+    return;
+  clock = clock.in(epoch, is_known);
+  ++version_;
 }
 
-/// What is known of the clock in an epoch, which may be another one.
-CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t another_epoch,
-                                            bool is_known_there) const {
-  if (epoch == another_epoch && is_known == is_known_there)
-    return *this;
-  if (is_known && is_known_there)
-    return {another_epoch, true, is_used, offset};
-  const ClockError unseen{0.0, is_known_there ? 0.0 : squared(kUnknown)};
-  return {another_epoch, is_known_there, !is_known_there, unseen};
-}
-
-ClockError CameraClocks::errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
-  return clocks_.at(camera).in(epoch, is_known).correction();
-}
-
-double CameraClocks::errorOf(std::size_t camera) const {
-  const Clock& clock = clocks_.at(camera);
-  return clock.is_known ? clock.correction().offset : 0.0;
-}
-
-/// Whether medians count it: a known one, or any if none is known.
-bool CameraClocks::isReference(const Clock& clock) const {
-  return clock.is_known || std::none_of(clocks_.begin(), clocks_.end(),
-                                        [](const auto& other) { return other.second.is_known; });
+void CameraClocks::update(const CameraStates& cameras) {
+  const auto hasSeenMotion = [](const auto& camera) {
+    return camera.second.clock_regression.count() >= kSpots;
+  };
+  if (std::none_of(cameras.begin(), cameras.end(), hasSeenMotion))
+    return;
+  for (const auto& [camera, state] : cameras)
+    clocks_.at(camera).remainder = state.fit.isMisfit()
+                                       ? std::nullopt
+                                       : state.clock_regression.estimate(turn_stddevs_[camera]);
+  const ClockError common = commonRemainder();
+  for (auto& [camera, clock] : clocks_)
+    clock.updateError(common);
+  const double median = medianOffset();
+  for (auto& [camera, clock] : clocks_)
+    clock.setOffset(clock.error.offset - median);
+  ++version_;
 }
 
 /// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
@@ -86,52 +111,15 @@ double CameraClocks::medianOffset() {
   offsets_.clear();
   for (const auto& [camera, clock] : clocks_) {
     if (isReference(clock))
-      offsets_.push_back(clock.offset.offset);
+      offsets_.push_back(clock.error.offset);
   }
   return medianOf(&offsets_);
 }
 
-void CameraClocks::update(const CameraStates& cameras) {
-  const auto hasSeenMotion = [](const auto& camera) {
-    return camera.second.clock_regression.count() >= kSpots;
-  };
-  if (std::none_of(cameras.begin(), cameras.end(), hasSeenMotion))
-    return;
-  for (const auto& [camera, state] : cameras)
-    clocks_.at(camera).remainder = state.fit.isMisfit()
-                                       ? std::nullopt
-                                       : state.clock_regression.estimate(turn_stddevs_[camera]);
-  const ClockError common = commonRemainder();
-  for (auto& [camera, clock] : clocks_)
-    clock.takeRemainder(common);
-  const double median = medianOffset();
-  for (auto& [camera, clock] : clocks_)
-    clock.setOffset(clock.offset.offset - median);
-  ++version_;
-}
-
-/// Kalman update by the remainder, if there is one. @param common what all cameras have of it
-void CameraClocks::Clock::takeRemainder(const ClockError& common) {
-  if (!remainder)
-    return;
-  const double measured = correction().offset + remainder->offset - common.offset;
-  const double innovation = measured - offset.offset;
-  if (squared(innovation) <= 4.0 * remainder->bias)
-    return;  // it may be the calibration's, which does not average out
-  const double noise = remainder->variance + remainder->bias + common.variance;
-  double variance = offset.variance + squared(kChange);
-  if (squared(innovation) > 9.0 * (variance + noise))  // the clock was set
-    variance = squared(innovation);
-  const double gain = variance / (variance + noise);
-  offset.offset += gain * innovation;
-  offset.variance = (1.0 - gain) * variance;
-}
-
-/// @param seconds by how much its times are too late
-void CameraClocks::Clock::setOffset(double seconds) {
-  offset.offset = std::clamp(seconds, -kLargest, kLargest);
-  const double least = is_used ? kStaysCorrected : kCorrected;
-  is_used = !is_known || std::abs(offset.offset) >= least;
+/// Whether medians count it: a known one, or any if none is known.
+bool CameraClocks::isReference(const Clock& clock) const {
+  return clock.is_known || std::none_of(clocks_.begin(), clocks_.end(),
+                                        [](const auto& other) { return other.second.is_known; });
 }
 
 }  // namespace wiimote_tracker::tracking

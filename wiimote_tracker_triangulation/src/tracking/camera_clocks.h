@@ -29,15 +29,21 @@ class CameraClocks {
   /// @param turn_stddevs of each camera of the rig, see ClockRegression::estimate().
   void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
 
-  /// To be subtracted from the times of a camera's images; its variance is for their deviation.
-  /// @param is_known whether the rig's time offset holds in this epoch of the clock
-  ClockError correctionOf(std::size_t camera, std::uint32_t epoch, bool is_known);
+  /// The camera's images are of this epoch of its clock from now on.
+  /// @param is_known whether the rig's time offset holds in it
+  void enterEpoch(std::size_t camera, std::uint32_t epoch, bool is_known);
 
-  /// What correctionOf would return.
-  ClockError errorIn(std::size_t camera, std::uint32_t epoch, bool is_known) const;
+  /// To be subtracted from the times of a camera's images in an epoch, which need not be the
+  /// present one; its variance is for their deviation.
+  ClockError correctionIn(std::size_t camera, std::uint32_t epoch, bool is_known) const {
+    return clocks_.at(camera).in(epoch, is_known).correction();
+  }
 
-  /// By how much the times of a camera with a known offset are too late [s]; 0 if it is little.
-  double errorOf(std::size_t camera) const;
+  /// By how much the times of a camera are corrected though the rig knows its time offset [s].
+  double correctionOfKnown(std::size_t camera) const {
+    const Clock& clock = clocks_.at(camera);
+    return clock.is_known ? clock.correction().offset : 0.0;
+  }
 
   /// Corrects the offsets once LEDs have moved enough since the last time.
   /// @param cameras of the group, after images with the corrections so far
@@ -50,15 +56,15 @@ class CameraClocks {
   struct Clock {
     std::uint32_t epoch = 0;
     bool is_known = true;  // by the rig's time offset
-    bool is_used = false;  // the offset corrects the images: the clock is unknown, or far off
-    ClockError offset;
+    ClockError error;
+    bool is_corrected = false;  // by the error: it is not known, or the error is large
     std::optional<ClockRegression::Estimate> remainder = {};  // left with it at the last update()
-    ClockError correction() const { return is_used ? offset : ClockError(); }
-    Clock in(std::uint32_t another_epoch, bool is_known_there) const;
-    void takeRemainder(const ClockError& common);
+
+    ClockError correction() const { return is_corrected ? error : ClockError(); }
+    Clock in(std::uint32_t other_epoch, bool is_known_there) const;
+    void updateError(const ClockError& common);
     void setOffset(double seconds);
   };
-
   bool isReference(const Clock& clock) const;
   ClockError commonRemainder();
   double medianOffset();  // [s]

@@ -145,8 +145,9 @@ void Tracker::reset() {
 /// masked ones. Spots outside the image are left out. @param exposure by the rig's time offset [s]
 StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double exposure) {
   CameraClocks& clocks = inputs_[camera].group->clocks();
-  const ClockError clock = clocks.correctionOf(
-      camera, image.clock_epoch, !rig_.cameras[camera].hasNewClock(image.clock_epoch));
+  clocks.enterEpoch(camera, image.clock_epoch,
+                    !rig_.cameras[camera].hasNewClock(image.clock_epoch));
+  const ClockError clock = clockError(camera, image.clock_epoch);
   const double stamp_stddev =
       std::isnan(image.stamp_stddev) ? options_.stamp_stddev : image.stamp_stddev;
   StoredImage result;
@@ -263,7 +264,7 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
         group.isExplained(camera) ? CameraFault::Kind::kInaccurate : CameraFault::Kind::kMisfit,
         0.0};
   constexpr double kNoticeable = 0.004;  // [s]
-  const double error = group.clocks().errorOf(camera);
+  const double error = group.clocks().correctionOfKnown(camera);
   if (std::abs(error) >= kNoticeable)
     return CameraFault{CameraFault::Kind::kCorrectedClock, error};
   return std::nullopt;
@@ -275,8 +276,8 @@ bool Tracker::isDoubtful(std::size_t camera) const {
 }
 
 ClockError Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {
-  return inputs_.at(camera).group->clocks().errorIn(camera, clock_epoch,
-                                                    !rig_.cameras[camera].hasNewClock(clock_epoch));
+  return inputs_.at(camera).group->clocks().correctionIn(
+      camera, clock_epoch, !rig_.cameras[camera].hasNewClock(clock_epoch));
 }
 
 }  // namespace wiimote_tracker::tracking

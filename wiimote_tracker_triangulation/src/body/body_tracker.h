@@ -3,7 +3,6 @@
 
 #include "body/body_estimate.h"
 #include "body/body_search.h"
-#include "body/body_setup.h"
 #include "body/body_state.h"
 #include "body/body_update.h"
 #include "body/constellation.h"

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
 
 #include "association/assign_spots.h"
-#include "body/body_setup.h"
 #include "body/body_state.h"
 #include "tracking/track.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"

@@ -1,7 +1,5 @@
 #include "camera_group.h"
 
-#include "crowd.h"
-
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 
 #include <Eigen/LU>
@@ -38,6 +36,38 @@ std::vector<double> turnStddevs(const geometry::Rig& rig) {
     result[i] = std::sqrt(std::max({0.0, axis.dot(turn * axis), stretch}));
   }
   return result;
+}
+
+/// Whether there may be a crowd about a track's LED: more lights than the cameras of a group can
+/// report. An LED that they do not report has no track, but it may be merged with one that has: the
+/// spot is then between both, at most half of merging_distance from either. Residuals do not always
+/// show that, nor does a third camera, which may face another one.
+///
+/// In a crowd a full camera shows an unknown light instead of the track's LED in its view, and
+/// another one shows an unknown light or not the LED. What one camera alone shows may be a lamp, or
+/// the camera was moved.
+bool isInCrowd(const Track& track,
+               const CameraStates& states,
+               const std::vector<TrackerCamera>& cameras,
+               const TrackerOptions& options,
+               double time) {
+  constexpr double kOldest = 0.2;  // more than between two images, if some are lost [s]
+  const Eigen::Vector3d position = track.approximatePosition(time);
+  std::size_t count = 0;
+  bool is_crowded_out = false;
+  for (const auto& [camera, state] : states) {
+    const NewestImage& view = state.newest;
+    if (!view.full || view.time < time - kOldest)
+      continue;
+    // No spot of it now, nor within tracked_time: a false detection hides an LED in one image only.
+    const bool is_hidden =
+        track.lastDetectedBy(camera) < std::min(view.time, time - options.tracked_time);
+    if (!(is_hidden || view.has_unknown) || !cameras[camera].forRays().sees(position))
+      continue;
+    ++count;
+    is_crowded_out = is_crowded_out || (is_hidden && view.has_unknown);
+  }
+  return count >= 2 && is_crowded_out;
 }
 
 }  // namespace
@@ -83,7 +113,7 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image) {
   const auto& images = history_.images();
   if (!images.empty() && image.time < images.back().time - options_.history)
     return Outcome::kDropped;
-  const auto place = history_.placeOf(image);
+  auto place = history_.placeOf(image);
   if (!place)
     return Outcome::kDropped;
   if (*place > images.begin()) {
@@ -93,12 +123,14 @@ CameraGroup::Outcome CameraGroup::add(const StoredImage& image) {
   }
   const auto mistimed = mistimedBefore(*place, image);
   const bool is_late = mistimed || *place < images.end();
-  const std::uint64_t first = mistimed.value_or(*place);
-  if (first < next_step_)
-    next_step_ = history_.rollBack(first, &state_);
-  if (mistimed)
+  const std::uint64_t first_changed = mistimed.value_or(*place);
+  if (first_changed < next_step_)
+    next_step_ = history_.rollBack(first_changed, &state_);
+  if (mistimed) {
     history_.remove(*mistimed);
-  history_.insert(mistimed ? *place - 1 : *place, image);
+    --*place;
+  }
+  history_.insert(*place, image);
   if (is_late)
     return Outcome::kLate;
   update();

@@ -4,7 +4,6 @@
 #include "camera_clocks.h"
 #include "group_state.h"
 #include "image_update.h"
-#include "stored_image.h"
 #include "track_initiation.h"
 #include "tracker_camera.h"
 #include "tracking/history.h"

@@ -3,7 +3,6 @@
 
 #include "association/assign_spots.h"
 #include "group_state.h"
-#include "stored_image.h"
 #include "tracker_camera.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 

@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 
+#include <algorithm>
+#include <iterator>
+#include <limits>
 #include <vector>
 
 namespace wiimote_tracker::body {
@@ -25,23 +28,66 @@ class InertialSamples {
   /// A sample that is not newer than all others is ignored, unless time jumped back, as when a bag
   /// starts again: then the others are forgotten.
   /// @returns the time after which this changes what at() says [s].
-  double add(const InertialSample& sample);
+  double add(const InertialSample& sample) {
+    double newest = std::numeric_limits<double>::infinity();
+    if (!samples_.empty() && sample.time < samples_.back().time - kKept)
+      samples_.clear();
+    if (!samples_.empty()) {
+      newest = samples_.back().time;
+      if (!(sample.time > newest))
+        return std::numeric_limits<double>::infinity();
+    }
+    samples_.erase(samples_.begin(), after(sample.time - kKept));
+    samples_.push_back(sample);
+    return newest;
+  }
 
   void clear() { samples_.clear(); }
 
   /// Whether no two successive samples are too far apart (0.05 s) from `begin` to `end` [s].
-  bool cover(double begin, double end) const;
+  bool cover(double begin, double end) const {
+    auto next = after(begin);
+    if (next == samples_.begin())
+      return false;
+    for (; next != samples_.end() && std::prev(next)->time < end; ++next) {
+      if (next->time - std::prev(next)->time > kLongestPause)
+        return false;
+    }
+    return end - std::prev(next)->time <= kLongestPause;
+  }
 
   /// Interpolated; after the newest sample, the newest. Only if they cover the time.
-  InertialSample at(double time) const;
+  InertialSample at(double time) const {
+    const auto next = after(time);
+    const InertialSample& last = *std::prev(next);
+    if (next == samples_.end())
+      return {time, last.rate, last.force};
+    const double share = (time - last.time) / (next->time - last.time);
+    return {time, last.rate + share * (next->rate - last.rate),
+            last.force + share * (next->force - last.force)};
+  }
 
   /// Time of the first sample after a time; infinity without [s].
-  double nextAfter(double time) const;
+  double nextAfter(double time) const {
+    const auto next = after(time);
+    return next == samples_.end() ? std::numeric_limits<double>::infinity() : next->time;
+  }
 
-  double frequency() const;  ///< Of the samples; 0 for fewer than two [Hz].
+  /// Of the samples; 0 for fewer than two [Hz].
+  double frequency() const {
+    return samples_.size() < 2 ? 0.0
+                               : static_cast<double>(samples_.size() - 1) /
+                                     (samples_.back().time - samples_.front().time);
+  }
 
  private:
-  std::vector<InertialSample>::const_iterator after(double time) const;
+  static constexpr double kKept = 2.0;           // [s]
+  static constexpr double kLongestPause = 0.05;  // [s]
+
+  std::vector<InertialSample>::const_iterator after(double time) const {
+    return std::upper_bound(samples_.begin(), samples_.end(), time,
+                            [](double t, const InertialSample& sample) { return t < sample.time; });
+  }
 
   Eigen::Vector3d place_;
   std::vector<InertialSample> samples_;  // sorted by time

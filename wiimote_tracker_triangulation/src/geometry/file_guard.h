@@ -1,7 +1,12 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_FILE_GUARD_H
 #define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_FILE_GUARD_H
 
+#include "wiimote_tracker_triangulation/geometry/atomic_file.h"
+#include "wiimote_tracker_triangulation/geometry/error.h"
+
+#include <filesystem>
 #include <string>
+#include <system_error>
 
 namespace wiimote_tracker::geometry {
 
@@ -10,15 +15,24 @@ namespace wiimote_tracker::geometry {
 class FileGuard {
  public:
   /// Remembers the content: construct it before the file is read. @throws FileError.
-  explicit FileGuard(const std::string& path);
+  explicit FileGuard(const std::string& path) : path_(path), content_(contentOf(path)) {}
 
   /// Before writing. @throws FileError: the file exists and is not as remembered.
-  void check() const;
+  void check() const {
+    const std::string content = contentOf(path_);
+    if (!content.empty() && content != content_)
+      throw FileError(path_ + " was changed after it was read: restart the node that reads it");
+  }
 
   /// After writing: remembers the content. @throws FileError.
-  void update();
+  void update() { content_ = contentOf(path_); }
 
  private:
+  static std::string contentOf(const std::string& path) {
+    std::error_code error;
+    return std::filesystem::exists(path, error) ? readFile(path) : "";
+  }
+
   std::string path_;
   std::string content_;  // empty: there was no file
 };

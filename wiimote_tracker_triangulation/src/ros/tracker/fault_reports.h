@@ -5,7 +5,9 @@
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -26,9 +28,29 @@ class FaultReports {
   /// @param estimator with the new rig
   void useRig(const geometry::Rig& before,
               const geometry::Rig& rig,
-              const tracking::Estimator& estimator);
+              const tracking::Estimator& estimator) {
+    if (!std::equal(before.cameras.begin(), before.cameras.end(), rig.cameras.begin(),
+                    rig.cameras.end(), isAlike)) {
+      of_images_.clear();
+      of_cameras_.clear();
+      return;
+    }
+    for (auto report = of_cameras_.begin(); report != of_cameras_.end();) {
+      const auto fault = estimator.cameraFault(report->first);
+      const bool goes_on = fault && fault->kind == report->second;
+      report = goes_on ? std::next(report) : of_cameras_.erase(report);
+    }
+  }
 
  private:
+  /// Whether they are alike in what faults of images depend on.
+  static bool isAlike(const geometry::RigCamera& a, const geometry::RigCamera& b) {
+    const geometry::Intrinsics& lens = a.camera.intrinsics;
+    const geometry::Intrinsics& other = b.camera.intrinsics;
+    return a.camera.name == b.camera.name && a.camera.identity == b.camera.identity &&
+           lens.width == other.width && lens.height == other.height;
+  }
+
   std::set<std::pair<std::size_t, ImageFault>> of_images_;
   std::set<std::pair<std::size_t, tracking::CameraFault::Kind>> of_cameras_;
 };

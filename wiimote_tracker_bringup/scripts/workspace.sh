@@ -200,6 +200,8 @@ make_with_progress() {
 # address sanitizer stops at a null access, and Eigen's assertions at misaligned memory.
 configure_sanitized() {
   mkdir -p "$1"
+  # As catkin_make does, which need not have run yet.
+  [[ -e $workspace/src/CMakeLists.txt ]] || catkin_init_workspace "$workspace/src" >/dev/null
   cmake -S "$workspace/src" -B "$1" -DCATKIN_DEVEL_PREFIX="$workspace/devel_${1##*build_}" \
     -DWIIMOTE_TRACKER_SANITIZE="$2" -DCATKIN_WHITELIST_PACKAGES="${3:-}" -DCATKIN_ENABLE_TESTING=ON \
     -DCMAKE_DISABLE_FIND_PACKAGE_GMock=ON \

@@ -51,10 +51,10 @@ virtual_wiimote::FrameTimesModel readTiming(YamlMap clock, YamlMap delay) {
   clock.refuseUnknown();
   timing.delay = delay.bounded("constant", 0.0, 1.0);
   timing.jitter = delay.bounded("jitter", 0.0, 1.0);
-  const auto shape = delay.get<std::string>("shape", "hard_edge");
-  if (shape != "hard_edge" && shape != "bell")
-    throw delay.error("shape", "is " + shape + ", but must be hard_edge or bell");
-  timing.core = shape == "bell" ? Core::kBell : Core::kHardEdge;
+  const auto shape = delay.get<std::string>("shape", "exponential");
+  if (shape != "exponential" && shape != "normal")
+    throw delay.error("shape", "is " + shape + ", but must be exponential or normal");
+  timing.core = shape == "normal" ? Core::kNormal : Core::kExponential;
   timing.slot = delay.bounded("slot", 0.0, 0.1, timing.slot);
   timing.drops = delay.bounded("drops", 0.0, 0.9, timing.drops);
   timing.burst = delay.bounded("burst", 0.0, 0.99, timing.burst);

@@ -27,7 +27,7 @@ cameras:
     position: [1, 2, 3]
     look_at: [1, 7, 3]
     clock: {period: 0.02, phase: 0.001, tolerance: 0.0005, wander: 0.001}
-    delay: {constant: 0.005, jitter: 0.0024, shape: bell, slot: 0.00125, drops: 0.04, burst: 0.2, stalls: 0.3, longest_stall: 0.16}
+    delay: {constant: 0.005, jitter: 0.0024, shape: normal, slot: 0.00125, drops: 0.04, burst: 0.2, stalls: 0.3, longest_stall: 0.16}
   first:
     identity: "00:1f:32:00:00:01"
     intrinsics: {fx: 1300, fy: 1300, cx: 512, cy: 384, distortion: [0, 0, 0, 0, 0]}
@@ -109,13 +109,13 @@ TEST_F(DescriptionFile, keeps_all_entries_in_the_order_of_the_file) {
   EXPECT_EQ(timing.wander, 0.001);
   EXPECT_EQ(timing.delay, 0.005);
   EXPECT_EQ(timing.jitter, 0.0024);
-  EXPECT_EQ(timing.core, Core::kBell);
+  EXPECT_EQ(timing.core, Core::kNormal);
   EXPECT_EQ(timing.slot, 0.00125);
   EXPECT_EQ(timing.drops, 0.04);
   EXPECT_EQ(timing.burst, 0.2);
   EXPECT_EQ(timing.stalls, 0.3);
   EXPECT_EQ(timing.longest_stall, 0.16);
-  EXPECT_EQ(d.cameras[1].timing.core, Core::kHardEdge);
+  EXPECT_EQ(d.cameras[1].timing.core, Core::kExponential);
   EXPECT_EQ(d.cameras[1].timing.drops, 0.0);
   ASSERT_EQ(d.leds.size(), 1u);
   EXPECT_EQ(d.leds[0].name, "led");
@@ -317,8 +317,8 @@ TEST_F(DescriptionFile, errors_name_file_key_and_reason) {
                 "cameras/second/clock/period is 0, but must be within");
   expectRefused("phase: 0.001", "phase: soon", "cameras/second/clock/phase has the wrong type");
   expectRefused("phase: 0.001", "phase: .nan", "cameras/second/clock/phase is nan");
-  expectRefused("shape: bell", "shape: ball",
-                "cameras/second/delay/shape is ball, but must be hard_edge or bell");
+  expectRefused("shape: normal", "shape: formal",
+                "cameras/second/delay/shape is formal, but must be exponential or normal");
   expectRefused("drops: 0.04", "drops: 4", "cameras/second/delay/drops is 4, but must be within");
   expectRefused("stalls:", "stall:", "cameras/second/delay/stall is an unknown key");
   expectRefused("wander: 0.001", "wonder: 0.001", "cameras/second/clock/wonder is an unknown key");

@@ -59,7 +59,7 @@ def test_parts_of_the_latency_add_up(results):
 def test_bluetooth_is_the_delay_of_the_description(results):
     with open(PAPER_RIG) as file:
         delay = yaml.safe_load(file)['cameras']['wiimote_1']['delay']
-    assert delay['shape'] == 'bell'
+    assert delay['shape'] == 'normal'
     # Normal with this mean, then until the next slot: half a slot more on average. Waiting for the
     # report before is rare; a delayed simulation only adds time.
     least = delay['constant'] + 3.4 * delay['jitter'] + 0.5 * delay['slot']

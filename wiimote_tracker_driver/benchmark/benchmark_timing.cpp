@@ -22,27 +22,29 @@ void forLinks(const std::function<void(const std::string& name, const LinkModel&
     link.wander = wander;
     link.slot = slot;
     link.stalls = stalls;
-    run(format("%s %g, wander %g%s%s", core == Core::kHardEdge ? "edge" : "bell", spread * 1e3,
-               wander * 1e3, slot > 0.0 ? ", slots" : "", stalls > 0.0 ? ", stalls" : ""),
+    run(format("%s %g, wander %g%s%s", core == Core::kExponential ? "exponential" : "normal",
+               spread * 1e3, wander * 1e3, slot > 0.0 ? ", slots" : "",
+               stalls > 0.0 ? ", stalls" : ""),
         link);
   };
   for (double spread : {2e-3, 5e-3, 10e-3})
     for (double wander : {0.0, 0.3e-3, 1e-3})
-      add(Core::kHardEdge, spread, wander, 0.0, 0.0);
+      add(Core::kExponential, spread, wander, 0.0, 0.0);
   for (double wander : {0.0, 1e-3})
-    add(Core::kHardEdge, 5e-3, wander, 1.25e-3, 0.0);
+    add(Core::kExponential, 5e-3, wander, 1.25e-3, 0.0);
   for (double wander : {0.0, 0.3e-3, 1e-3})
-    add(Core::kBell, 2.4e-3, wander, 0.0, 0.0);
+    add(Core::kNormal, 2.4e-3, wander, 0.0, 0.0);
   for (double wander : {0.0, 1e-3})
-    add(Core::kBell, 2.4e-3, wander, 1.25e-3, 0.0);
-  add(Core::kHardEdge, 5e-3, 0.0, 1.25e-3, 0.3);
-  add(Core::kBell, 2.4e-3, 0.3e-3, 1.25e-3, 0.3);
+    add(Core::kNormal, 2.4e-3, wander, 1.25e-3, 0.0);
+  add(Core::kExponential, 5e-3, 0.0, 1.25e-3, 0.3);
+  add(Core::kNormal, 2.4e-3, 0.3e-3, 1.25e-3, 0.3);
 }
 
 constexpr char kExplanation[] =
     "RMS error [ms] of the newest frame's exposure time after a session, 5 % of the frames lost, "
-    "without the constant delay. Edge: exponential delay of this mean [ms]; bell: normal delay of "
-    "this standard deviation; wander of the camera's clock [ms in 10 s]; slots of 1.25 ms; stalls "
+    "without the constant delay. Exponential delay of this mean, or normal delay of "
+    "this standard deviation [ms]; wander of the camera's clock [ms in 10 s]; slots of 1.25 ms; "
+    "stalls "
     "of up to 160 ms, one in 3 s. arrival: the arrival as stamp; line, hull, oracle: told the "
     "frame numbers; hull*: with the clock's. hull* and clock: to the nearest true exposure; total: "
     "with wrong frame numbers; err/sd: over clock_stddev; in_2sd: of total; us: per report.";

@@ -39,7 +39,8 @@ double kalman(const SimulatedSession& session, const LinkModel& link) {
   return first.arrival + static_cast<double>(frame - first.frame) * kNominalPeriod + time;
 }
 
-/// Likelihood of a report that is this much later than its frame could arrive [s], by a hard edge.
+/// Likelihood of a report that is this much later than its frame could arrive [s], of
+/// exponential delays.
 double likelihoodOf(const virtual_wiimote::FrameTime& report, const LinkModel& link, double late) {
   const auto readyBefore = [&](double time) {
     return time > 0.0 ? -std::expm1(-time / link.jitter) : 0.0;
@@ -141,7 +142,7 @@ double convexHull(const SimulatedSession& session) {
 }
 
 double oracle(const SimulatedSession& session, const LinkModel& link) {
-  return link.core == LinkModel::Core::kBell ? kalman(session, link) : pointMass(session, link);
+  return link.core == LinkModel::Core::kNormal ? kalman(session, link) : pointMass(session, link);
 }
 
 }  // namespace wiimote_tracker::exposure_clock

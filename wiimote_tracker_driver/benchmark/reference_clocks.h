@@ -15,8 +15,8 @@ double leastSquares(const SimulatedSession& session);
 /// INFOCOM 2002).
 double convexHull(const SimulatedSession& session);
 
-/// A lower bound: knows spread, wander, slots and which reports were queued. For a bell a Kalman
-/// filter that does not know the period; for a hard edge a point-mass filter that does.
+/// A lower bound: knows spread, wander, slots and which reports were queued. For normal delays a
+/// Kalman filter that does not know the period; for exponential ones a point-mass filter that does.
 double oracle(const SimulatedSession& session, const LinkModel& link);
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -58,9 +58,9 @@ Trial run(const LinkModel& link, double duration, std::uint64_t seed) {
   trial.convex_hull = convexHull(session) - truth;
   trial.convex_hull_own = toNearest(convexHull(numbered) - truth);
   trial.oracle = oracle(session, link) - truth;
-  // The reference of a bell is its mean less a typical spread.
-  const double bell = link.core == LinkModel::Core::kBell ? 3.4 * link.jitter - 0.0024 : 0.0;
-  trial.total = estimate.exposure - truth - bell;
+  // The reference of normal delays is their mean less a typical spread.
+  const double reference = link.core == LinkModel::Core::kNormal ? 3.4 * link.jitter - 0.0024 : 0.0;
+  trial.total = estimate.exposure - truth - reference;
   trial.clock = toNearest(trial.total);
   trial.wrong_frame = std::round(trial.total / session.period) != 0.0;
   trial.stddev = estimate.stddev;

@@ -18,7 +18,7 @@ constexpr double kFramePeriod = 0.010035;
 constexpr double kLearning = 10.0;  // [s]
 
 struct Link {
-  bool bell;      // delays: normal of 2.4 ms, else exponential of 2 ms
+  bool normal;    // delays: normal of 2.4 ms, else exponential of 2 ms
   double losses;  // share of the images
   double stalls;  // [1/s], of 10 to 300 ms
 };
@@ -43,7 +43,7 @@ std::vector<Image> imagesOver(const Link& link, double duration, std::uint64_t s
   std::vector<Image> images;
   for (double time = 0.0; time < duration; time += period) {
     const double delay =
-        link.bell ? std::max(0.0, 0.0082 + 0.0024 * normal(random)) : 0.002 * exponential(random);
+        link.normal ? std::max(0.0, 0.0082 + 0.0024 * normal(random)) : 0.002 * exponential(random);
     losing = uniform(random) < (losing ? 0.3 : link.losses);
     if (losing)
       continue;
@@ -125,14 +125,14 @@ Result play(const Link& link) {
 /// Stalls are rare or frequent, images get lost or never do.
 std::vector<Link> links(double losses) {
   std::vector<Link> links;
-  for (bool bell : {false, true})
+  for (bool normal : {false, true})
     for (double stalls : {0.3, 3.0})
-      links.push_back({bell, losses, stalls});
+      links.push_back({normal, losses, stalls});
   return links;
 }
 
 std::string describe(const Link& link) {
-  return std::string(link.bell ? "bell" : "edge") + ", " + std::to_string(link.losses) +
+  return std::string(link.normal ? "normal" : "exponential") + ", " + std::to_string(link.losses) +
          " lost, stalls per second: " + std::to_string(link.stalls);
 }
 

@@ -25,7 +25,7 @@ constexpr double kPoll = 0.0056;  // [s]
 FrameTimesModel recordedRemote(double period) {
   FrameTimesModel model;
   model.period = period;
-  model.core = FrameTimesModel::Core::kBell;
+  model.core = FrameTimesModel::Core::kNormal;
   model.jitter = 0.0018;
   model.wander = 0.004;
   model.drops = 0.03;

@@ -24,17 +24,17 @@ constexpr double kPeriod = 0.010035;
 constexpr int kSessions = 100;
 const double kTolerance = 1.0 + 3.0 / std::sqrt(2.0 * kSessions);
 
-LinkModel edge(double mean, double wander = 0.0) {
+LinkModel exponential(double mean, double wander = 0.0) {
   LinkModel link;
-  link.core = LinkModel::Core::kHardEdge;
+  link.core = LinkModel::Core::kExponential;
   link.jitter = mean;
   link.wander = wander;
   return link;
 }
 
-LinkModel bell(double wander = 0.0) {
+LinkModel normal(double wander = 0.0) {
   LinkModel link;
-  link.core = LinkModel::Core::kBell;
+  link.core = LinkModel::Core::kNormal;
   link.jitter = 0.0024;
   link.wander = wander;
   return link;
@@ -60,9 +60,9 @@ struct Running {
   int frame = 0;
 };
 
-TEST(ExtensiveExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
+TEST(ExtensiveExposureClockAccuracy, finds_the_least_of_exponential_delays_to_0_05_ms) {
   for (double mean : {0.002, 0.005}) {
-    const TimingScore score = runTiming(edge(mean), 10.0, kSessions);
+    const TimingScore score = runTiming(exponential(mean), 10.0, kSessions);
     EXPECT_LT(score.clock, 0.05e-3 * kTolerance) << mean;
     EXPECT_LT(score.clock, 0.2 * score.least_squares) << mean;
     EXPECT_LT(score.clock, score.convex_hull_own) << mean;  // which has the same numbers
@@ -71,13 +71,14 @@ TEST(ExtensiveExposureClockAccuracy, finds_a_hard_edge_to_0_05_ms) {
   }
 }
 
-TEST(ExtensiveExposureClockAccuracy, finds_a_sharp_edge_like_the_hull_with_known_frame_numbers) {
-  const TimingScore score = runTiming(edge(0.002), 10.0, kSessions);
+TEST(ExtensiveExposureClockAccuracy,
+     finds_exponential_delays_like_the_hull_with_known_frame_numbers) {
+  const TimingScore score = runTiming(exponential(0.002), 10.0, kSessions);
   EXPECT_LT(score.clock, 1.2 * score.convex_hull);
 }
 
-TEST(ExtensiveExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
-  const TimingScore score = runTiming(bell(), 10.0, kSessions);
+TEST(ExtensiveExposureClockAccuracy, finds_normal_delays_to_0_2_ms) {
+  const TimingScore score = runTiming(normal(), 10.0, kSessions);
   EXPECT_LT(score.clock, 0.2e-3 * kTolerance);
   EXPECT_LT(score.clock, 1.3 * score.least_squares);
   EXPECT_LT(score.clock, 0.3 * score.convex_hull);
@@ -86,7 +87,7 @@ TEST(ExtensiveExposureClockAccuracy, finds_a_bell_to_0_2_ms) {
 }
 
 TEST(ExtensiveExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_that_knows_the_model) {
-  for (const LinkModel& link : {bell(1e-3), edge(0.002, 1e-3)}) {
+  for (const LinkModel& link : {normal(1e-3), exponential(0.002, 1e-3)}) {
     const TimingScore score = runTiming(link, 10.0, kSessions);
     // Same sessions on both sides: the ratio scatters less than either.
     EXPECT_LT(score.clock, 1.2 * score.oracle);
@@ -97,7 +98,7 @@ TEST(ExtensiveExposureClockAccuracy, follows_a_wandering_clock_like_a_filter_tha
 }
 
 TEST(ExtensiveExposureClockAccuracy, is_robust_to_stalls_and_slots) {
-  LinkModel link = bell(0.3e-3);
+  LinkModel link = normal(0.3e-3);
   link.slot = 1.25e-3;
   link.stalls = 0.3;
   const TimingScore score = runTiming(link, 10.0, kSessions);
@@ -108,7 +109,7 @@ TEST(ExtensiveExposureClockAccuracy, is_robust_to_stalls_and_slots) {
 
 TEST(ExtensiveExposureClockAccuracy, numbers_frames_through_losses) {
   // Lone losses show in the arrivals of 2 ms jitter at once, or one report later.
-  const SimulatedSession session = simulate(edge(0.002), 60.0, 3);
+  const SimulatedSession session = simulate(exponential(0.002), 60.0, 3);
   ExposureClock clock;
   int wrong = 0;
   Estimate last;
@@ -128,8 +129,8 @@ TEST(ExtensiveExposureClockAccuracy, numbers_frames_through_losses) {
 
 TEST(ExtensiveExposureClockAccuracy,
      keeps_count_and_clock_over_twenty_minutes_of_losses_and_stalls) {
-  LinkModel steady_edge = edge(0.003), wandering_bell = bell(1e-3);
-  for (LinkModel link : {steady_edge, wandering_bell}) {
+  LinkModel steady_exponential = exponential(0.003), wandering_normal = normal(1e-3);
+  for (LinkModel link : {steady_exponential, wandering_normal}) {
     link.slot = 1.25e-3;
     link.stalls = 0.3;
     const SimulatedSession session = simulate(link, 1200.0, 77);
@@ -155,7 +156,7 @@ TEST(ExtensiveExposureClockAccuracy,
 
 TEST(ExtensiveExposureClockAccuracy, a_remote_may_be_fast_or_slow) {
   for (double period : {0.00999, 0.01008})
-    for (LinkModel link : {edge(0.002), bell()}) {
+    for (LinkModel link : {exponential(0.002), normal()}) {
       link.period = period;
       link.period_tolerance = 0.0;
       const SimulatedSession session = simulate(link, 30.0, 21);
@@ -208,7 +209,7 @@ struct Twice {
 
 TEST(ExtensiveExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
   for (double later : {0.0, 0.003}) {
-    const Twice run(edge(0.002), 0.01, later, 2.0);
+    const Twice run(exponential(0.002), 0.01, later, 2.0);
     EXPECT_GT(run.extra, 30);
     EXPECT_LT(run.worst, 2.0 * kPeriod) << later;
     EXPECT_LT(run.worst_stddev, 2.0 * kPeriod) << later;
@@ -224,7 +225,7 @@ TEST(ExtensiveExposureClockAccuracy, few_reports_that_come_twice_do_no_harm) {
 // Delays learnt from an echo of 3 ms are forgotten more slowly.
 TEST(ExtensiveExposureClockAccuracy, heals_after_all_reports_came_twice) {
   for (double later : {0.0, 0.003}) {
-    const Twice run(edge(0.002), 1.0, later, later > 0.0 ? 12.0 : 2.0);
+    const Twice run(exponential(0.002), 1.0, later, later > 0.0 ? 12.0 : 2.0);
     EXPECT_GT(run.clock.statistics().restarts, 0u);
     EXPECT_LT(run.worst_stddev, 0.5) << later;
     EXPECT_LT(run.wrong_after, (later > 0.0 ? 0.08 : 0.02) * run.reports_after) << later;
@@ -232,19 +233,19 @@ TEST(ExtensiveExposureClockAccuracy, heals_after_all_reports_came_twice) {
 }
 
 TEST(ExposureClock, identifies_the_kind_and_the_size_of_the_jitter) {
-  for (const LinkModel& link : {edge(0.004), bell()}) {
+  for (const LinkModel& link : {exponential(0.004), normal()}) {
     ExposureClock clock;
     for (const virtual_wiimote::FrameTime& report : simulate(link, 20.0, 7).reports)
       clock.update(report.arrival);
-    const bool hard = link.core == LinkModel::Core::kHardEdge;
-    EXPECT_NEAR(clock.statistics().hard_edge, hard ? 1.0 : 0.0, 0.01);
+    const bool exponential = link.core == LinkModel::Core::kExponential;
+    EXPECT_NEAR(clock.statistics().exponential, exponential ? 1.0 : 0.0, 0.01);
     EXPECT_NEAR(clock.statistics().jitter, link.jitter, 0.15 * link.jitter);
   }
 }
 
-TEST(ExposureClock, takes_no_bell_for_an_edge_while_delays_are_equal) {
+TEST(ExposureClock, takes_normal_delays_not_for_exponential_while_they_are_equal) {
   for (const double wander : {0.0, 1e-3, 5e-3}) {
-    const LinkModel link = bell(wander);
+    const LinkModel link = normal(wander);
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       const SimulatedSession session = simulate(link, 30.0, seed);
       ExposureClock clock;
@@ -262,9 +263,9 @@ TEST(ExposureClock, takes_no_bell_for_an_edge_while_delays_are_equal) {
   }
 }
 
-TEST(ExposureClock, is_uncertain_for_a_second_whether_delays_have_a_sharp_edge) {
+TEST(ExposureClock, is_uncertain_for_a_second_whether_delays_are_exponential) {
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-    LinkModel link = edge(0.0001);
+    LinkModel link = exponential(0.0001);
     link.drops = 0.0;
     const SimulatedSession session = simulate(link, 2.0, seed);
     ExposureClock clock;
@@ -281,8 +282,8 @@ TEST(ExposureClock, is_uncertain_for_a_second_whether_delays_have_a_sharp_edge) 
 }
 
 // Reports that come twice for 2 s make some of the clocks forget the kind of delays.
-TEST(ExposureClock, finds_a_sharp_edge_as_soon_after_it_began_anew) {
-  LinkModel link = edge(0.0005);
+TEST(ExposureClock, finds_exponential_delays_as_soon_after_it_began_anew) {
+  LinkModel link = exponential(0.0005);
   link.drops = 0.0;
   std::uint64_t restarts = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
@@ -313,7 +314,7 @@ TEST(ExposureClock, starts_with_the_arrival_and_a_large_stddev) {
 
 TEST(ExposureClock, stays_precise_at_times_since_1970) {
   ExposureClock small, large;
-  for (const virtual_wiimote::FrameTime& report : simulate(edge(0.002), 5.0, 11).reports) {
+  for (const virtual_wiimote::FrameTime& report : simulate(exponential(0.002), 5.0, 11).reports) {
     const Estimate a = small.update(report.arrival), b = large.update(report.arrival + 1.7e9);
     EXPECT_NEAR(b.exposure - 1.7e9, a.exposure, 0.1e-3);
   }
@@ -445,7 +446,7 @@ TEST(ExposureClockProperties, hold_for_any_arrivals) {
 }
 
 TEST(ExposureClockProperties, no_allocation_per_report) {
-  const SimulatedSession session = simulate(edge(0.005), 10.0, 2);
+  const SimulatedSession session = simulate(exponential(0.005), 10.0, 2);
   ExposureClock clock;
   const std::uint64_t before = allocations().made;
   for (const virtual_wiimote::FrameTime& report : session.reports)

@@ -70,7 +70,7 @@ TEST(FrameTimes, equal_seeds_give_equal_times_and_other_seeds_other_times) {
     ASSERT_EQ(a.next().arrival, b.next().arrival);
 }
 
-TEST(FrameTimes, behind_a_hard_edge_delays_are_exponential) {
+TEST(FrameTimes, by_default_delays_are_exponential) {
   FrameTimesModel model = rare();
   model.jitter = 0.002;
   constexpr int kFrames = 20000;
@@ -83,9 +83,9 @@ TEST(FrameTimes, behind_a_hard_edge_delays_are_exponential) {
   EXPECT_LT(m.least, 0.005 + 5.0 * 0.002 / kFrames);
 }
 
-TEST(FrameTimes, in_a_bell_delays_are_normal) {
+TEST(FrameTimes, delays_may_be_normal) {
   FrameTimesModel model = rare();
-  model.core = Core::kBell;
+  model.core = Core::kNormal;
   model.jitter = 0.0024;
   constexpr int kFrames = 20000;
   const Moments m = delays(model, kFrames);

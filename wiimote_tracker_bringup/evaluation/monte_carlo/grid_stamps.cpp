@@ -43,7 +43,7 @@ Density middles(Eigen::Index cells) {
   return kCell * Density::LinSpaced(cells, 0.5, static_cast<double>(cells) - 0.5);
 }
 
-Density bell(double mean, double stddev, Eigen::Index cells) {
+Density normal(double mean, double stddev, Eigen::Index cells) {
   const Density density = (-0.5 * ((middles(cells) - mean) / stddev).square()).exp();
   return density / density.sum();
 }
@@ -56,7 +56,7 @@ Density delays() {
     return Density::Constant(static_cast<Eigen::Index>(cells), 1.0 / cells);
   };
   const Density rounding = box(kResolution);
-  Density density = convolve(bell(kMean, kJitter, kCells), box(kPoll), 0);
+  Density density = convolve(normal(kMean, kJitter, kCells), box(kPoll), 0);
   density = convolve(density, rounding, -(rounding.size() / 2));
   density /= density.sum();
   const Density held_up = convolve(density, (-middles(kCells) / kHeldUpTime).exp(), 0);
@@ -92,7 +92,7 @@ GridStamp stampOf(double arrival, const Density& delay) {
 GridStamps recursion(const std::vector<double>& arrivals, double period) {
   constexpr Eigen::Index kReach = 8;  // of the wander of one period, in cells
   const Density likelihood = delays();
-  const Density walk = bell((kReach + 0.5) * kCell, kWalk * std::sqrt(period), 2 * kReach + 1);
+  const Density walk = normal((kReach + 0.5) * kCell, kWalk * std::sqrt(period), 2 * kReach + 1);
   // The delays of report n by those of the one before; `direction` -1: the other way.
   const auto next = [&](const Density& delay, std::size_t n, double direction) {
     Density sum = Density::Zero(kCells);

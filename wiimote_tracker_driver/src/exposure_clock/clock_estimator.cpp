@@ -139,7 +139,7 @@ Statistics ClockEstimator::statistics() const {
   s.period = filters_.best().period();
   s.period_stddev = std::sqrt(filters_.best().periodVariance());
   s.jitter = filters_.mean().spread;
-  s.hard_edge = filters_.hardEdge();
+  s.exponential = filters_.exponentialProbability();
   return s;
 }
 

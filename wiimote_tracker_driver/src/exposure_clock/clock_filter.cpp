@@ -6,26 +6,26 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-// Initial spread [s], and the number of reports it counts as. A hard edge starts wider and adapts
-// more slowly, because a spread too small moves the edge past the arrivals.
-constexpr double kFirstEdgeSpread = 0.005;
-constexpr double kFirstBellSpread = 0.003;
-constexpr double kEdgePrior = 30.0;
-constexpr double kBellPrior = 5.0;
+// Initial spread [s], and the number of reports it counts as. An exponential starts wider and
+// adapts more slowly, because a spread too small moves the least delay past the arrivals.
+constexpr double kFirstExponentialSpread = 0.005;
+constexpr double kFirstNormalSpread = 0.003;
+constexpr double kExponentialPrior = 30.0;
+constexpr double kNormalPrior = 5.0;
 constexpr double kMinSpread = 20e-6;
 constexpr double kSpreadMemory = 1000.0;  // reports
-// An arrival before the edge keeps at least this share of the variance: the posterior is not
+// An arrival before the least delay keeps at least this share of the variance: the posterior is not
 // exactly normal, and one outlier must not make it certain.
 constexpr double kMinVarianceRatio = 0.5;
 // Exponentials of smaller mean, relative to the uncertainty, are negligible.
 constexpr double kMinRelativeSpread = 0.05;
 
-// SteadyEdge leaves out a report that is this much too early [s]: its number is wrong.
+// ExactPosterior leaves out a report that is this much too early [s]: its number is wrong.
 constexpr double kTooEarly = 1e-3;
 // An exact state that is this far from that of a better filter [s] has wrong numbers.
-constexpr double kMaxEdgeError = 0.5e-3;
+constexpr double kMaxExactError = 0.5e-3;
 // Time over which the wander of a steady clock is added to its variance [s].
-constexpr double kEdgeMemory = 3.0;
+constexpr double kExactMemory = 3.0;
 
 // Standard deviations below the mean that have no probability.
 constexpr double kImpossible = -6.0;
@@ -54,26 +54,26 @@ ClockFilter::ClockFilter(const DelayModel& model, double period, double period_s
       nominal_period_(period),
       period_tolerance_(3.0 * period_stddev),
       state_{0.0, period, 0.0, 0.0, square(period_stddev)},
-      spread_(model.hard_edge ? kFirstEdgeSpread : kFirstBellSpread) {
+      spread_(model.exponential ? kFirstExponentialSpread : kFirstNormalSpread) {
   if (model.exact)
-    edge_.emplace(period, period_tolerance_);
+    posterior_.emplace(period, period_tolerance_);
 }
 
 void ClockFilter::start(std::int64_t frame, double arrival) {
   frame_ = frame;
-  state_.time = model_.hard_edge ? arrival - spread_ : arrival;
+  state_.time = model_.exponential ? arrival - spread_ : arrival;
   state_.p00 = square(state_.period);
   state_.p01 = 0.0;
-  if (edge_)
-    edge_->clear();
+  if (posterior_)
+    posterior_->clear();
 }
 
 void ClockFilter::advanceTo(std::int64_t frame) {
   const auto frames = static_cast<double>(frame - frame_);
   frame_ = frame;
   if (exact()) {
-    state_ = edge_->state(frame, spread_);
-    state_.p00 += square(model_.wander) * kEdgeMemory;
+    state_ = posterior_->state(frame, spread_);
+    state_.p00 += square(model_.wander) * kExactMemory;
     return;
   }
   state_.time += frames * state_.period;
@@ -83,7 +83,7 @@ void ClockFilter::advanceTo(std::int64_t frame) {
 }
 
 double ClockFilter::time() const {
-  return model_.hard_edge ? state_.time : state_.time - kTypicalBellSpread;
+  return model_.exponential ? state_.time : state_.time - kTypicalNormalSpread;
 }
 
 ClockFilter::Prediction ClockFilter::predict(std::int64_t frame) const {
@@ -93,8 +93,8 @@ ClockFilter::Prediction ClockFilter::predict(std::int64_t frame) const {
   const double c1 = state_.p01 + offset * state_.p11;
   Prediction z;
   z.mean = state_.time + offset * state_.period;
-  z.exposure = z.mean - (model_.hard_edge ? 0.0 : kTypicalBellSpread);
-  z.variance = c0 + offset * c1 + square(model_.hard_edge ? model_.blur : spread_);
+  z.exposure = z.mean - (model_.exponential ? 0.0 : kTypicalNormalSpread);
+  z.variance = c0 + offset * c1 + square(model_.exponential ? model_.blur : spread_);
   z.stddev = std::sqrt(z.variance);
   z.time_gain = c0 / z.variance;
   z.period_gain = c1 / z.variance;
@@ -102,7 +102,7 @@ ClockFilter::Prediction ClockFilter::predict(std::int64_t frame) const {
 }
 
 bool ClockFilter::hasExponential(const Prediction& z) const {
-  return model_.hard_edge && spread_ > kMinRelativeSpread * z.stddev;
+  return model_.exponential && spread_ > kMinRelativeSpread * z.stddev;
 }
 
 double ClockFilter::likelihood(const Prediction& z, double arrival) const {
@@ -148,7 +148,7 @@ void ClockFilter::addHypothesis(const Prediction& z,
   sums->p11 += weight * (square(period_shift) - square(z.period_gain) * reduction);
 
   // Expectation maximisation of the spread, given the new state.
-  if (model_.hard_edge) {
+  if (model_.exponential) {
     sums->spread += weight * (arrival - z.mean - innovation);
   } else {
     const double share = square(spread_) / z.variance;
@@ -175,8 +175,8 @@ void ClockFilter::apply(const Hypotheses& sums) {
 
 void ClockFilter::learnSpread(const Hypotheses& sums) {
   reports_ = std::min(reports_ + sums.weight, kSpreadMemory);
-  const double rate = 1.0 / (reports_ + (model_.hard_edge ? kEdgePrior : kBellPrior));
-  if (model_.hard_edge)
+  const double rate = 1.0 / (reports_ + (model_.exponential ? kExponentialPrior : kNormalPrior));
+  if (model_.exponential)
     spread_ += rate * (sums.spread - sums.weight * spread_);
   else
     spread_ = std::sqrt(square(spread_) + rate * (sums.spread - sums.weight * square(spread_)));
@@ -184,21 +184,21 @@ void ClockFilter::learnSpread(const Hypotheses& sums) {
 }
 
 void ClockFilter::learn(std::int64_t frame, double arrival, double on_time) {
-  if (edge_ && arrival - predict(frame).exposure > -kTooEarly)
-    edge_->add(frame, arrival, on_time, state_.period);
+  if (posterior_ && arrival - predict(frame).exposure > -kTooEarly)
+    posterior_->add(frame, arrival, on_time, state_.period);
 }
 
 void ClockFilter::follow(const ClockFilter& better) {
-  if (exact() && std::abs(time() - better.time()) < kMaxEdgeError)
+  if (exact() && std::abs(time() - better.time()) < kMaxExactError)
     return;
-  if (edge_)
-    edge_->clear();
+  if (posterior_)
+    posterior_->clear();
   state_ = better.state_;
   spread_ = better.spread_;
   reports_ = better.reports_;
-  if (model_.hard_edge && !better.model_.hard_edge)
+  if (model_.exponential && !better.model_.exponential)
     state_.time -= spread_;
-  if (!model_.hard_edge && better.model_.hard_edge)
+  if (!model_.exponential && better.model_.exponential)
     state_.time += spread_;
 }
 

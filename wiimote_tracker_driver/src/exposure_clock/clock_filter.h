@@ -1,36 +1,37 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H
 #define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H
 
-#include "exposure_clock/steady_edge.h"
+#include "exposure_clock/exact_posterior.h"
 
 #include <cstdint>
 #include <optional>
 
 namespace wiimote_tracker::exposure_clock {
 
-/// Aligns a normal with the edge of an exponential of the same mean and spread [s].
-constexpr double kTypicalBellSpread = 0.0024;
+/// The least value of an exponential distribution is its mean less its standard deviation. That of
+/// normally distributed delays is taken to be their mean less this [s].
+constexpr double kTypicalNormalSpread = 0.0024;
 
 /// Assumptions of a ClockFilter about delays and clock. The spread of the delays is estimated.
 struct DelayModel {
   /// True: constant + exponential of mean `spread`. False: normal of standard deviation `spread`.
-  bool hard_edge = true;
+  bool exponential = true;
   /// Standard deviation of a normal error added to the exponential, e.g. by the link's slots [s].
   double blur = 0.0;
   /// Random walk of the camera's phase: standard deviation after one second [s].
   double wander = 0.0;
-  /// Use SteadyEdge: for a sharp edge and a clock that hardly wanders.
+  /// Use ExactPosterior: for an exponential without blur and a clock that hardly wanders.
   bool exact = false;
 };
 
 /// Gaussian estimate of phase and period of a periodic camera, from arrivals under one delay model.
 ///
-/// Arrival = z + e with z = exposure + constant + normal error, and e exponential (0 without a hard
-/// edge). Given the arrival, z is a truncated normal; its first two moments are kept (assumed
+/// Arrival = z + e with z = exposure + constant + normal error, and e exponential (0 if delays are
+/// normal). Given the arrival, z is a truncated normal; its first two moments are kept (assumed
 /// density filtering: Maybeck, Stochastic Models, Estimation and Control, vol. 2, 1982, ch. 12;
 /// moments: Johnson, Kotz, Balakrishnan, Continuous Univariate Distributions, vol. 1, 1994,
-/// eq. 13.134). Without a hard edge this is the Kalman filter. Behind a sharp edge of a steady
-/// clock the posterior is far from normal: SteadyEdge computes it exactly after a few seconds.
+/// eq. 13.134). With normal delays this is the Kalman filter. With exponential ones of a steady
+/// clock the posterior is far from normal: ExactPosterior computes it exactly after a few seconds.
 class ClockFilter {
  public:
   /// @param period nominal [s]. @param period_stddev of it [s]; estimates stay within three times
@@ -42,8 +43,8 @@ class ClockFilter {
   /// Predicts the state of `frame`; of an earlier one without removing process noise.
   void advanceTo(std::int64_t frame);
 
-  /// Exposure of the state's frame plus a constant: the least delay with a hard edge, else the mean
-  /// delay less a typical spread [s].
+  /// Exposure of the state's frame plus a constant: the least delay of exponential ones, else the
+  /// mean delay less a typical spread [s].
   double time() const;
   double timeVariance() const { return state_.p00; }
   double period() const { return state_.period; }
@@ -87,8 +88,8 @@ class ClockFilter {
   void follow(const ClockFilter& better);
 
  private:
-  /// Whether the state is that of SteadyEdge.
-  bool exact() const { return edge_ && edge_->ready(); }
+  /// Whether the state is that of ExactPosterior.
+  bool exact() const { return posterior_ && posterior_->ready(); }
   /// False also where the exponential is negligible beside the uncertainty.
   bool hasExponential(const Prediction& z) const;
   void learnSpread(const Hypotheses& sums);
@@ -99,7 +100,7 @@ class ClockFilter {
   ClockState state_;
   double spread_;
   double reports_ = 0.0;  // number used for the spread
-  std::optional<SteadyEdge> edge_;
+  std::optional<ExactPosterior> posterior_;
 };
 
 }  // namespace wiimote_tracker::exposure_clock

@@ -7,12 +7,13 @@
 namespace wiimote_tracker::exposure_clock {
 
 namespace {
-// Blur of an edge [s]: negligible, or a slot of 1.25 ms (standard deviation 1.25 ms / sqrt(12)).
+// Blur of exponential delays [s]: negligible, or a slot of 1.25 ms (standard deviation 1.25 ms /
+// sqrt(12)).
 constexpr double kSharp = 10e-6;
 constexpr double kSlotted = 0.36e-3;
 // Wander after 1 s [s]: of a good clock (0.01 ms in 10 s), 0.3 ms and 1 ms in 10 s, and 5 ms in
-// 10 s, the most of recordings of two remotes (2.5 to 5 ms). Only sharp edges tell 0.3 from 1 ms;
-// beside 5 ms a slot is negligible.
+// 10 s, the most of recordings of two remotes (2.5 to 5 ms). Only exponential delays without blur
+// tell 0.3 from 1 ms; beside 5 ms a slot is negligible.
 constexpr double kSteady = 0.003e-3;
 constexpr double kWanders = 0.095e-3;
 constexpr double kWandersMuch = 0.32e-3;
@@ -37,13 +38,14 @@ const Prior kPriors[] = {
     {{false, 0.0, kWandersAsRecorded}, 0.10},
 };
 
-// Weight below which a filter follows the best one. With twice as much the stated deviations behind
-// edges are 9 % larger.
+// Weight below which a filter follows the best one. With twice as much the stated deviations of
+// exponential delays are 9 % larger.
 constexpr double kMinWeight = 1.5e-4;
-// The same of an edge beside a bell: delays of a bell may look like an edge for a second, while
-// those of an edge soon contradict a bell. A thousandth of this is as good. During the first
-// reports of a link delays of an edge look like a bell, too, until its spread is known.
-constexpr double kMinWeightOfEdge = 1e-9;
+// The same of an exponential beside a normal distribution: normal delays may look like exponential
+// ones for a second, while those soon contradict a normal distribution. A thousandth of this is as
+// good. During the first reports of a link exponential delays look like normal ones, too, until
+// their spread is known.
+constexpr double kMinWeightOfExponential = 1e-9;
 constexpr int kReportsForSpread = 100;
 // Probability below which a frame number does not change a filter.
 constexpr double kNegligible = 1e-6;
@@ -110,9 +112,9 @@ void FilterBank::advanceTo(std::int64_t frame) {
     model.filter.advanceTo(frame);
   const ClockFilter& likeliest = best();
   for (Model& model : models_) {
-    const bool edge_beside_bell =
-        model.filter.model().hard_edge && !likeliest.model().hard_edge && linkIsKnown();
-    const double least = edge_beside_bell ? kMinWeightOfEdge : kMinWeight;
+    const bool exponential_beside_normal =
+        model.filter.model().exponential && !likeliest.model().exponential && linkIsKnown();
+    const double least = exponential_beside_normal ? kMinWeightOfExponential : kMinWeight;
     if (model.weight < least) {
       model.weight = least;
       model.filter.follow(likeliest);
@@ -133,10 +135,10 @@ bool FilterBank::linkIsKnown() const {
   return reports_ > kReportsForSpread;
 }
 
-double FilterBank::hardEdge() const {
+double FilterBank::exponentialProbability() const {
   double probability = 0.0;
   for (const Model& model : models_)
-    probability += model.filter.model().hard_edge ? model.weight : 0.0;
+    probability += model.filter.model().exponential ? model.weight : 0.0;
   return probability;
 }
 
@@ -150,9 +152,9 @@ FilterBank::Mean FilterBank::mean() const {
   for (const Model& model : models_)
     mean.variance +=
         model.weight * (model.filter.timeVariance() + std::pow(model.filter.time() - mean.time, 2));
-  // If delays taken for a bell have a sharp edge, the exposures are off by so much.
+  // If delays taken for normal are exponential, the exposures are off by so much.
   if (!linkIsKnown())
-    mean.variance += (1.0 - hardEdge()) * std::pow(kTypicalBellSpread, 2);
+    mean.variance += (1.0 - exponentialProbability()) * std::pow(kTypicalNormalSpread, 2);
   return mean;
 }
 

@@ -32,8 +32,8 @@ class FilterBank {
   void advanceTo(std::int64_t frame);
 
   const ClockFilter& best() const;
-  /// Probability that the delays have a hard lower edge.
-  double hardEdge() const;
+  /// Probability that the delays are exponential.
+  double exponentialProbability() const;
   /// Over all models; of the states' frame.
   struct Mean {
     double time = 0.0, variance = 0.0;  ///< [s], [s^2]

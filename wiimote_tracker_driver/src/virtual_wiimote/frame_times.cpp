@@ -8,7 +8,7 @@ namespace wiimote_tracker::virtual_wiimote {
 
 namespace {
 constexpr double kWanderTime = 10.0;
-constexpr double kBellMean = 3.4;  // standard deviations
+constexpr double kNormalMean = 3.4;  // standard deviations
 // Least time between the departures of two reports [s].
 constexpr double kServiceTime = 0.3e-3;
 constexpr double kNever = -std::numeric_limits<double>::infinity();
@@ -26,8 +26,8 @@ double FrameTimes::uniform() {
 }
 
 double FrameTimes::delay() {
-  if (model_.core == FrameTimesModel::Core::kBell)
-    return model_.delay + std::max(0.0, model_.jitter * (kBellMean + normal_(random_)));
+  if (model_.core == FrameTimesModel::Core::kNormal)
+    return model_.delay + std::max(0.0, model_.jitter * (kNormalMean + normal_(random_)));
   return model_.delay + model_.jitter * std::exponential_distribution<double>(1.0)(random_);
 }
 

@@ -28,7 +28,7 @@ struct Statistics {
   double period = 0.0;         ///< [s]
   double period_stddev = 0.0;  ///< [s]
   double jitter = 0.0;         ///< standard deviation of the delays, without queues [s]
-  double hard_edge = 0.0;      ///< probability that the delays have a hard lower edge, 0..1
+  double exponential = 0.0;    ///< probability that delays are exponentially distributed, 0..1
   /// Frames lost since reset(), as far as known now, less reports of a frame that had one already.
   std::int64_t dropped = 0;
   std::uint64_t reports = 0, stale = 0, restarts = 0;  ///< since reset()

@@ -13,10 +13,10 @@ struct FrameTimesModel {
   double delay = 0.0;        ///< least time from exposure to arrival
   double jitter = 0.0;       ///< meaning: see `core`
   enum class Core {
-    kHardEdge,  ///< least delay + exponential of mean `jitter`
-    kBell       ///< least delay + normal of mean 3.4 jitter and standard deviation `jitter`, >= 0
+    kExponential,  ///< least delay + exponential of mean `jitter`
+    kNormal  ///< least delay + normal of mean 3.4 jitter and standard deviation `jitter`, >= 0
   };
-  Core core = Core::kHardEdge;
+  Core core = Core::kExponential;
   /// Greatest relative deviation of the true period from the nominal one (uniform).
   double period_tolerance = 0.0;
   /// Standard deviation of the random walk of the phase over 10 s.

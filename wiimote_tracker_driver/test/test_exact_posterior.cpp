@@ -1,7 +1,7 @@
-// The exact posterior behind a hard edge, and smoothed frame numbers, compared with brute force.
+// The exact posterior of exponential delays, and smoothed frame numbers, compared with brute force.
 
+#include "exposure_clock/exact_posterior.h"
 #include "exposure_clock/frame_history.h"
-#include "exposure_clock/steady_edge.h"
 #include "simulated_link.h"
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
@@ -16,7 +16,7 @@
 namespace wiimote_tracker::exposure_clock {
 namespace {
 
-constexpr double kEdgePeriod = 0.010035;
+constexpr double kNominal = 0.010035;
 constexpr double kDriftTolerance = 6e-6;
 
 struct Report {
@@ -50,7 +50,7 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
     double least = 1e300;
     for (const Report& report : reports)
       least = std::min(least, report.arrival - 1000.0 -
-                                  static_cast<double>(report.frame) * (kEdgePeriod + drift.back()));
+                                  static_cast<double>(report.frame) * (kNominal + drift.back()));
     bound.push_back(least);
     weight.push_back(rate * (least + center * drift.back()));
     greatest = std::max(greatest, weight.back());
@@ -59,7 +59,7 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   ClockState mean;
   const auto n = static_cast<double>(frame);
   const auto time = [&](std::size_t i) {
-    return bound[i] + n * (kEdgePeriod + drift[i]) - 1.0 / rate;
+    return bound[i] + n * (kNominal + drift[i]) - 1.0 / rate;
   };
   for (std::size_t i = 0; i < weight.size(); ++i) {
     weight[i] = std::exp(weight[i] - greatest);
@@ -77,26 +77,26 @@ ClockState bruteForce(const std::vector<Report>& reports, std::int64_t frame, do
   }
   mean.p00 += 1.0 / (rate * rate);
   mean.time += 1000.0;
-  mean.period += kEdgePeriod;
+  mean.period += kNominal;
   return mean;
 }
 
-TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
+TEST(ExactPosterior, is_the_posterior_mean_and_covariance) {
   int differ = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     const double spread = seed % 2 ? 0.005 : 0.002;
-    const auto reports = exponentialReports(700, spread, kEdgePeriod + 3e-6, seed);
-    SteadyEdge edge(kEdgePeriod, kDriftTolerance);
+    const auto reports = exponentialReports(700, spread, kNominal + 3e-6, seed);
+    ExactPosterior posterior(kNominal, kDriftTolerance);
     // Reports ignored while it settles are ignored by brute force too.
     std::vector<Report> used;
     for (const Report& report : reports) {
-      edge.add(report.frame, report.arrival, 1.0, kEdgePeriod + 3e-6);
+      posterior.add(report.frame, report.arrival, 1.0, kNominal + 3e-6);
       if (report.frame >= 25)
         used.push_back(report);
     }
-    ASSERT_TRUE(edge.ready());
+    ASSERT_TRUE(posterior.ready());
     const std::int64_t frame = 705;
-    const ClockState ours = edge.state(frame, spread);
+    const ClockState ours = posterior.state(frame, spread);
     const ClockState truth = bruteForce(used, frame, spread);
     // Two corners of the hull in one block are rare, and then the difference is small.
     const bool same = std::abs(ours.time - truth.time) < 0.02 * std::sqrt(truth.p00) &&
@@ -110,30 +110,30 @@ TEST(SteadyEdge, is_the_posterior_mean_and_covariance) {
   EXPECT_LE(differ, 2);
 }
 
-TEST(SteadyEdge, with_equal_delays_it_is_the_line_itself) {
-  SteadyEdge edge(kEdgePeriod, kDriftTolerance);
+TEST(ExactPosterior, with_equal_delays_it_is_the_line_itself) {
+  ExactPosterior posterior(kNominal, kDriftTolerance);
   for (int k = 0; k < 5000; ++k)
-    edge.add(k, 7.0 + k * (kEdgePeriod - 2e-6), 1.0, kEdgePeriod);
-  const ClockState state = edge.state(4999, 20e-6);
-  EXPECT_NEAR(state.time, 7.0 + 4999 * (kEdgePeriod - 2e-6), 1e-6);
-  EXPECT_NEAR(state.period, kEdgePeriod - 2e-6, 1e-9);
+    posterior.add(k, 7.0 + k * (kNominal - 2e-6), 1.0, kNominal);
+  const ClockState state = posterior.state(4999, 20e-6);
+  EXPECT_NEAR(state.time, 7.0 + 4999 * (kNominal - 2e-6), 1e-6);
+  EXPECT_NEAR(state.period, kNominal - 2e-6, 1e-9);
   EXPECT_GT(state.p00, 0.0);
   EXPECT_GE(state.p11, 0.0);
 }
 
-TEST(SteadyEdge, forgets_what_is_older_than_its_memory) {
-  SteadyEdge edge(kEdgePeriod, kDriftTolerance);
-  edge.add(0, 5.0, 1.0, kEdgePeriod);
+TEST(ExactPosterior, forgets_what_is_older_than_its_memory) {
+  ExactPosterior posterior(kNominal, kDriftTolerance);
+  posterior.add(0, 5.0, 1.0, kNominal);
   for (int k = 1; k < 200; ++k)
-    edge.add(k, 5.0 + k * kEdgePeriod, 1.0, kEdgePeriod);
+    posterior.add(k, 5.0 + k * kNominal, 1.0, kNominal);
   for (int k = 200; k < 3000; ++k)  // the clock has jumped by 1 ms
-    edge.add(k, 5.001 + k * kEdgePeriod, 1.0, kEdgePeriod);
-  EXPECT_NEAR(edge.state(2999, 50e-6).time, 5.001 + 2999 * kEdgePeriod, 2e-6);
+    posterior.add(k, 5.001 + k * kNominal, 1.0, kNominal);
+  EXPECT_NEAR(posterior.state(2999, 50e-6).time, 5.001 + 2999 * kNominal, 2e-6);
 }
 
-TEST(SteadyEdge, stays_precise_for_days) {
-  const double period = kEdgePeriod + 3e-6;
-  SteadyEdge young(kEdgePeriod, kDriftTolerance), old(kEdgePeriod, kDriftTolerance);
+TEST(ExactPosterior, stays_precise_for_days) {
+  const double period = kNominal + 3e-6;
+  ExactPosterior young(kNominal, kDriftTolerance), old(kNominal, kDriftTolerance);
   for (int k = 0; k < 60; ++k)
     old.add(k, 1000.0 + k * period, 1.0, period);
   constexpr std::int64_t kDays = 100000000;  // 11 of them
@@ -150,14 +150,14 @@ TEST(SteadyEdge, stays_precise_for_days) {
   EXPECT_NEAR(b.p11 / a.p11, 1.0, 0.01);
 }
 
-TEST(SteadyEdge, is_not_ready_before_it_has_seen_a_few_seconds) {
-  SteadyEdge edge(kEdgePeriod, kDriftTolerance);
-  EXPECT_FALSE(edge.ready());
+TEST(ExactPosterior, is_not_ready_before_it_has_seen_a_few_seconds) {
+  ExactPosterior posterior(kNominal, kDriftTolerance);
+  EXPECT_FALSE(posterior.ready());
   for (int k = 0; k < 400; ++k)
-    edge.add(k, k * kEdgePeriod, 1.0, kEdgePeriod);
-  EXPECT_TRUE(edge.ready());
-  edge.clear();
-  EXPECT_FALSE(edge.ready());
+    posterior.add(k, k * kNominal, 1.0, kNominal);
+  EXPECT_TRUE(posterior.ready());
+  posterior.clear();
+  EXPECT_FALSE(posterior.ready());
 }
 
 // Three reports after a certain one, each with random likelihoods of its numbers.

@@ -1,4 +1,4 @@
-#include "exposure_clock/steady_edge.h"
+#include "exposure_clock/exact_posterior.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,18 +36,18 @@ Piece exponentialPiece(double begin, double end, double slope) {
 }
 }  // namespace
 
-SteadyEdge::SteadyEdge(double period, double tolerance)
+ExactPosterior::ExactPosterior(double period, double tolerance)
     : nominal_period_(period), tolerance_(tolerance) {}
 
-void SteadyEdge::clear() {
-  *this = SteadyEdge(nominal_period_, tolerance_);
+void ExactPosterior::clear() {
+  *this = ExactPosterior(nominal_period_, tolerance_);
 }
 
-bool SteadyEdge::ready() const {
+bool ExactPosterior::ready() const {
   return reports_ > kSkippedReports + kMinBlocks * kBlockReports;
 }
 
-void SteadyEdge::add(std::int64_t frame, double arrival, double weight, double period) {
+void ExactPosterior::add(std::int64_t frame, double arrival, double weight, double period) {
   const std::int64_t report = reports_++ - kSkippedReports;
   if (report < 0)
     return;
@@ -70,7 +70,7 @@ void SteadyEdge::add(std::int64_t frame, double arrival, double weight, double p
 }
 
 // Andrew's monotone chain; the blocks are in order of their frames.
-SteadyEdge::Hull SteadyEdge::lowerHull() const {
+ExactPosterior::Hull ExactPosterior::lowerHull() const {
   Hull hull;
   const std::int64_t begun = (reports_ - kSkippedReports + kBlockReports - 1) / kBlockReports;
   for (std::int64_t i = std::max<std::int64_t>(0, begun - kBlocks); i < begun; ++i) {
@@ -88,7 +88,7 @@ SteadyEdge::Hull SteadyEdge::lowerHull() const {
   return hull;
 }
 
-ClockState SteadyEdge::state(std::int64_t frame, double spread) const {
+ClockState ExactPosterior::state(std::int64_t frame, double spread) const {
   double weight = 0.0, mean_frame = 0.0;
   for (const Block& block : blocks_) {
     weight += block.weight;

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
+#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXACT_POSTERIOR_H
+#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXACT_POSTERIOR_H
 
 #include <boost/container/static_vector.hpp>
 
@@ -25,10 +25,10 @@ struct ClockState {
 ///
 /// Of the last 20 s each block keeps its earliest report, relative to the line of the period. These
 /// include all corners except where a block has two.
-class SteadyEdge {
+class ExactPosterior {
  public:
   /// Prior of the period: uniform within `period` +- `tolerance` [s].
-  SteadyEdge(double period, double tolerance);
+  ExactPosterior(double period, double tolerance);
 
   void clear();
   /// Adds a report with a certain frame number, on time with probability `weight`. `period` [s] is
@@ -63,4 +63,4 @@ class SteadyEdge {
 
 }  // namespace wiimote_tracker::exposure_clock
 
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STEADY_EDGE_H
+#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXACT_POSTERIOR_H

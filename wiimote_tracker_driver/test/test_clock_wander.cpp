@@ -171,6 +171,23 @@ TEST(ClockWander, ARemoteInSniffModeIsKnownAfterFourSeconds) {
   }
 }
 
+// In sniff mode the adapter's clock may be wrong by up to 250 ppm.
+TEST(ClockWander, ARemoteInSniffModeIsKnownWhereTheAdaptersClockIsWrong) {
+  RadioModel model;
+  model.polling = RadioModel::Polling::kSniff;
+  for (const double error : {-230e-6, 230e-6})
+    for (const auto& reports : simulateRadio(model, 60.0, 1)) {
+      ExposureClock clock;
+      double least = 1.0;
+      for (const auto& report : reports) {
+        const double stddev = clock.update((1.0 + error) * report.arrival).stddev;
+        if (report.exposure > 4.0)
+          least = std::min(least, stddev);
+      }
+      EXPECT_GT(least, 2.5e-3) << error;
+    }
+}
+
 // As after a start with wrong frame numbers: the clock is certain of a period that is 0.5 % short.
 // The change falls anywhere within a trial of another estimator.
 TEST(ExtensiveClockWander, AWrongPeriodIsMostlyLeftWithinFiveSeconds) {

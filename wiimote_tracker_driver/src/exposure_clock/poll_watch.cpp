@@ -1,5 +1,7 @@
 #include "exposure_clock/poll_watch.h"
 
+#include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -8,15 +10,24 @@ namespace wiimote_tracker::exposure_clock {
 namespace {
 // In sniff mode a remote sends once in 16 slots of 0.625 ms [s].
 constexpr double kSniffInterval = 0.010;
-// Reports that a mean is taken over, for the longest interval; for the others less in proportion.
-// So a camera whose period differs from the polls' by 2 us is not in step.
-constexpr double kStepMemory = 1350.0;
-// Reports that steady_ is a mean over: those of 0.8 s.
-constexpr double kSteadyMemory = kStepMemory / 16.0;
+// With kInStep 0.35 or 0.7, or half or twice kStepMemory, benchmark_radio prints the same figures.
+//
+// Length of a mean from which on polls are in step: the share of the arrivals that are, where the
+// others come at random; so most are. If all come at random, it is reached with a probability of
+// exp(-n / 4) (Rayleigh's test): 1e-4 for the fewest reports that tell, which count as n = 36.
 constexpr double kInStep = 0.5;
+// Greatest error of an adapter's clock in sniff mode (Bluetooth Core, Vol 2 Part B, sec. 1.1).
+constexpr double kClockError = 250e-6;
+// Reports that a mean is taken over, for the longest interval; for the others less in proportion:
+// so many that polls by such a clock are still in step. By a phase that advances by w from report
+// to report the length of a mean becomes 1 / sqrt(1 + (w memory)^2).
+const double kStepMemory = std::sqrt(1.0 / (kInStep * kInStep) - 1.0) / (2.0 * M_PI * kClockError);
 // Weight of a mean from which on it tells: the polls have then passed once through all waits of a
-// camera of nominal period.
-constexpr double kEnough = 0.2;
+// camera of nominal period, after 286 images.
+const double kEnough =
+    1.0 - std::exp(-kSniffInterval / (kNominalPeriod - kSniffInterval) / kStepMemory);
+// Reports that steady_ is a mean over: those of 0.8 s.
+constexpr double kSteadyMemory = 80.0;
 
 double phase(double time, double interval) {
   return 2.0 * M_PI * std::fmod(time, interval) / interval;

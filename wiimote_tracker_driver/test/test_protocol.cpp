@@ -1,6 +1,5 @@
 // Bytes and their meaning, from hand-written vectors and from reports of real remotes.
-#include "protocol/accelerometer.h"
-#include "protocol/ir_calibration.h"
+#include "protocol/calibration_blocks.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"

@@ -4,8 +4,7 @@
 #include "noise.h"
 #include "wire_layouts.h"
 
-#include "protocol/accelerometer.h"
-#include "protocol/ir_calibration.h"
+#include "protocol/calibration_blocks.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 

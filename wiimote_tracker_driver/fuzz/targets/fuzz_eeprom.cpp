@@ -2,9 +2,7 @@
 #include "invariants.h"
 #include "targets.h"
 
-#include "protocol/accelerometer.h"
-
-#include "protocol/ir_calibration.h"
+#include "protocol/calibration_blocks.h"
 
 #include <cmath>
 #include <numeric>

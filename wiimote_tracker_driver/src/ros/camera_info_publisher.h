@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
 
 #include "image_topic.h"
-#include "protocol/ir_calibration.h"
+#include "protocol/calibration_blocks.h"
 
 #include <camera_info_manager/camera_info_manager.h>
 #include <ros/node_handle.h>

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
 
 #include "image_topic.h"
-#include "protocol/accelerometer.h"
+#include "protocol/calibration_blocks.h"
 
 #include <ros/node_handle.h>
 #include <sensor_msgs/Imu.h>

@@ -1,8 +1,7 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_FACTORY_CALIBRATION_H
 #define WIIMOTE_TRACKER_DRIVER_WIIMOTE_FACTORY_CALIBRATION_H
 
-#include "protocol/accelerometer.h"
-#include "protocol/ir_calibration.h"
+#include "protocol/calibration_blocks.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/report.h"
 

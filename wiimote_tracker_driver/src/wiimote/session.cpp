@@ -192,7 +192,7 @@ std::optional<protocol::DataReport> Session::handle(const Report& report, double
 
 void Session::handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now) {
   if (acknowledgement.report_id == protocol::kReportModeId)
-    duplicates_.modeAcknowledged(now);
+    assembler_.modeAcknowledged(now);
   const std::uint8_t id = request().id();
   const std::uint8_t error = acknowledgement.error;
   if (in<Streaming>() || acknowledgement.report_id != id) {
@@ -260,8 +260,6 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
     handleOtherMode(report.id(), now);
     return std::nullopt;
   }
-  if (duplicates_.isDuplicate(report, now))
-    return std::nullopt;
   const auto image = assembler_.add(report, now);
   if (!image)
     return std::nullopt;

@@ -2,7 +2,6 @@
 #define WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
 
 #include "wiimote/camera_configuration.h"
-#include "wiimote/duplicate_filter.h"
 #include "wiimote/factory_calibration.h"
 #include "wiimote/image_assembler.h"
 #include "wiimote/options.h"
@@ -182,7 +181,6 @@ class Session {
   CameraConfiguration camera_;
   ImageAssembler assembler_;
   StreamWatch watch_;
-  DuplicateFilter duplicates_;
   std::optional<protocol::Status> status_;
 
   State state_;

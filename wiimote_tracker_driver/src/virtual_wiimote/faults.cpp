@@ -5,38 +5,35 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <type_traits>
+#include <variant>
 
 namespace wiimote_tracker::virtual_wiimote {
 namespace {
 
 constexpr double kMaximum = 1e9;
 
+/// A member, and the numbers that it may have; only a double may have fractions.
 struct Fault {
   const char* name;
-  bool whole;  ///< Accepts only whole numbers.
-  double minimum;
-  double maximum;
-  void (*set)(Faults&, double);
+  std::variant<double Faults::*, int Faults::*, std::uint32_t Faults::*, bool Faults::*> member;
+  double minimum = 0.0, maximum = 1.0;
 };
 
 const Fault kFaults[] = {
-    {"lost_answers", false, 0, 1, [](Faults& f, double v) { f.lost_answers = v; }},
-    {"lost_data", false, 0, 1, [](Faults& f, double v) { f.lost_data = v; }},
-    {"late_answers", false, 0, 1, [](Faults& f, double v) { f.late_answers = v; }},
-    {"duplicated", false, 0, 1, [](Faults& f, double v) { f.duplicated = v; }},
-    {"truncated", false, 0, 1, [](Faults& f, double v) { f.truncated = v; }},
-    {"garbage", false, 0, 1, [](Faults& f, double v) { f.garbage = v; }},
-    {"stalls", false, 0, 1, [](Faults& f, double v) { f.stalls = v; }},
-    {"late_by", true, 1, kMaximum, [](Faults& f, double v) { f.late_by = static_cast<int>(v); }},
-    {"stall_length", true, 1, kMaximum,
-     [](Faults& f, double v) { f.stall_length = static_cast<int>(v); }},
-    {"unplug_every", true, 0, kMaximum,
-     [](Faults& f, double v) { f.unplug_every = static_cast<int>(v); }},
-    {"unplug_for", true, 1, kMaximum,
-     [](Faults& f, double v) { f.unplug_for = static_cast<int>(v); }},
-    {"second_master", true, 0, 1, [](Faults& f, double v) { f.second_master = v == 1; }},
-    {"seed", true, 0, kMaximum,
-     [](Faults& f, double v) { f.seed = static_cast<std::uint32_t>(v); }},
+    {"lost_answers", &Faults::lost_answers},
+    {"lost_data", &Faults::lost_data},
+    {"late_answers", &Faults::late_answers},
+    {"duplicated", &Faults::duplicated},
+    {"truncated", &Faults::truncated},
+    {"garbage", &Faults::garbage},
+    {"stalls", &Faults::stalls},
+    {"late_by", &Faults::late_by, 1.0, kMaximum},
+    {"stall_length", &Faults::stall_length, 1.0, kMaximum},
+    {"unplug_every", &Faults::unplug_every, 0.0, kMaximum},
+    {"unplug_for", &Faults::unplug_for, 1.0, kMaximum},
+    {"second_master", &Faults::second_master},
+    {"seed", &Faults::seed, 0.0, kMaximum},
 };
 
 }  // namespace
@@ -54,12 +51,17 @@ void setFault(Faults& faults, const std::string& text) {
     names += (names.empty() ? "" : ", ") + std::string(fault.name);
     if (name != fault.name)
       continue;
+    const bool whole = !std::holds_alternative<double Faults::*>(fault.member);
     if (!is_number || !(value >= fault.minimum && value <= fault.maximum) ||
-        (fault.whole && value != std::floor(value)))
+        (whole && value != std::floor(value)))
       throw std::invalid_argument(format("the fault %s must be a %snumber from %g to %g, not '%s'",
-                                         fault.name, fault.whole ? "whole " : "", fault.minimum,
+                                         fault.name, whole ? "whole " : "", fault.minimum,
                                          fault.maximum, given.c_str()));
-    fault.set(faults, value);
+    std::visit(
+        [&](auto member) {
+          faults.*member = static_cast<std::decay_t<decltype(faults.*member)>>(value);
+        },
+        fault.member);
     return;
   }
   throw std::invalid_argument("there is no fault '" + name + "'; choose from " + names);

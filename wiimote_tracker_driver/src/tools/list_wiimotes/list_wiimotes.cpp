@@ -9,8 +9,7 @@
 
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/ros_home.h>
-
-#include <time.h>
+#include <boost/date_time/gregorian/gregorian.hpp>
 
 #include <algorithm>
 #include <chrono>
@@ -225,15 +224,6 @@ std::string cameraInfoFolder(const Arguments& arguments) {
   return arguments.camera_info.empty() ? rosHome() + "/camera_info" : arguments.camera_info;
 }
 
-std::string today() {
-  const time_t now = ::time(nullptr);
-  tm local{};
-  ::localtime_r(&now, &local);
-  char text[32];
-  std::strftime(text, sizeof(text), "%Y-%m-%d", &local);
-  return text;
-}
-
 }  // namespace
 }  // namespace wiimote_tracker::list_wiimotes
 
@@ -264,8 +254,10 @@ int main(int argc, char** argv) {
     check(&arguments);
     if (arguments.replace.empty())
       return list(arguments);
+    const std::string today =
+        boost::gregorian::to_iso_extended_string(boost::gregorian::day_clock::local_day());
     std::fputs(replaceRemote({arguments.replace[0], arguments.replace[1], arguments.cameras,
-                              cameraInfoFolder(arguments), today()})
+                              cameraInfoFolder(arguments), today})
                    .c_str(),
                stdout);
     return 0;

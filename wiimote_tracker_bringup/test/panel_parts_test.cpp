@@ -1,9 +1,9 @@
 // Pages and tiles of the Tracker panel without nodes.
 
+#include "boxes.h"
 #include "calibrate_page.h"
 #include "camera_tile.h"
 #include "health_page.h"
-#include "number_box.h"
 #include "screenshot.h"
 
 #include <QApplication>

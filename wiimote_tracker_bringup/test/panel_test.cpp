@@ -4,7 +4,7 @@
 #include "big_words.h"
 #include "contrast.h"
 #include "screenshot.h"
-#include "tracker_widget.h"
+#include "tracker_panel.h"
 
 #include <QApplication>
 #include <QCheckBox>
@@ -25,7 +25,6 @@
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
-#include <rviz/panel.h>
 #include <std_srvs/Trigger.h>
 #include <wiimote_tracker_msgs/LoadRig.h>
 #include <wiimote_tracker_msgs/SetLed.h>
@@ -60,7 +59,7 @@ bool waitFor(const std::function<bool()>& condition) {
 class Panel : public testing::Test {
  protected:
   void SetUp() override {
-    widget_ = std::make_unique<TrackerWidget>(nullptr);
+    widget_ = std::make_unique<TrackerPanel>();
     widget_->resize(440, 740);
     widget_->show();
   }
@@ -71,7 +70,7 @@ class Panel : public testing::Test {
   }
   QString label(const char* name) const { return find<QLabel>(name)->text(); }
   QString title() const { return static_cast<BigWords*>(find<QWidget>("title"))->text(); }
-  void open(int page) { widget_->pages()->setCurrentIndex(page); }
+  void open(int page) { widget_->findChild<QTabWidget*>()->setCurrentIndex(page); }
   bool camerasAre(const QString& summary) const { return label("summary") == summary; }
 
   /// The new answer that begins so; a refusal, since the LED still moves, is followed by another
@@ -99,7 +98,7 @@ class Panel : public testing::Test {
 
   void screenshot(const QString& name) const { panel::screenshot(name, widget_.get()); }
 
-  std::unique_ptr<TrackerWidget> widget_;
+  std::unique_ptr<TrackerPanel> widget_;
 };
 
 TEST_F(Panel, CanBeReadOnDarkAndOnLightGround) {
@@ -341,8 +340,8 @@ TEST_F(Panel, EndsWhileARequestRuns) {
   open(1);
   auto* connection = find<QPushButton>("Check the LED there");
   ASSERT_TRUE(waitFor([&] { return connection->isEnabled(); }));
-  TrackerWidget second(nullptr);
-  second.pages()->setCurrentIndex(1);
+  TrackerPanel second;
+  second.findChild<QTabWidget*>()->setCurrentIndex(1);
   connection->click();
   widget_.reset();
 }

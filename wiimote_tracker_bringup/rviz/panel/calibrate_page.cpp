@@ -1,12 +1,11 @@
 #include "calibrate_page.h"
 
 #include "big_words.h"
-#include "number_box.h"
+#include "boxes.h"
 #include "square_drawing.h"
 #include "verdict_table.h"
 
 #include <QCheckBox>
-#include <QComboBox>
 #include <QFontMetrics>
 #include <QGridLayout>
 #include <QLabel>
@@ -15,7 +14,6 @@
 #include <QPushButton>
 #include <QScrollArea>
 #include <QVBoxLayout>
-#include <QWheelEvent>
 
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
@@ -62,15 +60,6 @@ QLabel* wrappedLabel(const QString& name, QWidget* parent) {
   label->setTextInteractionFlags(Qt::TextSelectableByMouse);
   return label;
 }
-
-/// The wheel scrolls the page.
-class ChoiceBox : public QComboBox {
- public:
-  using QComboBox::QComboBox;
-
- protected:
-  void wheelEvent(QWheelEvent* event) override { event->ignore(); }
-};
 
 /// @param none what 0 stands for
 QDoubleSpinBox* lengthBox(const QString& name, const QString& none, QWidget* parent) {
@@ -181,11 +170,12 @@ void CalibratePage::addLengths(QVBoxLayout* layout) {
   row->setColumnStretch(1, 1);
   layout->addLayout(row);
   addRequest<StartCalibration>("start", [this](auto* start) {
-    start->side_x = side();
+    start->side_x = side_->value();
     start->without_square = static_cast<std::uint8_t>(without_square_->isChecked());
-    start->wand_length = start->without_square ? wandLength() : 0.0;
+    start->wand_length = start->without_square ? wand_length_->value() : 0.0;
   });
-  addRequest<StartWave>("start_wave", [this](auto* wave) { wave->wand_length = wandLength(); });
+  addRequest<StartWave>("start_wave",
+                        [this](auto* wave) { wave->wand_length = wand_length_->value(); });
 }
 
 void CalibratePage::addButtons(QVBoxLayout* layout) {
@@ -218,7 +208,7 @@ void CalibratePage::addFile(QVBoxLayout* layout) {
   auto* file = new QHBoxLayout;
   file->addWidget(path_ = new QLineEdit(this), 1);
   path_->setPlaceholderText("parameter rig_file");
-  const auto fillPath = [this](auto* file) { file->path = path().toStdString(); };
+  const auto fillPath = [this](auto* file) { file->path = path_->text().toStdString(); };
   addRequest<SaveRig>("save", fillPath);
   addRequest<LoadRig>("load", fillPath);
   file->addWidget(addButton("Save", "save"));
@@ -313,20 +303,16 @@ void CalibratePage::offerCameras(const Guide& guide) {
     offer(guide.status()->cameras);
 }
 
-double CalibratePage::side() const {
-  return side_->value();
-}
-double CalibratePage::wandLength() const {
-  return wand_length_->value();
-}
-QString CalibratePage::path() const {
-  return path_->text();
+void CalibratePage::load(const rviz::Config& config) {
+  side_->setValue(config.mapGetChild("Side of Square").getValue().toDouble());
+  wand_length_->setValue(config.mapGetChild("Length of Wand").getValue().toDouble());
+  path_->setText(config.mapGetChild("Rig File").getValue().toString());
 }
 
-void CalibratePage::restore(double side, double wand_length, const QString& path) {
-  side_->setValue(side);
-  wand_length_->setValue(wand_length);
-  path_->setText(path);
+void CalibratePage::save(rviz::Config* config) const {
+  config->mapSetValue("Side of Square", side_->value());
+  config->mapSetValue("Length of Wand", wand_length_->value());
+  config->mapSetValue("Rig File", path_->text());
 }
 
 void CalibratePage::show(const Guide& guide, double now) {

@@ -6,6 +6,8 @@
 
 #include <QWidget>
 
+#include <rviz/config.h>
+
 #include <functional>
 #include <map>
 #include <string>
@@ -34,11 +36,9 @@ class CalibratePage : public QWidget {
 
   void show(const Guide& guide, double now);
 
-  /// What the .rviz file keeps.
-  double side() const;        ///< [m]; 0: the node's
-  double wandLength() const;  ///< [m]; 0: one LED
-  QString path() const;       ///< Of the rig file; empty: the node's.
-  void restore(double side, double wand_length, const QString& path);
+  /// What was typed, in the .rviz file.
+  void load(const rviz::Config& config);
+  void save(rviz::Config* config) const;
 
  private:
   /// A button, or the next step, may ask for this service; `fill` then writes what is typed into
@@ -68,9 +68,9 @@ class CalibratePage : public QWidget {
   QProgressBar* progress_;
   QPushButton* next_;
   SquareDrawing* square_;
-  QDoubleSpinBox *side_, *wand_length_;
+  QDoubleSpinBox *side_, *wand_length_;  // [m]; 0: the node's side, no wand
   QCheckBox *without_square_, *hands_free_;
-  QLineEdit* path_;
+  QLineEdit* path_;  // of the rig file; empty: the node's
   VerdictTable* verdict_;
   QComboBox* camera_;
   QPushButton* cancel_;

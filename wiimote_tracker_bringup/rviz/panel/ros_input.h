@@ -1,7 +1,10 @@
 #ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H
 #define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H
 
-#include "views.h"
+#include "guide.h"
+#include "health_view.h"
+#include "tracker_view.h"
+#include "tracks_view.h"
 
 #include <ros/callback_queue.h>
 #include <ros/message_event.h>
@@ -18,6 +21,14 @@
 #include <vector>
 
 namespace wiimote_tracker::panel {
+
+/// What the pages show.
+struct Views {
+  TrackerView cameras;
+  Guide guide;
+  TracksView tracks;
+  HealthView health;
+};
 
 /// Feeds views from ROS. A thread of its own asks the master for cameras and subscribes, since that
 /// may wait. poll() hands the messages over, and never waits.

@@ -88,12 +88,14 @@ void TrackPage::show(const TracksView& tracks, double now) {
   recording_->setText(recorder_.words());
 }
 
-QString TrackPage::recordPath() const {
-  return path_->text();
+void TrackPage::load(const rviz::Config& config) {
+  QString path = path_->text();
+  config.mapGetString("Record To", &path);
+  path_->setText(path);
 }
 
-void TrackPage::setRecordPath(const QString& path) {
-  path_->setText(path);
+void TrackPage::save(rviz::Config* config) const {
+  config->mapSetValue("Record To", path_->text());
 }
 
 }  // namespace wiimote_tracker::panel

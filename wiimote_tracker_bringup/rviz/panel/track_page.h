@@ -6,6 +6,8 @@
 
 #include <QWidget>
 
+#include <rviz/config.h>
+
 class QLabel;
 class QLineEdit;
 class QPushButton;
@@ -21,8 +23,9 @@ class TrackPage : public QWidget {
 
   void show(const TracksView& tracks, double now);
 
-  QString recordPath() const;
-  void setRecordPath(const QString& path);
+  /// What was typed, in the .rviz file.
+  void load(const rviz::Config& config);
+  void save(rviz::Config* config) const;
 
  private:
   Recorder recorder_;

@@ -3,7 +3,7 @@
 
 #include "process.h"
 
-#include "ros/clock_reading.h"
+#include "ros/remote_source.h"
 
 #include <atomic>
 #include <cstdint>

@@ -2,7 +2,7 @@
 #include "ros/battery_publisher.h"
 #include "ros/blob_publisher.h"
 #include "ros/driver_parameters.h"
-#include "ros/joy_publisher.h"
+#include "ros/joy.h"
 #include "ros/link_diagnostics.h"
 #include "ros/link_log.h"
 
@@ -76,17 +76,18 @@ TEST(Joy, EachButtonHasItsPlace) {
 
 TEST(PlayerLeds, AddUpToTheNumberInTheName) {
   for (int number = 1; number <= 10; ++number) {
-    const std::uint8_t leds = playerLeds("wiimote_" + std::to_string(number));
+    const std::uint8_t lit = leds(-1, "wiimote_" + std::to_string(number));
     int sum = 0;
     for (int led = 1; led <= 4; ++led)
-      sum += (leds >> (led - 1) & 1) * led;
+      sum += (lit >> (led - 1) & 1) * led;
     EXPECT_EQ(number, sum);
-    EXPECT_EQ(leds, playerLeds("a" + std::to_string(number + 10)));
+    EXPECT_EQ(lit, leds(-1, "a" + std::to_string(number + 10)));
   }
-  EXPECT_EQ(0x4, playerLeds("wiimote_3"));
-  EXPECT_EQ(0x1, playerLeds("left"));
-  EXPECT_EQ(0x1, playerLeds(""));
-  EXPECT_EQ(0xf, playerLeds("wiimote_0"));
+  EXPECT_EQ(0x4, leds(-1, "wiimote_3"));
+  EXPECT_EQ(0x1, leds(-1, "left"));
+  EXPECT_EQ(0x1, leds(-1, ""));
+  EXPECT_EQ(0xf, leds(-1, "wiimote_0"));
+  EXPECT_EQ(0x6, leds(6, "wiimote_3"));
 }
 
 TEST(Battery, IsLowByItsChargeOrByItsFlag) {

@@ -112,17 +112,15 @@ protocol::IrSensitivity sensitivity(const std::string& name,
   return protocol::parseIrSensitivity(block1 + " / " + block2);
 }
 
-std::uint8_t playerLeds(const std::string& camera_name) {
+std::uint8_t leds(int leds, const std::string& camera_name) {
+  if (leds >= 0)
+    return static_cast<std::uint8_t>(leds);
   // By the last digit. Each pattern has the fewest LEDs that add up to the number, with LED 4.
   constexpr std::array<std::uint8_t, 10> kPatterns{0xf, 0x1, 0x2, 0x4, 0x8,
                                                    0x9, 0xa, 0xc, 0xd, 0xe};
   if (camera_name.empty() || std::isdigit(static_cast<unsigned char>(camera_name.back())) == 0)
     return kPatterns[1];
   return kPatterns[static_cast<std::size_t>(camera_name.back() - '0')];
-}
-
-std::uint8_t leds(int leds, const std::string& camera_name) {
-  return leds < 0 ? playerLeds(camera_name) : static_cast<std::uint8_t>(leds);
 }
 
 }  // namespace wiimote_tracker::driver

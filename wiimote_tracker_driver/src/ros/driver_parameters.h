@@ -23,7 +23,7 @@ struct DriverParameters {
   std::string ir_sensitivity = "wii_5";
   std::string ir_sensitivity_block1;        ///< Of "custom" only, hexadecimal.
   std::string ir_sensitivity_block2;        ///< Of "custom" only, hexadecimal.
-  int leds = -1;                            ///< Player LEDs 1..4 in bits 0..3; -1: playerLeds().
+  int leds = -1;                            ///< Player LEDs 1..4 in bits 0..3; -1: by the name.
   double battery_low = 0.2;                 ///< [0..1]
   double rumble_max = 2.0;                  ///< [s]
   double linear_acceleration_stddev = 0.1;  ///< [m/s^2]
@@ -50,12 +50,9 @@ protocol::IrSensitivity sensitivity(const std::string& name,
                                     const std::string& block1,
                                     const std::string& block2);
 
-/// Player LEDs 1..4 (bits 0..3) for the number at the end of a camera's name: the numbers of the
-/// lit LEDs add up to it. 1..4 light one LED, 5 is 1 + 4, 10 is all four, 11 is as 1, and 0 is
-/// as 10. A name without a number lights LED 1.
-std::uint8_t playerLeds(const std::string& camera_name);
-
-/// Player LEDs for the parameter `leds`.
+/// Player LEDs 1..4 (bits 0..3) for the parameter `leds`. Below 0 they are those for the number at
+/// the end of a camera's name: the numbers of the lit LEDs add up to it. 1..4 light one LED, 5 is
+/// 1 + 4, 10 is all four, 11 is as 1, and 0 is as 10. A name without a number lights LED 1.
 std::uint8_t leds(int leds, const std::string& camera_name);
 
 }  // namespace wiimote_tracker::driver

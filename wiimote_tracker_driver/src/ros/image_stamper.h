@@ -1,7 +1,6 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H
 
-#include "clock_reading.h"
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
 #include <ros/time.h>
@@ -9,6 +8,14 @@
 #include <cstdint>
 
 namespace wiimote_tracker::driver {
+
+/// The same instant on the steady clock and on the clock of ROS.
+struct ClockReading {
+  double steady = 0.0;  ///< [s]
+  ros::Time ros;
+  double uncertainty = 0.0;  ///< Largest time between the two readings [s].
+  bool simulated = false;    ///< ROS time is simulated (use_sim_time).
+};
 
 /// The times in an image's message.
 struct ImageTime {

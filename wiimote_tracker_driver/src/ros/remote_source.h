@@ -1,8 +1,8 @@
 #ifndef WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_SOURCE_H
 #define WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_SOURCE_H
 
-#include "clock_reading.h"
 #include "driver_parameters.h"
+#include "image_stamper.h"
 #include "recording/replay.h"
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
@@ -12,6 +12,9 @@
 #include <string>
 
 namespace wiimote_tracker::driver {
+
+/// The steady clock [s].
+double steadyNow();
 
 /// Source of reports and of time: a remote with the present time, or a recording with its own time.
 /// Then both clocks show that, so that stamps do not depend on replay and speed. Not thread-safe.

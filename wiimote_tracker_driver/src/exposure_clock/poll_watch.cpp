@@ -26,8 +26,9 @@ const double kStepMemory = std::sqrt(1.0 / (kInStep * kInStep) - 1.0) / (2.0 * M
 // camera of nominal period, after 286 images.
 const double kEnough =
     1.0 - std::exp(-kSniffInterval / (kNominalPeriod - kSniffInterval) / kStepMemory);
-// Reports that steady_ is a mean over: those of 0.8 s.
-constexpr double kSteadyMemory = 80.0;
+// Reports that steady_ is a mean over: those of 0.8 s. Half or twice of it changes in_2sd% there by
+// at most 0.8.
+constexpr double kSteadyMemory = 84.0;
 
 double phase(double time, double interval) {
   return 2.0 * M_PI * std::fmod(time, interval) / interval;

@@ -1,7 +1,6 @@
 // Clicks through the Tracker panel while a simulated hand carries the LED. Where
 // WIIMOTE_TRACKER_SCREENSHOTS names a folder, the pages are drawn into it.
 
-#include "big_words.h"
 #include "contrast.h"
 #include "screenshot.h"
 #include "tracker_panel.h"
@@ -69,7 +68,7 @@ class Panel : public testing::Test {
     return widget_->findChild<Widget*>(name);
   }
   QString label(const char* name) const { return find<QLabel>(name)->text(); }
-  QString title() const { return static_cast<BigWords*>(find<QWidget>("title"))->text(); }
+  QString title() const { return label("title"); }
   void open(int page) { widget_->findChild<QTabWidget*>()->setCurrentIndex(page); }
   bool camerasAre(const QString& summary) const { return label("summary") == summary; }
 

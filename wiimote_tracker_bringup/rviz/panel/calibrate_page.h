@@ -24,7 +24,6 @@ class QVBoxLayout;
 
 namespace wiimote_tracker::panel {
 
-class BigWords;
 class SquareDrawing;
 class VerdictTable;
 
@@ -63,8 +62,7 @@ class CalibratePage : public QWidget {
   std::map<std::string, std::function<Request()>> requests_;  // by name, with what is typed
   Advice advice_;
   double proposed_at_ = -1.0;  // When a correction was proposed, or withdrawn [s].
-  BigWords* title_;
-  QLabel *sentence_, *answer_, *remarks_;
+  QLabel *title_, *sentence_, *answer_, *remarks_;
   QProgressBar* progress_;
   QPushButton* next_;
   SquareDrawing* square_;

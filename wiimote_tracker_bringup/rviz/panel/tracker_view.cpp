@@ -101,8 +101,8 @@ std::string TrackerView::summary(double now) const {
         state != CameraState::kFine && state != CameraState::kNotCalibrated)
       text += " (" + joined(names) + ")";
   }
-  return std::to_string(cameras_.size()) + (cameras_.size() == 1 ? " camera: " : " cameras: ") +
-         text + (has_rig_ ? "" : ". Open the page Calibrate.");
+  return counted(cameras_.size(), "camera") + ": " + text +
+         (has_rig_ ? "" : ". Open the page Calibrate.");
 }
 
 }  // namespace wiimote_tracker::panel

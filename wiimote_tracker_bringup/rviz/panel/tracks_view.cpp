@@ -109,7 +109,7 @@ std::string TracksView::summary(double now) const {
   if (now - points_at_ >= kStaleAfter)
     return "Nothing is tracked: calibrate, or check that the tracker runs.";
   const std::size_t count = leds(now).size(), body_count = bodies(now).size();
-  std::string text = std::to_string(count) + (count == 1 ? " LED" : " LEDs");
+  std::string text = counted(count, "LED");
   if (body_count > 0)
     text = (count > 0 ? text + ", " : "") + std::to_string(body_count) +
            (body_count == 1 ? " body" : " bodies");

@@ -1,7 +1,5 @@
 #include "data_report.h"
 
-#include "byte.h"
-
 #include <cstddef>
 #include <map>
 

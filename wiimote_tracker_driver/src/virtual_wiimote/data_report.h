@@ -8,6 +8,11 @@
 
 namespace wiimote_tracker::virtual_wiimote {
 
+/// The lowest eight bits of a value.
+constexpr std::uint8_t byte(int value) {
+  return static_cast<std::uint8_t>(value);
+}
+
 /// Bytes of an extension, as many as the longest report carries.
 using ExtensionData = std::array<std::uint8_t, 21>;
 

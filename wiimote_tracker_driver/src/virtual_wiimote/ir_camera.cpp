@@ -1,6 +1,6 @@
 #include "ir_camera.h"
 
-#include "byte.h"
+#include "data_report.h"
 
 #include <algorithm>
 

@@ -120,6 +120,26 @@ def test_the_search_betters_a_poor_start(monkeypatch):
     assert prediction.cost(ROOM, *found, points) < 0.5 * prediction.cost(ROOM, *poor, points)
 
 
+def test_the_search_tells_how_much_is_done_from_its_start_to_its_end(monkeypatch):
+    monkeypatch.setattr(search, 'CANDIDATES', 20)
+    shares = []
+    search.search(ROOM, 1, 5, shares.append)
+    assert shares[0] == 0.0 and shares[1] < 0.01 and shares[-1] == 1.0
+    assert all(a < b for a, b in zip(shares, shares[1:]))
+
+
+@pytest.mark.parametrize('terminal, said', [
+    (True, '\rsearching:   0% \rsearching:   3% \rsearching: 100% \n'), (False, '')])
+def test_a_terminal_shows_how_far_the_search_is(monkeypatch, capsys, terminal, said):
+    times = iter([10.0, 10.0, 10.1, 12.0, 12.0, 12.1])
+    monkeypatch.setattr('sys.stderr.isatty', lambda: terminal)
+    monkeypatch.setattr('time.monotonic', lambda: next(times))
+    progress = plan_rig.Progress()
+    for share in (0.0, 0.01, 0.03, 1.0):
+        progress(share)
+    assert capsys.readouterr().err == said
+
+
 @pytest.fixture
 def coarse(monkeypatch):
     """What is proposed and told is of few candidates and places, where all that counts is that it

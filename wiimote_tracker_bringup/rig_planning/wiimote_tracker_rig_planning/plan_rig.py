@@ -3,6 +3,7 @@
 import argparse
 import os
 import sys
+import time
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_rig_planning import picture, plan, prediction, search
 
 ACROSS = 7  # points along an edge of the volume, of what is told
+TELL_EVERY = 0.5  # how far the search is [s]
 
 
 def describe_cameras(positions, targets):
@@ -123,9 +125,17 @@ def places_of(rig):
         for key in ('position', 'look_at'))
 
 
-def tell_progress(share):
-    if sys.stderr.isatty():
-        print(f'\r{share:4.0%}', end='\n' if share == 1.0 else '', file=sys.stderr)
+class Progress:
+    """One line on a terminal, that a search goes on; nothing in a file."""
+
+    def __init__(self):
+        self.told = -np.inf  # when [s]
+
+    def __call__(self, share):
+        if sys.stderr.isatty() and (share == 1.0 or time.monotonic() > self.told + TELL_EVERY):
+            self.told = time.monotonic()
+            print(f'\rsearching: {share:4.0%} ', end='\n' if share == 1.0 else '',
+                  file=sys.stderr, flush=True)
 
 
 def check_folder(path):
@@ -146,8 +156,7 @@ def run(arguments):
         rig = read_rig(arguments.score)
         print(arguments.score)
     else:
-        places = search.search(chosen, arguments.seed, arguments.generations,
-                               tell_progress)
+        places = search.search(chosen, arguments.seed, arguments.generations, Progress())
         print('\n'.join(describe_cameras(*places)))
         rig = description(chosen, *places)
     names, positions, targets = places_of(rig)

@@ -4,6 +4,8 @@ All together by differential evolution (R. Storn and K. Price, J. Global Optimiz
 which begins with the greedy result and so never ends with a worse one.
 """
 
+import itertools
+
 import numpy as np
 from scipy.optimize import differential_evolution
 
@@ -30,14 +32,23 @@ def decode(plan, numbers):
             volume[:3] + numbers[:, 4:7] * (volume[3:] - volume[:3]))
 
 
-def greedy(plan, random):
-    """Each camera where it helps most beside those before."""
+def rating(plan, tell=lambda: None):
+    """The cost by the numbers of some cameras. tell: called at each."""
     points = plan.grid(across(plan))
+
+    def rate(numbers):
+        tell()
+        return cost(plan, *decode(plan, numbers), points)
+    return rate
+
+
+def greedy(plan, random, rate=None):
+    """Each camera where it helps most beside those before."""
     chosen = np.zeros(0)
     for _ in range(plan.cameras):
         trials = [np.append(chosen, each)
                   for each in random.random_sample((CANDIDATES, PER_CAMERA))]
-        chosen = min(trials, key=lambda trial: cost(plan, *decode(plan, trial), points))
+        chosen = min(trials, key=rate or rating(plan))
     return chosen
 
 
@@ -49,15 +60,17 @@ def proposal(plan):
 def search(plan, seed, generations, tell=lambda share: None):
     """Positions and targets, each N x 3. seed: the same gives the same. tell: of the share done."""
     random = np.random.RandomState(seed)
-    points = plan.grid(across(plan))
-    first = greedy(plan, random)
-    start = random.random_sample((POPULATION * len(first), len(first)))
+    numbers = plan.cameras * PER_CAMERA
+    population = POPULATION * numbers
+    rates = plan.cameras * CANDIDATES + (generations + 1) * population
+    done = itertools.count()
+    rate = rating(plan, lambda: tell(next(done) / rates))
+    first = greedy(plan, random, rate)
+    start = random.random_sample((population, numbers))
     near = np.clip(first + 0.1 * random.standard_normal(start.shape), 0.0, 1.0)
     start[::2] = near[::2]
     start[0] = first
-    done = iter(range(1, generations + 1))
-    found = differential_evolution(
-        lambda trial: cost(plan, *decode(plan, trial), points), len(first) * [(0.0, 1.0)],
-        init=start, maxiter=generations, seed=seed, polish=False, tol=1e-4,
-        callback=lambda *_, **__: tell(next(done) / generations))
+    found = differential_evolution(rate, numbers * [(0.0, 1.0)], init=start, maxiter=generations,
+                                   seed=seed, polish=False, tol=1e-4)
+    tell(1.0)  # it may end before all generations
     return decode(plan, found.x)

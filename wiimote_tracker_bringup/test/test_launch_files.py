@@ -5,6 +5,7 @@ import glob
 import os
 import re
 import shlex
+import subprocess
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -105,6 +106,36 @@ def test_a_file_of_parameters_wins_over_those_of_robot_localization(load, monkey
                '/ekf_map/process_noise_covariance': [0.1]}
     assert after == dict(before, **changed)
     assert before['/ekf_odom/frequency'] == before['/ekf_map/frequency'] == 100
+
+
+def started(node, path=''):
+    """What the shell in front of a node does. path: where it looks for programs first."""
+    return subprocess.run(shlex.split(node.launch_prefix) + ['echo', 'the node runs'],
+                          capture_output=True, text=True, timeout=60,
+                          env=dict(os.environ, PATH=f'{path}:{os.environ["PATH"]}'))
+
+
+def test_the_folder_of_a_recording_is_made(load, tmp_path):
+    (tmp_path / 'file').write_text('')
+    for name, made in (('a/my bags', True), ('file', False)):
+        nodes = load('record.launch', f'output:={tmp_path}/{name}/run')[0]
+        node, = [node for node in nodes.values() if node.type == 'record']
+        done = started(node)
+        assert (tmp_path / name).is_dir() == made == ('the node runs' in done.stdout)
+        assert ('choose another folder, by output:=' in done.stderr) != made
+        assert (done.returncode == 0) == made and node.required
+
+
+def test_without_robot_localization_its_launch_file_ends_and_says_what_to_install(load, tmp_path):
+    node = load('robot_localization.launch')[0]['world_in_map']
+    for status in (0, 1):
+        rospack = tmp_path / 'rospack'
+        rospack.write_text(f'#!/bin/sh\necho $@; exit {status}\n')
+        rospack.chmod(0o755)
+        done = started(node, str(tmp_path))
+        assert done.stdout == ('' if status else 'the node runs\n')
+        assert ('install ros-noetic-robot-localization' in done.stderr) == bool(status)
+        assert done.returncode == status and node.required
 
 
 def test_parameters_are_where_the_user_says(load, monkeypatch, tmp_path):

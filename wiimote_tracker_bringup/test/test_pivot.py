@@ -10,6 +10,7 @@ from sensor_msgs.msg import Joy
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_body_motion import pivot, probe
+from wiimote_tracker_bringup import published_bodies
 from wiimote_tracker_bringup.errors import Refusal
 
 TIP, PLACE = np.array([0.02, -0.01, -0.3]), np.array([1.0, 0.5, 0.0])  # [m]
@@ -190,6 +191,19 @@ def test_probe_forgets_when_time_jumps_back():
         message.header.stamp = rospy.Time.from_sec(seconds)
         measuring.add(message)
     assert [message.header.stamp.to_sec() for message in measuring.newest(10.0)] == [50.0, 50.1]
+
+
+def test_probe_names_a_body_that_nobody_publishes(monkeypatch):
+    said = []
+    monkeypatch.setattr(rospy, 'get_name', lambda: '/probe')
+    monkeypatch.setattr(rospy, 'logwarn', said.append)
+    monkeypatch.setattr(published_bodies, 'names', lambda asker: ['/wand'])
+    node = object.__new__(probe.Node)
+    node.probe = probe.Probe(TIP, 10.0, '')
+    for node.body in ('/wand', '/nix'):
+        node.on_patience(None)
+    assert said == ['Nobody publishes /nix/odometry: learn this body (learn_body), or name '
+                    'another by _body:=; there are /wand']
 
 
 @pytest.mark.parametrize(

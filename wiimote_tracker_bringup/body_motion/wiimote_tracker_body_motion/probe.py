@@ -32,7 +32,7 @@ from scipy.spatial.transform import Rotation
 from std_srvs.srv import Trigger, TriggerResponse
 
 from wiimote_tracker_body_motion import pivot
-from wiimote_tracker_bringup import nodes, rigid_motion
+from wiimote_tracker_bringup import nodes, published_bodies, rigid_motion
 from wiimote_tracker_bringup.errors import Refusal, sentence_of
 
 INTERVAL = 0.05  # of the poses of a pivot, whose errors are then nearly independent [s]
@@ -183,6 +183,7 @@ class Node:
     def __init__(self):
         nodes.refuse_unknown(rospy.get_param(rospy.get_name(), {}), PARAMETERS)
         body = read_body()
+        self.body = rospy.resolve_name(body)
         self.probe = Probe(read_tip(), nodes.number('~duration', 10.0, 0.1, 3600.0),
                            rospy.get_param('~file', '~/probe_points.csv'), rospy.get_time)
         self.point = rospy.Publisher(f'{body}/tip', PointStamped, queue_size=10)
@@ -191,6 +192,7 @@ class Node:
                          tcp_nodelay=True)
         self.pressed = True  # joy is latched
         rospy.Subscriber('joy', Joy, self.on_joy, queue_size=10)
+        rospy.Timer(rospy.Duration(published_bodies.PATIENCE), self.on_patience, oneshot=True)
         if rospy.get_param('~at_rest', False):
             rospy.Timer(rospy.Duration(0.1), self.on_timer, reset=True)
         rospy.Service('~pivot', Trigger, self.on_pivot)
@@ -204,6 +206,12 @@ class Node:
         pose = self.probe.tip_pose(message)
         self.point.publish(PointStamped(header=message.header, point=pose.pose.pose.position))
         self.pose.publish(pose)
+
+    def on_patience(self, _):
+        absence = not self.probe.messages and published_bodies.absence(
+            rospy.get_name(), self.body, '_body:=')
+        if absence:
+            rospy.logwarn(absence)
 
     def on_pivot(self, _):
         since = self.probe.last_stamp()

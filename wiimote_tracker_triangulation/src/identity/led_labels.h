@@ -99,9 +99,9 @@ class LedLabels {
     /// from there; or it was wrong there, and this is that one of the others whose label it is.
     /// @param right_at_place probability that it was right there
     double confidence(double right_at_place) const {
-      const int others = std::max(1, candidates - 1);
-      return right_at_place * probability() +
-             (1.0 - right_at_place) * (1.0 - probability()) / others;
+      const int others = candidates - (density > 0.0);
+      const double another = others > 0 ? (1.0 - probability()) / others : 0.0;
+      return right_at_place * probability() + (1.0 - right_at_place) * another;
     }
   };
 

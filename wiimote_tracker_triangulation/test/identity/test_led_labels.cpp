@@ -260,6 +260,17 @@ TEST(LedLabels, AreWrongOnAnLedThatWasSeenBesideTheLostOne) {
   EXPECT_EQ(0.0, labels.of(1).confidence);
 }
 
+TEST(LedLabels, AreWrongAlsoOnTheNextLedThatWasSeenBesideTheLostOne) {
+  LedLabels labels({"led"});
+  labels.update(kTime, {at(0, 0.0), at(1, 3.0), at(2, 6.0)});
+  labels.update(kTime, {at(0, 0.0, TrackState::kLost), at(1, 3.0), at(2, 6.0)});
+  labels.update(kTime, {at(1, 3.0), at(2, 6.0)});
+  labels.update(kTime, {at(1, 3.0, TrackState::kLost), at(2, 6.0)});
+  labels.update(kTime, {at(2, 6.0)});
+  EXPECT_EQ("led", labels.of(2).name);
+  EXPECT_EQ(0.0, labels.of(2).confidence);
+}
+
 TEST(LedLabels, ReturnToWhereTheLedWasSeenNotToWhereItWasPredicted) {
   LedLabels labels({"a", "b"});
   labels.update(kTime, {at(0, 0.0), at(1, 2.0)});

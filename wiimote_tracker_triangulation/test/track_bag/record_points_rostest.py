@@ -144,7 +144,17 @@ class RecordPoints(unittest.TestCase):
     def test_says_that_no_points_came(self):
         process = self.start('__name:=recorder_of_nothing', '_csv:=' + self.path, 'points:=/point')
         wait_for(lambda: os.path.exists(self.path + '.part'), 'the file')
-        self.assertIn('none came on /point: start the tracker', self.stop(process))
+        self.assertIn('no points came on /point: start the tracker', self.stop(process))
+
+    def test_names_what_there_is_where_no_points_come(self):
+        self.publish('/lab/points', TrackedPointArray, 1)
+        bodies = self.publish('/bodies', TrackedBodyArray, 1)
+        process = self.start('__name:=recorder_elsewhere', '_csv:=' + self.path, 'points:=/point')
+        wait_for(lambda: bodies.get_num_connections() > 0, 'the recorder')
+        bodies.publish(TrackedBodyArray())
+        process.stdout.readline()  # its warning
+        self.assertIn('no points came on /point, but 1 message of bodies: record in the namespace '
+                      'of /lab/points', self.stop(process))
 
     def test_says_what_is_missing_or_wrong(self):
         for arguments, words in [((), 'csv or'), (('_csv:=' + self.path, '_cvs:=x'), 'unknown'),

@@ -5,7 +5,11 @@
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 #include <wiimote_tracker_msgs/run_node.h>
+#include <wiimote_tracker_msgs/text.h>
 
+#include <ros/master.h>
+
+#include <algorithm>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
@@ -30,6 +34,8 @@ constexpr char kPurpose[] =
     "  rate           of C3D and TRC [Hz], 1 to 1000 (default: 100)\n"
     "  flush_period   time between two writes to the files [s], 0.01 to 3600 (default: 1)";
 
+constexpr double kLate = 10.0;  // without points, after which a person is told [s]
+
 class Recorder {
  public:
   /// @throws ParameterError, Error.
@@ -53,6 +59,7 @@ class Recorder {
     subscribers_ = {subscribe(&nh, "points", false), subscribe(&nh, "triggered_points", true)};
     subscribers_.push_back(nh.subscribe("bodies", 10000, &Recorder::addBodies, this));
     timer_ = nh.createWallTimer(ros::WallDuration(flush_period), &Recorder::onTimer, this);
+    late_timer_ = nh.createWallTimer(ros::WallDuration(kLate), &Recorder::onLate, this);
   }
 
   /// Speaks without rosconsole, which has ended by then. @returns whether all files are whole.
@@ -71,10 +78,7 @@ class Recorder {
     if (messages_ > 0)
       std::printf("record_points: %zu messages came.\n", messages_);
     else if (has_tables_)
-      std::fprintf(stderr,
-                   "record_points: no points are in the files, since none came on %s: start the "
-                   "tracker, or record in its namespace.\n",
-                   topic_.c_str());
+      std::fprintf(stderr, "record_points: %s.\n", describeNoPoints().c_str());
     return whole;
   }
 
@@ -91,16 +95,38 @@ class Recorder {
   }
 
   void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
+    ++of_bodies_;
     for (const std::unique_ptr<measurements::Writer>& writer : writers_)
       writer->addBodies(bodies);
   }
 
+  /// What there is instead, and what to do.
+  std::string describeNoPoints() const {
+    const std::string what =
+        "no points came on " + topic_ +
+        (of_bodies_ > 0 ? ", but " + counted(of_bodies_, "message") + " of bodies" : "") + ": ";
+    if (std::find(published_.begin(), published_.end(), topic_) != published_.end())
+      return what + "check that the cameras send images to the tracker that publishes it";
+    if (!published_.empty())
+      return what + "record in the namespace of " + joined(published_);
+    return what + "start the tracker, or record in its namespace";
+  }
+
+  void onLate(const ros::WallTimerEvent&) {
+    if (messages_ > 0 || !has_tables_)
+      return;
+    ros::master::V_TopicInfo topics;
+    ros::master::getTopics(topics);
+    published_.clear();
+    for (const ros::master::TopicInfo& topic : topics) {
+      if (topic.datatype == ros::message_traits::datatype<TrackedPointArray>() &&
+          topic.name.find("triggered") == std::string::npos)
+        published_.push_back(topic.name);
+    }
+    ROS_WARN_STREAM(describeNoPoints());
+  }
+
   void onTimer(const ros::WallTimerEvent&) {
-    if (messages_ == 0 && has_tables_)
-      ROS_WARN_DELAYED_THROTTLE(10.0,
-                                "No points came on %s yet: start the tracker, or record in its "
-                                "namespace.",
-                                topic_.c_str());
     for (const std::unique_ptr<measurements::Writer>& writer : writers_)
       writer->flush();
   }
@@ -109,8 +135,11 @@ class Recorder {
   bool has_tables_ = false;  // of points
   std::string topic_;
   std::size_t messages_ = 0;
+  std::size_t of_bodies_ = 0;
+  std::vector<std::string> published_;  // topics of points, while none came
   std::vector<ros::Subscriber> subscribers_;
   ros::WallTimer timer_;
+  ros::WallTimer late_timer_;
 };
 
 }  // namespace

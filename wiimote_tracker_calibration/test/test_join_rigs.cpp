@@ -266,6 +266,8 @@ TEST_F(JoinRigs, TheAccuracyOfTheSecondRoomIsSaid) {
   geometry::Rig second = exactRig(3, 6, worldFromSecond(), random_);
   EXPECT_EQ(joinRigs(first_, second).message.find("let another camera see both"),
             std::string::npos);
+  EXPECT_SAYS(joinRigs(first_, second_).message,
+              "(standard deviations, to which the errors within the second rig add: see its");
   second.covariance *= 100.0;
   EXPECT_SAYS(joinRigs(first_, second).message,
               "for 5 cm and 0.5 degrees let another camera see both rooms");

@@ -50,7 +50,7 @@ Eigen::Vector3d middleOfSecond(const geometry::Rig& first, const geometry::Rig& 
 std::string describe(const RoomAccuracy& accuracy) {
   return format(
       "the second room is known to %.1f cm at the middle of its cameras, and %.2f degrees "
-      "(standard deviations)",
+      "(standard deviations, to which the errors within the second rig add: see its verdict)",
       100.0 * accuracy.position, degrees(accuracy.rotation));
 }
 

@@ -8,9 +8,12 @@
 #include <diagnostic_msgs/DiagnosticArray.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
+#include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <string>
 #include <system_error>
 
 namespace wiimote_tracker {
@@ -18,6 +21,7 @@ namespace {
 
 using wiimote_tracker_msgs::AddKnownPlace;
 using wiimote_tracker_msgs::FitRemap;
+using wiimote_tracker_msgs::RemoveCamera;
 
 class MovedCameras : public CalibratedNode {};
 
@@ -85,6 +89,18 @@ TEST_F(MovedCameras, NamesCamerasThatAreNotInTheRig) {
   load(trueRig());
   EXPECT_TRUE(
       says("no camera seems to have moved; the images are not judged: no LED has moved lately"));
+
+  // Nor is a camera that was just removed.
+  RemoveCamera::Request removed;
+  removed.camera = "camera_4";
+  ASSERT_TRUE(call<RemoveCamera>("calibration/remove_camera", removed).success);
+  ASSERT_TRUE(waitUntil([&] {
+    found = diagnostics.get()->status.front();
+    return std::none_of(found.values.begin(), found.values.end(), [](const auto& value) {
+      return value.key.find("camera_4") != std::string::npos;
+    });
+  }));
+  EXPECT_EQ(found.message.find("camera_4"), std::string::npos) << found.message;
 }
 
 TEST_F(MovedCameras, BringsBackAKnockedCamera) {
@@ -115,6 +131,7 @@ TEST_F(MovedCameras, BringsBackAKnockedCamera) {
   const std::string proposed = health("camera_2");
   EXPECT_SAYS(proposed, "; rosservice call " + ros::names::resolve("calibration/continuous/apply"));
   EXPECT_EQ(proposed.find("put it back"), std::string::npos) << proposed;
+  EXPECT_EQ(proposed.find("camera_2"), std::string::npos) << proposed;  // whose health it is
   EXPECT_EQ(status_->get()->next_title, "Correct camera_2");
   EXPECT_EQ(status_->get()->next_request, "continuous/apply");
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");

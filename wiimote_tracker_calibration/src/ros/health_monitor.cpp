@@ -97,7 +97,11 @@ class HealthMonitor {
       return;
     }
     for (const auto& camera : context_.inputs().cameras()) {
-      if (rig.find(camera.first))
+      if (rig.find(camera.first)) {
+        context_.removedCameras(lock).erase(camera.first);
+        continue;
+      }
+      if (context_.removedCameras(lock).count(camera.first) > 0)
         continue;
       if (!camera.second.monitor.summary(NodeContext::now()).connected) {
         unknown_cameras_.erase(camera.first);

@@ -17,6 +17,7 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -162,6 +163,9 @@ class NodeContext {
   /// Continues from samples, with their masks.
   workflow::Reply setSamples(const samples::Samples& samples, const Lock& lock);
 
+  /// Cameras that a person removed from the rig: nobody is advised to add them.
+  std::set<std::string>& removedCameras(const Lock&) { return removed_cameras_; }
+
   /// Why no rig was loaded at the start, and what to do; set by the unit that loads it.
   std::string& whyNoRig(const Lock&) { return why_no_rig_; }
 
@@ -195,6 +199,7 @@ class NodeContext {
   Parameters parameters_;
   workflow::Calibration calibration_;
   remap::MeasuredPoints known_places_;
+  std::set<std::string> removed_cameras_;
   std::string why_no_rig_;
   samples::Verdict verdict_;  // of the current rig
   ros::Publisher rig_publisher_;

@@ -177,6 +177,7 @@ class RecalibrateServices {
         camera + " was removed; save the rig, and take it out of cameras.yaml; " +
         geometry::opticalFrame(camera) + " stays in TF until all nodes are started again" +
         (split.empty() ? "" : "; " + split) + voidCorrection(before);
+    context_.removedCameras(lock).insert(camera);
     context_.setRig(rig, message, lock);
     return {true, message};
   }

@@ -148,9 +148,11 @@ bool StatusPublisher::isWalked() const {
 std::string StatusPublisher::health(const std::string& camera) const {
   const auto found = health_.find(camera);
   const bool is_proposed = std::count(correctable_.begin(), correctable_.end(), camera) > 0;
+  const bool names_it = proposal_text_.rfind(camera + " ", 0) == 0;
+  const std::string proposal = names_it ? proposal_text_.substr(camera.size() + 1) : proposal_text_;
   if (found == health_.end() || found->second.text.empty())
-    return is_proposed ? proposal_text_ : "";
-  return found->second.text + "; " + (is_proposed ? proposal_text_ : found->second.advice);
+    return is_proposed ? proposal : "";
+  return found->second.text + "; " + (is_proposed ? proposal : found->second.advice);
 }
 
 workflow::Findings StatusPublisher::findings() const {

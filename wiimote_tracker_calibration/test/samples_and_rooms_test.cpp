@@ -237,16 +237,25 @@ class Rooms : public Node {
 };
 
 TEST_F(Rooms, OfAnotherFileAreNotLoadedAtTheNextStart) {
-  use(room({0, 1}, Eigen::Isometry3d::Identity()));
-  const std::string note = "; the next start loads " + folder_ + "/rig.yaml: save without a name";
+  geometry::Rig rig = room({0, 1}, Eigen::Isometry3d::Identity());
+  rig.cameras[0].camera.intrinsics.fx += 1.0;
+  use(rig);
+  const auto lens_is_sent = [&] {
+    auto infos = cameras_->cameraInfos();
+    return infos["camera_1"].K[0] == rig.cameras[0].camera.intrinsics.fx;
+  };
+  const std::string note = "; the next start loads " + folder_ +
+                           "/rig.yaml, whose lenses drivers and camera files keep: save without";
   LoadRig::Request load;
   load.path = "second.yaml";
   EXPECT_SAYS(call<LoadRig>("calibration/load", load).message, note);
   SaveRig::Request save;
   save.path = "third.yaml";
   EXPECT_SAYS(call<SaveRig>("calibration/save", save).message, note);
+  EXPECT_FALSE(lens_is_sent());
   save.path = load.path = "rig.yaml";
   EXPECT_EQ(call<SaveRig>("calibration/save", save).message.find(note), std::string::npos);
+  EXPECT_TRUE(lens_is_sent());
   EXPECT_EQ(call<LoadRig>("calibration/load", load).message.find(note), std::string::npos);
   EXPECT_EQ(std::remove((folder_ + "/rig.yaml").c_str()), 0);
 }

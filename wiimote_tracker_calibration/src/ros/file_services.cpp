@@ -27,12 +27,20 @@ using workflow::Reply;
 
 namespace {
 
+/// Whether the next start loads this file. Its lenses are those of the drivers, for programs that
+/// do not know the rig.
+bool isRigFile(const std::string& path, const Parameters& parameters) {
+  std::error_code missing;
+  return path == parameters.rig_file ||
+         std::filesystem::equivalent(path, parameters.rig_file, missing);
+}
+
 /// What to do so that a rig of this file is used after the next start, too.
 std::string nextStart(const std::string& path, const Parameters& parameters) {
-  std::error_code missing;
-  if (std::filesystem::equivalent(path, parameters.rig_file, missing))
+  if (isRigFile(path, parameters))
     return "";
-  return "; the next start loads " + parameters.rig_file + ": save without a name to replace that";
+  return "; the next start loads " + parameters.rig_file +
+         ", whose lenses drivers and camera files keep: save without a name to replace that";
 }
 
 /// The images of a rig from a file get its masks: the lamps of the room belong to the rig.
@@ -81,8 +89,11 @@ class FileServices {
     const double timeout = context_.parameters(lock).set_camera_info_timeout;
     const std::string path = call.response.path =
         rigPath(call.request.path, context_.parameters(lock));
+    const bool has_lenses = isRigFile(path, context_.parameters(lock));
     const std::vector<std::string> warnings = context_.compute(&lock, [&] {
-      std::vector<std::string> all = files_.save(rig, path);
+      std::vector<std::string> all = files_.save(rig, path, has_lenses);
+      if (!has_lenses)
+        return all;
       std::vector<geometry::Camera> cameras;
       for (const geometry::RigCamera& camera : rig.cameras)
         cameras.push_back(camera.camera);

@@ -163,7 +163,9 @@ geometry::Rig RigFiles::read(const std::string& path) {
   return geometry::readRigFile(path);
 }
 
-std::vector<std::string> RigFiles::save(const geometry::Rig& rig, const std::string& path) {
+std::vector<std::string> RigFiles::save(const geometry::Rig& rig,
+                                        const std::string& path,
+                                        bool with_lenses) {
   for (const geometry::RigCamera& camera : rig.cameras) {
     if (lensFile(path, camera.camera.name) == path && path != beside(path, kRigFile))
       throw Refusal(path + " is for the lens of " + camera.camera.name +
@@ -182,8 +184,10 @@ std::vector<std::string> RigFiles::save(const geometry::Rig& rig, const std::str
   geometry::writeRigFile(rig, path);
   known = contentOf(path);
   std::vector<std::string> warnings = lostZones(rig, old, path);
-  for (const std::string& warning : writeLenses(rig, path))
-    warnings.push_back(warning);
+  if (with_lenses) {
+    for (const std::string& warning : writeLenses(rig, path))
+      warnings.push_back(warning);
+  }
   return warnings;
 }
 

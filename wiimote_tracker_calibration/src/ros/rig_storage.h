@@ -21,14 +21,17 @@ class RigFiles {
   /// As geometry::readRigFile().
   geometry::Rig read(const std::string& path);
 
-  /// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it one camera-info YAML per
-  /// camera, named after the camera. Only rig.yaml is read back by this package.
+  /// Writes rig.yaml (the file before becomes rig.yaml.bak), and beside it, `with_lenses`, one
+  /// camera-info YAML per camera, named after the camera. Only rig.yaml is read back by this
+  /// package.
   /// @returns warnings: of zones that only the file before has, and one for each camera file that
   /// could not be written, or that would replace a rig or samples.
   /// @throws Error: rig.yaml could not be written, `path` is that of a camera file, or, unless the
   /// call before was the same and refused so, the file would be lost without a word: nobody read or
   /// wrote here what is in it now, or it has a rig of other cameras. Nothing has changed then.
-  std::vector<std::string> save(const geometry::Rig& rig, const std::string& path);
+  std::vector<std::string> save(const geometry::Rig& rig,
+                                const std::string& path,
+                                bool with_lenses = true);
 
  private:
   std::mutex mutex_;

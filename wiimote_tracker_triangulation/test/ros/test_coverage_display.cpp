@@ -26,10 +26,10 @@ const std::vector<CoverageCell> kCells = {
     {Vector3d(0.5, 0.5, 3.5), 1, std::numeric_limits<double>::quiet_NaN()}};
 
 TEST(CoverageDisplay, SaysWhatIsSeen) {
-  EXPECT_EQ(sentenceOf(kCells),
+  EXPECT_EQ(sentenceOf(kCells, "the volume"),
             "75 % of the volume is seen by two cameras or more; points are known to 12 mm there "
             "(median).");
-  EXPECT_EQ(sentenceOf({kCells[3]}), "0 % of the volume is seen by two cameras or more.");
+  EXPECT_EQ(sentenceOf({kCells[3]}, "the room"), "0 % of the room is seen by two cameras or more.");
 }
 
 TEST(CoverageDisplay, ColoursCellsByAccuracy) {
@@ -160,10 +160,27 @@ TEST_F(CoverageWalk, ACorrectionOfTheRigKeepsIt) {
 
 TEST(CoverageDisplay, SaysWhichWayToTurnACamera) {
   constexpr double kDegree = M_PI / 180.0;
-  EXPECT_EQ(sentenceOf(geometry::CameraTurn{"b", -15.0 * kDegree, 10.0 * kDegree, 0.94}),
-            " b, turned by 15 degrees to the left and 10 degrees up, would make it 94 %.");
+  EXPECT_EQ(
+      sentenceOf(geometry::CameraTurn{"b", -15.0 * kDegree, 10.0 * kDegree, 0.94}),
+      " b, turned by 15 degrees to the left and 10 degrees up, would make it 94 %; then calibrate "
+      "again.");
   EXPECT_EQ(sentenceOf(geometry::CameraTurn{"b", 0.0, -5.0 * kDegree, 0.5}),
-            " b, turned by 5 degrees down, would make it 50 %.");
+            " b, turned by 5 degrees down, would make it 50 %; then calibrate again.");
+}
+
+TEST(CoverageDisplay, AdvisesToTurnACameraOnlyForAVolumeThatAPersonGave) {
+  geometry::Rig rig;
+  for (const Vector3d& target : {Vector3d(0.0, 0.0, 0.0), Vector3d(4.0, 0.0, 0.0)}) {
+    rig.cameras.emplace_back();
+    rig.cameras.back().camera.world_from_camera =
+        geometry::lookAt({target.x(), -6.0, 3.0}, target, Vector3d::UnitZ());
+  }
+  CoverageParameters parameters;
+  const Eigen::AlignedBox3d volume(Vector3d::Constant(-1.0), Vector3d::Constant(1.0));
+  const geometry::CellGrid grid(volume, 0.5);
+  EXPECT_EQ(adviceFor(rig, grid, parameters), "");
+  parameters.volume = volume;
+  EXPECT_NE(adviceFor(rig, grid, parameters).find("would make it 100 %"), std::string::npos);
 }
 
 TEST(CoverageDisplay, TheVolumeIsBetweenTheFloorAndTheCameras) {

@@ -14,7 +14,6 @@ namespace wiimote_tracker {
 namespace {
 
 const ros::WallDuration kWalkPeriod(0.5);
-constexpr double kWalkLogPeriod = 30.0;  // [s]
 
 }  // namespace
 
@@ -44,6 +43,18 @@ Eigen::AlignedBox3d volumeOf(const geometry::Rig& rig) {
   return box;
 }
 
+std::string CoverageParameters::nameOfVolume() const {
+  return volume ? "the volume" : "the space from the floor to the cameras";
+}
+
+std::string adviceFor(const geometry::Rig& rig,
+                      const geometry::CellGrid& grid,
+                      const CoverageParameters& parameters) {
+  const auto turn =
+      parameters.volume ? geometry::bestTurn(rig, grid) : std::optional<geometry::CameraTurn>();
+  return turn ? sentenceOf(*turn) : "";
+}
+
 CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
     : nh_(nh) {
   ParameterReader reader(private_nh);
@@ -68,9 +79,8 @@ void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message)
     const geometry::CellGrid grid(volume, parameters_.cell_size);
     const std::vector<geometry::CoverageCell> cells =
         geometry::coverageOf(rig, grid, parameters_.pixel_stddev);
-    const auto turn = geometry::bestTurn(rig, grid);
-    const std::string advice = turn ? sentenceOf(*turn) : "";
-    const std::string sentence = sentenceOf(cells) + advice;
+    const std::string advice = adviceFor(rig, grid, parameters_);
+    const std::string sentence = sentenceOf(cells, parameters_.nameOfVolume()) + advice;
     cells_publisher_.publish(coverageCloud(rig.world_frame, cells));
     publisher_.publish(coverageMarkers(rig.world_frame, cells, parameters_.cell_size, sentence));
     volume_publisher_.publish(volumeMarkers(rig.world_frame, volume));
@@ -91,12 +101,11 @@ void CoverageDisplay::onPoints(const wiimote_tracker_msgs::TrackedPointArray& me
 void CoverageDisplay::publishWalk() {
   if (!std::exchange(walk_changed_, false))
     return;
-  const std::string sentence = format("Two cameras or more saw the LED in %.0f %% of the volume",
+  const std::string sentence = format("Two cameras or more saw the LED in %.0f %% of ",
                                       100.0 * geometry::coveredShare(walked_.cells())) +
-                               possible_;
+                               parameters_.nameOfVolume() + possible_;
   walk_publisher_.publish(
       walkMarkers(world_frame_, walked_.cells(), parameters_.cell_size, sentence));
-  ROS_INFO_STREAM_DELAYED_THROTTLE(kWalkLogPeriod, sentence);
 }
 
 }  // namespace wiimote_tracker

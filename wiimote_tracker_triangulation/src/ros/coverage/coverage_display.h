@@ -21,12 +21,20 @@ struct CoverageParameters {
   double cell_size = 0.5;                     ///< [m]
   double pixel_stddev = 0.5;                  ///< [px]
 
+  /// In words.
+  std::string nameOfVolume() const;
+
   /// @throws ParameterError
   static CoverageParameters read(ParameterReader* reader);
 };
 
 /// The box from the floor to the cameras [m].
 Eigen::AlignedBox3d volumeOf(const geometry::Rig& rig);
+
+/// Which camera to turn; empty: none, or a person has not said which volume counts.
+std::string adviceFor(const geometry::Rig& rig,
+                      const geometry::CellGrid& grid,
+                      const CoverageParameters& parameters);
 
 /// Publishes, latched, the coverage of each new rig and where its cameras have seen an LED since.
 class CoverageDisplay {

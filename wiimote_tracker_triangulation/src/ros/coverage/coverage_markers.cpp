@@ -70,14 +70,14 @@ Marker textAbove(const std::string& world_frame,
 
 }  // namespace
 
-std::string sentenceOf(const std::vector<CoverageCell>& cells) {
+std::string sentenceOf(const std::vector<CoverageCell>& cells, const std::string& volume) {
   std::vector<double> known;
   for (const CoverageCell& cell : cells) {
     if (!std::isnan(cell.stddev))
       known.push_back(cell.stddev);
   }
-  std::string text = format("%.0f %% of the volume is seen by two cameras or more",
-                            100.0 * geometry::coveredShare(cells));
+  std::string text = format("%.0f %% of %s is seen by two cameras or more",
+                            100.0 * geometry::coveredShare(cells), volume.c_str());
   if (known.empty())
     return text + ".";
   return text + format("; points are known to %.0f mm there (median).", 1e3 * medianOf(&known));
@@ -93,7 +93,7 @@ std::string sentenceOf(const geometry::CameraTurn& turn) {
   if (turn.up != 0.0)
     ways.push_back(words(turn.up, "up", "down"));
   return " " + turn.camera + ", turned by " + joined(ways, " and ") +
-         format(", would make it %.0f %%.", 100.0 * turn.share);
+         format(", would make it %.0f %%; then calibrate again.", 100.0 * turn.share);
 }
 
 sensor_msgs::PointCloud2 coverageCloud(const std::string& world_frame,

@@ -13,9 +13,11 @@ namespace wiimote_tracker {
 
 /// Such as "86 % of the volume is seen by two cameras or more; points are known to 12 mm there
 /// (median)."
-std::string sentenceOf(const std::vector<geometry::CoverageCell>& cells);
+/// @param volume in words
+std::string sentenceOf(const std::vector<geometry::CoverageCell>& cells, const std::string& volume);
 
-/// Such as " wiimote_3, turned by 15 degrees to the left and 10 degrees up, would make it 94 %."
+/// Such as " wiimote_3, turned by 15 degrees to the left and 10 degrees up, would make it 94 %;
+/// then calibrate again."
 std::string sentenceOf(const geometry::CameraTurn& turn);
 
 /// The cells: red where fewer than two cameras see, else from green (points are known to 5 mm or

@@ -6,10 +6,12 @@
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -367,6 +369,34 @@ TEST_F(WriterTest, EqualMeasurementsGiveEqualMatlabFiles) {
   const std::string content = contentOf(folder_ / "a.mat");
   EXPECT_EQ(content, contentOf(folder_ / "b.mat"));
   EXPECT_EQ(0u, content.find("MATLAB 5.0 MAT-file"));
+}
+
+TEST_F(WriterTest, AMatlabFileThatDoesNotFitOnTheDiskIsRefused) {
+  if (!hasMatlab(folder_))
+    GTEST_SKIP() << "built without matio";
+  ::signal(SIGXFSZ, SIG_IGN);
+  rlimit before;
+  ASSERT_EQ(0, ::getrlimit(RLIMIT_FSIZE, &before));
+  for (const rlim_t left : {20000, 500, 0}) {
+    const auto writer = makeMatlabWriter((folder_ / "cut.mat").string());
+    TrackedPointArray measured = measurement();
+    for (int i = 0; i < 5000; ++i) {
+      measured.points[0].position.x = std::sin(i);
+      writer->addAll(measured, false);
+    }
+    rlimit tight = before;
+    tight.rlim_cur = left;
+    ASSERT_EQ(0, ::setrlimit(RLIMIT_FSIZE, &tight));
+    std::string refusal;
+    try {
+      writer->finish();
+    } catch (const Error& e) {
+      refusal = e.what();
+    }
+    ASSERT_EQ(0, ::setrlimit(RLIMIT_FSIZE, &before));
+    EXPECT_NE(std::string::npos, refusal.find("make room there")) << left << ": " << refusal;
+    EXPECT_FALSE(fs::exists(folder_ / "cut.mat"));
+  }
 }
 
 TEST_F(WriterTest, AMatlabFileMayBeEmpty) {

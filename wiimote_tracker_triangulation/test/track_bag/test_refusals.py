@@ -7,6 +7,7 @@ import signal
 import subprocess
 import time
 
+import pytest
 import rosbag
 
 from program import PROGRAM, arrays, read, recorded, refused, run, track, write
@@ -151,10 +152,11 @@ def test_parameters_that_the_node_would_refuse(bag, tmp_path):
     assert 'none.yaml' in refused(tmp_path, bag, tmp_path / 'out.bag', '--params', 'none.yaml')
 
 
-def test_a_disk_that_is_full(bag, tmp_path):
+@pytest.mark.parametrize('left', [200000, 0])
+def test_a_disk_that_is_full(bag, tmp_path, left):
     def limit():
         signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-        resource.setrlimit(resource.RLIMIT_FSIZE, (200000, 200000))
+        resource.setrlimit(resource.RLIMIT_FSIZE, (left, left))
     errors = refused(tmp_path, bag, tmp_path / 'out.bag', preexec_fn=limit, restore_signals=False)
     assert 'make room there' in errors
 

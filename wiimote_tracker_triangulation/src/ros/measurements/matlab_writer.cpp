@@ -8,6 +8,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <fstream>
 #include <functional>
 #include <map>
 #include <memory>
@@ -211,6 +212,20 @@ class MatlabTable {
   std::vector<Column> columns_;
 };
 
+/// Whether so many elements of a file of version 5, of which each begins with its type and its
+/// size, end with the file. matio does not tell that a disk was full.
+bool isWhole(const std::string& path, int elements) {
+  std::ifstream file(path, std::ios::binary);
+  file.seekg(0, std::ios::end);
+  const std::streamoff size = file.tellg();
+  std::streamoff end = 128;  // of the header
+  std::array<std::uint32_t, 2> tag;
+  for (; end < size && file.seekg(end).read(reinterpret_cast<char*>(tag.data()), sizeof tag);
+       --elements)
+    end += static_cast<std::streamoff>(sizeof tag) + tag[1];
+  return file && end == size && elements == 0;
+}
+
 class MatlabWriter : public Writer {
  public:
   explicit MatlabWriter(const std::string& path) : path_(path) { createPart(path_); }
@@ -223,14 +238,15 @@ class MatlabWriter : public Writer {
   }
 
   std::string finish() override {
+    errno = 0;
     file_.reset(Mat_CreateVer(partOf(path_).c_str(), kFileHeader, MAT_FT_MAT5));
     if (!file_)
       failToWrite(path_, errno);
     write(text("readme", kReadme));
     leds_.write([this](const Variable& variable) { write(variable); });
     write(structOf("bodies", bodies_));
-    if (Mat_Close(file_.release()) != 0)
-      failToWrite(path_, errno);
+    if (Mat_Close(file_.release()) != 0 || !isWhole(partOf(path_), written_))
+      failToWrite(path_, errno != 0 ? errno : EIO);
     finishPart(path_);
     return "";
   }
@@ -243,12 +259,13 @@ class MatlabWriter : public Writer {
   };
 
   void write(const Variable& variable) {
-    errno = 0;
     if (!variable || Mat_VarWrite(file_.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0)
       failToWrite(path_, errno != 0 ? errno : EIO);
+    ++written_;
   }
 
   std::string path_;
+  int written_ = 0;
   std::unique_ptr<mat_t, CloseFile> file_;
   MatlabTable<Measurement> leds_;
   MatlabTable<Pose> bodies_;

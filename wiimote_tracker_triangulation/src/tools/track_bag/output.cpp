@@ -74,11 +74,16 @@ Output::Output(const std::string& bag,
   try {
     bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
   } catch (const rosbag::BagException& e) {
+    abandon();
     fail(e.what());
   }
 }
 
 Output::~Output() {
+  abandon();
+}
+
+void Output::abandon() {
   // rosbag::Bag's destructor writes the index, and ends the process where that fails, as on a full
   // disk. The bag is not needed: leave it to the end of the process.
   if (bag_.release()) {

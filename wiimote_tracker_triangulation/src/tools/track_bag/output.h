@@ -84,6 +84,7 @@ class Output : public MessageSink {
              const boost::shared_ptr<ros::M_string>& header = nullptr);
   void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
   [[noreturn]] void fail(const std::string& reason);
+  void abandon();  ///< Unless it is finished.
 
   std::string path_;
   Topics topics_;

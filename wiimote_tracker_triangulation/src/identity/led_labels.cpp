@@ -70,6 +70,20 @@ void LedLabels::update(double time,
   }
 }
 
+void LedLabels::forgetLamps(const std::function<bool(const Eigen::Vector3d&)>& is_hidden) {
+  for (auto place = places_.begin(); place != places_.end();) {
+    const auto former = former_.find(place->first);
+    if (!is_hidden(place->second.position)) {
+      ++place;
+    } else if (former != former_.end() && !is_hidden(former->second.position)) {
+      place->second = former->second;
+      ++place;
+    } else {
+      place = places_.erase(place);
+    }
+  }
+}
+
 /// Stamps that jump back, as those of images that waited, lower the ages: what is repeated counts
 /// once. Not by more than the memory, for clocks that are set back.
 void LedLabels::agePlaces(double time) {

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <optional>
@@ -72,6 +73,10 @@ class LedLabels {
     places_.clear();
     former_.clear();
   }
+
+  /// Forgets where labels were seen on lights that are hidden from now on, as lamps by masks. Such
+  /// a label belongs again where it was seen before it went to the lamp.
+  void forgetLamps(const std::function<bool(const Eigen::Vector3d&)>& is_hidden);
 
   /// Places from another process, before the first update.
   void setFormerPlaces(const Places& places) { places_ = places; }

@@ -115,6 +115,30 @@ TEST(Labels, AreNotRememberedAtPlacesOfAnotherWorld) {
   EXPECT_TRUE(std::isnan(points.back().second.label_confidence));
 }
 
+/// The LED is off while the lamps are masked.
+TEST(Labels, GoBackFromALampThatIsMaskedToTheLed) {
+  const auto lamp = [](double) { return Vector3d(0.1, 0.0, 0.6); };
+  TrackingParameters parameters = parametersOf(TrackerMode::kTracks);
+  for (const std::vector<std::string>& labels :
+       std::vector<std::vector<std::string>>{{"led", "second"}, {"led"}}) {
+    parameters.labels = labels;
+    Studio studio(parameters);
+    studio.film(1.0, {onCircle});
+    studio.film(1.0, {onCircle, lamp});
+    studio.film(11.0, {lamp});
+    for (geometry::RigCamera& camera : studio.rig.cameras)
+      camera.masks = {{*camera.camera.project(lamp(0.0)), 8.0}};
+    studio.tracker.takeRig(toMessage(studio.rig));
+    studio.film(2.0, {lamp});
+    const double again = studio.now;
+    studio.film(1.0, {lamp, onCircle});
+    studio.expectNear("led", again, onCircle);
+    const auto points = studio.pointsOf("led", again);
+    ASSERT_FALSE(points.empty());
+    EXPECT_GE(points.back().second.label_confidence, labels.size() == 1 ? 1.0 : 0.4);
+  }
+}
+
 /// One LED comes to another one; their spots merge for a second, then one of them leaves.
 TEST(Labels, OfOneLedCannotBeMixedUp) {
   const auto way = [](double since) { return since < 0.0 ? 0.0 : std::min(0.5, since * since); };

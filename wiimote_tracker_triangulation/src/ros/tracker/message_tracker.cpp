@@ -3,13 +3,16 @@
 #include "body_message.h"
 #include "wiimote_tracker_triangulation/estimators/make_estimator.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
+#include "wiimote_tracker_triangulation/geometry/point_sensitivity.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
+#include <cstddef>
 #include <optional>
 #include <utility>
+#include <vector>
 
 namespace wiimote_tracker {
 namespace {
@@ -40,6 +43,16 @@ bool isSameWorld(const geometry::Rig& before, const geometry::Rig& rig) {
     const geometry::RigCamera* same = before.find(each.camera.name);
     return same && geometry::haveSamePose(same->camera, each.camera);
   });
+}
+
+/// Whether masks leave fewer than two cameras that see a place.
+bool isMasked(const geometry::Rig& rig, const Eigen::Vector3d& place) {
+  const std::vector<std::size_t> seeing = geometry::camerasSeeing(rig, place);
+  const auto masked = std::count_if(seeing.begin(), seeing.end(), [&](std::size_t i) {
+    const geometry::RigCamera& camera = rig.cameras[i];
+    return geometry::isMasked(camera.masks, *rig.rayCamera(camera).project(place));
+  });
+  return masked > 0 && static_cast<std::ptrdiff_t>(seeing.size()) - masked < 2;
 }
 
 }  // namespace
@@ -84,6 +97,7 @@ MessageTracker::RigChange MessageTracker::takeRig(
       sink_->onProblem(sentence);
   }
   rig_ = rig;
+  forgetLamps();
   imu_reports_.setRig(rig);
   change.correction = points_.setRig(rig, rig_id_, estimator_.get());
   if (filter_)
@@ -196,11 +210,19 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   statistics_.addSnapshot(tracked);
   if (identifier_)
     sightings_.add(rig_, tracked, identifier_.get());
+  // What the tracker had not given out yet when the masks came may have noted a lamp again.
+  if (std::any_of(tracked.leds.begin(), tracked.leds.end(),
+                  [](const auto& led) { return led.state == tracking::TrackState::kLost; }))
+    forgetLamps();
   labels_.update(tracked.time, tracked.leds, identifier_.get());
   reportDoubtfulLabels();
   if (identifier_)
     startBodies(tracked);
   points_.takeSnapshot(filter_ ? filter_->apply(tracked) : tracked);
+}
+
+void MessageTracker::forgetLamps() {
+  labels_.forgetLamps([this](const auto& place) { return isMasked(rig_, place); });
 }
 
 void MessageTracker::reportDoubtfulLabels() {

@@ -78,6 +78,7 @@ class MessageTracker {
   void publishBodies(const body::BodySnapshot& snapshot);
   void startBodies(const tracking::Snapshot& snapshot);
   void takeSnapshot(const tracking::Snapshot& tracked);
+  void forgetLamps();
   void reportDoubtfulLabels();
 
   TrackingParameters parameters_;

@@ -126,13 +126,16 @@ def places_of(rig):
 
 
 class Progress:
-    """One line on a terminal, that a search goes on; nothing in a file."""
+    """One line on a terminal, that a search goes on; in a file, that it begins."""
 
     def __init__(self):
         self.told = -np.inf  # when [s]
 
     def __call__(self, share):
-        if sys.stderr.isatty() and (share == 1.0 or time.monotonic() > self.told + TELL_EVERY):
+        if not sys.stderr.isatty():
+            if share == 0.0:
+                print('searching: it takes minutes', file=sys.stderr, flush=True)
+        elif share == 1.0 or time.monotonic() > self.told + TELL_EVERY:
             self.told = time.monotonic()
             print(f'\rsearching: {share:4.0%} ', end='\n' if share == 1.0 else '',
                   file=sys.stderr, flush=True)

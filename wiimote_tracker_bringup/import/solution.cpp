@@ -76,10 +76,9 @@ Reference withShippedCenters(const Recording& recording, Reconstruction start) {
     start.cameras[i].world_from_camera.translation() = *recording.cameras[i].center;
   bundle::Options options;
   options.maximum_error = 100.0;  // keeps all inliers of our solution, for comparison
-  bundle::Held held;
-  held.positions = true;
+  options.fixed_positions = true;
   bundle::triangulatePoints(&start, options.maximum_error);
-  bundle::adjust(&start, options, held);
+  bundle::adjust(&start, options);
   Reference reference;
   reference.rig = rigOf(start, "import: shipped centres, orientations fitted");
   reference.points = start.points;

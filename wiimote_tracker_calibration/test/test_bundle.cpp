@@ -147,10 +147,9 @@ TEST(Bundle, HeldPositionsStayAndOrientationsAreFound) {
         Eigen::AngleAxisd(angle(random), Eigen::Vector3d(1.0, 2.0, -1.0).normalized()));
   Options options;
   options.maximum_error = 20.0;
+  options.fixed_positions = true;
   triangulatePoints(&start, options.maximum_error);
-  Held held;
-  held.positions = true;
-  adjust(&start, options, held);
+  adjust(&start, options);
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     EXPECT_EQ(start.cameras[i].center(), rig.cameras[i].center());
     EXPECT_TRUE(
@@ -170,12 +169,12 @@ TEST(Bundle, TellsWhetherTheAdjustmentConverged) {
     Reconstruction solution = solve(rig.observed(), Options());
     EXPECT_TRUE(solution.converged);
     triangulatePoints(&solution, narrow.maximum_error);
-    adjust(&solution, narrow, Held());
+    adjust(&solution, narrow);
     if (!solution.converged)
       continue;
     ++converged;
     const std::vector<bool> inliers = solution.inliers;
-    adjust(&solution, narrow, Held());
+    adjust(&solution, narrow);
     EXPECT_EQ(solution.inliers, inliers);
   }
   EXPECT_GT(converged, 0);

@@ -129,7 +129,7 @@ TEST(SelfCalibrate, SaysThatParallelCamerasDoNotDetermineFocalLengths) {
   EXPECT_FALSE(result.lenses[1].focal_determined);
 
   SelfCalibrationOptions given;
-  given.fixed_lenses = true;
+  given.bundle.fixed_lenses = true;
   const SelfCalibration fixed = solved(rig, given);
   EXPECT_TRUE(fixed.lenses[0].focal_determined);
   EXPECT_LT(shapeError(rig, fixed), 0.02);
@@ -138,7 +138,7 @@ TEST(SelfCalibrate, SaysThatParallelCamerasDoNotDetermineFocalLengths) {
 TEST(SelfCalibrate, TellsTheNoiseWhenTheLensesAreGiven) {
   // Few points: degrees of freedom for lenses that are not fitted would enlarge it by 15 % or more.
   SelfCalibrationOptions given;
-  given.fixed_lenses = true;
+  given.bundle.fixed_lenses = true;
   const int kRuns = 10;
   for (const double noise : {0.3, 1.0}) {  // much below the scale of the Huber loss, and as large
     double squares = 0.0;
@@ -188,10 +188,9 @@ TEST_P(StatedUncertainty, IsThatOfTheErrors) {
     options.lens.aspect = 1.0;
     options.lens.principal_point = 10.0;
     options.lens.distortion = {10.0, 10.0, 10.0, 10.0, 1e-6};
-    Held held;
-    held.intrinsics = false;
-    adjust(&solution, options, held);
-    Certainty certainty(solution, options, false);
+    options.fixed_lenses = false;
+    adjust(&solution, options);
+    Certainty certainty(solution, options);
     for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
       const auto covariance = certainty.lensCovariance(i);
       ASSERT_TRUE(covariance);
@@ -290,7 +289,7 @@ TEST(SelfCalibrate, NamesCrossedIntrinsics) {
   rig.addNoise(0.2);
   std::swap(rig.cameras[0].intrinsics, rig.cameras[2].intrinsics);
   SelfCalibrationOptions options;
-  options.fixed_lenses = true;
+  options.bundle.fixed_lenses = true;
   EXPECT_SAYS(refusal(rig, options), "intrinsics of camera_1 and camera_3 are crossed");
 }
 

@@ -12,10 +12,8 @@
 
 namespace wiimote_tracker::bundle {
 
-BundleProblem::BundleProblem(Reconstruction* reconstruction,
-                             const Options& options,
-                             const Held& held)
-    : reconstruction_(*reconstruction), options_(options), held_(held) {
+BundleProblem::BundleProblem(Reconstruction* reconstruction, const Options& options)
+    : reconstruction_(*reconstruction), options_(options) {
   for (const geometry::Camera& camera : reconstruction->cameras)
     cameras_.emplace_back(camera);
   addObservations();
@@ -48,13 +46,13 @@ void BundleProblem::addObservations() {
 
 /// One camera keeps its pose, unless something else fixes the world.
 void BundleProblem::holdPoses() {
-  bool world_fixed = held_.positions;
+  bool world_fixed = options_.fixed_positions;
   for (adjust::CameraBlocks& camera : cameras_) {
     if (!problem_.HasParameterBlock(camera.rotation.data()))
       continue;
     if (!world_fixed)
       problem_.SetParameterBlockConstant(camera.rotation.data());
-    if (held_.positions || !world_fixed)
+    if (options_.fixed_positions || !world_fixed)
       problem_.SetParameterBlockConstant(camera.position.data());
     world_fixed = true;
   }
@@ -64,7 +62,7 @@ void BundleProblem::holdLensOrAddPrior(std::size_t index) {
   adjust::CameraBlocks& camera = cameras_[index];
   if (!problem_.HasParameterBlock(camera.lens.data()))
     return;
-  if (held_.intrinsics) {
+  if (options_.fixed_lenses) {
     problem_.SetParameterBlockConstant(camera.lens.data());
     problem_.SetParameterBlockConstant(camera.higher_distortion.data());
     return;
@@ -161,7 +159,7 @@ std::optional<adjust::Estimate> BundleProblem::estimate(const std::vector<std::s
   return adjust::estimateOf(&problem_, blocks);
 }
 
-void adjust(Reconstruction* reconstruction, const Options& options, const Held& held) {
+void adjust(Reconstruction* reconstruction, const Options& options) {
   // A camera without any inlier keeps its pose and takes no part in the triangulation.
   const int kMaximumRounds = 20;
   std::vector<bool> usable(reconstruction->cameras.size(), false);
@@ -170,7 +168,7 @@ void adjust(Reconstruction* reconstruction, const Options& options, const Held& 
       usable[reconstruction->observations[i].camera] = true;
   }
   for (int round = 0; round < kMaximumRounds; ++round) {
-    reconstruction->converged = BundleProblem(reconstruction, options, held).solve();
+    reconstruction->converged = BundleProblem(reconstruction, options).solve();
     if (options.rough)
       return;
     const std::vector<bool> before = reconstruction->inliers;

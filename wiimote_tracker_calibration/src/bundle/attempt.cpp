@@ -70,10 +70,8 @@ geometry::Intrinsics guessedLens(int width, int height, double focal_length) {
 void adjustPlaced(const Options& options, double maximum_error, Attempt* attempt) {
   Options now = options;
   now.maximum_error = maximum_error;
-  Held held;
-  held.intrinsics = false;
   triangulatePoints(&attempt->reconstruction, maximum_error, attempt->reconstruction.placed);
-  adjust(&attempt->reconstruction, now, held);
+  adjust(&attempt->reconstruction, now);
   attempt->cost = costOf(attempt->reconstruction, options.maximum_error);
 }
 

@@ -78,14 +78,14 @@ Eigen::Matrix3Xd alongPrincipalAxes(const Reconstruction& all) {
 class Moves {
  public:
   Moves(const Reconstruction& all, const Options& options)
-      : options_(options), all_(all, options, false) {}
+      : options_(options), all_(all, options) {}
 
   /// The difference of a part's estimate and that of all has the difference of their covariances
   /// (Hausman 1978: the estimate from all is efficient).
   void add(const Reconstruction& part, std::size_t left_out) {
     if (std::find(part.inliers.begin(), part.inliers.end(), true) == part.inliers.end())
       return;
-    const Certainty certainty(part, options_, false);
+    const Certainty certainty(part, options_);
     for (std::size_t i = 0; i < part.cameras.size(); ++i) {
       const auto own = certainty.lensCovariance(i);
       const auto whole = all_.lensCovariance(i < left_out ? i : i + 1);

@@ -22,7 +22,7 @@ class BundleProblem {
  public:
   /// @param reconstruction changed by solve(); must outlive the problem.
   /// @throws BundleError: it has no inliers.
-  BundleProblem(Reconstruction* reconstruction, const Options& options, const Held& held);
+  BundleProblem(Reconstruction* reconstruction, const Options& options);
 
   /// @returns whether it converged. @throws BundleError: the minimisation fails.
   bool solve();
@@ -48,7 +48,6 @@ class BundleProblem {
 
   Reconstruction& reconstruction_;
   const Options options_;
-  const Held held_;
   std::vector<adjust::CameraBlocks> cameras_;
   std::vector<double*> points_;
   ceres::Problem problem_;

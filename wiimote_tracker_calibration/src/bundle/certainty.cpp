@@ -27,36 +27,26 @@ Options weighing(const Options& options, double pixel_stddev) {
   return result;
 }
 
-Held heldLenses(bool fixed_lenses) {
-  Held held;
-  held.intrinsics = fixed_lenses;
-  return held;
-}
-
 }  // namespace
 
-double pixelStddev(const Reconstruction& reconstruction,
-                   const Options& options,
-                   bool fixed_lenses) {
+double pixelStddev(const Reconstruction& reconstruction, const Options& options) {
   const Statistics errors = statistics(reconstruction);
   const auto inliers = static_cast<double>(errors.inliers);
   const auto points =
       static_cast<double>(std::count_if(reconstruction.points.begin(), reconstruction.points.end(),
                                         [](const auto& point) { return point.has_value(); }));
   const auto cameras = static_cast<double>(reconstruction.cameras.size());
-  const double lenses = fixed_lenses ? 0.0 : options.one_lens ? 1.0 : cameras;
+  const double lenses = options.fixed_lenses ? 0.0 : options.one_lens ? 1.0 : cameras;
   // A similarity is not observed.
   const double parameters = cameras * kPoseSize + lenses * kIntrinsicsSize + 3.0 * points - 7.0;
   return errors.rms * std::sqrt(inliers / std::max(1.0, 2.0 * inliers - parameters));
 }
 
-Certainty::Certainty(const Reconstruction& reconstruction,
-                     const Options& options,
-                     bool fixed_lenses)
+Certainty::Certainty(const Reconstruction& reconstruction, const Options& options)
     : one_lens_(options.one_lens),
-      pixel_stddev_(pixelStddev(reconstruction, options, fixed_lenses)),
+      pixel_stddev_(pixelStddev(reconstruction, options)),
       reconstruction_(reconstruction),
-      problem_(&reconstruction_, weighing(options, pixel_stddev_), heldLenses(fixed_lenses)) {
+      problem_(&reconstruction_, weighing(options, pixel_stddev_)) {
   problem_.addScale();
   lenses_ = problem_.estimate({});
 }

@@ -11,16 +11,14 @@
 namespace wiimote_tracker::bundle {
 
 /// Standard deviation of one pixel coordinate, estimated from the residuals of the inliers [px].
-/// @param fixed_lenses the lenses were held: no degrees of freedom went into them.
-double pixelStddev(const Reconstruction& reconstruction, const Options& options, bool fixed_lenses);
+double pixelStddev(const Reconstruction& reconstruction, const Options& options);
 
 /// Covariance of an adjusted reconstruction, to first order: the inverse of the information of the
 /// inliers, with pixelStddev(). The adjustment's Huber loss hardly changes it
 /// (test_self_calibrate.cpp). Options::lens counts too, but not its focal length.
 class Certainty {
  public:
-  /// @param fixed_lenses the lenses are given, and exact.
-  Certainty(const Reconstruction& reconstruction, const Options& options, bool fixed_lenses);
+  Certainty(const Reconstruction& reconstruction, const Options& options);
 
   /// Covariance of a lens in the order fx, fy, cx, cy, k1, k2, p1, p2, k3. Nothing when the
   /// observations leave some parameter open.

@@ -198,16 +198,16 @@ class Search {
 };
 
 void judgeLenses(const SelfCalibrationOptions& options, bool ambiguous, SelfCalibration* result) {
-  Certainty certainty(result->reconstruction, options.bundle, options.fixed_lenses);
-  result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle, options.fixed_lenses);
+  Certainty certainty(result->reconstruction, options.bundle);
+  result->pixel_stddev = pixelStddev(result->reconstruction, options.bundle);
   const double ratio =
-      options.fixed_lenses ? 1.0 : birgeRatio(result->reconstruction, options.bundle);
+      options.bundle.fixed_lenses ? 1.0 : birgeRatio(result->reconstruction, options.bundle);
   result->expected_shape_error = certainty.expectedShapeError();
   if (result->expected_shape_error)
     *result->expected_shape_error *= ratio;
   for (std::size_t i = 0; i < result->reconstruction.cameras.size(); ++i) {
     LensCertainty lens{0.0, true};
-    if (!options.fixed_lenses) {
+    if (!options.bundle.fixed_lenses) {
       const auto covariance = certainty.lensCovariance(i);
       lens.focal_stddev = covariance ? ratio * std::sqrt((*covariance)(0, 0))
                                      : std::numeric_limits<double>::infinity();
@@ -226,18 +226,16 @@ void refine(const SelfCalibrationOptions& options, Reconstruction* reconstructio
   const int kRounds = 5;
   const double kMedians = 6.0;  // 7 sigma: the median of a Rayleigh distribution is 1.18 sigma
   Options tight = options.bundle;
-  Held held;
-  held.intrinsics = options.fixed_lenses;
   for (int round = 0; round < kRounds; ++round) {
     const double median = statistics(*reconstruction).median;
     tight.maximum_error = std::min(kMedians * median, options.bundle.maximum_error);
     tight.loss_scale = std::max(std::min(2.0 * median, options.bundle.loss_scale), 1e-3);
     // Exact pixels have a median near 0.
     tight.maximum_error = std::max(tight.maximum_error, 0.01 * options.bundle.maximum_error);
-    tight.pixel_stddev = std::max(pixelStddev(*reconstruction, tight, options.fixed_lenses), 1e-3);
+    tight.pixel_stddev = std::max(pixelStddev(*reconstruction, tight), 1e-3);
     tight.rough = round + 1 < kRounds;
     triangulatePoints(reconstruction, tight.maximum_error);
-    adjust(reconstruction, tight, held);
+    adjust(reconstruction, tight);
   }
   triangulatePoints(reconstruction, options.bundle.maximum_error);
 }
@@ -247,7 +245,7 @@ SelfCalibration solveOnce(const Reconstruction& all,
                           const ProgressCallback& progress) {
   SelfCalibration result;
   bool ambiguous = false;
-  if (options.fixed_lenses) {
+  if (options.bundle.fixed_lenses) {
     result.reconstruction = solve(all, options.bundle);
   } else {
     Search search(all, options, progress);
@@ -267,7 +265,7 @@ SelfCalibration solveOnce(const Reconstruction& all,
 SelfCalibration selfCalibrate(Reconstruction observed,
                               const SelfCalibrationOptions& options,
                               const ProgressCallback& progress) {
-  if (!options.fixed_lenses) {
+  if (!options.bundle.fixed_lenses) {
     for (geometry::Camera& camera : observed.cameras)
       camera.intrinsics = guessedLens(camera.intrinsics.width, camera.intrinsics.height, 1.0);
   }
@@ -289,7 +287,7 @@ SelfCalibration selfCalibrate(Reconstruction observed,
         return false;
       }
     };
-    throw BundleError(suspicion(thinned(observed, kFewPoints), options.fixed_lenses, works)
+    throw BundleError(suspicion(thinned(observed, kFewPoints), options.bundle.fixed_lenses, works)
                           .value_or(error.what()));
   }
   // Points close to a plane still determine the depth when a lens is known.

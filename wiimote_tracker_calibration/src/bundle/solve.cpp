@@ -47,7 +47,8 @@ Reconstruction solve(Reconstruction reconstruction, const Options& options) {
     const bool all_placed = std::find(placed.begin(), placed.end(), false) == placed.end();
     Options now = options;
     now.rough = options.rough || !all_placed;
-    adjust(&reconstruction, now, Held());
+    now.fixed_lenses = true;
+    adjust(&reconstruction, now);
     if (all_placed)
       break;
     resect(options, nextToResect(options, reconstruction), &reconstruction);

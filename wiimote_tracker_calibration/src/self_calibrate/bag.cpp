@@ -1,6 +1,7 @@
-#include "source.h"
+#include "bag.h"
 
 #include "capture/image.h"
+#include "wiimote_tracker_calibration/import/number_table.h"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>
@@ -10,11 +11,15 @@
 #include <filesystem>
 #include <map>
 #include <optional>
+#include <string>
 #include <system_error>
+#include <vector>
 
 namespace wiimote_tracker::self_calibrate {
 
 namespace {
+
+using import::ImportError;
 
 struct Image {
   double stamp;
@@ -23,7 +28,7 @@ struct Image {
 
 struct CameraImages {
   std::string topic;
-  RecordedCamera camera;
+  import::RecordedCamera camera;
   std::vector<Image> images;
 };
 
@@ -91,27 +96,27 @@ std::map<std::string, CameraImages> readImages(const std::string& path) {
 
 }  // namespace
 
-Recording readBag(const std::string& path) {
-  std::map<std::string, CameraImages> cameras = readImages(path);
-  if (cameras.size() < 2)
-    throw ImportError(path + " holds ir_blobs of " + std::to_string(cameras.size()) +
-                      " cameras: record two or more");
-  Recording recording;
-  const std::vector<Image>* most = nullptr;
-  for (auto& [name, camera] : cameras) {
-    std::stable_sort(camera.images.begin(), camera.images.end(),
-                     [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
-    recording.cameras.push_back(camera.camera);
-    if (most == nullptr || camera.images.size() > most->size())
-      most = &camera.images;
-  }
-  for (const Image& instant : *most) {
-    Pixels pixels;
-    for (const auto& [name, camera] : cameras)
-      pixels.push_back(pixelAt(camera.images, instant.stamp));
-    recording.frames.push_back(pixels);
-  }
-  return recording;
+import::Recording readBag(const std::string& path){
+    std::map<std::string, CameraImages> cameras = readImages(path);
+if (cameras.size() < 2)
+  throw ImportError(path + " holds ir_blobs of " + std::to_string(cameras.size()) +
+                    " cameras: record two or more");
+import::Recording recording;
+const std::vector<Image>* most = nullptr;
+for (auto& [name, camera] : cameras) {
+  std::stable_sort(camera.images.begin(), camera.images.end(),
+                   [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
+  recording.cameras.push_back(camera.camera);
+  if (most == nullptr || camera.images.size() > most->size())
+    most = &camera.images;
 }
+for (const Image& instant : *most) {
+  import::Pixels pixels;
+  for (const auto& [name, camera] : cameras)
+    pixels.push_back(pixelAt(camera.images, instant.stamp));
+  recording.frames.push_back(pixels);
+}
+return recording;
+}  // namespace wiimote_tracker::self_calibrate
 
 }  // namespace wiimote_tracker::self_calibrate

@@ -1,7 +1,7 @@
 // Calibrates synchronised cameras from what they saw of one moving light alone.
 
+#include "bag.h"
 #include "report.h"
-#include "source.h"
 
 #include "samples/grade.h"
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
@@ -10,13 +10,17 @@
 #include "wiimote_tracker_calibration/import/number_table.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/rig_file.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstddef>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -25,6 +29,10 @@ namespace {
 
 using namespace wiimote_tracker;
 using namespace wiimote_tracker::self_calibrate;
+using import::ImportError;
+using import::Pixels;
+using import::RecordedCamera;
+using import::Recording;
 
 struct Arguments {
   std::string source;
@@ -58,6 +66,57 @@ void check(const Arguments& arguments) {
   }
 }
 
+/// The named cameras, in the order of the recording. @throws ImportError for an unknown name.
+Recording subsetOf(const Recording& recording, const std::vector<std::string>& names) {
+  std::vector<std::size_t> kept;
+  std::vector<std::string> known;
+  for (std::size_t i = 0; i < recording.cameras.size(); ++i) {
+    known.push_back(recording.cameras[i].name);
+    if (std::find(names.begin(), names.end(), recording.cameras[i].name) != names.end())
+      kept.push_back(i);
+  }
+  if (kept.size() != names.size())
+    throw ImportError("the camera subset must name cameras of the recording once each; it has: " +
+                      joined(known));
+  Recording subset;
+  for (const std::size_t i : kept)
+    subset.cameras.push_back(recording.cameras[i]);
+  for (const Pixels& all : recording.frames) {
+    Pixels pixels;
+    for (const std::size_t i : kept)
+      pixels.push_back(all[i]);
+    subset.frames.push_back(pixels);
+  }
+  subset.points = recording.points;
+  return subset;
+}
+
+/// Takes the intrinsics of all cameras, by name, from a rig file or from the folder of a recording.
+/// @throws ImportError: a camera is missing there, or has another image size; Error as
+/// readRigFile().
+void takeIntrinsics(const std::string& path, Recording* recording) {
+  std::map<std::string, geometry::Intrinsics> by_name;
+  if (import::fileExists(path + "/Res.dat")) {
+    for (const RecordedCamera& camera : import::readRecording(path).cameras)
+      by_name[camera.name] = camera.intrinsics;
+  } else {
+    for (const geometry::RigCamera& camera : geometry::readRigFile(path).cameras)
+      by_name[camera.camera.name] = camera.camera.intrinsics;
+  }
+  for (RecordedCamera& camera : recording->cameras) {
+    const auto found = by_name.find(camera.name);
+    if (found == by_name.end())
+      throw ImportError(path + " has no intrinsics of " + camera.name +
+                        ": add them, or leave the camera out with --camera-subset");
+    if (found->second.width != camera.intrinsics.width ||
+        found->second.height != camera.intrinsics.height)
+      throw ImportError(path + " has intrinsics of " + camera.name +
+                        " for another image size than the recording");
+    camera.intrinsics = found->second;
+    camera.has_intrinsics = true;
+  }
+}
+
 /// Prints the progress to the standard error output, at most once a second.
 class ProgressLine {
  public:
@@ -83,12 +142,12 @@ Report solve(const Arguments& arguments) {
   if (!arguments.intrinsics.empty())
     takeIntrinsics(arguments.intrinsics, &used);
   bundle::SelfCalibrationOptions options;
-  options.fixed_lenses = !arguments.intrinsics.empty();
+  options.bundle.fixed_lenses = !arguments.intrinsics.empty();
   options.bundle.one_lens = arguments.one_lens;
   Report report;
   report.source = arguments.source;
   report.frames = used.frames.size();
-  report.lenses_given = options.fixed_lenses;
+  report.lenses_given = options.bundle.fixed_lenses;
   report.solution = bundle::selfCalibrate(import::observedBy(used), options, ProgressLine());
   report.comparison = import::compare(recording, report.solution, options.bundle);
   return report;

@@ -15,11 +15,11 @@ namespace wiimote_tracker::bundle {
 struct SelfCalibrationOptions {
   Options bundle = [] {
     Options options;
+    options.fixed_lenses = false;
     options.lens.focal_length = 0.7;  // weak: a field of view of 20 to 71 degrees
     options.lens.focal_about = 1.4;
     return options;
   }();
-  bool fixed_lenses = false;  ///< The intrinsics are given and exact.
   /// Focal lengths to start from [image widths]: fields of view from 90 to 14 degrees.
   std::vector<double> focal_lengths = {0.5, 0.7, 1.0, 1.4, 2.0, 2.8, 4.0};
 };

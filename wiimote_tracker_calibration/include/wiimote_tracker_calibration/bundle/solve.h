@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker::bundle {
 
-/// Prior of a lens whose intrinsics are not held: standard deviations, each > 0, and means.
+/// Prior of a lens that is not fixed: standard deviations, each > 0, and means.
 struct ExpectedLens {
   double focal_length = std::numeric_limits<double>::infinity();  ///< Of log(f).
   double focal_about = 0.0;       ///< Its mean [image widths]; 0: the start value.
@@ -24,18 +24,14 @@ struct Options {
   double loss_scale = 1.0;                 ///< Of the Huber loss [px, > 0].
   std::size_t minimum_common_points = 10;  ///< Of a camera and the others [>= 8].
   double pixel_stddev = 1.0;               ///< Weight of observations against the lens [px, > 0].
-  ExpectedLens lens;                       ///< Of intrinsics that are not held.
+  bool fixed_lenses = true;                ///< The intrinsics are given and exact.
+  ExpectedLens lens;                       ///< Prior of lenses that are not fixed.
   bool one_lens = false;                   ///< All cameras have the first one's intrinsics.
+  bool fixed_positions = false;            ///< Of all cameras.
   bool rough = false;                      ///< Start values: stop early, keep the inliers.
 };
 
-/// What an adjustment keeps fixed.
-struct Held {
-  bool positions = false;  ///< Of all cameras.
-  bool intrinsics = true;  ///< Of all cameras; if false, Options::lens is their prior.
-};
-
-/// Estimates the poses of the cameras and the points, with the intrinsics given; poses, points and
+/// Estimates the poses of the cameras and the points with fixed lenses; poses, points and
 /// inliers in `observed` are ignored, but not how many points there are. The result is determined
 /// up to a similarity: the world is the frame of the first camera of the start pair, whose baseline
 /// has length 1. Starts from two cameras with many common points in depth (essential matrix, Nister
@@ -46,11 +42,11 @@ struct Held {
 Reconstruction solve(Reconstruction observed, const Options& options);
 
 /// Bundle adjustment: minimises the reprojection errors of the inliers (Huber loss) over cameras
-/// and points except what is held, and selects the inliers again until they no longer change, at
+/// and points except what is fixed, and selects the inliers again until they no longer change, at
 /// most 20 times. Reconstruction::converged is false if they still change then, or if the last
-/// minimisation stopped early. If no positions are held, the first camera keeps its pose.
+/// minimisation stopped early. If no positions are fixed, the first camera keeps its pose.
 /// @throws BundleError: no point is determined, or the minimisation fails.
-void adjust(Reconstruction* reconstruction, const Options& options, const Held& held);
+void adjust(Reconstruction* reconstruction, const Options& options);
 
 }  // namespace wiimote_tracker::bundle
 

@@ -15,7 +15,7 @@
 
 namespace wiimote_tracker {
 
-/// How somebody carries an LED through a door. The walk is not that of rooms/walk.h: heading
+/// How somebody carries an LED through a door. The walk is not that of rooms/walker.h: heading
 /// and speed wander, the hand sways with each step and drifts, and the walker steers for a goal
 /// behind the door.
 struct CarriedLed {

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H
 
-#include "rooms/walk.h"
+#include "rooms/walker.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -39,7 +39,7 @@ struct JoinedRooms {
 
 /// Joins two rigs that share no view by an LED that was carried through the door between them. Both
 /// rigs' tracks have the same clock. On either side of the door the LED's path is a straight line
-/// at constant velocity, with deviations (walk.h); both lines must agree. The scatter of the
+/// at constant velocity, with deviations (walker.h); both lines must agree. The scatter of the
 /// passages corrects the size of these deviations ahead, to the left and up, for the weights and
 /// for the covariance, which includes those of both rigs and the slope, to first order. A passage
 /// that contradicts the others (99.9 %) is left out, at most a third of them.

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H
 
-#include "rooms/walk.h"
+#include "rooms/walker.h"
 
 #include <cstddef>
 #include <vector>

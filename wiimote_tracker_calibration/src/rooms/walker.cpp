@@ -1,4 +1,4 @@
-#include "rooms/walk.h"
+#include "rooms/walker.h"
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALK_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALK_H
+#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALKER_H
+#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALKER_H
 
 #include <Eigen/Core>
 
@@ -45,4 +45,4 @@ std::array<HiddenPlace, 2> hiddenPlaces(const Path& before, const Path& after);
 
 }  // namespace wiimote_tracker::rooms
 
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALK_H
+#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALKER_H

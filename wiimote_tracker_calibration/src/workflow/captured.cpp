@@ -57,16 +57,12 @@ wave::CameraRecording recordingOf(const Captured& captured,
 
 std::optional<WaveRecorder> waveOf(const wave::Recording& recording,
                                    const wave::CoverageOptions& options) {
-  std::vector<geometry::Camera> cameras;
-  double first = std::numeric_limits<double>::infinity();
-  for (const wave::CameraRecording& camera : recording.cameras) {
-    cameras.push_back(camera.sightings.camera());
-    if (!camera.frames.empty())
-      first = std::min(first, camera.frames.front().stamp);
-  }
-  if (first == std::numeric_limits<double>::infinity())
+  if (!recording.hasFrames())
     return std::nullopt;
-  WaveRecorder wave(cameras, false, recording.wand, options, first);
+  std::vector<geometry::Camera> cameras;
+  for (const wave::CameraRecording& camera : recording.cameras)
+    cameras.push_back(camera.sightings.camera());
+  WaveRecorder wave(cameras, false, recording.wand, options, recording.span().first);
   for (const wave::CameraRecording& camera : recording.cameras) {
     for (const wave::Frame& frame : camera.frames)
       wave.add({camera.sightings.name, frame.stamp, camera.clock_epoch, frame.spots, {}});

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <string>
+#include <utility>
 
 namespace wiimote_tracker::workflow {
 
@@ -13,7 +14,19 @@ class Sounds {
  public:
   /// What has happened since the last call: "refused", "captured" (a corner), "enough" (waved),
   /// "solved"; empty: nothing of these.
-  std::string heard(const Calibration& calibration);
+  std::string heard(const Calibration& calibration) {
+    const Step step = calibration.step();
+    const State now = {calibration.refusals(), calibration.captures(),
+                       step == Step::kWaving && calibration.wave()->report().enough(), step};
+    const State before = std::exchange(last_, now);
+    if (now.refusals > before.refusals)
+      return "refused";
+    if (now.captures > before.captures)
+      return "captured";
+    if (now.enough && !before.enough)
+      return "enough";
+    return step == Step::kSolved && before.step == Step::kSolving ? "solved" : "";
+  }
 
  private:
   struct State {

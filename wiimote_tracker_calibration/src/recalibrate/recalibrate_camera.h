@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H
 
 #include "capture/image.h"
-#include "wiimote_tracker_calibration/square/square_model.h"
+#include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -27,12 +27,9 @@ struct Request {
   std::vector<capture::Image> images;
 };
 
-struct Options {
-  square::Uncertainty uncertainty;        ///< Of the starting values of another device's lens.
-  double pixel = 0.5;                     ///< Of a moving spot, per axis [px, > 0]; a start value.
-  double wander = 0.0003;                 ///< Error of the stamps, correlated over 2 s [s, >= 0].
-  double maximum_offset_stddev = 0.0005;  ///< A result less certain of the offset is refused [s].
-};
+/// As of a wave of all cameras: pixel, wander, maximum_offset_stddev, and uncertainty, here of the
+/// starting values of another device's lens.
+using Options = wave::WaveOptions;
 
 /// The rig with the camera as it is now. A new one comes last.
 struct Recalibration {

@@ -147,11 +147,8 @@ void matchSpots(const SeenPath& path,
                 std::optional<double> gate_px,
                 double wander,
                 Fit* fit) {
-  fit->matches.clear();
-  fit->duration = images.empty() ? 0.0 : images.back().stamp - images.front().stamp;
-  fit->expected = 0;
-  fit->undetermined = 0;
-  fit->contradictory = 0;
+  const double duration = images.back().stamp - images.front().stamp;
+  *fit = Fit{fit->camera, fit->time_offset, fit->pixel_stddev, {}, duration};
   for (const capture::Image& image : images) {
     if (image.spots.empty())
       continue;

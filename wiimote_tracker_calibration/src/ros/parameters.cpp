@@ -200,8 +200,7 @@ const geometry::Intrinsics& Parameters::intrinsicsOf(const std::string& camera) 
 }
 
 recalibrate::Options Parameters::recalibrateOptions() const {
-  return {solve.square.uncertainty, solve.wave.pixel, solve.wave.wander,
-          solve.wave.maximum_offset_stddev};
+  return {solve.wave, solve.square.uncertainty};
 }
 
 }  // namespace wiimote_tracker

@@ -138,8 +138,9 @@ std::optional<Proposal> ContinuousCalibration::solvedAgainstOthers(const Evidenc
   std::vector<std::string> names;
   for (const std::size_t camera : knocked)
     names.push_back(rig_.cameras[camera].camera.name);
-  return proposalOf(evidence.new_clock ? Cause::kReconnect : Cause::kKnock, names, rig_,
-                    solved->rig, solved->message, evidence.images.to_check);
+  const Cause cause = evidence.new_clock ? Cause::kReconnect : Cause::kKnock;
+  return dated({cause, names, solved->rig, 0.0, solved->message, {}}, rig_,
+               evidence.images.to_check);
 }
 
 std::optional<Proposal> ContinuousCalibration::knockFoundBy(const Proposal& drift,

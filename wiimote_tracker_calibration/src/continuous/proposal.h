@@ -1,8 +1,6 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H
 #define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H
 
-#include "capture/image.h"
-
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <Eigen/Core>
@@ -30,15 +28,6 @@ struct Proposal {
   /// since the others hold the world.
   std::vector<Eigen::Vector3d> places;
 };
-
-/// @param before the rig in use, to whose verdict the message is added.
-/// @param checked the images that the rig was checked with, of which the last is its solved_at.
-Proposal proposalOf(Cause cause,
-                    const std::vector<std::string>& cameras,
-                    const geometry::Rig& before,
-                    const geometry::Rig& rig,
-                    const std::string& message,
-                    const std::vector<capture::Image>& checked);
 
 }  // namespace wiimote_tracker::continuous
 

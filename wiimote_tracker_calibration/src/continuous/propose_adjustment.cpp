@@ -129,6 +129,16 @@ std::string changesText(const geometry::Rig& before, const geometry::Rig& now) {
 
 }  // namespace
 
+Proposal dated(Proposal proposal,
+               const geometry::Rig& before,
+               const std::vector<capture::Image>& checked) {
+  const std::string kSince = "; since then ";  // Replaces what an earlier change has added.
+  const std::string& verdict = before.verdict;
+  proposal.rig.verdict = verdict.substr(0, verdict.find(kSince)) + kSince + proposal.message;
+  proposal.rig.solved_at = checked.back().stamp;
+  return proposal;
+}
+
 std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
                                           const geometry::Rig& adjusted,
                                           const std::vector<capture::Image>& later) {
@@ -147,18 +157,17 @@ std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
   const double gain = gainOf(correction->before, correction->after);
   if (!has_reconnected && (!has_drifted || gain < kWorthProposing))
     return std::nullopt;
-  const std::string changes = changesText(before, rig);
-  const std::string fit =
-      format(". Corrected, the images agree to %.2f px", correction->after.misfit);
-  const std::vector<std::string> cameras = {now.camera.name};
-  Proposal proposal =
-      has_reconnected ? proposalOf(Cause::kReconnect, cameras, before, rig, changes + fit, later)
-                      : proposalOf(Cause::kDrift, cameras, before, rig,
-                                   changes + ": drift, or errors of the calibration" + fit +
-                                       format(" (now %.2f px)", correction->before.misfit),
-                                   later);
-  proposal.gain = has_reconnected ? 0.0 : gain;
-  proposal.places = correction->after.places;
+  const std::string message =
+      changesText(before, rig) + (has_reconnected ? "" : ": drift, or errors of the calibration") +
+      format(". Corrected, the images agree to %.2f px", correction->after.misfit) +
+      (has_reconnected ? "" : format(" (now %.2f px)", correction->before.misfit));
+  Proposal proposal = dated({has_reconnected ? Cause::kReconnect : Cause::kDrift,
+                             {now.camera.name},
+                             rig,
+                             has_reconnected ? 0.0 : gain,
+                             message,
+                             correction->after.places},
+                            before, later);
   if (!correction->turns_cameras)
     proposal.rig.solved_at = before.solved_at;
   return proposal;

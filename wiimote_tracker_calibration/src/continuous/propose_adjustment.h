@@ -11,6 +11,12 @@
 
 namespace wiimote_tracker::continuous {
 
+/// A proposal whose rig says in its verdict what has changed, and when that was checked.
+/// @param before the rig in use. @param checked the images that the rig was checked with.
+Proposal dated(Proposal proposal,
+               const geometry::Rig& before,
+               const std::vector<capture::Image>& checked);
+
 /// Proposes a rig that adjustRig() made, if it explains later images better than the rig before:
 /// with the poses of that one where the adjusted clocks explain nearly as much.
 /// @returns nothing when it explains too little more, when too few places were seen, when a camera

@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "intrinsics/view_collector.h"
 #include "rig_storage.h"
@@ -211,7 +211,7 @@ class BoardServices {
 
 }  // namespace
 
-Unit boardServices(NodeContext* context) {
+NodePart boardServices(NodeContext* context) {
   return std::make_shared<BoardServices>(context);
 }
 

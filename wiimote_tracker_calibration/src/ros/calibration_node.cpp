@@ -7,10 +7,10 @@ namespace wiimote_tracker {
 
 CalibrationNode::CalibrationNode(const ros::NodeHandle& nh, const Parameters& parameters)
     : context_(nh, parameters),
-      units_({fileServices(&context_), captureServices(&context_), maskServices(&context_),
+      parts_({fileServices(&context_), captureServices(&context_), maskServices(&context_),
               solveServices(&context_), boardServices(&context_), placeServices(&context_),
-              recalibrateServices(&context_), continuousServices(&context_, &of_one_led_),
-              healthMonitor(&context_, &of_one_led_)}) {
+              recalibrateServices(&context_), continuousServices(&context_, &one_led_inputs_),
+              healthMonitor(&context_, &one_led_inputs_)}) {
   context_.inputs().start();
   status_timer_ = context_.everyHalfSecond("the status", [this] {
     const Lock lock(context_.mutex());

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
 #define WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
 
-#include "units.h"
+#include "node_parts.h"
 
 #include <ros/node_handle.h>
 
@@ -9,7 +9,7 @@
 
 namespace wiimote_tracker {
 
-/// The calibration node: what its units share, and one unit per subject. Spin it with several
+/// The calibration node: what its parts share, and one part per subject. Spin it with several
 /// threads: services wait for images.
 class CalibrationNode {
  public:
@@ -22,9 +22,9 @@ class CalibrationNode {
   void endRecordingOfOtherTime(const Lock& lock);
 
   NodeContext context_;
-  InputQueue of_one_led_;
+  InputQueue one_led_inputs_;
   double time_ = 0.0;  // at the last status [s]; only for its timer
-  std::vector<Unit> units_;
+  std::vector<NodePart> parts_;
   ros::WallTimer status_timer_;
 };
 

@@ -195,8 +195,6 @@ void CameraInputs::onBlobs(const std::string& name,
       from->second.monitor.add(next.stamp, next.spots, ros::Time::now().toSec());
       for (const OnImage& call : on_image_)
         call(next, lock);
-      if (watching_image_)
-        watching_image_(next, lock);
     });
   }
   changed_->notify_all();
@@ -211,8 +209,6 @@ void CameraInputs::onImu(const std::string& name, const sensor_msgs::Imu& messag
   camera.gravity.add(*specific_force);
   for (const OnGravity& call : on_gravity_)
     call(name, message.header.stamp.toSec(), *specific_force, lock);
-  if (watching_gravity_)
-    watching_gravity_(name, message.header.stamp.toSec(), *specific_force, lock);
 }
 
 }  // namespace wiimote_tracker

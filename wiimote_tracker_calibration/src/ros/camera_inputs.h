@@ -78,13 +78,15 @@ class CameraInputs {
   /// Same for every reading of an accelerometer, in the order in which they come.
   void subscribeGravity(OnGravity on_gravity) { on_gravity_.push_back(std::move(on_gravity)); }
 
-  /// Same for as long as what it returns lives. One at a time; lock the mutex.
-  [[nodiscard]] auto watch(OnImage on_image, OnGravity on_gravity = nullptr) {
-    watching_image_ = std::move(on_image);
-    watching_gravity_ = std::move(on_gravity);
+  /// Both for as long as what it returns lives. One at a time; lock the mutex.
+  [[nodiscard]] auto watch(
+      OnImage on_image,
+      OnGravity on_gravity = [](auto&&...) {}) {
+    subscribeImages(std::move(on_image));
+    subscribeGravity(std::move(on_gravity));
     return AtEnd{[this] {
-      watching_image_ = nullptr;
-      watching_gravity_ = nullptr;
+      on_image_.pop_back();
+      on_gravity_.pop_back();
     }};
   }
 
@@ -131,8 +133,6 @@ class CameraInputs {
   std::condition_variable* changed_;
   std::vector<OnImage> on_image_;
   std::vector<OnGravity> on_gravity_;
-  OnImage watching_image_;  // of watch(), as the next
-  OnGravity watching_gravity_;
   tf2_ros::Buffer transforms_;
   tf2_ros::TransformListener listener_;
   std::map<std::string, CameraInput> cameras_;

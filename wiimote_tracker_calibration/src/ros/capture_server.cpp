@@ -21,10 +21,11 @@ CaptureServer::CaptureServer(const ros::NodeHandle& nh, std::function<Result(con
   nh_.setCallbackQueue(&queue_);
   const std::string name = kCaptureAction;
   using wiimote_tracker_msgs::CaptureCornerActionGoal;
-  stamps_ = {nh_.subscribe<CaptureCornerActionGoal>(
-                 name + "/goal", 50, [this](const auto& goal) { checkStamp(goal->goal_id.stamp); }),
-             nh_.subscribe<actionlib_msgs::GoalID>(
-                 name + "/cancel", 50, [this](const auto& goal) { checkStamp(goal->stamp); })};
+  stamp_checks_ = {
+      nh_.subscribe<CaptureCornerActionGoal>(
+          name + "/goal", 50, [this](const auto& goal) { checkStamp(goal->goal_id.stamp); }),
+      nh_.subscribe<actionlib_msgs::GoalID>(name + "/cancel", 50,
+                                            [this](const auto& goal) { checkStamp(goal->stamp); })};
   constexpr std::uint32_t kQueue = 50;
   constexpr bool kLatched = true;  // as actionlib's
   topics_ = {
@@ -81,7 +82,7 @@ void CaptureServer::checkStamp(const ros::Time& stamp) {
       "clock of whoever sent it",
       kCaptureAction, ahead);
   is_restarting_ = true;
-  const std::lock_guard<std::mutex> after_the_goal(mutex_);
+  const std::lock_guard<std::mutex> after_the_goal(serving_mutex_);
   is_restarting_ = false;
   start();
 }
@@ -120,7 +121,7 @@ bool CaptureServer::acceptGoal() {
 }
 
 void CaptureServer::serveGoal() {
-  std::unique_lock<std::mutex> lock(mutex_);
+  std::unique_lock<std::mutex> lock(serving_mutex_);
   if (!goal_came_.wait_for(lock, kLookPeriod, [this] { return acceptGoal(); }))
     return;
   const Result result = serve_(*current_.getGoal());

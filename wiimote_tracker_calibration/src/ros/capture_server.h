@@ -51,16 +51,16 @@ class CaptureServer {
   ros::CallbackQueue queue_;
   ros::NodeHandle nh_;
   std::function<Result(const Goal&)> serve_;
-  std::mutex mutex_;  // held while a goal is served and while the server is exchanged
+  std::mutex serving_mutex_;  // held while a goal is served and while the server is exchanged
   std::condition_variable goal_came_;
-  std::mutex goals_mutex_;  // guards the next four; locked after mutex_
-  GoalHandle current_;      // changes only with mutex_ locked, too; invalid: none came yet
+  std::mutex goals_mutex_;  // guards the next four; locked after serving_mutex_
+  GoalHandle current_;      // changes only with serving_mutex_ locked, too; invalid: none came yet
   std::atomic<bool> is_preempted_{false};
   GoalHandle next_;  // invalid: none waits
   bool is_next_cancelled_ = false;
   std::atomic<bool> is_restarting_{false};
   std::atomic<bool> is_ending_{false};
-  std::vector<ros::Subscriber> stamps_;
+  std::vector<ros::Subscriber> stamp_checks_;
   // Of the server's topics: while these exist, what a server has sent arrives, also when it is
   // destroyed at once.
   std::vector<ros::Publisher> topics_;

@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "capture_server.h"
 
@@ -316,7 +316,7 @@ class CaptureServices {
 
 }  // namespace
 
-Unit captureServices(NodeContext* context) {
+NodePart captureServices(NodeContext* context) {
   return std::make_shared<CaptureServices>(context);
 }
 

@@ -1,5 +1,5 @@
+#include "node_parts.h"
 #include "rig_storage.h"
-#include "units.h"
 
 #include "continuous/continuous_calibration.h"
 #include "continuous/rig_changes.h"
@@ -30,8 +30,8 @@ const std::string kSteps = format("in steps of %.1f mm, one in %.0f s",
 
 class ContinuousServices {
  public:
-  ContinuousServices(NodeContext* context, InputQueue* of_one_led)
-      : context_(*context), of_one_led_(*of_one_led) {
+  ContinuousServices(NodeContext* context, InputQueue* one_led_inputs)
+      : context_(*context), one_led_inputs_(*one_led_inputs) {
     using Self = ContinuousServices;
     context->offer("continuous/apply", &Self::apply, this);
     context->offer("continuous/revert", &Self::revert, this);
@@ -52,7 +52,7 @@ class ContinuousServices {
   /// Only the timer calls it, once at a time.
   void update() {
     Lock lock(context_.mutex());
-    const std::vector<Input> inputs = of_one_led_.take(lock);
+    const std::vector<Input> inputs = one_led_inputs_.take(lock);
     if (policy_ == ContinuousPolicy::kOff)
       return;
     watchRig(lock);
@@ -250,7 +250,7 @@ class ContinuousServices {
   }
 
   NodeContext& context_;
-  InputQueue& of_one_led_;
+  InputQueue& one_led_inputs_;
   ContinuousPolicy policy_;
   continuous::Options options_;
   continuous::RigChanges changes_;
@@ -264,8 +264,8 @@ class ContinuousServices {
 
 }  // namespace
 
-Unit continuousServices(NodeContext* context, InputQueue* of_one_led) {
-  return std::make_shared<ContinuousServices>(context, of_one_led);
+NodePart continuousServices(NodeContext* context, InputQueue* one_led_inputs) {
+  return std::make_shared<ContinuousServices>(context, one_led_inputs);
 }
 
 }  // namespace wiimote_tracker

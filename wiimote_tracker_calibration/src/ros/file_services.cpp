@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "file_paths.h"
 #include "rig_storage.h"
@@ -53,26 +53,9 @@ class FileServices {
  public:
   /// Loads and publishes the last saved rig, if there is one.
   explicit FileServices(NodeContext* context) : context_(*context) {
-    std::string path;
     {
-      const Lock lock(context_.mutex());
-      path = rigPath("", context_.parameters(lock));
-    }
-    std::string problem = describeMissingRig(path);
-    if (!problem.empty()) {
-      ROS_INFO_STREAM(problem);
-    } else {
-      const Reply reply = context_.handle([&](Lock& lock) { return loadRig(path, &lock); });
-      if (reply.success) {
-        ROS_INFO_STREAM(path << ": " << reply.message);
-      } else {
-        problem = reply.message + "; the node goes on without a rig";
-        ROS_ERROR_STREAM(problem);
-      }
-    }
-    {
-      const Lock lock(context_.mutex());
-      context_.whyNoRig(lock) = problem;
+      Lock lock(context_.mutex());
+      loadLastRig(&lock);
     }
     using Self = FileServices;
     context->offer("save", &Self::save, this);
@@ -143,11 +126,10 @@ class FileServices {
   }
 
   Reply join(JoinRig& call, Lock& lock) {
-    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    Reply reply = replyOf([&] {
+    const auto work = [&](const remap::MeasuredPoints& measured) {
       context_.calibration(lock).requireIdle();
       const geometry::Rig second = context_.existingRig("to join", lock);
-      const std::vector<remap::KnownPoint> places = context_.knownPlaces(lock).points();
+      const std::vector<remap::KnownPoint> places = measured.points();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
       const std::string path = rigPath(call.request.path, context_.parameters(lock));
       rooms::JoinedRigs joined = context_.compute(
@@ -159,9 +141,25 @@ class FileServices {
       useMasks(joined.rig, &context_.inputs());
       context_.setRig(joined.rig, joined.message, lock);
       return Reply{true, joined.message};
-    });
-    reply.message += dropped;
-    return reply;
+    };
+    return context_.withPlaces(work, lock);
+  }
+
+  void loadLastRig(Lock* lock) {
+    const std::string path = rigPath("", context_.parameters(*lock));
+    std::string& problem = context_.whyNoRig(*lock);
+    problem = describeMissingRig(path);
+    if (!problem.empty()) {
+      ROS_INFO_STREAM(problem);
+      return;
+    }
+    const Reply reply = context_.show(replyOf([&] { return loadRig(path, lock); }), *lock);
+    if (reply.success) {
+      ROS_INFO_STREAM(path << ": " << reply.message);
+    } else {
+      problem = reply.message + "; the node goes on without a rig";
+      ROS_ERROR_STREAM(problem);
+    }
   }
 
   Reply loadRig(const std::string& path, Lock* lock) {
@@ -184,7 +182,7 @@ class FileServices {
 
 }  // namespace
 
-Unit fileServices(NodeContext* context) {
+NodePart fileServices(NodeContext* context) {
   return std::make_shared<FileServices>(context);
 }
 

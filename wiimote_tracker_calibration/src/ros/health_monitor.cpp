@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "health/health_watch.h"
 #include "health/led_selection.h"
@@ -20,8 +20,8 @@ namespace {
 
 class HealthMonitor {
  public:
-  HealthMonitor(NodeContext* context, InputQueue* of_one_led)
-      : context_(*context), of_one_led_(*of_one_led) {
+  HealthMonitor(NodeContext* context, InputQueue* one_led_inputs)
+      : context_(*context), one_led_inputs_(*one_led_inputs) {
     context_.inputs().subscribeImages([this](const capture::Image& image, const Lock& lock) {
       if (watch_)
         inputs_.add({image, std::nullopt}, lock);
@@ -46,7 +46,7 @@ class HealthMonitor {
       if (watch_)
         NodeContext::unlocked(&lock, [&] { watch(&inputs); });
       for (Input& input : inputs)
-        of_one_led_.add(std::move(input), lock);
+        one_led_inputs_.add(std::move(input), lock);
       const auto& rig = context_.rig(lock);
       const std::string id = rig ? rig->id() : "";
       if (id != rig_id_) {
@@ -157,7 +157,7 @@ class HealthMonitor {
 
   NodeContext& context_;
   InputQueue inputs_;
-  InputQueue& of_one_led_;
+  InputQueue& one_led_inputs_;
   std::string rig_id_;
   std::optional<health::LedSelection> selection_;  // Suits the rig.
   std::optional<health::HealthWatch> watch_;       // Nothing without a rig.
@@ -169,8 +169,8 @@ class HealthMonitor {
 
 }  // namespace
 
-Unit healthMonitor(NodeContext* context, InputQueue* of_one_led) {
-  return std::make_shared<HealthMonitor>(context, of_one_led);
+NodePart healthMonitor(NodeContext* context, InputQueue* one_led_inputs) {
+  return std::make_shared<HealthMonitor>(context, one_led_inputs);
 }
 
 }  // namespace wiimote_tracker

@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "capture/mask_learner.h"
 
@@ -103,7 +103,7 @@ class MaskServices {
 
 }  // namespace
 
-Unit maskServices(NodeContext* context) {
+NodePart maskServices(NodeContext* context) {
   return std::make_shared<MaskServices>(context);
 }
 

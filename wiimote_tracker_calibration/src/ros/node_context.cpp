@@ -158,12 +158,16 @@ const geometry::Rig& NodeContext::existingRig(const std::string& purpose, const 
   return *calibration_.rig();
 }
 
-std::string NodeContext::dropPlacesOfOtherRigs(const Lock&) {
+workflow::Reply NodeContext::withPlaces(
+    const std::function<workflow::Reply(remap::MeasuredPoints& places)>& work,
+    const Lock&) {
   const std::size_t dropped =
       known_places_.useRig(calibration_.rig() ? calibration_.rig()->id() : "");
-  return dropped == 0
-             ? ""
-             : "; dropped " + counted(dropped, "place") + " measured with another calibration";
+  workflow::Reply reply = replyOf([&] { return work(known_places_); });
+  if (dropped > 0)
+    reply.message +=
+        "; dropped " + counted(dropped, "place") + " measured with another calibration";
+  return reply;
 }
 
 void NodeContext::requireSameRig(const std::string& id, const Lock&) const {

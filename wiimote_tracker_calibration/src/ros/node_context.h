@@ -31,7 +31,7 @@ struct Job {
   bool is_waved = false;  ///< The LED is waved meanwhile.
 };
 
-/// What the node's units share. A unit is constructed from it, offers its services, subscribes to
+/// What the node's parts share. A part is constructed from it, offers its services, subscribes to
 /// inputs() and lives as long as the node. Nobody holds the mutex while solving, writing files,
 /// or calling a service.
 class NodeContext {
@@ -64,16 +64,16 @@ class NodeContext {
   /// Offers the service calibration/<name> of this type. Its handler has the mutex locked, returns
   /// the reply, and fills the other fields of the response.
   /// @param shows_reply whether the status shows the reply.
-  template <typename Unit, typename Service>
+  template <typename Part, typename Service>
   void offer(const std::string& name,
-             workflow::Reply (Unit::*handler)(Service&, Lock&),
-             Unit* unit,
+             workflow::Reply (Part::*handler)(Service&, Lock&),
+             Part* part,
              bool shows_reply = true) {
     services_.push_back(nh_.advertiseService<typename Service::Request, typename Service::Response>(
         "calibration/" + name, [=](auto& request, auto& response) {
           Service call{request, {}};
           const workflow::Reply reply = replyOf([&] {
-            return handle([&](Lock& lock) { return (unit->*handler)(call, lock); }, shows_reply);
+            return handle([&](Lock& lock) { return (part->*handler)(call, lock); }, shows_reply);
           });
           response = call.response;
           response.success = reply.success;
@@ -85,7 +85,7 @@ class NodeContext {
   /// Calls twice a second, never two at a time of the same timer.
   ros::WallTimer everyHalfSecond(const std::string& name, const std::function<void()>& call);
 
-  /// Before the units are destroyed: returns when no request and no image reaches them any more.
+  /// Before the parts are destroyed: returns when no request and no image reaches them any more.
   void stop();
 
   // --- All of the following with the mutex locked.
@@ -143,13 +143,16 @@ class NodeContext {
   /// For tests: called while a request waits or computes. It may throw.
   std::function<void()> fault = [] {};
 
-  /// A unit may copy them, and change its own, such as a camera's intrinsics.
+  /// A part may copy them, and change its own, such as a camera's intrinsics.
   Parameters& parameters(const Lock&) { return parameters_; }
   workflow::Calibration& calibration(const Lock&) { return calibration_; }
   StatusPublisher& status(const Lock&) { return status_; }
-  /// Drops known places that another rig measured. @returns what to say about that.
-  std::string dropPlacesOfOtherRigs(const Lock&);
-  /// Measured with the current rig after dropPlacesOfOtherRigs(); before that perhaps with another.
+  /// Works with the known places, after those that another rig measured were dropped; the reply
+  /// says so.
+  workflow::Reply withPlaces(
+      const std::function<workflow::Reply(remap::MeasuredPoints& places)>& work,
+      const Lock&);
+  /// Measured with the current rig, or with another one.
   remap::MeasuredPoints& knownPlaces(const Lock&) { return known_places_; }
 
   /// Shows a reply in the status at once. @returns it.
@@ -166,7 +169,7 @@ class NodeContext {
   /// Cameras that a person removed from the rig: nobody is advised to add them.
   std::set<std::string>& removedCameras(const Lock&) { return removed_cameras_; }
 
-  /// Why no rig was loaded at the start, and what to do; set by the unit that loads it.
+  /// Why no rig was loaded at the start, and what to do; set by the part that loads it.
   std::string& whyNoRig(const Lock&) { return why_no_rig_; }
 
   /// Nothing while there is none.

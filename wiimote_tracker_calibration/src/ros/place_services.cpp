@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "capture/corner_capture.h"
 #include "continuous/rig_changes.h"
@@ -120,9 +120,7 @@ class PlaceServices {
 
   Reply add(AddKnownPlace& call, Lock& lock) {
     call.response.measured = pointOf(Eigen::Vector3d::Constant(kUnknown));
-    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    remap::MeasuredPoints& places = context_.knownPlaces(lock);
-    Reply reply = replyOf([&] {
+    const auto work = [&](remap::MeasuredPoints& places) {
       square::KnownPlace known;
       known.position = vectorOf(call.request.known);
       places.requireNew(known.position);
@@ -142,20 +140,20 @@ class PlaceServices {
                              place.position.x(), place.position.y(), place.position.z()) +
                           distanceText(place.position, known.position) + unmoved};
           });
-    });
-    call.response.places = static_cast<std::uint32_t>(places.points().size());
-    reply.message += dropped;
+    };
+    const Reply reply = context_.withPlaces(work, lock);
+    call.response.places = static_cast<std::uint32_t>(context_.knownPlaces(lock).points().size());
     return reply;
   }
 
   Reply undo(Trigger&, Lock& lock) {
-    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    remap::MeasuredPoints& places = context_.knownPlaces(lock);
-    const bool success = places.undo();
-    return {success, (success ? "the latest place was dropped; left: " +
-                                    std::to_string(places.points().size())
-                              : "there is no known place to drop") +
-                         dropped};
+    const auto work = [](remap::MeasuredPoints& places) {
+      if (!places.undo())
+        throw Refusal("there is no known place to drop");
+      return Reply{true,
+                   "the latest place was dropped; left: " + std::to_string(places.points().size())};
+    };
+    return context_.withPlaces(work, lock);
   }
 
   Reply clear(Trigger&, Lock& lock) {
@@ -166,11 +164,10 @@ class PlaceServices {
   Reply fit(FitRemap& call, Lock& lock) {
     call.response.uncorrected_error = kUnknown;
     call.response.expected_error = kUnknown;
-    const std::string dropped = context_.dropPlacesOfOtherRigs(lock);
-    Reply reply = replyOf([&] {
+    const auto work = [&](const remap::MeasuredPoints& places) {
       context_.calibration(lock).requireIdle();
       const std::string rig_id = context_.existingRig("to correct", lock).id();
-      const std::vector<remap::KnownPoint> points = context_.knownPlaces(lock).points();
+      const std::vector<remap::KnownPoint> points = places.points();
       std::vector<remap::Model> allowed;
       for (const std::string& name : call.request.models)
         allowed.push_back(remap::modelFromName(name));
@@ -194,9 +191,8 @@ class PlaceServices {
         goal = continuous::appliedRig(*goal, rig);
       context_.setRig(rig, message, lock, goal);
       return Reply{true, message};
-    });
-    reply.message += dropped;
-    return reply;
+    };
+    return context_.withPlaces(work, lock);
   }
 
   /// What is done with a measured place and the rig that measured it.
@@ -260,7 +256,7 @@ class PlaceServices {
 
 }  // namespace
 
-Unit placeServices(NodeContext* context) {
+NodePart placeServices(NodeContext* context) {
   return std::make_shared<PlaceServices>(context);
 }
 

@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "capture/rest_gravity.h"
 #include "recalibrate/recalibrate_camera.h"
@@ -187,7 +187,7 @@ class RecalibrateServices {
 
 }  // namespace
 
-Unit recalibrateServices(NodeContext* context) {
+NodePart recalibrateServices(NodeContext* context) {
   return std::make_shared<RecalibrateServices>(context);
 }
 

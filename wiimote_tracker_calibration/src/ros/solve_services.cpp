@@ -1,4 +1,4 @@
-#include "units.h"
+#include "node_parts.h"
 
 #include "verdict_messages.h"
 
@@ -57,7 +57,7 @@ class SolveServices {
 
 }  // namespace
 
-Unit solveServices(NodeContext* context) {
+NodePart solveServices(NodeContext* context) {
   return std::make_shared<SolveServices>(context);
 }
 

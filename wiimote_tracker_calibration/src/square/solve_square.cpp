@@ -154,7 +154,7 @@ geometry::RigCamera rigCamera(const SquareModel& model, const RigState& state, s
   return result;
 }
 
-std::string verdict(const Solution& solution) {
+std::string describe(const Solution& solution) {
   const geometry::Rig& rig = solution.rig;
   double worst_px = 0.0;
   double worst_m = 0.0;
@@ -229,7 +229,7 @@ Solution solveSquare(const SquareLayout& layout,
         format("points over the square are known to %.2f m only: use a larger square, or place the "
                "cameras so that they look at it from different sides",
                solution.expected_error));
-  rig.verdict = verdict(solution);
+  rig.verdict = describe(solution);
   return solution;
 }
 

@@ -24,69 +24,25 @@ namespace wiimote_tracker::square {
 /// The least-squares problem around one state.
 class SquareModel::Problem {
  public:
-  Problem(const SquareModel& model, const RigState& state) : model_(model), state_(state) {
+  Problem(const SquareModel& model, const RigState& state)
+      : known(model.uncertainty_, &cameras, &problem) {
     for (const geometry::Camera& camera : state.cameras)
-      cameras_.emplace_back(camera);
+      cameras.emplace_back(camera);
     for (std::size_t c = 0; c < 4; ++c)
-      corners_[c] = (state.corners[c] - model.nominal_corners_[c]).head<2>();
-    known_.addSquare(model.layout_, model.z_up_, model.sightings_, &corners_);
-    known_.addLenses(model.sightings_);
-    known_.addGravity(model.sightings_, model.up());
-    for (adjust::CameraBlocks& camera : cameras_) {
-      problem_.AddParameterBlock(&camera.time_offset, 1);
-      problem_.SetParameterBlockConstant(&camera.time_offset);
+      corners[c] = (state.corners[c] - model.nominal_corners_[c]).head<2>();
+    known.addSquare(model.layout_, model.z_up_, model.sightings_, &corners);
+    known.addLenses(model.sightings_);
+    known.addGravity(model.sightings_, model.up());
+    for (adjust::CameraBlocks& camera : cameras) {
+      problem.AddParameterBlock(&camera.time_offset, 1);
+      problem.SetParameterBlockConstant(&camera.time_offset);
     }
   }
 
-  /// @returns the cost (sum of squares) and the state there; nothing when the start is unusable.
-  std::optional<double> solve(RigState* state, Precision precision) {
-    ceres::Solver::Options options;
-    options.max_num_iterations = 200;
-    options.logging_type = ceres::SILENT;
-    const bool coarse = precision == Precision::kCoarse;
-    options.linear_solver_type = coarse ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
-    options.function_tolerance = coarse ? 1e-9 : 1e-15;
-    options.gradient_tolerance = 1e-13;
-    options.parameter_tolerance = 1e-13;
-    double start_cost = 0.0;
-    if (!problem_.Evaluate(ceres::Problem::EvaluateOptions(), &start_cost, nullptr, nullptr,
-                           nullptr))
-      return std::nullopt;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
-    if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost))
-      return std::nullopt;
-    for (std::size_t i = 0; i < cameras_.size(); ++i)
-      state->cameras[i] = cameras_[i].cameraLike(state_.cameras[i]);
-    for (std::size_t c = 0; c < 4; ++c)
-      state->corners[c] =
-          model_.nominal_corners_[c] + Eigen::Vector3d(corners_[c].x(), corners_[c].y(), 0.0);
-    return 2.0 * summary.final_cost;
-  }
-
-  /// As SquareModel::degreesOfFreedom().
-  int degreesOfFreedom() const { return static_cast<int>(std::lround(known_.degreesOfFreedom())); }
-
-  /// As SquareModel::covarianceOfAll().
-  Eigen::MatrixXd covariance() {
-    std::vector<double*> blocks = adjust::blocksOf(&cameras_);
-    for (auto& corner : corners_)
-      blocks.push_back(corner.data());
-    const auto covariance = adjust::covarianceOf(&problem_, blocks);
-    if (!covariance)
-      throw SquareError(
-          "the corners do not determine where the cameras are: let the cameras look at the square "
-          "from different sides");
-    return *covariance;
-  }
-
- private:
-  const SquareModel& model_;
-  const RigState state_;
-  ceres::Problem problem_;
-  std::vector<adjust::CameraBlocks> cameras_;
-  std::array<Eigen::Vector2d, 4> corners_;  // displacements [m]
-  KnownTerms known_{model_.uncertainty_, &cameras_, &problem_};
+  ceres::Problem problem;
+  std::vector<adjust::CameraBlocks> cameras;
+  std::array<Eigen::Vector2d, 4> corners;  // displacements [m]
+  KnownTerms known;
 };
 
 SquareModel::SquareModel(std::vector<CameraSightings> sightings,
@@ -112,15 +68,42 @@ RigState SquareModel::start(const std::vector<Eigen::Isometry3d>& world_from_cam
 }
 
 std::optional<double> SquareModel::refineAll(RigState* state, Precision precision) const {
-  return Problem(*this, *state).solve(state, precision);
+  Problem at(*this, *state);
+  ceres::Solver::Options options;
+  options.max_num_iterations = 200;
+  options.logging_type = ceres::SILENT;
+  const bool coarse = precision == Precision::kCoarse;
+  options.linear_solver_type = coarse ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
+  options.function_tolerance = coarse ? 1e-9 : 1e-15;
+  options.gradient_tolerance = 1e-13;
+  options.parameter_tolerance = 1e-13;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &at.problem, &summary);
+  if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost))
+    return std::nullopt;
+  for (std::size_t i = 0; i < at.cameras.size(); ++i)
+    state->cameras[i] = at.cameras[i].cameraLike(state->cameras[i]);
+  for (std::size_t c = 0; c < 4; ++c)
+    state->corners[c] =
+        nominal_corners_[c] + Eigen::Vector3d(at.corners[c].x(), at.corners[c].y(), 0.0);
+  return 2.0 * summary.final_cost;
 }
 
 int SquareModel::degreesOfFreedom(const RigState& state) const {
-  return Problem(*this, state).degreesOfFreedom();
+  return static_cast<int>(std::lround(Problem(*this, state).known.degreesOfFreedom()));
 }
 
 Eigen::MatrixXd SquareModel::covarianceOfAll(const RigState& state) const {
-  return Problem(*this, state).covariance();
+  Problem at(*this, state);
+  std::vector<double*> blocks = adjust::blocksOf(&at.cameras);
+  for (auto& corner : at.corners)
+    blocks.push_back(corner.data());
+  const auto covariance = adjust::covarianceOf(&at.problem, blocks);
+  if (!covariance)
+    throw SquareError(
+        "the corners do not determine where the cameras are: let the cameras look at the square "
+        "from different sides");
+  return *covariance;
 }
 
 namespace {

@@ -123,13 +123,18 @@ class WaveProblem {
 
   Agreement agreement() const { return {known_.chiSquared(), known_.degreesOfFreedom()}; }
 
-  std::optional<Eigen::MatrixXd> covariance() {
+  /// As covarianceOf().
+  Eigen::MatrixXd covariance() {
     std::vector<double*> blocks = adjust::blocksOf(&cameras_);
     if (recording_.square) {
       for (Eigen::Vector2d& corner : state_.corner_offsets)
         blocks.push_back(corner.data());
     }
-    return adjust::covarianceOf(&problem_, blocks);
+    const auto covariance = adjust::covarianceOf(&problem_, blocks);
+    if (!covariance)
+      throw WaveError(
+          "the recording does not determine the cameras: wave longer, through more of the volume");
+    return *covariance;
   }
 
  private:
@@ -246,11 +251,7 @@ Agreement agreementOf(const Task& task, const std::vector<Match>& matches, State
 }
 
 Eigen::MatrixXd covarianceOf(const Task& task, const std::vector<Match>& matches, State solution) {
-  const auto covariance = WaveProblem(task, matches, kNoLoss, &solution).covariance();
-  if (!covariance)
-    throw WaveError(
-        "the recording does not determine the cameras: wave longer, through more of the volume");
-  return *covariance;
+  return WaveProblem(task, matches, kNoLoss, &solution).covariance();
 }
 
 }  // namespace wiimote_tracker::wave

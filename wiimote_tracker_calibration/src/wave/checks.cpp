@@ -230,7 +230,7 @@ std::string worldOf(const Recording& recording, const geometry::Rig& rig) {
 
 }  // namespace
 
-std::string verdictOf(const Recording& recording, const WaveSolution& solution) {
+std::string describe(const Recording& recording, const WaveSolution& solution) {
   double worst_px = 0.0;
   double worst_offset = 0.0;
   for (std::size_t i = 0; i < solution.rig.cameras.size(); ++i) {

@@ -24,7 +24,7 @@ void checkNoise(const WaveOptions& options, double pixel_stddev);
 void checkSolution(const Task& task, WaveSolution* solution);
 
 /// The result in words.
-std::string verdictOf(const Recording& recording, const WaveSolution& solution);
+std::string describe(const Recording& recording, const WaveSolution& solution);
 
 }  // namespace wiimote_tracker::wave
 

@@ -130,7 +130,7 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, const ProgressCallbac
     checkStart(task, state);
   WaveSolution solution = fit(task, std::move(state), progress);
   checkSolution(task, &solution);
-  solution.rig.verdict = verdictOf(recording, solution);
+  solution.rig.verdict = describe(recording, solution);
   return solution;
 }
 

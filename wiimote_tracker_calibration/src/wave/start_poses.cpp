@@ -9,12 +9,11 @@
 #include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include <wiimote_tracker_msgs/text.h>
+#include <wiimote_tracker_triangulation/geometry/shared_views.h>
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
-#include <utility>
 
 namespace wiimote_tracker::wave {
 
@@ -56,7 +55,7 @@ std::optional<Eigen::Vector2d> middleAt(const std::vector<capture::Spot>& middle
 }
 
 /// What the cameras saw at common times, each of which is one point.
-bundle::Reconstruction commonViews(const Recording& recording, int attempt) {
+bundle::Reconstruction viewsAtInstants(const Recording& recording, int attempt) {
   bundle::Reconstruction all;
   std::vector<std::vector<capture::Spot>> middles;
   for (const CameraRecording& camera : recording.cameras) {
@@ -80,29 +79,27 @@ bundle::Reconstruction commonViews(const Recording& recording, int attempt) {
 void requireConnected(const bundle::Reconstruction& views,
                       const std::vector<bool>& connected_by_square) {
   const bundle::NormalizedViews seen = bundle::normalize(views);
-  const std::size_t cameras = seen.size();
-  std::vector<std::size_t> group(cameras);
-  std::iota(group.begin(), group.end(), std::size_t{0});
-  for (std::size_t i = 0; i < cameras; ++i) {
-    for (std::size_t j = i + 1; j < cameras; ++j) {
+  std::vector<std::vector<std::size_t>> partners(seen.size());
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    for (std::size_t j = i + 1; j < seen.size(); ++j) {
       if (bundle::commonViews(seen[i], seen[j]).first.size() < kLeastCommon &&
           !(connected_by_square[i] && connected_by_square[j]))
         continue;
-      const std::size_t joined = group[j];
-      std::replace(group.begin(), group.end(), joined, group[i]);
+      partners[i].push_back(j);
+      partners[j].push_back(i);
     }
   }
-  const auto size = [&](std::size_t g) { return std::count(group.begin(), group.end(), g); };
-  std::size_t largest = group[0];
-  for (std::size_t g : group)
-    largest = size(g) > size(largest) ? g : largest;
+  const std::vector<std::vector<std::size_t>> groups = geometry::groupsOf(partners);
+  if (groups.size() == 1)
+    return;
+  const auto largest =
+      std::max_element(groups.begin(), groups.end(),
+                       [](const auto& a, const auto& b) { return a.size() < b.size(); });
   // The name of a camera outside the largest group helps most.
-  const auto outside =
-      std::find_if(group.begin(), group.end(), [&](std::size_t g) { return g != largest; });
-  if (outside != group.end())
-    throw WaveError(views.cameras[static_cast<std::size_t>(outside - group.begin())].name +
-                    " and the other cameras hardly ever saw the LED at the same time: wave "
-                    "where it and another camera see the LED together");
+  const std::size_t outside = groups[largest == groups.begin() ? 1 : 0].front();
+  throw WaveError(views.cameras[outside].name +
+                  " and the other cameras hardly ever saw the LED at the same time: wave where it "
+                  "and another camera see the LED together");
 }
 
 /// Poses of the cameras that the square did not place, from the others.
@@ -194,7 +191,7 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
   rough.minimum_common_points = kLeastCommon;
 
   StartPoses result;
-  bundle::Reconstruction wave = commonViews(recording, attempt);
+  bundle::Reconstruction wave = viewsAtInstants(recording, attempt);
   std::vector<square::CameraSightings> sightings;
   for (const CameraRecording& recorded : recording.cameras) {
     const square::CameraSightings& camera = recorded.sightings;

@@ -1,4 +1,4 @@
-"""record_watch says in the diagnostics that the disk is too full for a recording."""
+"""record_watch says in the diagnostics what rosbag does not tell of a recording."""
 
 import collections
 import os
@@ -20,18 +20,24 @@ OK, WARN, ERROR = range(3)
 def test_a_full_disk_is_told(monkeypatch, free, level, words):
     usage = collections.namedtuple('usage', 'free')
     monkeypatch.setattr('shutil.disk_usage', lambda folder: usage(int(free * (1 << 30))))
-    found, said = watch.judge('/bags')
+    found, said = watch.judge('/bags', '/points', ['/points'])
     assert found == level and said.startswith(words)
 
 
 def test_a_folder_that_is_gone_is_told(tmp_path):
-    assert watch.judge(str(tmp_path / 'gone')) == (
+    assert watch.judge(str(tmp_path / 'gone'), '.*', ['/points']) == (
         ERROR, f'{tmp_path}/gone cannot be looked at: No such file or directory')
 
 
+def test_topics_that_match_nothing_are_told(tmp_path):
+    level, words = watch.judge(str(tmp_path), 'points', ['/points', '/rosout'])
+    assert level == WARN
+    assert words.startswith('nothing is recorded, since no topic matches topics:=points: it must')
+
+
 def test_it_looks_where_the_bags_are_written():
-    nodes = roslaunch.config.load_config_default([(LAUNCH, ['output:=/my disk/run'])], 11311,
-                                                 verbose=False).nodes
+    arguments = ['output:=/my disk/run', 'topics:=/points']
+    nodes = roslaunch.config.load_config_default([(LAUNCH, arguments)], 11311, verbose=False).nodes
     watched, = [shlex.split(node.args) for node in nodes if node.type == 'record_watch']
     recorded, = [shlex.split(node.args) for node in nodes if node.type == 'record']
-    assert watched == ['/my disk/run'] and '--output-prefix=/my disk/run' in recorded
+    assert watched == ['/my disk/run', '/points'] and '--output-prefix=/my disk/run' in recorded

@@ -3,7 +3,6 @@
 #include "ros/measurements/writer.h"
 
 #include <matio.h>
-#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -228,7 +227,7 @@ bool isWhole(const std::string& path, int elements) {
 
 class MatlabWriter : public Writer {
  public:
-  explicit MatlabWriter(const std::string& path) : path_(path) { createPart(path_); }
+  explicit MatlabWriter(const std::string& path) : path_(path) { open(path_); }
 
   void add(const Measurement& measurement) override { leds_.add(measurement); }
 
@@ -247,11 +246,8 @@ class MatlabWriter : public Writer {
     write(structOf("bodies", bodies_));
     if (Mat_Close(file_.release()) != 0 || !isWhole(partOf(path_), written_))
       failToWrite(path_, errno != 0 ? errno : EIO);
-    finishPart(path_);
-    return "";
+    return Writer::finish();
   }
-
-  void discard() override { ::unlink(partOf(path_).c_str()); }
 
  private:
   struct CloseFile {

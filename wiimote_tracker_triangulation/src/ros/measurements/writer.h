@@ -78,7 +78,7 @@ class Writer {
   }
 
   /// Removes what was written if it is not finished.
-  virtual void discard() {
+  void discard() {
     for (OutputFile& file : files_)
       file.discard();
   }

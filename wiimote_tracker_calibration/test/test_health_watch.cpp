@@ -169,7 +169,7 @@ TEST(HealthWatch, OffersToRecalibrateOnlyWhereThatCanWork) {
   of_square.cameras[3].time_offset_rule = geometry::TimeOffsetRule::kNone;
   for (const geometry::Rig& other : {of_centers, of_square}) {
     EXPECT_EQ(putBack(other, true), "put it back, or calibrate all cameras again");
-    EXPECT_EQ(addCamera(other, "wiimote_5"), "calibrate all cameras again");
+    EXPECT_EQ(addCamera(other, "wiimote_5"), "calibrate all cameras again, with a waved LED");
   }
   rig.cameras.resize(2);
   rig.covariance.resize(0, 0);

@@ -26,7 +26,7 @@ bool isCorrectable(const geometry::Rig& rig) {
 
 std::string addCamera(const geometry::Rig& rig, const std::string& name) {
   return canSolveAgainst(rig.cameras.size(), rig) ? "add it (r " + name + " in calibrate)"
-                                                  : kAllAgain;
+                                                  : std::string(kAllAgain) + ", with a waved LED";
 }
 
 std::string calibrateAgain(const geometry::Rig& rig) {

@@ -244,8 +244,7 @@ std::string describe(const Recording& recording, const WaveSolution& solution) {
       recording.square ? " and the square" : "", worst_px, 1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
     text += format(
-        ", points where the LED was waved expected within %.1f mm (RMS) in %s, %.1f mm to one "
-        "another",
+        ", points along the wave expected within %.1f mm (RMS) in %s, %.1f mm to one another",
         1e3 * solution.expected_error, worldOf(recording, solution.rig).c_str(),
         1e3 * solution.expected_shape_error);
   for (const std::string& warning : solution.warnings)

@@ -62,14 +62,27 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
-  rig_subscriber_ = subscribe<RigCalibration>(
-      nh_, "calibration/rig", 5, [this](const auto& event) { takeRig(*event.getConstMessage()); });
+  rig_subscriber_ = subscribe<RigCalibration>(nh_, "calibration/rig", 5,
+                                              [this](const auto& event) { onRig(event); });
   trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
     tracker_.takeTrigger(*event.getConstMessage());
   });
   timer_ = nh_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
     logExceptions("timer", [this] { onTimer(); });
   });
+}
+
+/// A bag that is played beside the calibration node has a rig, too, and would leave it in use.
+void Triangulation::onRig(const ros::MessageEvent<const RigCalibration>& event) {
+  const std::string publisher = event.getPublisherName();
+  if (!rig_publisher_.empty() && publisher != rig_publisher_ &&
+      rig_subscriber_.getNumPublishers() > 1) {
+    ROS_WARN("The rig of %s on %s is ignored, since %s publishes one, too: end one of them.",
+             publisher.c_str(), rig_subscriber_.getTopic().c_str(), rig_publisher_.c_str());
+    return;
+  }
+  rig_publisher_ = publisher;
+  takeRig(*event.getConstMessage());
 }
 
 void Triangulation::takeRig(const RigCalibration& message) {

@@ -524,14 +524,16 @@ std::pair<std::string, bool> run(const std::string& command) {
   return {output, pclose(pipe) != 0};
 }
 
-TEST(Triangulation, SaysThatTwoNodesPublishTheImagesOfACamera) {
+TEST(Triangulation, SaysThatTwoNodesPublishImagesOfACameraOrARig) {
   FILE* replay = popen(
-      "exec timeout 60 python3 -c \"import rospy; from wiimote_tracker_msgs.msg import IrBlobArray;"
-      "rospy.init_node('replay'); images = rospy.Publisher('camera_0/ir_blobs', IrBlobArray,"
-      "queue_size=1); rospy.spin()\"",
+      "exec timeout 60 python3 -c \"import rospy; from wiimote_tracker_msgs.msg import IrBlobArray,"
+      "RigCalibration; rospy.init_node('replay'); images = rospy.Publisher('camera_0/ir_blobs',"
+      "IrBlobArray, queue_size=1); rig = rospy.Publisher('calibration/rig', RigCalibration,"
+      "queue_size=1, latch=True); rig.publish(RigCalibration()); rospy.spin()\"",
       "r");
   ASSERT_NE(replay, nullptr);
   EXPECT_TRUE(g_bench->waitForLog("/camera_0/ir_blobs has 2 publishers"));
+  EXPECT_TRUE(g_bench->waitForLog("The rig of /replay on /calibration/rig is ignored, since /"));
   EXPECT_FALSE(run("rosnode kill /replay").second);
   pclose(replay);
 }

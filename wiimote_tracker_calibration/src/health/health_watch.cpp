@@ -186,7 +186,7 @@ void HealthWatch::describe(Watched* camera) {
     add(driftText(drift), putBack(rig_, drift.or_camera.empty() && !drift.or_others));
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
-    news_.push_back(camera->calibrated.camera.name + " " + health.text + "; " + health.advice);
+    news_.push_back(camera->calibrated.camera.name);
 }
 
 }  // namespace wiimote_tracker::health

@@ -54,7 +54,7 @@ class HealthWatch {
   /// Cameras whose images cannot be judged now, by the reason.
   std::map<std::string, std::vector<std::string>> notJudged() const;
 
-  /// New findings since the last call, one sentence per camera.
+  /// Cameras that were well at the last call and are not now.
   std::vector<std::string> takeNews();
 
  private:

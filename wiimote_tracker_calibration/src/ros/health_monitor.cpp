@@ -53,14 +53,14 @@ class HealthMonitor {
         rig_id_ = id;
         useRig(rig, lock);
       }
-      std::map<std::string, health::CameraHealth> healths;
+      StatusPublisher& status = context_.status(lock);
+      status.setHealth({});
       if (watch_) {
-        healths = watch_->healths();
-        for (const std::string& news : watch_->takeNews())
-          ROS_WARN_STREAM(news);
+        status.setHealth(watch_->healths());
+        for (const std::string& camera : watch_->takeNews())
+          ROS_WARN_STREAM(camera << " " << status.health(camera));
         warnOfUnknownCameras(*rig, lock);
       }
-      context_.status(lock).setHealth(healths);
     }
     diagnostics_.update();
   }

@@ -73,7 +73,7 @@ void LedLabels::update(double time,
 void LedLabels::forgetLamps(const std::function<bool(const Eigen::Vector3d&)>& is_hidden) {
   for (auto place = places_.begin(); place != places_.end();) {
     const auto former = former_.find(place->first);
-    if (!is_hidden(place->second.position)) {
+    if (!is_hidden(place->second.position) || hasTrack(place->first)) {
       ++place;
     } else if (former != former_.end() && !is_hidden(former->second.position)) {
       place->second = former->second;
@@ -193,6 +193,15 @@ void LedLabels::setConfidence(double confidence, double same, LedLabel* given) {
     doubtful_.push_back(given->name);
   place.confidence = confidence;
   given->confidence = confidence;
+}
+
+bool LedLabels::hasTrack(const std::string& label) const {
+  return std::any_of(given_.begin(), given_.end(), [&](const auto& given) {
+    const auto is_in = [&](const std::vector<std::uint32_t>& ids) {
+      return std::find(ids.begin(), ids.end(), given.first) != ids.end();
+    };
+    return given.second.name == label && !is_in(lost_) && !is_in(forgotten_);
+  });
 }
 
 const LedLabel* LedLabels::holderOf(const std::string& label) const {

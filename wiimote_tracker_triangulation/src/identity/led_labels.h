@@ -74,7 +74,7 @@ class LedLabels {
     former_.clear();
   }
 
-  /// Forgets where labels were seen on lights that are hidden from now on, as lamps by masks. Such
+  /// Forgets where labels were lost on lights that are hidden from now on, as lamps by masks. Such
   /// a label belongs again where it was seen before it went to the lamp.
   void forgetLamps(const std::function<bool(const Eigen::Vector3d&)>& is_hidden);
 
@@ -117,6 +117,7 @@ class LedLabels {
   void giveFreeLabel(double time, const tracking::TrackedLed& led);
   void notePlace(const tracking::TrackedLed& led);
   void setConfidence(double confidence, double same, LedLabel* given);
+  bool hasTrack(const std::string& label) const;
   const LedLabel* holderOf(const std::string& label) const;
 
   std::vector<std::string> listed_;

@@ -62,14 +62,18 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
-  rig_subscriber_ = subscribe<RigCalibration>(nh_, "calibration/rig", 5,
-                                              [this](const auto& event) { onRig(event); });
+  subscribeToRig();
   trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
     tracker_.takeTrigger(*event.getConstMessage());
   });
   timer_ = nh_.createWallTimer(ros::WallDuration(1.0), [this](const ros::WallTimerEvent&) {
     logExceptions("timer", [this] { onTimer(); });
   });
+}
+
+void Triangulation::subscribeToRig() {
+  rig_subscriber_ = subscribe<RigCalibration>(nh_, "calibration/rig", 5,
+                                              [this](const auto& event) { onRig(event); });
 }
 
 /// A bag that is played beside the calibration node has a rig, too, and would leave it in use.
@@ -79,6 +83,7 @@ void Triangulation::onRig(const ros::MessageEvent<const RigCalibration>& event) 
       rig_subscriber_.getNumPublishers() > 1) {
     ROS_WARN("The rig of %s on %s is ignored, since %s publishes one, too: end one of them.",
              publisher.c_str(), rig_subscriber_.getTopic().c_str(), rig_publisher_.c_str());
+    has_ignored_rig_ = true;
     return;
   }
   rig_publisher_ = publisher;
@@ -215,6 +220,11 @@ void Triangulation::onProblem(const std::string& sentence) {
 }
 
 void Triangulation::onTimer() {
+  if (has_ignored_rig_ && rig_subscriber_.getNumPublishers() == 1) {
+    has_ignored_rig_ = false;
+    rig_publisher_.clear();
+    subscribeToRig();  // brings the latched rig of the one that is left
+  }
   if (!tracker_.hasRig()) {
     ROS_WARN_THROTTLE(600.0,
                       "Waiting for a calibrated rig on %s: run  %srosrun "

@@ -32,6 +32,7 @@ class Triangulation : private MessageSink {
   Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
+  void subscribeToRig();
   void onRig(const ros::MessageEvent<const wiimote_tracker_msgs::RigCalibration>& event);
   void takeRig(const wiimote_tracker_msgs::RigCalibration& message);
   void onImage(const std::string& camera,
@@ -71,7 +72,8 @@ class Triangulation : private MessageSink {
   ros::Publisher zone_publisher_;
   ros::Publisher triggered_publisher_;
   ros::Subscriber rig_subscriber_;
-  std::string rig_publisher_;  // of the rig in use
+  std::string rig_publisher_;     // of the rig in use
+  bool has_ignored_rig_ = false;  // of another publisher
   ros::Subscriber trigger_subscriber_;
   std::map<std::string, ros::Subscriber> image_subscribers_;  // by camera
   std::map<std::string, ros::Subscriber> imu_subscribers_;    // by body

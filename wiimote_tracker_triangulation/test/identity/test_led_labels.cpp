@@ -345,6 +345,21 @@ TEST(LedLabels, AreDoubtfulAfterTheLedsMayHaveChangedPlaces) {
   EXPECT_NEAR(0.67, labels.of(2).confidence, 0.01);
 }
 
+TEST(LedLabels, KeepTheirDoubtBeforeAMaskedLamp) {
+  const auto is_lamp = [](const Eigen::Vector3d& place) { return place.x() > 0.5; };
+  LedLabels labels({"left", "right"});
+  TrackedLed moving = led(0, TrackState::kTracked);
+  labels.update(kTime, {moving, led(1, TrackState::kTracked)});
+  moving.same_led_probability = 0.5;
+  labels.update(kTime, {moving, led(1, TrackState::kTracked)});
+  moving.position.x() = 1.0;
+  labels.update(kTime, {moving, led(1, TrackState::kTracked)});
+  labels.forgetLamps(is_lamp);
+  moving.position.x() = 0.0;
+  labels.update(kTime, {moving, led(1, TrackState::kTracked)});
+  EXPECT_NEAR(0.5, labels.places().at("left").confidence, 1e-9);
+}
+
 TEST(LedLabels, ComeFromBlinking) {
   Identifier identifier(cyclicCodes({{"left", "01111111"}, {"right", "01010111"}}, 0.023, 0.001),
                         {});

@@ -524,18 +524,42 @@ std::pair<std::string, bool> run(const std::string& command) {
   return {output, pclose(pipe) != 0};
 }
 
-TEST(Triangulation, SaysThatTwoNodesPublishImagesOfACameraOrARig) {
-  FILE* replay = popen(
+/// Starts the node /replay, which publishes a rig (not a good one), and images of a camera.
+FILE* startReplay() {
+  return popen(
       "exec timeout 60 python3 -c \"import rospy; from wiimote_tracker_msgs.msg import IrBlobArray,"
       "RigCalibration; rospy.init_node('replay'); images = rospy.Publisher('camera_0/ir_blobs',"
       "IrBlobArray, queue_size=1); rig = rospy.Publisher('calibration/rig', RigCalibration,"
       "queue_size=1, latch=True); rig.publish(RigCalibration()); rospy.spin()\"",
       "r");
+}
+
+TEST(Triangulation, SaysThatTwoNodesPublishImagesOfACameraOrARig) {
+  FILE* replay = startReplay();
   ASSERT_NE(replay, nullptr);
   EXPECT_TRUE(g_bench->waitForLog("/camera_0/ir_blobs has 2 publishers"));
   EXPECT_TRUE(g_bench->waitForLog("The rig of /replay on /calibration/rig is ignored, since /"));
   EXPECT_FALSE(run("rosnode kill /replay").second);
   pclose(replay);
+}
+
+TEST(Triangulation, TakesTheRigOfTheNodeThatIsLeft) {
+  g_bench->rig_publisher_.shutdown();
+  const std::size_t before = g_bench->log_.size();
+  FILE* replay = startReplay();
+  ASSERT_NE(replay, nullptr);
+  EXPECT_TRUE(Bench::waitFor([&] {
+    return g_bench->log_.find("The rig calibration on /calibration/rig is refused", before) !=
+           std::string::npos;
+  }));
+  g_bench->rig_.cameras[0].camera.world_from_camera.translation().x() += 1e-6;
+  g_bench->rig_publisher_ =
+      g_bench->nh_.advertise<wiimote_tracker_msgs::RigCalibration>("calibration/rig", 10, true);
+  g_bench->rig_publisher_.publish(toMessage(g_bench->rig_));
+  EXPECT_TRUE(g_bench->waitForLog("is ignored, since /replay publishes one, too: end one"));
+  EXPECT_FALSE(run("rosnode kill /replay").second);
+  pclose(replay);
+  EXPECT_TRUE(g_bench->waitForLog("Rig " + g_bench->rig_.id()));
 }
 
 TEST(TriangulationNode, AdvisesWithItsNamespace) {

@@ -210,11 +210,11 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
   statistics_.addSnapshot(tracked);
   if (identifier_)
     sightings_.add(rig_, tracked, identifier_.get());
-  // What the tracker had not given out yet when the masks came may have noted a lamp again.
+  labels_.update(tracked.time, tracked.leds, identifier_.get());
+  // The track of a lamp ends after its masks came.
   if (std::any_of(tracked.leds.begin(), tracked.leds.end(),
                   [](const auto& led) { return led.state == tracking::TrackState::kLost; }))
     forgetLamps();
-  labels_.update(tracked.time, tracked.leds, identifier_.get());
   reportDoubtfulLabels();
   if (identifier_)
     startBodies(tracked);

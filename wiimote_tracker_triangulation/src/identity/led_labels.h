@@ -6,7 +6,6 @@
 
 #include <Eigen/Core>
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <limits>

@@ -55,7 +55,8 @@ std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Ca
   if (info.K[0] == 0.0)
     return "";
   const std::string what_to_do =
-      "; the tracker uses the rig. Save the rig again to update the driver, or calibrate again";
+      "; the tracker uses the rig. Save the rig without a name to update the driver, or calibrate "
+      "again";
   const geometry::Intrinsics& rig = calibrated.intrinsics;
   if (static_cast<int>(info.width) != rig.width || static_cast<int>(info.height) != rig.height)
     return "camera_info of " + calibrated.name + " has another image size than the rig" +

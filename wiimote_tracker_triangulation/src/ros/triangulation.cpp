@@ -62,7 +62,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
-  subscribeToRig();
+  rig_.start(nh_, [this](const RigCalibration& message) { takeRig(message); });
   trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
     tracker_.takeTrigger(*event.getConstMessage());
   });
@@ -71,32 +71,13 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   });
 }
 
-void Triangulation::subscribeToRig() {
-  rig_subscriber_ = subscribe<RigCalibration>(nh_, "calibration/rig", 5,
-                                              [this](const auto& event) { onRig(event); });
-}
-
-/// A bag that is played beside the calibration node has a rig, too, and would leave it in use.
-void Triangulation::onRig(const ros::MessageEvent<const RigCalibration>& event) {
-  const std::string publisher = event.getPublisherName();
-  if (!rig_publisher_.empty() && publisher != rig_publisher_ &&
-      rig_subscriber_.getNumPublishers() > 1) {
-    ROS_WARN("The rig of %s on %s is ignored, since %s publishes one, too: end one of them.",
-             publisher.c_str(), rig_subscriber_.getTopic().c_str(), rig_publisher_.c_str());
-    has_ignored_rig_ = true;
-    return;
-  }
-  rig_publisher_ = publisher;
-  takeRig(*event.getConstMessage());
-}
-
 void Triangulation::takeRig(const RigCalibration& message) {
   const bool had_rig = tracker_.hasRig();
   MessageTracker::RigChange change;
   try {
     change = tracker_.takeRig(message);
   } catch (const geometry::Error& e) {
-    ROS_ERROR("The rig calibration on %s is refused%s: %s", rig_subscriber_.getTopic().c_str(),
+    ROS_ERROR("The rig calibration on %s is refused%s: %s", rig_.topic().c_str(),
               had_rig ? ", the one before stays in use" : "", e.what());
     return;
   }
@@ -220,16 +201,11 @@ void Triangulation::onProblem(const std::string& sentence) {
 }
 
 void Triangulation::onTimer() {
-  if (has_ignored_rig_ && rig_subscriber_.getNumPublishers() == 1) {
-    has_ignored_rig_ = false;
-    rig_publisher_.clear();
-    subscribeToRig();  // brings the latched rig of the one that is left
-  }
   if (!tracker_.hasRig()) {
     ROS_WARN_THROTTLE(600.0,
                       "Waiting for a calibrated rig on %s: run  %srosrun "
                       "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
-                      rig_subscriber_.getTopic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
+                      rig_.topic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
     markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
   for (const auto& [camera, images] : image_subscribers_) {

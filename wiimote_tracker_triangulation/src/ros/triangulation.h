@@ -8,6 +8,7 @@
 #include "led_publishers.h"
 #include "load_shedding.h"
 #include "marker_builder.h"
+#include "rig_subscription.h"
 #include "tracker/message_tracker.h"
 #include "tracker/parameters.h"
 #include "tracking_diagnostics.h"
@@ -32,8 +33,6 @@ class Triangulation : private MessageSink {
   Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh);
 
  private:
-  void subscribeToRig();
-  void onRig(const ros::MessageEvent<const wiimote_tracker_msgs::RigCalibration>& event);
   void takeRig(const wiimote_tracker_msgs::RigCalibration& message);
   void onImage(const std::string& camera,
                const ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>& event);
@@ -71,9 +70,7 @@ class Triangulation : private MessageSink {
   ros::Publisher markers_publisher_;
   ros::Publisher zone_publisher_;
   ros::Publisher triggered_publisher_;
-  ros::Subscriber rig_subscriber_;
-  std::string rig_publisher_;     // of the rig in use
-  bool has_ignored_rig_ = false;  // of another publisher
+  RigSubscription rig_;
   ros::Subscriber trigger_subscriber_;
   std::map<std::string, ros::Subscriber> image_subscribers_;  // by camera
   std::map<std::string, ros::Subscriber> imu_subscribers_;    // by body

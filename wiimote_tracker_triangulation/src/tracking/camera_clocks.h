@@ -65,6 +65,7 @@ class CameraClocks {
     void updateError(const ClockError& common);
     void setOffset(double seconds);
   };
+
   bool isReference(const Clock& clock) const;
   ClockError commonRemainder();
   double medianOffset();  // [s]

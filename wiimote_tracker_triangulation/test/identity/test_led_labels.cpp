@@ -1,4 +1,5 @@
-// The labels of the LEDs: by order, by place, by blinking.
+// The labels of the LEDs: by order, by place, by blinking. More than 400 lines, because these ways
+// are one class, and each test is short.
 #include "identity/label_places_file.h"
 #include "identity/led_labels.h"
 #include "wiimote_tracker_triangulation/identity/schemes.h"

@@ -1,4 +1,5 @@
-// What mode tracks adds in the code that node and track_bag share: messages in, messages out.
+// What mode tracks adds in the code that node and track_bag share: messages in, messages out. More
+// than 400 lines, because all of it is seen in the points only.
 #include "ros/studio.h"
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
@@ -135,7 +136,8 @@ TEST(Labels, GoBackFromALampThatIsMaskedToTheLed) {
     studio.expectNear("led", again, onCircle);
     const auto points = studio.pointsOf("led", again);
     ASSERT_FALSE(points.empty());
-    EXPECT_GE(points.back().second.label_confidence, labels.size() == 1 ? 1.0 : 0.4);
+    // Of two labels, the one that was never given may be that of the LED, too.
+    EXPECT_GE(points.back().second.label_confidence, labels.size() == 1 ? 1.0 : 0.5);
   }
 }
 

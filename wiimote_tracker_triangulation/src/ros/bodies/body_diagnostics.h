@@ -60,8 +60,8 @@ class BodyDiagnostics {
       }
     }
     for (auto& [name, seen] : seen_) {
-      if (seen.last_observed >
-          bodies.header.stamp)  // time jumped back, as of a bag that starts over
+      // Time jumped back, as of a bag that starts over.
+      if (seen.last_observed > bodies.header.stamp)
         seen.last_observed = ros::Time();
     }
   }

@@ -63,8 +63,7 @@ CoverageDisplay::CoverageDisplay(const ros::NodeHandle& nh, const ros::NodeHandl
   cells_publisher_ = nh_.advertise<sensor_msgs::PointCloud2>("coverage/cells", 1, true);
   volume_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage/volume", 1, true);
   walk_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("coverage/walk", 1, true);
-  subscriber_ = subscribe<wiimote_tracker_msgs::RigCalibration>(
-      nh_, "calibration/rig", 1, [this](const auto& event) { onRig(*event.getConstMessage()); });
+  rig_.start(nh_, [this](const auto& message) { onRig(message); });
   points_subscriber_ = subscribe<wiimote_tracker_msgs::TrackedPointArray>(
       nh_, "points", 100, [this](const auto& event) { onPoints(*event.getConstMessage()); });
   timer_ = nh_.createWallTimer(kWalkPeriod, [this](const ros::WallTimerEvent&) {
@@ -90,7 +89,7 @@ void CoverageDisplay::onRig(const wiimote_tracker_msgs::RigCalibration& message)
     world_frame_ = rig.world_frame;
     walk_changed_ = true;
   } catch (const geometry::Error& e) {
-    ROS_ERROR("The rig on %s is not used: %s", subscriber_.getTopic().c_str(), e.what());
+    ROS_ERROR("The rig on %s is not used: %s", rig_.topic().c_str(), e.what());
   }
 }
 

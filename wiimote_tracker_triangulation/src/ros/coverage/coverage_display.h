@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
 
+#include "../rig_subscription.h"
 #include "walked_cells.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -52,7 +53,7 @@ class CoverageDisplay {
   ros::Publisher cells_publisher_;
   ros::Publisher volume_publisher_;
   ros::Publisher walk_publisher_;
-  ros::Subscriber subscriber_;
+  RigSubscription rig_;
   ros::Subscriber points_subscriber_;
   ros::WallTimer timer_;
 

@@ -65,8 +65,7 @@ Gestures::Gestures(const ros::NodeHandle& nh, const ros::NodeHandle& private_nh)
   services_ = {nh_.advertiseService("gestures/record", &Gestures::record, this),
                nh_.advertiseService("gestures/remove", &Gestures::remove, this),
                nh_.advertiseService("gestures/list", &Gestures::list, this)};
-  rig_subscriber_ = subscribe<wiimote_tracker_msgs::RigCalibration>(
-      nh_, "calibration/rig", 5, [this](const auto& event) { onRig(*event.getConstMessage()); });
+  rig_.start(nh_, [this](const auto& message) { onRig(message); });
   points_subscriber_ = subscribe<wiimote_tracker_msgs::TrackedPointArray>(
       nh_, "points", 200, [this](const auto& event) { onPoints(*event.getConstMessage()); });
   if (parameters_.segmenter.boundary == gesture::Boundary::kButton)
@@ -84,8 +83,7 @@ void Gestures::onRig(const wiimote_tracker_msgs::RigCalibration& message) {
   try {
     zones_ = fromMessage(message).zones;
   } catch (const geometry::Error& e) {
-    ROS_ERROR("The zones of the rig on %s are not used: %s", rig_subscriber_.getTopic().c_str(),
-              e.what());
+    ROS_ERROR("The zones of the rig on %s are not used: %s", rig_.topic().c_str(), e.what());
   }
 }
 

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
 
+#include "../rig_subscription.h"
 #include "geometry/file_guard.h"
 #include "gesture/recognizer.h"
 #include "gesture/segmenter.h"
@@ -87,7 +88,7 @@ class Gestures {
 
   ros::Publisher events_publisher_;
   ros::Publisher markers_publisher_;
-  ros::Subscriber rig_subscriber_;
+  RigSubscription rig_;
   ros::Subscriber points_subscriber_;
   ros::Subscriber joy_subscriber_;
   std::vector<ros::ServiceServer> services_;

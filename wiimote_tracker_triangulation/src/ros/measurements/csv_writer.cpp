@@ -8,7 +8,6 @@
 #include <optional>
 #include <sstream>
 #include <system_error>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::measurements {

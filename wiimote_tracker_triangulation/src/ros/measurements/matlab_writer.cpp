@@ -211,14 +211,14 @@ class MatlabTable {
   std::vector<Column> columns_;
 };
 
-/// Whether so many elements of a file of version 5, of which each begins with its type and its
-/// size, end with the file. matio does not tell that a disk was full.
+/// Whether a file of version 5 (a header, then elements of type, size and bytes) ends with the last
+/// of so many elements. matio does not tell that a disk was full.
 bool isWhole(const std::string& path, int elements) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(0, std::ios::end);
   const std::streamoff size = file.tellg();
   std::streamoff end = 128;  // of the header
-  std::array<std::uint32_t, 2> tag;
+  std::array<std::uint32_t, 2> tag{};
   for (; end < size && file.seekg(end).read(reinterpret_cast<char*>(tag.data()), sizeof tag);
        --elements)
     end += static_cast<std::streamoff>(sizeof tag) + tag[1];

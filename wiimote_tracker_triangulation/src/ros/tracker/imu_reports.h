@@ -25,9 +25,9 @@ class ImuReports {
     tilt_.clear();
     if (tilt > kMostTilt)
       tilt_ = format(
-          "the world's z axis is %.0f degrees from up by the cameras' accelerometers, so the IMUs "
-          "of "
-          "bodies are not used: calibrate with a level square, its corners taken counter-clockwise",
+          "the world's z axis is %.0f degrees from up by the cameras' accelerometers, so the "
+          "IMUs of bodies are not used: calibrate with a level square, its corners taken "
+          "counter-clockwise",
           tilt);
     tilt_reported_ = tilt_reported_ && !isLevel();
   }
@@ -58,9 +58,9 @@ class ImuReports {
       return std::nullopt;
     known.reported = time;
     return "the IMU of " + constellation.name + " (" + constellation.imu->topic +
-           ") is not used, since its samples do not fit the images: check that they come 25 times "
-           "a "
-           "second or more, in m/s^2 with gravity and rad/s, and its clock_offset and mount";
+           ") is not used, since its samples do not fit the images: check that they come 25 "
+           "times a second or more, in m/s^2 with gravity and rad/s, and its clock_offset and "
+           "mount";
   }
 
  private:

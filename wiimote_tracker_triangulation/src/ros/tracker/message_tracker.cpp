@@ -45,14 +45,14 @@ bool isSameWorld(const geometry::Rig& before, const geometry::Rig& rig) {
   });
 }
 
-/// Whether masks leave fewer than two cameras that see a place.
+/// Whether two cameras mask what is at a place, as they do with a lamp.
 bool isMasked(const geometry::Rig& rig, const Eigen::Vector3d& place) {
   const std::vector<std::size_t> seeing = geometry::camerasSeeing(rig, place);
   const auto masked = std::count_if(seeing.begin(), seeing.end(), [&](std::size_t i) {
     const geometry::RigCamera& camera = rig.cameras[i];
     return geometry::isMasked(camera.masks, *rig.rayCamera(camera).project(place));
   });
-  return masked > 0 && static_cast<std::ptrdiff_t>(seeing.size()) - masked < 2;
+  return masked >= 2;
 }
 
 }  // namespace
@@ -222,6 +222,9 @@ void MessageTracker::takeSnapshot(const tracking::Snapshot& tracked) {
 }
 
 void MessageTracker::forgetLamps() {
+  if (std::all_of(rig_.cameras.begin(), rig_.cameras.end(),
+                  [](const auto& camera) { return camera.masks.empty(); }))
+    return;
   labels_.forgetLamps([this](const auto& place) { return isMasked(rig_, place); });
 }
 

@@ -113,7 +113,7 @@ class Recorder {
   }
 
   void onLate(const ros::WallTimerEvent&) {
-    if (messages_ > 0 || !has_tables_)
+    if (messages_ > 0 || !has_tables_ || !ros::master::check())
       return;
     ros::master::V_TopicInfo topics;
     ros::master::getTopics(topics);

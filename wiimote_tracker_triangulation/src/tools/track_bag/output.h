@@ -84,7 +84,8 @@ class Output : public MessageSink {
              const boost::shared_ptr<ros::M_string>& header = nullptr);
   void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
   [[noreturn]] void fail(const std::string& reason);
-  void abandon();  ///< Unless it is finished.
+  /// Removes all parts, and leaves the bag open until the process ends. Nothing if it is finished.
+  void abandon();
 
   std::string path_;
   Topics topics_;

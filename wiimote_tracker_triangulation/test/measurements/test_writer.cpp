@@ -1,6 +1,6 @@
 // Tables of measurements: numbers survive bit for bit, files are complete or absent, errors are
-// reported. test_track_bag.py reads the MATLAB file with other programs. More than 400 lines, because
-// all formats are compared on the same measurements.
+// reported. test_track_bag.py reads the MATLAB file with other programs. More than 400 lines,
+// because all formats are compared on the same measurements.
 #include "german_locale.h"
 #include "ros/measurements/writer.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -8,7 +8,6 @@
 
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>

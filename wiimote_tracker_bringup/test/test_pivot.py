@@ -1,9 +1,11 @@
 """The tip of a probe from a pivot: errors against the Cramer-Rao bound."""
 
 import types
+from unittest import mock
 
 import numpy as np
 import pytest
+import rosgraph
 import rospy
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Joy
@@ -204,6 +206,28 @@ def test_probe_names_a_body_that_nobody_publishes(monkeypatch):
         node.on_patience(None)
     assert said == ['Nobody publishes /nix/odometry: learn this body (learn_body), or name '
                     'another by _body:=; there are /wand']
+
+
+@pytest.mark.parametrize('error', [ConnectionRefusedError, rosgraph.MasterException('gone')])
+def test_probe_names_no_body_where_the_master_has_ended(monkeypatch, error):
+    warn = mock.Mock()
+    monkeypatch.setattr(rospy, 'get_name', lambda: '/probe')
+    monkeypatch.setattr(rospy, 'logwarn', warn)
+    monkeypatch.setattr(published_bodies, 'names', mock.Mock(side_effect=error))
+    node = object.__new__(probe.Node)
+    node.probe, node.body = probe.Probe(TIP, 10.0, ''), '/wand'
+    node.on_patience(None)
+    warn.assert_not_called()
+
+
+def test_the_timers_of_probe_outlive_a_bag_that_starts_again(monkeypatch):
+    ros = mock.Mock()
+    ros.get_param.side_effect = lambda name, default: {'~body': 'wand', '~at_rest': True}.get(
+        name, default)
+    monkeypatch.setattr(probe, 'rospy', ros)
+    monkeypatch.setattr(probe.nodes, 'number', lambda name, default, *_: default)
+    probe.Node()
+    assert [call[1].get('reset') for call in ros.Timer.call_args_list] == [True, True]
 
 
 @pytest.mark.parametrize(

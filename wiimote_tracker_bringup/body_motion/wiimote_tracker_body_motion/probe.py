@@ -192,7 +192,8 @@ class Node:
                          tcp_nodelay=True)
         self.pressed = True  # joy is latched
         rospy.Subscriber('joy', Joy, self.on_joy, queue_size=10)
-        rospy.Timer(rospy.Duration(published_bodies.PATIENCE), self.on_patience, oneshot=True)
+        rospy.Timer(rospy.Duration(published_bodies.PATIENCE), self.on_patience, oneshot=True,
+                    reset=True)
         if rospy.get_param('~at_rest', False):
             rospy.Timer(rospy.Duration(0.1), self.on_timer, reset=True)
         rospy.Service('~pivot', Trigger, self.on_pivot)
@@ -208,8 +209,11 @@ class Node:
         self.pose.publish(pose)
 
     def on_patience(self, _):
-        absence = not self.probe.messages and published_bodies.absence(
-            rospy.get_name(), self.body, '_body:=')
+        try:
+            absence = not self.probe.messages and published_bodies.absence(
+                rospy.get_name(), self.body, '_body:=')
+        except (OSError, rosgraph.MasterException):
+            return  # the master has ended
         if absence:
             rospy.logwarn(absence)
 

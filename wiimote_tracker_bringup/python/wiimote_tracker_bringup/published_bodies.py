@@ -17,7 +17,7 @@ def names(asker: str) -> List[str]:
 
 def absence(asker: str, body: str, option: str) -> str:
     """What to do where nobody publishes a body, with its namespace; else empty. option: by which
-    a person named it."""
+    a person named it. Throws OSError or rosgraph.MasterException if the master has ended."""
     found = names(asker)
     if body in found:
         return ''

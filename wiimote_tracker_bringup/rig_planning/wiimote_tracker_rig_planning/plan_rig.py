@@ -134,7 +134,7 @@ class Progress:
     def __call__(self, share):
         if not sys.stderr.isatty():
             if share == 0.0:
-                print('searching: it takes minutes', file=sys.stderr, flush=True)
+                print('searching: a minute or more', file=sys.stderr, flush=True)
         elif share == 1.0 or time.monotonic() > self.told + TELL_EVERY:
             self.told = time.monotonic()
             print(f'\rsearching: {share:4.0%} ', end='\n' if share == 1.0 else '',

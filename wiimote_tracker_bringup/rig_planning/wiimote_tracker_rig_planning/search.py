@@ -44,11 +44,12 @@ def rating(plan, tell=lambda: None):
 
 def greedy(plan, random, rate=None):
     """Each camera where it helps most beside those before."""
+    rate = rate or rating(plan)
     chosen = np.zeros(0)
     for _ in range(plan.cameras):
         trials = [np.append(chosen, each)
                   for each in random.random_sample((CANDIDATES, PER_CAMERA))]
-        chosen = min(trials, key=rate or rating(plan))
+        chosen = min(trials, key=rate)
     return chosen
 
 

@@ -20,8 +20,9 @@ constexpr double kInStep = 0.5;
 constexpr double kClockError = 250e-6;
 // Reports that a mean is taken over, for the longest interval; for the others less in proportion:
 // so many that polls by such a clock are still in step. By a phase that advances by w from report
-// to report the length of a mean becomes 1 / sqrt(1 + (w memory)^2).
-const double kStepMemory = std::sqrt(1.0 / (kInStep * kInStep) - 1.0) / (2.0 * M_PI * kClockError);
+// to report, 10 % more with lost images, the length of a mean becomes 1 / sqrt(1 + (w memory)^2).
+const double kStepMemory =
+    std::sqrt(1.0 / (kInStep * kInStep) - 1.0) / (2.0 * M_PI * kClockError * 1.1);
 // Weight of a mean from which on it tells: the polls have then passed once through all waits of a
 // camera of nominal period, after 286 images.
 const double kEnough =

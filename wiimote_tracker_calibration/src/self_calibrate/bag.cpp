@@ -20,6 +20,7 @@ namespace wiimote_tracker::self_calibrate {
 namespace {
 
 using import::ImportError;
+using import::Recording;
 
 struct Image {
   double stamp;
@@ -96,27 +97,27 @@ std::map<std::string, CameraImages> readImages(const std::string& path) {
 
 }  // namespace
 
-import::Recording readBag(const std::string& path){
-    std::map<std::string, CameraImages> cameras = readImages(path);
-if (cameras.size() < 2)
-  throw ImportError(path + " holds ir_blobs of " + std::to_string(cameras.size()) +
-                    " cameras: record two or more");
-import::Recording recording;
-const std::vector<Image>* most = nullptr;
-for (auto& [name, camera] : cameras) {
-  std::stable_sort(camera.images.begin(), camera.images.end(),
-                   [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
-  recording.cameras.push_back(camera.camera);
-  if (most == nullptr || camera.images.size() > most->size())
-    most = &camera.images;
+Recording readBag(const std::string& path) {
+  std::map<std::string, CameraImages> cameras = readImages(path);
+  if (cameras.size() < 2)
+    throw ImportError(path + " holds ir_blobs of " + std::to_string(cameras.size()) +
+                      " cameras: record two or more");
+  Recording recording;
+  const std::vector<Image>* most = nullptr;
+  for (auto& [name, camera] : cameras) {
+    std::stable_sort(camera.images.begin(), camera.images.end(),
+                     [](const Image& a, const Image& b) { return a.stamp < b.stamp; });
+    recording.cameras.push_back(camera.camera);
+    if (most == nullptr || camera.images.size() > most->size())
+      most = &camera.images;
+  }
+  for (const Image& instant : *most) {
+    import::Pixels pixels;
+    for (const auto& [name, camera] : cameras)
+      pixels.push_back(pixelAt(camera.images, instant.stamp));
+    recording.frames.push_back(pixels);
+  }
+  return recording;
 }
-for (const Image& instant : *most) {
-  import::Pixels pixels;
-  for (const auto& [name, camera] : cameras)
-    pixels.push_back(pixelAt(camera.images, instant.stamp));
-  recording.frames.push_back(pixels);
-}
-return recording;
-}  // namespace wiimote_tracker::self_calibrate
 
 }  // namespace wiimote_tracker::self_calibrate

@@ -6,12 +6,14 @@
 #include "continuous/approach.h"
 
 #include <diagnostic_msgs/DiagnosticArray.h>
+#include <rosgraph_msgs/Log.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
 #include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 
 #include <algorithm>
+#include <atomic>
 #include <filesystem>
 #include <string>
 #include <system_error>
@@ -46,11 +48,19 @@ TEST_F(MovedCameras, WarnsOfCamerasThatAreNotWhereTheyWere) {
       Eigen::AngleAxisd(0.1, Eigen::Vector3d::UnitX()) * *rig.cameras[0].gravity;
   rig.cameras[1].camera.identity = "00:1e:35:ff:ff:ff";
   rig.cameras[2].camera.intrinsics.cy += 5.0;
+  std::atomic<bool> is_logged{false};
+  const ros::Subscriber log = ros::NodeHandle().subscribe<rosgraph_msgs::Log>(
+      "/rosout", 100, [&](const rosgraph_msgs::LogConstPtr& line) {
+        if (line->msg.find("camera_2 is another device (00:") == 0)
+          is_logged = true;
+      });
+  ASSERT_TRUE(waitUntil([&] { return log.getNumPublishers() >= 3; }));
   load(rig);
   EXPECT_TRUE(says("camera_1", "tilted by 5.7 degrees")) << health("camera_1");
   EXPECT_TRUE(says("camera_2", "another device")) << health("camera_2");
   EXPECT_TRUE(says("camera_3", "drifted")) << health("camera_3");
   EXPECT_EQ(health("camera_4"), "");
+  EXPECT_TRUE(waitUntil([&] { return is_logged.load(); }));
   ASSERT_TRUE(waitUntil([&] {
     const auto message = diagnostics.get();
     const auto& status = message->status.front();

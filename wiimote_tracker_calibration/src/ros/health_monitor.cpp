@@ -57,8 +57,11 @@ class HealthMonitor {
       status.setHealth({});
       if (watch_) {
         status.setHealth(watch_->healths());
-        for (const std::string& camera : watch_->takeNews())
-          ROS_WARN_STREAM(camera << " " << status.health(camera));
+        for (const std::string& camera : watch_->takeNews()) {
+          const std::string text = status.health(camera);
+          if (!text.empty())  // It may be well again.
+            ROS_WARN_STREAM(camera << " " << text);
+        }
         warnOfUnknownCameras(*rig, lock);
       }
     }

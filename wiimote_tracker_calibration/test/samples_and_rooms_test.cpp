@@ -244,8 +244,9 @@ TEST_F(Rooms, OfAnotherFileAreNotLoadedAtTheNextStart) {
     auto infos = cameras_->cameraInfos();
     return infos["camera_1"].K[0] == rig.cameras[0].camera.intrinsics.fx;
   };
-  const std::string note = "; the next start loads " + folder_ +
-                           "/rig.yaml, whose lenses drivers and camera files keep: save without";
+  const std::string note =
+      "; the next start loads " + folder_ +
+      "/rig.yaml, and drivers and camera files keep its lenses: save without a name";
   LoadRig::Request load;
   load.path = "second.yaml";
   EXPECT_SAYS(call<LoadRig>("calibration/load", load).message, note);
@@ -253,7 +254,11 @@ TEST_F(Rooms, OfAnotherFileAreNotLoadedAtTheNextStart) {
   save.path = "third.yaml";
   EXPECT_SAYS(call<SaveRig>("calibration/save", save).message, note);
   EXPECT_FALSE(lens_is_sent());
-  save.path = load.path = "rig.yaml";
+  // By a link, and before it is there.
+  EXPECT_FALSE(exists(folder_ + "/rig.yaml"));
+  EXPECT_EQ(symlink(".", (folder_ + "/link").c_str()), 0);
+  save.path = "link/rig.yaml";
+  load.path = "rig.yaml";
   EXPECT_EQ(call<SaveRig>("calibration/save", save).message.find(note), std::string::npos);
   EXPECT_TRUE(lens_is_sent());
   EXPECT_EQ(call<LoadRig>("calibration/load", load).message.find(note), std::string::npos);

@@ -30,9 +30,12 @@ namespace {
 /// Whether the next start loads this file. Its lenses are those of the drivers, for programs that
 /// do not know the rig.
 bool isRigFile(const std::string& path, const Parameters& parameters) {
-  std::error_code missing;
-  return path == parameters.rig_file ||
-         std::filesystem::equivalent(path, parameters.rig_file, missing);
+  // Before the first save it is missing.
+  const auto withoutLinks = [](const std::string& file) {
+    std::error_code error;
+    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
+  };
+  return withoutLinks(path) == withoutLinks(parameters.rig_file);
 }
 
 /// What to do so that a rig of this file is used after the next start, too.
@@ -40,7 +43,7 @@ std::string nextStart(const std::string& path, const Parameters& parameters) {
   if (isRigFile(path, parameters))
     return "";
   return "; the next start loads " + parameters.rig_file +
-         ", whose lenses drivers and camera files keep: save without a name to replace that";
+         ", and drivers and camera files keep its lenses: save without a name to replace them all";
 }
 
 /// The images of a rig from a file get its masks: the lamps of the room belong to the rig.

@@ -24,7 +24,7 @@ struct Options {
   double loss_scale = 1.0;                 ///< Of the Huber loss [px, > 0].
   std::size_t minimum_common_points = 10;  ///< Of a camera and the others [>= 8].
   double pixel_stddev = 1.0;               ///< Weight of observations against the lens [px, > 0].
-  bool fixed_lenses = true;                ///< The intrinsics are given and exact.
+  bool fixed_lenses = true;                ///< Intrinsics are given; solve() fixes them anyway.
   ExpectedLens lens;                       ///< Prior of lenses that are not fixed.
   bool one_lens = false;                   ///< All cameras have the first one's intrinsics.
   bool fixed_positions = false;            ///< Of all cameras.

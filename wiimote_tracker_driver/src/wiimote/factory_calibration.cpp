@@ -29,6 +29,8 @@ std::array<std::uint8_t, N> firstBytes(const protocol::MemoryPacket& packet) {
 }  // namespace
 
 protocol::Report FactoryCalibration::request() const {
+  if (complete())
+    return {};
   const EepromBlock& block = kBlocks[static_cast<std::size_t>(block_)];
   return protocol::readMemory(protocol::Space::kEeprom, block.address,
                               static_cast<std::uint16_t>(block.size));

@@ -15,7 +15,7 @@ class FactoryCalibration {
  public:
   bool complete() const { return block_ == Block::kNone; }
 
-  /// The next read request. Only while not complete().
+  /// The next read request; empty when complete().
   protocol::Report request() const;
 
   /// @returns whether the packet answers request(); then there is another request, or it is

@@ -4,7 +4,9 @@
 #include "wiimote/camera_configuration.h"
 #include "wiimote/factory_calibration.h"
 #include "wiimote/image_assembler.h"
+#include "wiimote/image_gate.h"
 #include "wiimote/options.h"
+#include "wiimote/output.h"
 #include "wiimote/stream_watch.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/output_reports.h"
@@ -13,11 +15,9 @@
 #include <wiimote_tracker_msgs/error.h>
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 namespace wiimote_tracker::wiimote {
 
@@ -27,31 +27,17 @@ struct SessionError : Error {
 };
 
 /// One connection to a remote, from the first request to the stream of images and its upkeep. A
-/// state machine, driven by the remote's reports and by deadlines; nothing waits.
-///
-///   state        request                      after its answer
-///   AskStatus    0x15                         SetLeds
-///   SetLeds      0x11                         ReadFactory
-///   ReadFactory  0x17, EEPROM, 1 of 4 blocks  ReadFactory, or StartClock after the last
-///   StartClock   0x13                         StartLogic
-///   StartLogic   0x1a                         WriteCamera
-///   WriteCamera  0x16, registers, 1 of 5      WriteCamera, or ReadCamera (all) after the last
-///   ReadCamera   0x17, registers, 1 of 3      ReadCamera; after the last SetMode or Streaming
-///   SetMode      0x12                         Streaming
-///   Streaming    none
+/// state machine, driven by the remote's reports and by deadlines; nothing waits. row() is its
+/// state diagram, but for these transitions:
 ///
 ///   event                                     next state
-///   no answer in time                         the same, five times; then SessionError, but
-///                                             ReadFactory skips a block, ReadCamera has failed,
-///                                             and SetLeds, StartClock, StartLogic go on, as does
-///                                             SetMode when images come
-///   a write is refused, or a register differs StartClock
-///   the registers can never be read           SetMode, and they are not read again
-///   Streaming: a status came                  SetMode
-///   Streaming: check due, other report mode   ReadCamera; WriteCamera when it cannot be read
-///   Streaming: no images                      ReadCamera; AskStatus if that does not explain it,
-///                                             then SetLeds after a power cycle, else StartClock
-///   another sensitivity while set up          WriteCamera
+///   a register differs from what was written  kStartClock
+///   the registers can never be read           kSetMode, and they are not read again
+///   another sensitivity while set up          kWriteCamera
+///   kStreaming: a status came                 kSetMode
+///   kStreaming: other report mode, or a check kReadCamera, kCheckBlock; kWriteCamera when the
+///   is due (StreamWatch)                      registers cannot be read
+///   no images, and no check explains it       kAskWhySilent
 ///
 /// Other programs may use the same remote (the kernel's driver does). So the session expects
 /// answers to requests that are not its own, and matches memory packets by address. When an answer
@@ -59,12 +45,9 @@ struct SessionError : Error {
 /// the registers have been checked.
 class Session {
  public:
-  /// Sends a report; may throw, and the exception passes through the session.
-  using Write = std::function<void(const protocol::Report&)>;
-
   /// Sends the first request. `now` [s] here and below is any clock that never goes back.
   /// @throws std::invalid_argument when options.ir_format is kNone.
-  Session(const Options& options, Write write, double now);
+  Session(const Options& options, Output::Write write, double now);
 
   /// The remote sent a report. @returns the image that it completes, of the camera as configured.
   /// @throws SessionError when the remote is to be given up.
@@ -85,12 +68,10 @@ class Session {
 
   void setLeds(std::uint8_t leds);
 
-  /// Every output report carries the state of the motor, so reports of other programs stop it. It
-  /// is therefore repeated while the motor runs.
-  void setRumble(bool rumble, double now);
+  void setRumble(bool rumble, double now) { output_.setRumble(rumble, now); }
 
-  /// Whether the set-up has begun again from AskStatus since the last call, e.g. after a power
-  /// cycle that did not break the connection.
+  /// Whether the remote was switched off and on since the last call, which did not break the
+  /// connection.
   bool takeRestart() { return std::exchange(restarted_, false); }
 
   /// What was found changed and has been restored since the last call, a phrase; null: nothing.
@@ -106,104 +87,89 @@ class Session {
   void switchOff();
 
  private:
-  struct AskStatus {
-    bool after_silence = false;  ///< Images did not come: was the remote switched off?
+  enum State {
+    kAskStatus,
+    kSetLeds,
+    kReadFactory,  ///< A block of the EEPROM.
+    kStartClock,
+    kStartLogic,
+    kWriteCamera,  ///< Block `block_` of the registers.
+    kReadCamera,   ///< The same.
+    kSetMode,
+    kStreaming,
+    kCheckBlock,    ///< One block of the registers.
+    kAskWhySilent,  ///< Images do not come: was the remote switched off?
   };
-  struct SetLeds {};
-  struct ReadFactory {};
-  struct StartClock {};
-  struct StartLogic {};
-  struct WriteCamera {
-    int block = 0;               ///< Of CameraConfiguration::write().
-    bool after_silence = false;  ///< As in AskStatus.
+  using Action = void (Session::*)(double now);
+  static constexpr Action kGiveUp = nullptr;  ///< SessionError.
+  /// A state: what it requests, and what follows.
+  struct Row {
+    protocol::Report request;
+    int attempts = 0;          ///< How often it is sent, each time reply_timeout later.
+    State next = kStreaming;   ///< Once the remote has answered; if the same: the next block.
+    Action silent = kGiveUp;   ///< When it has not, after the last attempt.
+    Action refused = kGiveUp;  ///< When it has answered with an error.
   };
-  struct ReadCamera {
-    int block = 0;                           ///< Of CameraConfiguration::read().
-    int left = CameraConfiguration::kReads;  ///< Reads left, with this one.
-    bool sets_mode = true;                   ///< Then SetMode, else Streaming.
-    bool after_silence = false;              ///< As in AskStatus.
-  };
-  struct SetMode {
-    bool camera_changed = false;  ///< Another sensitivity waits to be written.
-  };
-  struct Streaming {};
-  using State = std::variant<AskStatus,
-                             SetLeds,
-                             ReadFactory,
-                             StartClock,
-                             StartLogic,
-                             WriteCamera,
-                             ReadCamera,
-                             SetMode,
-                             Streaming>;
-  template <typename S>
-  bool in() const {
-    return std::holds_alternative<S>(state_);
-  }
+  Row row() const;
+  State nextBlock(int blocks, State then) const { return block_ + 1 < blocks ? state_ : then; }
 
-  protocol::Report request() const;
-  void enter(const State& state, double now);
-  void beginStreaming(double now);
+  bool in(State state) const { return state_ == state; }
+  bool inCamera() const { return in(kWriteCamera) || in(kReadCamera) || in(kCheckBlock); }
+  void enter(State state, double now, int block = 0);
   void answered(double now);
-  void statusAnswered(AskStatus state, double now);
-  void cameraWritten(WriteCamera state, double now);
-  void cameraRead(ReadCamera state, double now);
+  void goOn(double now);
+  void skipFactory(double now);
+  void checkSilent(double now) { checkFailed(nullptr, false, now); }
+  void setUpCamera(double now);
 
   void send(double now);
-  void unanswered(double now);
-  void retryOrGiveUp(const std::string& why, double now);
-  void transmit(protocol::Report report);
-  void sendReportMode() { transmit(protocol::setReportMode(assembler_.reportMode(), true)); }
+  void repeat(int attempts, Action then, const std::string& why, double now);
+  protocol::Report modeRequest() const {
+    return protocol::setReportMode(assembler_.reportMode(), true);
+  }
 
   void handleStatus(const protocol::Status& status, double now);
   void handleMemory(const protocol::MemoryPacket& packet, double now);
   void handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now);
   std::optional<protocol::DataReport> handleData(const protocol::Report& report, double now);
   void handleOtherMode(std::uint8_t id, double now);
-  bool withholds(const protocol::DataReport& image, double now);
 
-  void setUpCamera(double now);
-  void checkCamera(const ReadCamera& check, double now);
+  void beginStreaming(double now);
+  void keepStreaming(double now);
+  void checkCamera(State check, int block, double now);
   void checkFailed(const char* fault, bool camera_off, double now);
   void doubtCamera(double now);
-  void keepStreaming(double now);
-  void imagesStopped(double now);
-  void askAfterSilence(double now);
-  bool showsPowerCycle(const protocol::Status& status) const;
+  void askWhySilent(double now);
   void noteFault(const char* fault);
 
   /// Whether the camera's registers can be read back, as far as known.
   enum class Registers { kUnknown, kReadable, kUnreadable };
 
   Options options_;
-  Write write_;
+  Output output_;
   FactoryCalibration factory_;
   CameraConfiguration camera_;
   ImageAssembler assembler_;
+  ImageGate gate_;
   StreamWatch watch_;
   std::optional<protocol::Status> status_;
 
-  State state_;
-  int attempts_ = 0;         ///< Of the state's request.
-  double answer_due_ = 0.0;  ///< [s]
+  State state_ = kAskStatus;
+  int block_ = 0;
+  int attempts_ = 0;             ///< Of the state's request.
+  double answer_due_ = 0.0;      ///< [s]
+  bool mode_seen_ = false;       ///< A data report of our mode has come in this state.
+  bool camera_changed_ = false;  ///< In kSetMode: another sensitivity waits to be written.
+  bool after_silence_ = false;   ///< In checks of the camera: they may explain why images stopped.
 
-  bool streaming_ = false;  ///< From Streaming on, until the camera is set up again.
-  Registers registers_ = Registers::kUnknown;
-  int set_ups_ = 0;           ///< Of the camera, in a row without success.
-  int silences_ = 0;          ///< In a row, without an image between them.
-  int next_check_ = 0;        ///< Block that the next periodic check reads.
+  bool streaming_ = false;    ///< From kStreaming on, until the camera is set up again.
   bool restarted_ = false;    ///< Until it is taken.
   bool acknowledges_ = true;  ///< The remote acknowledges LEDs, clock and logic, as far as known.
-  bool mode_seen_ = false;    ///< A data report of our mode has come since SetMode.
-
-  bool withhold_ = false;                    ///< No images until the camera has been checked.
-  bool implausible_ = false;                 ///< The check is due to an implausible image.
-  double implausible_accepted_until_ = 0.0;  ///< [s] After a check that found nothing.
+  Registers registers_ = Registers::kUnknown;
+  int set_ups_ = 0;  ///< Of the camera, in a row without success.
 
   const char* fault_ = nullptr;     ///< What is being restored; null when nothing.
   const char* restored_ = nullptr;  ///< Until it is taken.
-
-  std::optional<double> rumble_due_;  ///< [s] While the motor runs: when to repeat it.
 };
 
 }  // namespace wiimote_tracker::wiimote

@@ -1,5 +1,7 @@
 #include "wiimote/stream_watch.h"
 
+#include "wiimote/camera_configuration.h"
+
 #include <algorithm>
 
 namespace wiimote_tracker::wiimote {
@@ -8,13 +10,9 @@ namespace {
 // Time without an image after which the report mode is set again [s]. Of the intervals of real
 // remotes one in a thousand is longer than half of this.
 constexpr double kSilenceBeforeMode = 0.1;
-// A status within this time after that may explain the silence [s].
-constexpr double kSilenceEffect = 0.2;
 // The kernel's driver resets the mode some milliseconds after each status. The session sets its own
 // this long after the status [s].
 constexpr double kModeAfterStatus = 0.03;
-// A lost mode within this time after a status is due to the kernel's driver [s].
-constexpr double kStatusEffect = 0.2;
 // Time without a light after which the camera is checked [s].
 constexpr double kDarkCheck = 0.5;
 // Between two checks of the camera, each of a third of its registers [s]. A check costs one data
@@ -38,6 +36,7 @@ void StreamWatch::start(double now) {
 
 void StreamWatch::alive(double now) {
   last_image_ = now;
+  silences_ = 0;
   mode_checked_ = false;
 }
 
@@ -68,51 +67,48 @@ void StreamWatch::status(bool camera, double now) {
     doubt(now);
 }
 
-bool StreamWatch::justAfterStatus(double now) const {
-  return now < last_status_ + kStatusEffect;
-}
-
-bool StreamWatch::afterSilence(double now) const {
-  return now < last_mode_check_ + kSilenceEffect;
-}
-
 double StreamWatch::modeCheckDue() const {
   return mode_checked_ ? kNever : last_image_ + kSilenceBeforeMode;
 }
 
-StreamWatch::Task StreamWatch::take(double now) {
-  if (silent(now))
-    return Task::kRestart;
-  if (now >= mode_due_) {
+StreamWatch::Upkeep StreamWatch::take(double now) {
+  Upkeep due;
+  if (silent(now)) {
+    ++silences_;
+    due.images_stopped = true;
+    due.ask_why_silent = silences_ > 1 || !checks_;
+    due.set_mode = due.check_camera = due.after_silence = !due.ask_why_silent;
+  } else if (now >= mode_due_) {
     mode_due_ = kNever;
-    return Task::kSetMode;
-  }
-  if (now >= modeCheckDue()) {
+    due.set_mode = true;
+  } else if (now >= modeCheckDue()) {  // the mode may be lost, or the camera off
     mode_checked_ = true;
     last_mode_check_ = now;
-    return Task::kSetModeAndCheck;
-  }
-  if (now >= dark_check_due_) {
+    due.set_mode = true;
+    due.ask_status = !checks_;
+    due.after_silence = checks_;
+    if (checks_)
+      due.check_block = 0;
+  } else if (now >= dark_check_due_) {  // the camera may be off
     dark_check_due_ = kNever;
     dark_checked_ = true;
     last_dark_check_ = now;
     dark_pause_ = std::min(2.0 * dark_pause_, kLongestDarkPause);
     dark_check_from_ = checks_ ? kNever : now + dark_pause_;
-    return Task::kCheckInDark;
-  }
-  if (now >= control_due_) {
+    due.start_logic = due.check_camera = true;
+  } else if (now >= control_due_) {
     control_due_ = kNever;
-    return Task::kCheckControl;
-  }
-  if (checks_ && now >= check_due_) {
+    due.check_block = 0;
+  } else if (checks_ && now >= check_due_) {
     check_due_ = now + kCheckInterval;
-    return Task::kCheckNext;
-  }
-  if (now >= status_due_) {
+    due.check_block = next_block_;
+    due.start_logic = dark_checked_ && next_block_ == 0;
+    next_block_ = (next_block_ + 1) % CameraConfiguration::kReads;
+  } else if (now >= status_due_) {
     status_due_ = now + options_.status_interval;
-    return Task::kAskStatus;
+    due.ask_status = true;
   }
-  return Task::kNothing;
+  return due;
 }
 
 double StreamWatch::deadline() const {

@@ -4,22 +4,23 @@
 #include "wiimote/options.h"
 
 #include <limits>
+#include <optional>
 
 namespace wiimote_tracker::wiimote {
 
 /// Decides what a session does, and when, to keep a stream of images alive.
 class StreamWatch {
  public:
-  enum class Task {
-    kNothing,
-    kRestart,          ///< No image for silence_timeout.
-    kSetModeAndCheck,  ///< No image for 0.1 s: the report mode may be lost, or the camera off.
-    kSetMode,          ///< A status came: the kernel's driver may have reset the report mode.
-    kCheckInDark,      ///< No light for 0.5 s: the camera may be off. After disableChecks()
-                       ///< repeated in pauses that double up to a minute.
-    kCheckControl,     ///< After doubt().
-    kCheckNext,        ///< The next periodic check of the camera's registers is due.
-    kAskStatus,        ///< The next request for the battery level is due.
+  /// What is due, in the order in which it is done.
+  struct Upkeep {
+    bool images_stopped = false;  ///< No image for silence_timeout.
+    bool ask_why_silent = false;  ///< Then nothing else is due.
+    bool set_mode = false;
+    bool start_logic = false;  ///< It cannot be read back, and may be repeated.
+    bool ask_status = false;
+    std::optional<int> check_block;  ///< One of CameraConfiguration::read().
+    bool check_camera = false;       ///< All of them.
+    bool after_silence = false;      ///< The check may explain why images do not come.
   };
 
   explicit StreamWatch(const Options& options) : options_(options) {}
@@ -27,7 +28,8 @@ class StreamWatch {
   /// The camera is set up; images are expected from `now` [s] on.
   void start(double now);
 
-  /// The camera's registers cannot be read on this remote: no periodic checks.
+  /// The camera's registers cannot be read on this remote: no periodic checks, and those in the
+  /// dark in pauses that double up to a minute.
   void disableChecks() { checks_ = false; }
 
   /// The camera may have been changed.
@@ -36,7 +38,7 @@ class StreamWatch {
   /// The camera is being set up: no doubt is left.
   void settle() { control_due_ = kNever; }
 
-  /// Whether a doubt has not led to kCheckControl yet.
+  /// Whether a doubt has not led to a check yet.
   bool doubted() const { return control_due_ != kNever; }
 
   /// Counts the silence from `now` [s] on.
@@ -46,7 +48,7 @@ class StreamWatch {
   void alive(double now);
 
   /// An image has come. @returns whether it shows the first light after darkness, within 0.1 s of
-  /// kCheckInDark: then that check has switched the camera's logic on again.
+  /// a check in the dark: then that has switched the camera's logic on again.
   bool image(const protocol::DataReport& image, double now);
 
   /// A status has come. `camera`: whether it says that the camera is on.
@@ -54,25 +56,29 @@ class StreamWatch {
 
   /// Whether a status came within 0.2 s: then the kernel's driver has reset the report mode, and
   /// nothing else is wrong.
-  bool justAfterStatus(double now) const;
+  bool justAfterStatus(double now) const { return now < last_status_ + kStatusEffect; }
 
   /// Whether no image has come for silence_timeout.
   bool silent(double now) const { return now >= last_image_ + options_.silence_timeout; }
 
   /// Whether a status that comes now may explain why images did not come.
-  bool afterSilence(double now) const;
+  bool afterSilence(double now) const { return now < last_mode_check_ + kSilenceEffect; }
 
-  /// Whether no light has been seen since kCheckInDark.
-  bool dark() const { return dark_checked_; }
+  /// How often images have stopped in a row, without an image between.
+  int silences() const { return silences_; }
 
-  /// The task that is due; it counts as done.
-  Task take(double now);
+  /// What is due now; it counts as done.
+  Upkeep take(double now);
 
   /// When something will be due [s].
   double deadline() const;
 
  private:
   static constexpr double kNever = std::numeric_limits<double>::infinity();
+  // A status within this time after a silence may explain it [s].
+  static constexpr double kSilenceEffect = 0.2;
+  // A lost mode within this time after a status is due to the kernel's driver [s].
+  static constexpr double kStatusEffect = 0.2;
 
   double modeCheckDue() const;
   void lightSeen(double now);
@@ -81,12 +87,13 @@ class StreamWatch {
   bool checks_ = true;
 
   double last_image_ = 0.0;
+  int silences_ = 0;
   bool mode_checked_ = false;  ///< Since the last image.
   double last_mode_check_ = -kNever;
   double last_status_ = -kNever;
   double mode_due_ = kNever;
 
-  double dark_pause_ = 0.0;       ///< [s] Without a light, until the next kCheckInDark.
+  double dark_pause_ = 0.0;       ///< [s] Without a light, until the next check in the dark.
   double dark_check_from_ = 0.0;  ///< From then on a dark image makes it due.
   double dark_check_due_ = kNever;
   bool dark_checked_ = false;  ///< Since the last light.
@@ -94,6 +101,7 @@ class StreamWatch {
 
   double control_due_ = kNever;
   double check_due_ = kNever;
+  int next_block_ = 0;  ///< That the next periodic check reads.
   double status_due_ = kNever;
 };
 

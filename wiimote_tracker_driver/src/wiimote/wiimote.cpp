@@ -58,50 +58,47 @@ void Wiimote::connect() {
   link_.remote = transport_->remote();
   link_.status.reset();
   ++link_changes_;
-  beginEpoch();
+  begins_epoch_ = true;
   queue_ = transport::QueueWatch(clock_());
   backlog_ = false;
   session_.emplace(
       options_, [this](const protocol::Report& report) { transport_->write(report); }, clock_());
 }
 
+// Takes a report that has come already, else waits for one.
+bool Wiimote::read(protocol::Report& report, double wait) {
+  const auto readFor = [&](double timeout) {
+    const bool received = transport_->read(report, timeout);
+    queue_.readEnded(received, timeout, clock_());
+    return received;
+  };
+  const bool had_come = readFor(0.0);
+  const bool received = had_come || (wait > 0.0 && readFor(wait));
+  const bool too_old = queue_.age() > std::max(kBufferedTime, 2.0 * wait);
+  backlog_ = received && (too_old || (had_come && backlog_));
+  return received;
+}
+
 std::optional<DataReport> Wiimote::receive(double max_wait) {
   const double wait = std::clamp(session_->deadline() - clock_(), 0.0, max_wait);
   protocol::Report report;
-  double now = 0.0;
-  const auto read = [&](double timeout) {
-    const bool received = transport_->read(report, timeout);
-    now = clock_();
-    queue_.readEnded(received, timeout, now);
-    return received;
-  };
-  bool received = read(0.0);
-  if (!received) {
-    backlog_ = false;
-    received = wait > 0.0 && read(wait);
-  }
-  backlog_ = received && (backlog_ || queue_.age() > std::max(kBufferedTime, 2.0 * wait));
+  const bool received = read(report, wait);
+  const double now = clock_();
   std::optional<DataReport> image;
   if (received)
     image = session_->handle(report, now);
   // At the end of a stall what the session waits for may wait behind this report.
   if (!received || wait > 0.0)
     session_->tick(now);
-  if (session_->takeRestart())
-    beginEpoch();
+  begins_epoch_ = session_->takeRestart() || begins_epoch_;
   // The exposure clock takes the time of an epoch's first image for its arrival.
-  const bool first = new_epoch_ || !had_image_;
-  if (backlog_ || (queue_.waited() && first))
+  if (backlog_ || (queue_.waited() && begins_epoch_))
     image.reset();
   if (image) {
-    had_image_ = true;
     delivered_ = true;
     retry_pause_ = kShortestPause;
-    if (new_epoch_) {
-      new_epoch_ = false;
-      ++link_.clock_epoch;
-      ++link_changes_;
-    }
+    if (std::exchange(begins_epoch_, false))
+      link_.clock_epoch = epochs_++;
   }
   updateLink(image.has_value());
   return image;
@@ -122,12 +119,12 @@ void Wiimote::updateLink(bool image) {
   if (state == link_.state && !new_status)
     return;
   if (state == Link::State::kStreaming) {
+    const FactoryCalibration& factory = session_->factory();
+    accelerometer_ = factory.accelerometer().value_or(protocol::AccelerometerCalibration());
     link_.error.clear();
-    accelerometer_ =
-        session_->factory().accelerometer().value_or(protocol::AccelerometerCalibration());
-    link_.accelerometer_calibrated = session_->factory().accelerometer().has_value();
-    link_.accelerometer_unknown = !session_->factory().accelerometerWasRead();
-    link_.ir_calibration = session_->factory().ir();
+    link_.accelerometer_calibrated = factory.accelerometer().has_value();
+    link_.accelerometer_unknown = !factory.accelerometerWasRead();
+    link_.ir_calibration = factory.ir();
   }
   link_.state = state;
   link_.status = session_->status();

@@ -87,8 +87,7 @@ class Wiimote {
 
   void connect();
   void drop(const std::string& error);
-  /// The next image is the first of another epoch, unless there was none before.
-  void beginEpoch() { new_epoch_ = had_image_; }
+  bool read(protocol::Report& report, double wait);
   std::optional<protocol::DataReport> receive(double max_wait);
   void updateLink(bool image);
 
@@ -105,10 +104,10 @@ class Wiimote {
   std::uint64_t link_changes_ = 0;
   protocol::AccelerometerCalibration accelerometer_;
   transport::QueueWatch queue_{0.0};
-  bool backlog_ = false;    ///< Reports have waited for too long.
-  bool had_image_ = false;  ///< Since the start, from any remote.
-  bool delivered_ = false;  ///< Images have come from the remote that was opened last.
-  bool new_epoch_ = false;  ///< The next image is the first of another epoch.
+  bool backlog_ = false;      ///< Reports have waited for too long.
+  bool delivered_ = false;    ///< Images have come from the remote that was opened last.
+  std::uint32_t epochs_ = 0;  ///< Of the clock, that have begun since the start.
+  bool begins_epoch_ = true;  ///< The next image begins one.
 };
 
 }  // namespace wiimote_tracker::wiimote

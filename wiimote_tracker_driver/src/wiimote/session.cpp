@@ -40,7 +40,7 @@ Session::Session(const Options& options, Output::Write write, double now)
 // ---- The state diagram
 
 // Of each state: the request, how often it is sent, and the next state once it is answered; then
-// what follows on silence, and on kAttempts refusals (of a write: on the first).
+// what follows when the last has no answer, and when the last of kAttempts (any write) is refused.
 Session::Row Session::row() const {
   using S = Session;
   using protocol::requestStatus;

@@ -2,7 +2,7 @@
 
 import argparse
 import types
-from typing import Dict, List, Optional, Tuple
+from typing import Dict, List, Optional
 
 from wiimote_tracker_bringup.errors import Refusal
 from wiimote_tracker_bringup.files import read_json
@@ -40,19 +40,12 @@ def lines(content: Dict) -> List[str]:
         '', origin(content)])
 
 
-def split(text: str) -> Tuple[str, str, str]:
-    """Text before, between and after the marks."""
-    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
-        raise Refusal(f'the document needs the lines "{BEGIN}" and "{END}", once each')
-    before, rest = text.split(BEGIN)
-    between, after = rest.split(END)
-    return before, between, after
-
-
 def written(text: str, content: Dict) -> str:
     """The document's text with the table between its marks."""
-    before, _, after = split(text)
-    return before + BEGIN + '\n' + '\n'.join(lines(content)) + '\n' + END + after
+    if text.count(BEGIN) != 1 or text.count(END) != 1 or text.index(BEGIN) > text.index(END):
+        raise Refusal(f'the document needs the lines "{BEGIN}" and "{END}", once each')
+    return '\n'.join([text.partition(BEGIN)[0] + BEGIN, *lines(content),
+                      END + text.partition(END)[2]])
 
 
 def read(path: str) -> Dict:

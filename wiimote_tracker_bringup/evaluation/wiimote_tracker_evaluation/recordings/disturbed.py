@@ -17,7 +17,7 @@ from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, programs
 from wiimote_tracker_bringup.files import read_yaml
-from wiimote_tracker_evaluation.recordings import pipeline
+from wiimote_tracker_evaluation.recordings import pipeline, replay
 from wiimote_tracker_evaluation.recordings.solved_rig import camera_of, cameras_of
 
 METHOD = ('Each camera in turn is turned by 2 degrees and its clock set 5 ms off, and '
@@ -34,17 +34,12 @@ ROTATION, POSITION, FOCAL, CENTER, DISTORTION, CLOCK = 1e-4, 1e-4, 1e-3, 1.0, 1e
 
 def evaluate(recording, folder):
     """{camera: figures}. recording: a bag of import_multicamselfcal."""
-    frames = {}
-    with rosbag.Bag(recording) as bag:
-        for topic, message, _ in bag.read_messages():
-            if topic == '/calibration/rig':
-                true_rig = copy.deepcopy(message)
-            elif topic.endswith('/ir_blobs'):
-                frames.setdefault(message.frame, []).append(message)
+    recorded = replay.Bag(recording)
+    true_rig = recorded.rig
     for camera in true_rig.cameras:
         camera.time_offset, camera.time_offset_rule = 0.0, camera.TIME_OFFSET_ONE_EPOCH
     true_rig.covariance = covariance_of(true_rig.cameras)
-    played = to_and_fro([frames[frame] for frame in sorted(frames)])
+    played = to_and_fro(recorded.instants)
     return {camera.name: figures(true_rig, number, played, folder)
             for number, camera in enumerate(true_rig.cameras)}
 

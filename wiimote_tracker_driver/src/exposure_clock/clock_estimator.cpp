@@ -11,11 +11,8 @@ namespace {
 constexpr double kStaleAge = 0.030;
 // The models learn from a report whose smoothed number is this probable.
 constexpr double kCertain = 0.9;
-// Number of arrivals in a row that no model explains after which the clock restarts, as when
-// reports come once a second or less.
-constexpr int kMaxUnexplained = 8;
-// Number of reports in a row, one second, with an uncertain frame after which it restarts, as when
-// reports came twice for a while.
+// Number of reports in a row, one second, with an uncertain frame after which the clock restarts,
+// as when reports came twice for a while.
 constexpr int kMaxUncertain = 100;
 // Gap after which the phase is estimated anew [s]; largest ignored step back of the clock [s].
 constexpr double kLongGap = 5.0;
@@ -39,7 +36,6 @@ Estimate ClockEstimator::update(double arrival, bool waited) {
   if (!running_) {
     running_ = true;
     origin_ = arrival;
-    last_exposure_ = -period_;
     return restart(0.0, 0);
   }
   const double gap = arrival - origin_ - last_arrival_;
@@ -54,12 +50,10 @@ Estimate ClockEstimator::update(double arrival, bool waited) {
   const ClockFilter& likeliest = filters_.best();
   const double periods = (now.time - likeliest.time()) / likeliest.period();
   counter_.predict(frame_ + 1 + static_cast<std::int64_t>(std::floor(periods)));
-  const double density = filters_.update(now, stalls_, &counter_);
-  log_evidence_ = std::log(density);
-  unexplained_ = density < 10.0 * StallModel::kUnexplained ? unexplained_ + 1 : 0;
+  log_evidence_ = std::log(filters_.update(now, stalls_, &counter_));
   history_.add(counter_, now.time, waited);
   learnFromHistory();
-  if (!waited && (unexplained_ >= kMaxUnexplained || uncertain_ >= kMaxUncertain)) {
+  if (!waited && uncertain_ >= kMaxUncertain) {
     // What was learnt from such reports is wrong.
     filters_ = FilterBank(period_);
     stalls_ = StallModel();
@@ -77,16 +71,12 @@ Estimate ClockEstimator::restart(double arrival, std::int64_t frame) {
   history_.clear();
   history_.add(counter_, arrival);
   frame_ = frame;
-  unexplained_ = uncertain_ = 0;
+  uncertain_ = 0;
   log_evidence_ = std::log(StallModel::kUnexplained);
-  // Exposures follow a clock that stepped back; otherwise they increase.
-  const double exposure =
-      arrival < last_arrival_ ? arrival : std::max(arrival, last_exposure_ + kShortestStep);
   last_arrival_ = arrival;
-  last_exposure_ = exposure;
   Estimate e;
-  e.exposure = origin_ + exposure;
-  e.stddev = e.clock_stddev = period_ + (exposure - arrival);
+  e.exposure = origin_ + arrival;
+  e.stddev = e.clock_stddev = period_;
   e.frame = frame;
   return e;
 }
@@ -113,17 +103,14 @@ Estimate ClockEstimator::estimate(double arrival) {
   frame_ = counter_.mostProbable();
   filters_.advanceTo(frame_);
   const FilterBank::Mean mean = filters_.mean();
-  // With the constant part of its delay it may be a little after its arrival; exposures increase.
-  const double exposure =
-      std::max(std::min(mean.time, arrival + std::min(3.0 * mean.spread, mean.period)),
-               last_exposure_ + kShortestStep);
+  // With the constant part of its delay it may be a little after its arrival.
+  const double exposure = std::min(mean.time, arrival + std::min(3.0 * mean.spread, mean.period));
   double number_variance = 0.0;
   for (int i = 0; i < counter_.size(); ++i) {
     const double frames = static_cast<double>(counter_.frame(i) - frame_);
     number_variance += counter_[i] * std::pow(mean.time + frames * mean.period - exposure, 2);
   }
   last_arrival_ = arrival;
-  last_exposure_ = exposure;
   Estimate e;
   e.exposure = origin_ + exposure;
   e.clock_stddev = std::sqrt(mean.variance);

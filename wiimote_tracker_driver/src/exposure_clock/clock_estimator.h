@@ -11,9 +11,6 @@
 
 namespace wiimote_tracker::exposure_clock {
 
-/// Between two exposures, where a frame number was corrected downwards [s].
-constexpr double kShortestStep = 1e-6;
-
 /// One attempt at the exposure times of a camera: if it begins with wrong frame numbers, it may
 /// keep a wrong period. ExposureClock leaves such an attempt.
 ///
@@ -56,9 +53,8 @@ class ClockEstimator {
   FrameHistory history_;
   // Internal times are relative to the first arrival, for precision.
   double origin_ = 0.0;
-  double last_arrival_ = 0.0, last_exposure_ = 0.0;
+  double last_arrival_ = 0.0;
   std::int64_t frame_ = 0;  // of the filters' states: the latest report's most probable number
-  int unexplained_ = 0;     // reports in a row that no model expected
   int uncertain_ = 0;       // reports in a row with a stddev above one period
   double log_evidence_ = 0.0;
   bool running_ = false;

@@ -17,13 +17,6 @@ constexpr double kSpreadMemory = 1000.0;  // reports
 // An arrival before the least delay keeps at least this share of the variance: the posterior is not
 // exactly normal, and one outlier must not make it certain.
 constexpr double kMinVarianceRatio = 0.5;
-// Exponentials of smaller mean, relative to the uncertainty, are negligible.
-constexpr double kMinRelativeSpread = 0.05;
-
-// ExactPosterior leaves out a report that is this much too early [s]: its number is wrong.
-constexpr double kTooEarly = 1e-3;
-// An exact state that is this far from that of a better filter [s] has wrong numbers.
-constexpr double kMaxExactError = 0.5e-3;
 // Time over which the wander of a steady clock is added to its variance [s].
 constexpr double kExactMemory = 3.0;
 
@@ -101,13 +94,9 @@ ClockFilter::Prediction ClockFilter::predict(std::int64_t frame) const {
   return z;
 }
 
-bool ClockFilter::hasExponential(const Prediction& z) const {
-  return model_.exponential && spread_ > kMinRelativeSpread * z.stddev;
-}
-
 double ClockFilter::likelihood(const Prediction& z, double arrival) const {
   const double late = arrival - z.mean;
-  if (!hasExponential(z))
+  if (!model_.exponential)
     return normalDensity(late / z.stddev) / z.stddev;
   // Exponentially modified Gaussian; the second form is equal and does not over- or underflow.
   const double b = late / z.stddev - z.stddev / spread_;
@@ -121,7 +110,7 @@ double ClockFilter::readyBefore(const Prediction& z, double time) const {
   if (early < kImpossible)
     return 0.0;
   const double normal = normalCdf(early);
-  return hasExponential(z) ? std::max(0.0, normal - spread_ * likelihood(z, time)) : normal;
+  return model_.exponential ? std::max(0.0, normal - spread_ * likelihood(z, time)) : normal;
 }
 
 void ClockFilter::addHypothesis(const Prediction& z,
@@ -130,7 +119,7 @@ void ClockFilter::addHypothesis(const Prediction& z,
                                 Hypotheses* sums) const {
   double innovation = arrival - z.mean;
   double variance = 0.0;  // of z, given the arrival
-  if (hasExponential(z)) {
+  if (model_.exponential) {
     // A normal of mean z.mean + z.variance / spread_, truncated above at the arrival.
     const double b = innovation / z.stddev - z.stddev / spread_;
     const double mills = inverseMills(b);
@@ -184,13 +173,11 @@ void ClockFilter::learnSpread(const Hypotheses& sums) {
 }
 
 void ClockFilter::learn(std::int64_t frame, double arrival, double on_time) {
-  if (posterior_ && arrival - predict(frame).exposure > -kTooEarly)
+  if (posterior_)
     posterior_->add(frame, arrival, on_time, state_.period);
 }
 
 void ClockFilter::follow(const ClockFilter& better) {
-  if (exact() && std::abs(time() - better.time()) < kMaxExactError)
-    return;
   if (posterior_)
     posterior_->clear();
   state_ = better.state_;

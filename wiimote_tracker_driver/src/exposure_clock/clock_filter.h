@@ -83,15 +83,12 @@ class ClockFilter {
 
   /// A report whose number is certain by now, and the probability that it came without waiting.
   void learn(std::int64_t frame, double arrival, double on_time);
-  /// Copies phase, period and spread of a filter that explains the arrivals better. An exact state
-  /// near that stays.
+  /// Copies phase, period and spread of a filter that explains the arrivals better.
   void follow(const ClockFilter& better);
 
  private:
   /// Whether the state is that of ExactPosterior.
   bool exact() const { return posterior_ && posterior_->ready(); }
-  /// False also where the exponential is negligible beside the uncertainty.
-  bool hasExponential(const Prediction& z) const;
   void learnSpread(const Hypotheses& sums);
 
   DelayModel model_;

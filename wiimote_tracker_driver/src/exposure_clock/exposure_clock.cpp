@@ -19,6 +19,8 @@ const double kProgress = std::log(2.0);
 constexpr double kBetter = 6.9;
 // Time over which the errors of replaced leaders are averaged [s].
 constexpr double kErrorMemory = 30.0;
+// Between two exposures, where a frame number was corrected downwards [s].
+constexpr double kShortestStep = 1e-6;
 
 }  // namespace
 
@@ -63,8 +65,10 @@ Estimate ExposureClock::update(double arrival, bool waited) {
   const double hidden = std::sqrt(error_variance_ + polls_->waitVariance());
   e.stddev = std::hypot(e.stddev, hidden);
   e.clock_stddev = std::hypot(e.clock_stddev, hidden);
+  // Exposures follow a clock that stepped back; otherwise they increase.
+  const bool stepped_back = e.restarted && arrival < last_arrival_;
   const double earliest = last_exposure_ + kShortestStep;
-  if (arrival >= last_arrival_ && e.exposure < earliest) {
+  if (!stepped_back && e.exposure < earliest) {
     e.stddev = std::hypot(e.stddev, earliest - e.exposure);
     e.exposure = earliest;
   }

@@ -362,6 +362,17 @@ TEST(ExposureClock, frames_lost_in_a_gap_are_counted) {
   EXPECT_EQ(run.clock.statistics().restarts, 0u);
 }
 
+TEST(ExposureClock, reports_in_more_than_a_second_are_followed) {
+  Running run(2000);
+  for (int i = 0; i < 40; ++i) {
+    run.frame += 130;
+    const Estimate e = run.clock.update(run.arrival());
+    EXPECT_FALSE(e.restarted) << i;
+    EXPECT_LT(std::abs(e.exposure - run.time()), std::min(0.005, 3.0 * e.stddev)) << i;
+    ++run.frame;
+  }
+}
+
 TEST(ExposureClock, a_long_gap_restarts_the_phase_and_keeps_the_period) {
   Running run(500);
   const double stddev = run.clock.statistics().period_stddev;

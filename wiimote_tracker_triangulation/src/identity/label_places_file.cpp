@@ -1,6 +1,7 @@
 #include "identity/label_places_file.h"
 
 #include <algorithm>
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <iomanip>
@@ -22,12 +23,13 @@ std::string placesFile(const std::string& parameter, const std::string& name_spa
   return fs::path(parameter + name_space + "/label_places").lexically_normal().string();
 }
 
-bool writePlaces(const std::string& file,
-                 const std::string& rig_id,
-                 const LedLabels::Places& places) {
+std::error_code writePlaces(const std::string& file,
+                            const std::string& rig_id,
+                            const LedLabels::Places& places) {
   const std::string fresh = file + ".new";
   std::error_code error;
   fs::create_directories(fs::absolute(file).parent_path(), error);
+  errno = 0;
   std::ofstream out(fresh);
   out << kRig << ' ' << std::quoted(rig_id) << '\n';
   for (const auto& [label, place] : places)
@@ -35,9 +37,9 @@ bool writePlaces(const std::string& file,
         << std::max(0.0, place.age) << ' ' << place.confidence << '\n';
   out.close();
   if (!out)
-    return false;
+    return {errno, std::generic_category()};
   fs::rename(fresh, file, error);
-  return !error;
+  return error;
 }
 
 LedLabels::Places readPlaces(const std::string& file,

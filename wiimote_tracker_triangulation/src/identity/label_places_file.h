@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <string>
+#include <system_error>
 
 namespace wiimote_tracker::identity {
 
@@ -15,10 +16,10 @@ std::string placesFile(const std::string& parameter, const std::string& name_spa
 /// Keeps where labelled LEDs are for a node that is started right after this one was killed. The
 /// file need not survive a power failure, so the disk is not waited for.
 /// @param rig_id of the rig in whose world the places are.
-/// @returns whether it was written.
-bool writePlaces(const std::string& file,
-                 const std::string& rig_id,
-                 const LedLabels::Places& places);
+/// @returns why it was not written, if so.
+std::error_code writePlaces(const std::string& file,
+                            const std::string& rig_id,
+                            const LedLabels::Places& places);
 
 /// Reads such a file; nothing if there is none, or it is of another rig, older than this or
 /// damaged. The places are older by the file's age. Older versions wrote no rig.

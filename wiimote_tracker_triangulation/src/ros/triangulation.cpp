@@ -5,6 +5,7 @@
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <visualization_msgs/MarkerArray.h>
+#include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <chrono>
@@ -15,6 +16,7 @@
 
 namespace wiimote_tracker {
 
+using wiimote_tracker_msgs::CalibrationStatus;
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::RigCalibration;
 using wiimote_tracker_msgs::TrackedPointArray;
@@ -27,6 +29,9 @@ constexpr std::uint32_t kImageQueue = 1000;
 
 // After a longer time nobody expects the same labels.
 constexpr std::chrono::minutes kLongestRestart{10};
+
+// Somebody may load a rig or begin a calibration meanwhile [s].
+constexpr int kUntilAdvice = 10;
 
 /// What a command in a terminal begins with, so that it runs in a namespace.
 std::string shellPrefix(std::string name_space) {
@@ -62,6 +67,9 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
+  calibration_ = subscribe<CalibrationStatus>(nh_, "calibration/status", 1, [this](auto& event) {
+    is_calibrating_ = event.getConstMessage()->step != CalibrationStatus::IDLE;
+  });
   rig_.start(nh_, [this](const RigCalibration& message) { takeRig(message); });
   trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
     tracker_.takeTrigger(*event.getConstMessage());
@@ -87,6 +95,7 @@ void Triangulation::takeRig(const RigCalibration& message) {
     learning_.setRig(tracker_.rig());
     diagnostics_.setRig();
     subscribeToCameras();
+    calibration_.shutdown();
     ROS_INFO("Rig %s with %s is in use.", tracker_.rigId().c_str(),
              counted(tracker_.rig().cameras.size(), "camera").c_str());
   }
@@ -202,10 +211,11 @@ void Triangulation::onProblem(const std::string& sentence) {
 
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
-    ROS_WARN_THROTTLE(600.0,
-                      "Waiting for a calibrated rig on %s: run  %srosrun "
-                      "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
-                      rig_.topic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
+    if (++seconds_without_rig_ > kUntilAdvice && !is_calibrating_)
+      ROS_WARN_THROTTLE(600.0,
+                        "Waiting for a calibrated rig on %s: run  %srosrun "
+                        "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
+                        rig_.topic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
     markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
   for (const auto& [camera, images] : image_subscribers_) {
@@ -228,11 +238,11 @@ void Triangulation::keepPlaces() {
   if (places_kept_.valid()) {
     if (places_kept_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
       return;
-    if (!places_kept_.get())
+    if (const std::error_code error = places_kept_.get())
       ROS_WARN_ONCE(
-          "Cannot write %s, so LEDs may change their labels if this node is killed: name "
-          "another file in label_places.",
-          file.c_str());
+          "Cannot write %s (%s), so LEDs may change their labels if this node is killed: mend "
+          "that, or name another file in label_places.",
+          file.c_str(), error.message().c_str());
   }
   const identity::LedLabels::Places* places = tracker_.labels().placesToKeep();
   if (!file.empty() && places)

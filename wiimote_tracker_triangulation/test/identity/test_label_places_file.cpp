@@ -9,18 +9,27 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <system_error>
 
 namespace wiimote_tracker::identity {
 namespace {
 
 TEST(LabelPlacesFile, PlacesOfAnotherRigAreIgnored) {
   const std::string file = testing::TempDir() + "places_of_rig_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, "a rig", {{"rig", {}}, {"b", {}}}));
+  ASSERT_FALSE(writePlaces(file, "a rig", {{"rig", {}}, {"b", {}}}));
   EXPECT_EQ(2u, readPlaces(file, "a rig", std::chrono::seconds(60)).size());
   EXPECT_TRUE(readPlaces(file, "another", std::chrono::seconds(60)).empty());
   std::ofstream(file) << "rig 1 2 3 0 0 1\n";
   EXPECT_EQ(1u, readPlaces(file, "a rig", std::chrono::seconds(60)).size()) << "older version's";
   std::remove(file.c_str());
+}
+
+TEST(LabelPlacesFile, SaysWhyItCannotBeWritten) {
+  const std::string file = testing::TempDir() + "no_place_" + std::to_string(::getpid());
+  ASSERT_EQ(0, ::symlink("/dev/full", (file + ".new").c_str()));
+  EXPECT_EQ(std::errc::no_space_on_device, writePlaces(file, "rig", {{"a", {}}}));
+  std::remove((file + ".new").c_str());
+  EXPECT_EQ(std::errc::not_a_directory, writePlaces("/dev/full/places", "rig", {{"a", {}}}));
 }
 
 TEST(LabelPlacesFile, EachNamespaceHasOneInTheFolder) {
@@ -38,7 +47,7 @@ TEST(LabelPlacesFile, HoldsAllOfAPlace) {
   place.age = 4.0;
   place.confidence = 0.75;
   const std::string file = testing::TempDir() + "one_place_" + std::to_string(::getpid());
-  ASSERT_TRUE(writePlaces(file, "rig", {{"a", place}}));
+  ASSERT_FALSE(writePlaces(file, "rig", {{"a", place}}));
   const LedLabels::Places places = readPlaces(file, "rig", std::chrono::seconds(60));
   std::remove(file.c_str());
   ASSERT_EQ(1u, places.size());

@@ -125,14 +125,15 @@ TEST(CameraTile, KeepsLongWordsToThreeLinesAndItsTooltipHasAll) {
   CameraTile tile(nullptr);
   tile.resize(200, 190);
   static_cast<QWidget&>(tile).show();
-  const CameraView camera("wiimote_2", 0.0);
+  CameraView camera("wiimote_2", 0.0);
+  camera.battery = 0.75;
   tile.show(camera, CameraState::kKnocked, "turned", 0.0);
   EXPECT_EQ(tile.shownWords().toStdString(), "turned");
   tile.show(camera, CameraState::kKnocked, kLongHealth, 0.0);
   const QStringList lines = tile.shownWords().split('\n');
   EXPECT_EQ(lines.size(), 3);
   EXPECT_TRUE(lines.last().endsWith(QChar(0x2026))) << lines.last().toStdString();
-  EXPECT_EQ(tile.toolTip().toStdString(), kLongHealth);
+  EXPECT_EQ(tile.toolTip().toStdString(), std::string(kLongHealth) + "\nbattery: 75 %");
   screenshot("tile_with_long_words", &tile);
 }
 

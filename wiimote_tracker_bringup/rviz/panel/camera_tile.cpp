@@ -37,8 +37,12 @@ void CameraTile::show(const CameraView& camera,
                       const std::string& words,
                       double now) {
   words_ = QString::fromStdString(words);
-  setToolTip(words_ + QString::fromStdString(
-                          camera.status.problem.empty() ? "" : "\n" + camera.status.problem));
+  QString all = words_;
+  if (!camera.status.problem.empty())
+    all += "\n" + QString::fromStdString(camera.status.problem);
+  if (std::isfinite(camera.battery))
+    all += QString("\nbattery: %1 %").arg(100.0 * camera.battery, 0, 'f', 0);
+  setToolTip(all);
   if (visibleRegion().isEmpty())
     return;
   camera_ = camera;

@@ -112,7 +112,7 @@ void TrackingDiagnostics::report(Status& status) {
   status.addf("latency p50 [ms]", "%.3f", 1e3 * reported_.latency(0.50));
   status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));
   const tracking::Counters& counters = tracker_->counters();
-  status.add("images late", counters.late);
+  status.add("images older than one already used (normal)", counters.late);
   status.add("images dropped: too late, or by a wrong clock", counters.dropped);
   status.add("images dropped because they waited", shedding_->dropped());
   status.add("images repeated", counters.repeated);
@@ -146,7 +146,7 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }
   status.addf("images [Hz]", "%.1f", statistics.images / period_);
-  status.add("images lost", statistics.lost);
+  status.add("images lost since the last report", statistics.lost);
   status.addf("delay from exposure to arrival [ms]", "%.3f", 1e3 * statistics.meanDelay());
   status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.inlierRatio());
   status.addf("residual [px]", "%.3f", statistics.residual());

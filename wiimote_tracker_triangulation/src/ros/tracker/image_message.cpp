@@ -114,7 +114,7 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
       return format(
           "the spots of %s are not where other cameras see LEDs, and its images are "
           "ignored: if it was moved or exchanged, move an LED in its view and do what calibrate "
-          "then says; mask lamps and reflections",
+          "then says (in a recording: run keep_calibrated); mask lamps and reflections",
           name);
     case tracking::CameraFault::Kind::kInaccurate:
       return format(

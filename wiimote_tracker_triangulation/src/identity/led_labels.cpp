@@ -1,9 +1,12 @@
 #include "identity/led_labels.h"
 
 #include <wiimote_tracker_msgs/doubtful_label.h>
+#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <limits>
 #include <utility>
 
 namespace wiimote_tracker::identity {
@@ -177,6 +180,8 @@ void LedLabels::notePlace(const tracking::TrackedLed& led) {
   place.speed = led.velocity ? led.velocity->norm() : 0.0;
   place.age = 0.0;
   place.tracked_with = tracked_;
+  if (std::isnan(label.same_led_probability))
+    label.same_led_probability = led.same_led_probability;
   if (!(led.same_led_probability < label.same_led_probability))
     return;
   former_[label.name] = place;
@@ -193,6 +198,47 @@ void LedLabels::setConfidence(double confidence, double same, LedLabel* given) {
     doubtful_.push_back(given->name);
   place.confidence = confidence;
   given->confidence = confidence;
+}
+
+std::string LedLabels::correct(const std::string& label, const std::string& right) {
+  const auto led = std::find_if(tracked_.begin(), tracked_.end(),
+                                [&](std::uint32_t id) { return of(id).name == label; });
+  if (led == tracked_.end())
+    return "no LED is tracked as '" + label + "' now: bring it in view, and see what it is called";
+  if (of(*led).identified)
+    return "'" + label + "' has its label by its blink code: change its code";
+  if (std::find(listed_.begin(), listed_.end(), right) == listed_.end())
+    return "'" + right + "' is no label of LEDs that do not blink: choose from " + joined(listed_);
+  const bool is_listed = given_.count(*led) > 0;
+  if (label != right) {
+    for (auto other = given_.begin(); other != given_.end();) {
+      const bool has_it = other->second.name == right;
+      if (has_it)
+        other->second.name = label;
+      other = has_it && !is_listed ? given_.erase(other) : std::next(other);
+    }
+    const auto move = [&](Places::node_type place, const std::string& to) {
+      if (!place || !is_listed)
+        return;
+      place.key() = to;
+      places_.insert(std::move(place));
+    };
+    auto others = places_.extract(right);
+    move(places_.extract(label), right);
+    move(std::move(others), label);
+    former_.erase(label);
+  }
+  former_.erase(right);
+  LedLabel& given = given_[*led];
+  if (!is_listed)
+    given.same_led_probability = std::numeric_limits<double>::quiet_NaN();  // see notePlace()
+  given.name = right;
+  given.confidence = 1.0;
+  given.since = *newest_;
+  const auto place = places_.find(right);
+  if (place != places_.end())
+    place->second.confidence = 1.0;
+  return "";
 }
 
 bool LedLabels::hasTrack(const std::string& label) const {

@@ -77,6 +77,11 @@ class LedLabels {
   /// a label belongs again where it was seen before it went to the lamp.
   void forgetLamps(const std::function<bool(const Eigen::Vector3d&)>& is_hidden);
 
+  /// A person says that the LED that is tracked as `label` is `right`. Another LED that had this
+  /// label gets the former one if it is of the list, and keeps its doubt.
+  /// @returns why that cannot be; empty: it was done.
+  std::string correct(const std::string& label, const std::string& right);
+
   /// Places from another process, before the first update.
   void setFormerPlaces(const Places& places) { places_ = places; }
 

@@ -19,6 +19,7 @@ namespace wiimote_tracker {
 using wiimote_tracker_msgs::CalibrationStatus;
 using wiimote_tracker_msgs::IrBlobArray;
 using wiimote_tracker_msgs::RigCalibration;
+using wiimote_tracker_msgs::SetLabel;
 using wiimote_tracker_msgs::TrackedPointArray;
 using wiimote_tracker_msgs::TrackedPointArrayConstPtr;
 
@@ -67,6 +68,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   markers_publisher_ = nh_.advertise<visualization_msgs::MarkerArray>("markers", 5);
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
+  set_label_ = nh_.advertiseService("set_label", &Triangulation::setLabel, this);
   calibration_ = subscribe<CalibrationStatus>(nh_, "calibration/status", 1, [this](auto& event) {
     is_calibrating_ = event.getConstMessage()->step != CalibrationStatus::IDLE;
   });
@@ -176,6 +178,18 @@ void Triangulation::subscribeToImus(const std::vector<body::Constellation>& bodi
           });
   }
   imu_subscribers_ = std::move(subscribers);
+}
+
+bool Triangulation::setLabel(SetLabel::Request& request, SetLabel::Response& response) {
+  const std::string& label = request.label;
+  const std::string& right = request.right_label;
+  response.message = tracker_.labels().correct(label, right);
+  response.success = response.message.empty();
+  if (response.success)
+    response.message = label == right ? "'" + right + "' is right from now on"
+                                      : "the LED that was '" + label + "' is '" + right +
+                                            "' now, and one that was '" + right + "' is not";
+  return true;
 }
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,

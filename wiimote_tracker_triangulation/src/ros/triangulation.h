@@ -15,6 +15,7 @@
 
 #include <ros/ros.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
+#include <wiimote_tracker_msgs/SetLabel.h>
 
 #include <future>
 #include <map>
@@ -38,6 +39,8 @@ class Triangulation : private MessageSink {
   void onImage(const std::string& camera,
                const ros::MessageEvent<const wiimote_tracker_msgs::IrBlobArray>& event);
   bool isShed(const ros::Time& receipt);
+  bool setLabel(wiimote_tracker_msgs::SetLabel::Request& request,
+                wiimote_tracker_msgs::SetLabel::Response& response);
   void onTimer();
   void keepPlaces();
   void subscribeToCameras();
@@ -78,6 +81,7 @@ class Triangulation : private MessageSink {
   ros::Subscriber trigger_subscriber_;
   std::map<std::string, ros::Subscriber> image_subscribers_;  // by camera
   std::map<std::string, ros::Subscriber> imu_subscribers_;    // by body
+  ros::ServiceServer set_label_;
   ros::WallTimer timer_;
 };
 

@@ -243,6 +243,40 @@ TEST(LedLabels, StateTheirProbabilityWhenGivenAgain) {
   EXPECT_NEAR(0.5, afterLoss({0.0}, 60.0)[0].confidence, 0.01) << "it may be a new one";
 }
 
+TEST(LedLabels, AreRightFromThenOnIfAPersonSaysSo) {
+  LedLabels labels({"a", "b"});
+  TrackedLed first = at(0, 0.0), second = at(1, 1.0), third = at(2, 2.0);
+  labels.update(kTime, {first, second, third});
+  first.same_led_probability = second.same_led_probability = third.same_led_probability = 0.6;
+  labels.update(kTime + 0.1, {first, second, third});
+  EXPECT_LT(labels.of(0).confidence, kDoubtfulLabel) << "it met the other one";
+  const auto expect = [&](const LedLabel& label, const std::string& name, double confidence) {
+    EXPECT_EQ(name, label.name);
+    EXPECT_EQ(confidence, label.confidence) << name;
+    EXPECT_EQ(confidence, labels.places().at(name).confidence) << name;
+  };
+  EXPECT_EQ("", labels.correct("a", "a"));
+  expect(labels.of(0), "a", 1.0);
+  expect(labels.of(1), "b", 0.6);
+  EXPECT_EQ("", labels.correct("b", "a"));
+  for (const double later : {0.2, 0.3}) {
+    expect(labels.of(1), "a", 1.0);
+    expect(labels.of(0), "b", 1.0);
+    EXPECT_EQ(1.0, labels.places().at("a").position.x());
+    EXPECT_EQ(0.0, labels.places().at("b").position.x());
+    labels.update(kTime + later, {first, second, third});
+  }
+  EXPECT_EQ("", labels.correct("led_2", "a"));
+  labels.update(kTime + 0.4, {first, second, third});
+  expect(labels.of(2), "a", 1.0);
+  EXPECT_EQ("led_1", labels.of(1).name);
+  third.same_led_probability = 0.3;
+  labels.update(kTime + 0.5, {first, second, third});
+  expect(labels.of(2), "a", 0.5);  // it met another one again
+  EXPECT_NE("", labels.correct("led_7", "a")) << "not tracked";
+  EXPECT_NE("", labels.correct("a", "c")) << "not of the list";
+}
+
 TEST(LedLabels, AreRightWhereThereIsNoOtherLed) {
   LedLabels labels({"led"});
   labels.update(kTime, {at(0, 0.0)});

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 #include <sensor_msgs/CameraInfo.h>
 #include <tf2_ros/transform_listener.h>
+#include <wiimote_tracker_msgs/SetLabel.h>
 #include <boost/algorithm/string/predicate.hpp>
 
 #include <algorithm>
@@ -323,6 +324,17 @@ TEST(Triangulation, PublishesSeveralLedsUnderTheirLabels) {
       EXPECT_NEAR(height, point.point.z, kNear);
     }
   }
+  wiimote_tracker_msgs::SetLabel set;
+  set.request.label = "second";
+  set.request.right_label = "third";
+  ASSERT_TRUE(ros::service::call("set_label", set));
+  EXPECT_FALSE(set.response.success);
+  set.request.right_label = "second";
+  ASSERT_TRUE(ros::service::call("set_label", set));
+  EXPECT_TRUE(set.response.success) << set.response.message;
+  ASSERT_TRUE(g_bench->film(0.1, {0, 1, 2}));
+  for (const TrackedPoint& point : g_bench->arrays_.back().points)
+    EXPECT_EQ(point.label == "second", point.label_confidence == 1.0) << point.label;
   // Both leave; the next one alone is the first again.
   g_bench->leds_.clear();
   ASSERT_TRUE(g_bench->film(3.0, {0, 1, 2}));

@@ -49,9 +49,17 @@ CameraInputs::CameraInputs(const ros::NodeHandle& nh,
       ignored_(ignored),
       mutex_(mutex),
       changed_(changed),
-      listener_(transforms_),
       spinner_(1, &queue_) {
   nh_.setCallbackQueue(&queue_);
+  // No tf2_ros::TransformListener: /tf may have the stamps of a bag that is played, of which tf2
+  // complains by thousands of lines.
+  transforms_subscriber_ = nh_.subscribe<tf2_msgs::TFMessage>(
+      "/tf_static", 100, [this](const tf2_msgs::TFMessageConstPtr& message) {
+        runCallback("/tf_static", [&] {
+          for (const geometry_msgs::TransformStamped& transform : message->transforms)
+            transforms_.setTransform(transform, "/tf_static", true);
+        });
+      });
   for (const std::string& name : names)
     watch(name);
 }

@@ -14,8 +14,7 @@
 #include <ros/spinner.h>
 #include <sensor_msgs/Imu.h>
 #include <tf2/buffer_core.h>
-#include <tf2_ros/buffer.h>
-#include <tf2_ros/transform_listener.h>
+#include <tf2_msgs/TFMessage.h>
 #include <wiimote_tracker_msgs/IrBlobArray.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -133,8 +132,7 @@ class CameraInputs {
   std::condition_variable* changed_;
   std::vector<OnImage> on_image_;
   std::vector<OnGravity> on_gravity_;
-  tf2_ros::Buffer transforms_;
-  tf2_ros::TransformListener listener_;
+  tf2::BufferCore transforms_;  // static ones only
   std::map<std::string, CameraInput> cameras_;
   capture::Masks masks_;
   capture::ImageOrder order_;
@@ -143,6 +141,7 @@ class CameraInputs {
   ros::AsyncSpinner spinner_;
   std::mutex subscribers_mutex_;
   std::map<std::string, std::vector<ros::Subscriber>> subscribers_;  // by the camera
+  ros::Subscriber transforms_subscriber_;
   ros::WallTimer timer_;
 };
 

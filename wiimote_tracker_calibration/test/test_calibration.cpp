@@ -159,9 +159,9 @@ TEST_F(Workflow, LengthsAreTakenReplacedAndDropped) {
   ASSERT_TRUE(solve(1.0).success);
 
   EXPECT_SAYS(measure(0, 0, diagonal).message, "between two captured corners");
-  EXPECT_SAYS(
-      measure(0, 4, diagonal).message,
-      "corners, of which there are 4, and not from 1 to 5: capture both, or name two others");
+  EXPECT_SAYS(measure(0, 4, diagonal).message,
+              "corners, of which there are 4, and not from 1 to 5 (in the service from 0 on): "
+              "capture both");
   EXPECT_SAYS(measure(0, 2, -diagonal).message, "must be above 0");
   EXPECT_SAYS(measure(0, 2, std::nan("")).message, "must be above 0");
   EXPECT_SAYS(measure(0, 2, 3.2).message,

@@ -8,6 +8,7 @@ from typing import Dict, List, Optional, Sequence
 
 SILENT_AFTER = 3.0  # [s] The node publishes its status twice a second.
 FOUND_WITHIN = 3.0  # [s] Longest search for a node that runs.
+KEPT = 20  # Statuses during which an answer stays whatever happens: 10 s.
 LOST = ('The calibration node was started again: what was captured, or solved and not saved, is '
         'lost. Start again.')
 # The command for each CalibrationStatus.next_request.
@@ -48,6 +49,7 @@ class Guide:
         self.board = None
         self.image_sizes = {}   # name of a camera -> (width, height) [px]
         self.answer = ''
+        self._answered_at = ''  # next_title then
         self.answers = []       # (good, text) of all answers
         self.measured = ''      # the answer to the last length or known place
         self.elsewhere = ''     # what to do if the node runs in another namespace only
@@ -67,6 +69,11 @@ class Guide:
         self.status = status
         if before is not None and status.message != before.message:
             self.answer = ''  # the node's message is newer
+        if self.statuses_since_answer < 2:  # the first may have been on its way
+            self._answered_at = status.next_title
+        elif self.statuses_since_answer > KEPT and status.next_title != self._answered_at:
+            self._answered_at = status.next_title
+            self.answer = ''  # of another situation
         if before is not None and status.header.seq < before.header.seq and (
                 status.READY <= before.step <= status.SOLVED):
             self.lost = LOST  # Another publisher counts anew.

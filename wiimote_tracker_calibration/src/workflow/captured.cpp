@@ -96,7 +96,7 @@ Reply Captured::measureLength(const square::TapedLength& taped, double placement
   if (taped.from >= count || taped.to >= count || taped.from == taped.to)
     return refusal(
         format("a length is between two captured corners, of which there are %zu, and not from %zu "
-               "to %zu: capture both, or name two others",
+               "to %zu (in the service from 0 on): capture both, or name two others",
                count, taped.from + 1, taped.to + 1));
   const std::string name = format("corner %zu to corner %zu", taped.from + 1, taped.to + 1);
   const auto same = [&](const square::TapedLength& other) { return taped.hasCornersOf(other); };

@@ -120,6 +120,19 @@ def test_a_newer_message_of_the_node_takes_the_place_of_an_answer():
     assert screen.render(guide, 3.0)[21] == 'new'
 
 
+def test_an_answer_goes_some_seconds_after_the_situation_that_it_was_for():
+    guide = guide_at(status(CalibrationStatus.SAVED, next_title='Ready'))
+    guide.on_answer('check', True, 'the calibration holds', 1.0)
+    for number in range(25):
+        moved = number > 5
+        assert guide.said() == ('' if number > 21 else 'the calibration holds'), number
+        guide.on_status(status(CalibrationStatus.SAVED, next_title='Check wiimote_2' if moved
+                               else 'Ready'), 1.0 + 0.5 * number)
+    guide.say('there is no such key')
+    guide.on_status(status(CalibrationStatus.SAVED, next_title='Check wiimote_2'), 20.0)
+    assert guide.said() == 'there is no such key'
+
+
 def test_a_node_that_was_started_again_amid_a_calibration_has_lost_it():
     def numbered(seq, step, **fields):
         message = status(step, **fields)

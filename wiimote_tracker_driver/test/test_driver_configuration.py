@@ -90,9 +90,24 @@ class DriverConfiguration(unittest.TestCase):
     def test_waits_for_its_remote_and_stops_at_once(self):
         home = tempfile.TemporaryDirectory()  # without a calibration of the camera
         self.addCleanup(home.cleanup)
+        text = self.wait_and_stop(home.name, "__name:=driver_h")
+        self.assertIn("namespace /", text)
+        self.assertNotIn("Camera calibration file", text, "a camera's first start is no fault")
+
+    def test_an_empty_calibration_is_named_once(self):
+        home = tempfile.TemporaryDirectory()
+        self.addCleanup(home.cleanup)
+        path = os.path.join(home.name, "lens.yaml")
+        open(path, "w").close()
+        text = self.wait_and_stop(home.name, "__name:=driver_r", "_camera_info_url:=file://" + path)
+        self.assertIn(path + " is empty, so the driver does not know the lens", text)
+        self.assertEqual(1, text.count("lens.yaml"), text)
+
+    def wait_and_stop(self, home, *arguments):
+        """What a driver prints that waits for its remote and is interrupted."""
         process = subprocess.Popen(
-            COMMAND + ["__name:=driver_h", "_device:=00:00:00:00:00:01"],
-            env=dict(os.environ, ROS_HOME=home.name),
+            COMMAND + ["_device:=00:00:00:00:00:01", *arguments],
+            env=dict(os.environ, ROS_HOME=home),
             stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         watchdog = threading.Timer(DEADLINE, process.kill)
         watchdog.start()
@@ -111,8 +126,7 @@ class DriverConfiguration(unittest.TestCase):
             process.kill()
             process.wait()
         self.assertEqual(0, process.returncode, text)
-        self.assertIn("namespace /", text)
-        self.assertNotIn("Camera calibration file", text, "a camera's first start is no fault")
+        return text
 
 
 if __name__ == "__main__":

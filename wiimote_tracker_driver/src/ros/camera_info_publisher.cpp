@@ -2,6 +2,7 @@
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
+#include <ros/console.h>
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
 #include <exception>
@@ -35,8 +36,12 @@ CameraInfoPublisher::CameraInfoPublisher(const ros::NodeHandle& nh,
   // Reports errors of the file now rather than at the first image, but not that there is none yet.
   const std::string file = manager_.resolveURL(url.empty() ? kDefaultUrl : url, camera);
   path_ = pathOf(file);
+  const std::string empty = problem();
+  if (!empty.empty())
+    ROS_WARN("%s.", empty.c_str());
   try {
-    if (!path_.empty() && !std::filesystem::exists(path_))  // the first set_camera_info writes it
+    // The first set_camera_info writes it.
+    if (!path_.empty() && (!empty.empty() || !std::filesystem::exists(path_)))
       manager_.setCameraInfo(sensor_msgs::CameraInfo());
     else
       manager_.getCameraInfo();
@@ -51,8 +56,8 @@ std::string CameraInfoPublisher::problem() const {
   std::error_code missing;
   return std::filesystem::file_size(path_, missing) == 0
              ? path_ +
-                   " is empty, so the next start will not know the lens: free space on its "
-                   "disk, then save the calibration again"
+                   " is empty, so the driver does not know the lens when it starts: free space on "
+                   "its disk, then save the calibration again"
              : "";
 }
 

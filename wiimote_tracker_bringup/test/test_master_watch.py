@@ -1,17 +1,21 @@
 """master_watch tells of a master that is gone or was started again, and makes way for the next."""
 
 import os
+import shutil
 import subprocess
 import sys
 
 import pytest
+import rosbag
 import rosgraph
+from wiimote_tracker_msgs.msg import RigCalibration, ZoneEvent
 
 from wiimote_tracker_bringup.processes import Processes, free_port
 from wiimote_tracker_bringup.waiting import wait_until
 
 WATCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/master_watch')
 REPLAY = os.path.join(os.path.dirname(WATCH), 'replay.launch')
+CHECK_REPLAY = os.path.join(os.path.dirname(WATCH), 'check_replay')
 PATIENCE = 60.0  # on a busy computer [s]
 
 # Stands in for roslaunch, which its master_watch ends.
@@ -138,3 +142,24 @@ def test_a_replay_is_refused_beside_a_tracker(programs):
     tracker.kill()
     programs.processes.stop(tracker)
     assert replay().returncode == 0, 'a killed tracker'
+
+
+def test_a_bag_is_looked_at_before_its_replay(tmp_path):
+    def said(bag):
+        done = subprocess.run([sys.executable, CHECK_REPLAY, bag], capture_output=True, text=True,
+                              timeout=PATIENCE, env=dict(os.environ, ROS_MASTER_URI='http://:1'))
+        assert (done.returncode, done.stdout) in ((0, 'true'), (1, ''))
+        return done.returncode, done.stderr
+    path, unfinished = str(tmp_path / 'my.bag'), str(tmp_path / 'my.bag.active')
+    assert said(path) == (0, ''), 'rosbag says that it is not there'
+    with rosbag.Bag(path, 'w') as bag:
+        bag.write('zone_events', ZoneEvent())
+    returned, words = said(path)
+    assert returned == 0 and f'{path} holds no rig' in words
+    with rosbag.Bag(path, 'w') as bag:
+        bag.write('lab/calibration/rig', RigCalibration())
+        bag.flush()
+        shutil.copy(path, unfinished)
+    assert said(path) == (0, '')
+    returned, words = said(unfinished)
+    assert returned == 1 and 'repair it with rosbag reindex' in words

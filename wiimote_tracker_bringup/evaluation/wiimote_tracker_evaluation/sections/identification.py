@@ -116,10 +116,10 @@ def figures(run, cameras, lines):
     best = lines['paper', max(cameras)]
     if best.shortest() is not None and len(best.seconds[best.at(SHOWN_PERIOD)]):
         run.summary('**Identification**, simulated: the paper\'s scheme identifies four LEDs in at '
-                    'least %.0f %% of the tries with periods from %.0f ms on (%d cameras); with '
+                    'least %.0f %% of %d tries with periods from %.0f ms on (%d cameras); with '
                     '%.0f ms it takes %.2f s.' % (
-                        100.0 * ENOUGH, best.shortest(), max(cameras), SHOWN_PERIOD,
-                        np.median(best.seconds[best.at(SHOWN_PERIOD)])))
+                        100.0 * ENOUGH, min(best.tries), best.shortest(), max(cameras),
+                        SHOWN_PERIOD, np.median(best.seconds[best.at(SHOWN_PERIOD)])))
 
 
 def plot(run, cameras, lines):

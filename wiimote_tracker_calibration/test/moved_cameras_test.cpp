@@ -190,6 +190,7 @@ TEST_F(MovedCameras, ArePointedOutWhileTwoPersonsCarryLeds) {
   };
   EXPECT_TRUE(says("drifted: its images are ")) << health("camera_2");
   EXPECT_TRUE(says("continuous/apply")) << health("camera_2");
+  EXPECT_SAYS(health("camera_2"), "; it was turned by");
   for (const char* const camera : {"camera_1", "camera_3", "camera_4"})
     EXPECT_EQ(health(camera), "") << camera;
   const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");

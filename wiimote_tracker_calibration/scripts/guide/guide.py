@@ -196,7 +196,7 @@ class Guide:
             corners = 'one corner: calibrate goes on with it' if kept == 1 else \
                 f'{kept} corners: calibrate goes on with them'
             # Saved without a start: a camera was recalibrated, for example.
-            done = 'Nothing was calibrated and saved' if self._saved_at is None else \
+            done = 'No calibration was saved' if self._saved_at is None else \
                 'The rig was saved'
             return f'{done}; this took {spoken(now - self.began)}.' + (
                 f' The node keeps {corners}.' if kept else '')

@@ -154,9 +154,10 @@ class BoardServices {
     const double timeout = context_.parameters(lock).set_camera_info_timeout;
     const std::vector<std::string> problems =
         context_.compute(&lock, [&] { return sendCameraInfo({camera}, context_.nh(), timeout); });
-    const std::string message =
-        "the next calibration starts with this lens of " + camera.name +
-        (problems.empty() ? ", and its driver has it" : "; but " + problems.front());
+    const std::string message = "calibrations start with this lens of " + camera.name +
+                                " until this node ends" +
+                                (problems.empty() ? ", and its driver has it until a rig is saved"
+                                                  : "; but " + problems.front());
     publish(message, lock);
     return {true, message};
   }

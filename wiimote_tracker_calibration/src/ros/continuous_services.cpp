@@ -206,6 +206,7 @@ class ContinuousServices {
     forgetProposal(lock);
     const auto rig = changes_.apply(proposal, before);
     if (rig) {
+      context_.status(lock).setHealth({});  // of the poses before
       if (proposal.cause == Cause::kDrift)  // too little for what was measured to change
         context_.knownPlaces(lock).renameRig(before.id(), rig->id());
       context_.setRig(*rig, proposal.message, lock, goalFrom(*rig));

@@ -147,18 +147,27 @@ bool StatusPublisher::isWalked() const {
 
 std::string StatusPublisher::health(const std::string& camera) const {
   const auto found = health_.find(camera);
-  const bool is_proposed = std::count(correctable_.begin(), correctable_.end(), camera) > 0;
+  const health::CameraHealth health =
+      found == health_.end() ? health::CameraHealth() : found->second;
+  if (std::count(correctable_.begin(), correctable_.end(), camera) == 0) {
+    // What is proposed says which cameras were moved.
+    const bool is_explained =
+        health.or_others && !correctable_.empty() && cause_ == continuous::Cause::kKnock;
+    return health.text.empty() || is_explained ? "" : health.text + "; " + health.advice;
+  }
+  const std::string before = health.text.empty() ? "" : health.text + "; ";
+  if (camera != correctable_.front())
+    return before + "what is proposed for " + correctable_.front() + " corrects it, too";
   const bool names_it = proposal_text_.rfind(camera + " ", 0) == 0;
-  const std::string proposal = names_it ? proposal_text_.substr(camera.size() + 1) : proposal_text_;
-  if (found == health_.end() || found->second.text.empty())
-    return is_proposed ? proposal : "";
-  return found->second.text + "; " + (is_proposed ? proposal : found->second.advice);
+  if (!names_it)
+    return before + proposal_text_;
+  return before + (before.empty() ? "" : "it ") + proposal_text_.substr(camera.size() + 1);
 }
 
 workflow::Findings StatusPublisher::findings() const {
   workflow::Findings findings;
   for (const auto& [name, health] : health_) {
-    if (health.text.empty())
+    if (this->health(name).empty())
       continue;
     const bool is_same = findings.changed.empty() || findings.remedy == health.advice;
     findings.changed.push_back(name);

@@ -154,7 +154,7 @@ void keep(const std::string& path, const std::string& rig, const std::string& ta
                "corrected: calibrate it again instead",
                kept.rig()->cameras.size(), kFewestCameras));
   geometry::writeRigFile(*kept.rig(), target);
-  std::printf("%zu images of %zu cameras; %zu changes; the rig is in %s\n", kept.images(),
+  std::printf("%zu images of %zu cameras; changes: %zu; the rig is in %s\n", kept.images(),
               kept.rig()->cameras.size(), kept.changes(), target.c_str());
 }
 

@@ -107,15 +107,15 @@ def test_a_board_is_refused_before_a_camera_that_does_not_exist():
 
 def test_it_says_how_long_it_took():
     guide = Guide(100.0)
-    assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
+    assert guide.took(160.4) == 'No calibration was saved; this took 1 min 0 s.'
     guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 160.4)
     assert guide.took(160.4).endswith('The node keeps 3 corners: calibrate goes on with them.')
     guide.on_status(status(CalibrationStatus.SAVED, corners_captured=4), 100.0)  # nothing is left
-    assert guide.took(160.4) == 'Nothing was calibrated and saved; this took 1 min 0 s.'
+    assert guide.took(160.4) == 'No calibration was saved; this took 1 min 0 s.'
     guide.on_answer('start', True, '', 110.0)
     guide.on_status(status(CalibrationStatus.READY, corners_captured=3), 120.0)
     guide.on_answer('save', True, '', 125.0)  # the rig of an earlier calibration
-    assert guide.took(130.0).startswith('Nothing was calibrated and saved')
+    assert guide.took(130.0).startswith('No calibration was saved')
     guide.on_status(status(CalibrationStatus.COMPLETE, corners_captured=4), 150.0)
     guide.on_status(status(CalibrationStatus.SOLVED, corners_captured=4), 170.0)
     assert guide.elapsed(171.0) == 61.0
@@ -129,7 +129,7 @@ def test_a_recalibrated_camera_that_was_saved_is_told():
     guide = guide_at(status(CalibrationStatus.SAVED))
     guide.on_answer('recalibrate', True, '', 20.0)
     guide.on_status(status(CalibrationStatus.SOLVED), 21.0)
-    assert guide.took(22.0).startswith('Nothing was calibrated and saved')
+    assert guide.took(22.0).startswith('No calibration was saved')
     guide.on_answer('save', True, '', 30.0)
     guide.on_status(status(CalibrationStatus.SAVED), 31.0)
     assert guide.took(60.0).startswith('The rig was saved; this took ')

@@ -55,8 +55,9 @@ std::string lensMismatch(const sensor_msgs::CameraInfo& info, const geometry::Ca
   if (info.K[0] == 0.0)
     return "";
   const std::string what_to_do =
-      "; the tracker uses the rig. Save the rig without a name to update the driver, or calibrate "
-      "again";
+      "; the tracker uses the rig. Calibrate again if that lens is right; else save the rig "
+      "without "
+      "a name, which replaces it";
   const geometry::Intrinsics& rig = calibrated.intrinsics;
   if (static_cast<int>(info.width) != rig.width || static_cast<int>(info.height) != rig.height)
     return "camera_info of " + calibrated.name + " has another image size than the rig" +

@@ -227,7 +227,8 @@ void Gestures::keepExample(const gesture::Path& path, const Hand& hand) {
     return;
   }
   recognizer_ = with_it;
-  ROS_INFO("An example of '%s' is kept in %s.", example.gesture.c_str(), parameters_.file.c_str());
+  ROS_INFO("An example of '%s', %.1f s long, is kept in %s.", example.gesture.c_str(),
+           path.back().time - path.front().time, parameters_.file.c_str());
   publish(GestureEvent::RECORDED, {example.gesture, 1.0, "", 0.0}, path, hand);
 }
 
@@ -308,7 +309,8 @@ bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
   if (!response.success)
     return true;
   wanted_ = gesture::Example{request.gesture, request.zone, {}};
-  response.message = "draw '" + request.gesture + "' now; the next gesture is kept as an example";
+  response.message = "the next movement is kept as an example of '" + request.gesture +
+                     "', also one to where it begins; gestures/remove drops it";
   return true;
 }
 

@@ -125,7 +125,7 @@ std::string describe(const tracking::CameraFault& fault, const std::string& came
       return format(
           "the times of the images of %s are %.3g s too %s, by the motion of the LEDs, and "
           "are corrected: run chrony on all computers or, where one runs all drivers, calibrate "
-          "again",
+          "with a waved LED",
           name, seconds, fault.clock_ahead > 0.0 ? "late" : "early");
     case tracking::CameraFault::Kind::kLate:
       return format(

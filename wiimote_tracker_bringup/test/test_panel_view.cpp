@@ -163,6 +163,32 @@ TEST_F(View, AKnockedCameraSaysWhatTheHealthWatchSays) {
   EXPECT_EQ(words("a"), status.cameras[0].health);
 }
 
+TEST_F(View, ACameraOfWhichTheTrackerWarnsSaysSoWhileItWarns) {
+  view_.onRig(rigOf({"a", "b"}), now_);
+  run(0.1, {"a", "b"}, {});
+  diagnostic_msgs::DiagnosticArray message;
+  message.status.resize(2);
+  message.status[0].name = "triangulation: a";
+  message.status[0].hardware_id = "rig 0123456789abcdef";
+  message.status[0].level = diagnostic_msgs::DiagnosticStatus::WARN;
+  message.status[0].message = "its images are ignored";
+  message.status[1] = message.status[0];  // not the tracker's
+  message.status[1].name = "driver: Wii Remote b";
+  message.status[1].hardware_id = "00:1e:35:00:00:03";
+  view_.onDiagnostics(message, now_);
+  EXPECT_EQ(state("a"), CameraState::kWarned);
+  EXPECT_EQ(words("a"), "its images are ignored");
+  EXPECT_EQ(state("b"), CameraState::kFine);
+  EXPECT_EQ(view_.summary(now_), "2 cameras: 1 with a warning of the tracker (a), 1 fine");
+  message.status[0].level = diagnostic_msgs::DiagnosticStatus::OK;
+  view_.onDiagnostics(message, now_);
+  EXPECT_EQ(state("a"), CameraState::kFine);
+  message.status[0].level = diagnostic_msgs::DiagnosticStatus::WARN;
+  view_.onDiagnostics(message, now_);
+  run(CameraView::kWarnedFor + 0.1, {"a", "b"}, {});  // the tracker has ended
+  EXPECT_EQ(state("a"), CameraState::kFine);
+}
+
 TEST_F(View, ACameraThatTheCalibrationNodeNoLongerWatchesIsNotKnockedAnyMore) {
   view_.onRig(rigOf({"a"}), now_);
   run(0.1, {"a"}, {});

@@ -23,6 +23,7 @@ const QColor kSpot(255, 244, 214), kMask(90, 94, 104), kCell(60, 130, 200, 70);
 /// For the state's border and words; legible on the tiles' dark ground.
 QColor colorOf(CameraState state) {
   return state == CameraState::kKnocked         ? QColor(255, 92, 92)
+         : state == CameraState::kWarned        ? QColor(255, 176, 46)
          : state == CameraState::kLate          ? QColor(255, 176, 46)
          : state == CameraState::kNotCalibrated ? QColor(96, 165, 250)
          : state == CameraState::kBlind         ? QColor(240, 222, 90)

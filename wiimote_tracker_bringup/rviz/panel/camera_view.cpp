@@ -40,6 +40,8 @@ CameraState CameraView::state(double now, bool others_see) const {
     return CameraState::kFrozen;
   if (!status.health.empty())
     return CameraState::kKnocked;
+  if (!warning_.empty() && now - warned_at_ < kWarnedFor)
+    return CameraState::kWarned;
   if (std::abs(delay_) > kLateAfter)
     return CameraState::kLate;
   if (!calibration)
@@ -57,6 +59,8 @@ std::string CameraView::words(double now, bool others_see) const {
       return format("no images for %.0f s: check battery and link", silence(now));
     case CameraState::kKnocked:
       return status.health;
+    case CameraState::kWarned:
+      return warning_;
     case CameraState::kLate:
       if (std::abs(delay_) > kOtherClock)
         return "its stamps are not of now: a recording, or a clock that is wrong";

@@ -15,13 +15,14 @@
 namespace wiimote_tracker::panel {
 
 /// The worst comes first.
-enum class CameraState { kFrozen, kKnocked, kLate, kNotCalibrated, kBlind, kFine };
+enum class CameraState { kFrozen, kKnocked, kWarned, kLate, kNotCalibrated, kBlind, kFine };
 
 /// What one camera's tile shows. Times are of one steady clock [s].
 class CameraView {
  public:
   static constexpr double kFrozenAfter = 1.0;  ///< Without an image [s].
   static constexpr double kLateAfter = 0.1;    ///< From exposure to arrival here [s].
+  static constexpr double kWarnedFor = 3.0;    ///< The tracker's diagnostics come each second [s].
   static constexpr double kBlindAfter = 5.0;  ///< Without a spot, while another camera has one [s].
   static constexpr double kTrail = 1.0;  ///< Spots of this time are drawn behind the newest [s].
 
@@ -34,6 +35,12 @@ class CameraView {
 
   /// @param delay from the exposure, as stamped, to the arrival here [s]
   void onImage(const wiimote_tracker_msgs::IrBlobArray& message, double delay, double now);
+
+  /// @param warning of the tracker about this camera; empty: none
+  void onTrackerStatus(const std::string& warning, double now) {
+    warning_ = warning;
+    warned_at_ = now;
+  }
 
   /// @param others_see whether another camera has a spot now
   CameraState state(double now, bool others_see) const;
@@ -70,6 +77,8 @@ class CameraView {
   double lit_at_;
   std::optional<double> image_at_;
   double delay_ = 0.0;  // smoothed [s]
+  std::string warning_;
+  double warned_at_ = 0.0;
   std::deque<Count> counts_;
 };
 

@@ -150,6 +150,7 @@ void RosInput::subscribeTracker() {
   // Every part sends messages of its own.
   subscribe<diagnostic_msgs::DiagnosticArray>("/diagnostics", kEvents, [this](const auto& event) {
     views_->health.onDiagnostics(*event.getMessage(), now());
+    views_->cameras.onDiagnostics(*event.getMessage(), now());
   });
 }
 

@@ -24,6 +24,7 @@ auto sortKey(const std::string& name) {
 const char* countedAs(CameraState state) {
   return state == CameraState::kFrozen          ? "without images"
          : state == CameraState::kKnocked       ? "changed since the calibration"
+         : state == CameraState::kWarned        ? "with a warning of the tracker"
          : state == CameraState::kLate          ? "late"
          : state == CameraState::kNotCalibrated ? "not calibrated"
          : state == CameraState::kBlind         ? "without spots"
@@ -79,6 +80,18 @@ void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, dou
     camera.calibration.reset();
   for (const auto& calibration : message.cameras)
     camera(calibration.name, now).calibration = calibration;
+}
+
+void TrackerView::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message, double now) {
+  for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
+    if (status.hardware_id.rfind("rig ", 0) != 0)
+      continue;
+    // Of the tracker, a part for each camera: "NODE: CAMERA".
+    for (CameraView& camera : cameras_) {
+      if (status.name.substr(status.name.rfind(' ') + 1) == camera.name)
+        camera.onTrackerStatus(status.level == status.OK ? "" : status.message, now);
+    }
+  }
 }
 
 bool TrackerView::othersSee(const CameraView& camera, double now) const {

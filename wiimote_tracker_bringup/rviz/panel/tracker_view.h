@@ -3,6 +3,7 @@
 
 #include "camera_view.h"
 
+#include <diagnostic_msgs/DiagnosticArray.h>
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_msgs/RigCalibration.h>
 
@@ -29,6 +30,7 @@ class TrackerView {
   void onBattery(const std::string& camera, double charge, double now);
   void onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now);
   void onRig(const wiimote_tracker_msgs::RigCalibration& message, double now);
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message, double now);
 
   /// In the order of their names; numbers in names count as numbers.
   const std::vector<CameraView>& cameras() const { return cameras_; }

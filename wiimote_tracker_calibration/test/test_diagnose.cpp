@@ -5,6 +5,7 @@
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
 #include "samples/clock_lag.h"
+#include "samples/diagnose.h"
 #include "samples/solve_samples.h"
 
 #include <wiimote_tracker_msgs/error.h>
@@ -130,6 +131,11 @@ TEST_F(SquareMistake, AccelerometerWithTurnedAxes) {
   Eigen::Vector3d& gravity = *seenBy(3).gravity;
   gravity = Eigen::AngleAxisd(M_PI / 2.0, Eigen::Vector3d::UnitZ()) * gravity;
   EXPECT_SAYS(outcome(), "the accelerometer of camera_4 contradicts");
+}
+
+TEST_F(SquareMistake, WhatAgreesHasNone) {
+  const auto mistake = diagnose(recording_, {}, true, {});
+  EXPECT_FALSE(mistake) << mistake->text;
 }
 
 /// Three of the paper's cameras, square and wave.

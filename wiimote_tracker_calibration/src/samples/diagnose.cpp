@@ -40,6 +40,9 @@ class Diagnosis {
     if (!contradicts)
       return std::nullopt;
     const Hypothesis as_is{recording_, options_.square.uncertainty};
+    // Too many images may show what is not modelled, such as clocks that wander.
+    if (const auto attempt = solve(recording_, as_is.uncertainty); attempt && !attempt->contradicts)
+      return std::nullopt;
     std::optional<Attempt> free;
     if (const auto& layout = recording_.square) {
       square::Uncertainty freed = as_is.uncertainty;

@@ -163,7 +163,9 @@ void LedLabels::giveFreeLabel(double time, const tracking::TrackedLed& led) {
     return;
   given.since = time;
   former_[given.name] = place->second;
-  setConfidence(choice.confidence(place->second.confidence), choice.probability(), &given);
+  // Of an LED that may be anywhere an old doubt tells nothing.
+  const double right_there = place->second.age > kPlaceMemory ? 1.0 : place->second.confidence;
+  setConfidence(choice.confidence(right_there), choice.probability(), &given);
 }
 
 /// Where an LED with a label of the list is, and whether it met another one.

@@ -277,6 +277,22 @@ TEST(LedLabels, AreRightFromThenOnIfAPersonSaysSo) {
   EXPECT_NE("", labels.correct("a", "c")) << "not of the list";
 }
 
+TEST(LedLabels, AreNotDoubtfulForEverWhereThereIsNoOtherLed) {
+  LedLabels labels({"led"});
+  TrackedLed jumped = at(0, 0.0);
+  labels.update(kTime, {jumped});
+  jumped.same_led_probability = 0.0;
+  labels.update(kTime, {jumped});
+  EXPECT_EQ(0.0, labels.of(0).confidence);
+  labels.update(kTime, {at(0, 0.0, TrackState::kLost)});
+  labels.update(kTime + 9.0, {at(1, 0.0)});
+  EXPECT_EQ(0.0, labels.of(1).confidence);
+  labels.update(kTime + 9.0, {at(1, 0.0, TrackState::kLost)});
+  labels.update(kTime + 20.0, {});
+  labels.update(kTime + 20.0, {at(2, 0.0)});
+  EXPECT_EQ(1.0, labels.of(2).confidence);
+}
+
 TEST(LedLabels, AreRightWhereThereIsNoOtherLed) {
   LedLabels labels({"led"});
   labels.update(kTime, {at(0, 0.0)});

@@ -21,19 +21,4 @@ std::vector<Image> latestImagesOf(const std::string& camera, const std::vector<I
   return own;
 }
 
-void append(double time, const Image& image, std::vector<Spot>* spots) {
-  if (image.spots.size() == 1 && (spots->empty() || time > spots->back().time))
-    spots->push_back({time, image.spots.front()});
-}
-
-std::optional<fusion::Bracket<Spot>> bracket(const std::vector<Spot>& spots, double time) {
-  const auto after =
-      std::lower_bound(spots.begin(), spots.end(), time,
-                       [](const Spot& spot, double value) { return spot.time < value; });
-  if (after == spots.end() || after == spots.begin())
-    return std::nullopt;
-  const fusion::Bracket<Spot> found{&*(after - 1), &*after};
-  return found.gap() > kLongestGap ? std::nullopt : std::make_optional(found);
-}
-
 }  // namespace wiimote_tracker::capture

@@ -3,15 +3,12 @@
 
 #include "capture/image.h"
 
-#include <wiimote_tracker_triangulation/fusion/frame_history.h>
-
 #include <Eigen/Core>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -64,23 +61,11 @@ void removeStillSpots(std::vector<Image>* images) {
                       image.spots.end());
 }
 
-/// The LED in one camera's image.
-struct Spot {
-  double time;  ///< [s]
-  Eigen::Vector2d pixel;
-};
-
 /// What one camera saw, without spots that do not move.
 std::vector<Image> imagesOf(const std::string& camera, const std::vector<Image>& images);
 
 /// The same since its clock runs as it does now: a time offset is that of one epoch.
 std::vector<Image> latestImagesOf(const std::string& camera, const std::vector<Image>& images);
-
-/// Appends the spot of an image, if it has exactly one and is later than those before.
-void append(double time, const Image& image, std::vector<Spot>* spots);
-
-/// The spots before and after a time, at most kLongestGap apart; else nothing.
-std::optional<fusion::Bracket<Spot>> bracket(const std::vector<Spot>& spots, double time);
 
 }  // namespace wiimote_tracker::capture
 

@@ -1,12 +1,10 @@
 #include "continuous/keyframes.h"
 
-#include <wiimote_tracker_triangulation/geometry/sight.h>
-#include <wiimote_tracker_triangulation/geometry/triangulate.h>
+#include "capture/moving_spots.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace wiimote_tracker::continuous {
 
@@ -21,49 +19,32 @@ constexpr std::size_t kLeastViews = 3;  // With two none can be found to be the 
 // that accelerates by 10 m/s^2 bends by 5 px between images capture::kLongestGap apart [px].
 constexpr double kLargestBend = 8.0;
 
-/// Triangulates the views. @returns whether they agree within the gate [px].
-bool locate(const std::vector<geometry::Sight>& sights, double gate, Keyframe* keyframe) {
-  const auto point = geometry::triangulate(sights.data(), sights.size(), {});
-  if (sights.size() < kLeastViews || !point || point->reprojection_error > gate)
-    return false;
-  keyframe->point = point->position;
-  keyframe->squared =
-      point->reprojection_error * point->reprojection_error * static_cast<double>(sights.size());
-  return true;
-}
-
-/// The same without the view that fits worst, if all do not agree.
-bool locateWithoutOutlier(const std::vector<geometry::Camera>& cameras,
-                          double gate,
-                          Keyframe* keyframe) {
-  std::vector<geometry::Sight> sights;
-  std::vector<View> views;
-  for (const View& view : keyframe->views) {
-    if (const auto sight = geometry::sightFromPixel(cameras[view.camera], view.pixel)) {
-      sights.push_back(*sight);
-      views.push_back(view);
-    }
-  }
-  keyframe->views = views;
-  if (locate(sights, gate, keyframe))
-    return true;
-  std::optional<std::size_t> outlier;
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    std::vector<geometry::Sight> others = sights;
-    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-    Keyframe without;
-    if (!locate(others, gate, &without) || without.squared >= least)
-      continue;
-    least = without.squared;
-    outlier = i;
-    keyframe->point = without.point;
-    keyframe->squared = without.squared;
-  }
-  if (!outlier)
-    return false;
-  keyframe->views.erase(keyframe->views.begin() + static_cast<std::ptrdiff_t>(*outlier));
-  return true;
+/// A chord cuts the curve short, which would move the cameras: moves a view from the chord to the
+/// curve through two spots before and two after. Not for spots with other lights among them: each
+/// would spoil four intervals.
+View onCurve(View view, const std::vector<Spot>& spots, double time) {
+  const auto after =
+      std::lower_bound(spots.begin(), spots.end(), time,
+                       [](const Spot& spot, double value) { return spot.time < value; });
+  const auto before = after - 1;
+  if (before == spots.begin() || after + 1 == spots.end())
+    return view;
+  const Spot& first = *(before - 1);
+  const Spot& last = *(after + 1);
+  const double gap = after->time - before->time;
+  if (last.time - first.time >= gap + 2.0 * capture::kLongestGap)
+    return view;
+  // Half the second derivative, which the slopes before and after tell, times since * (since -
+  // gap).
+  const double since = time - before->time;
+  const Eigen::Vector2d bend = (last.pixel - after->pixel) / (last.time - after->time) -
+                               (before->pixel - first.pixel) / (before->time - first.time);
+  view.pixel +=
+      bend / (last.time + after->time - before->time - first.time) * since * (since - gap);
+  // Not from before and after: with the pixel's errors the clock would be off. First and last
+  // enter the pixel alike, but the velocity with opposite signs.
+  view.velocity = (last.pixel - first.pixel) / (last.time - first.time);
+  return view;
 }
 
 void removeOtherLights(std::vector<Spot>* spots) {
@@ -100,34 +81,6 @@ std::optional<std::uint32_t> KeyframeSource::epoch(std::size_t camera) const {
   return tracks_[camera].epoch;
 }
 
-std::optional<View> KeyframeSource::viewAt(std::size_t camera, double stamp) const {
-  const std::vector<Spot>& spots = tracks_[camera].spots;
-  const auto found = capture::bracket(spots, stamp);
-  if (!found)
-    return std::nullopt;
-  const auto [before, after] = *found;
-  const double gap = found->gap();
-  const double time = stamp - before->time;
-  const Eigen::Vector2d velocity = (after->pixel - before->pixel) / gap;
-  View view{camera, before->pixel + time * velocity, velocity};
-  // A chord cuts the curve short, which would move the cameras: add half the second derivative,
-  // which the slopes before and after tell, times time * (time - gap).
-  if (before != &spots.front() && after != &spots.back()) {
-    const Spot& first = *(before - 1);
-    const Spot& last = *(after + 1);
-    if (last.time - first.time < gap + 2.0 * capture::kLongestGap) {
-      const Eigen::Vector2d bend = (last.pixel - after->pixel) / (last.time - after->time) -
-                                   (before->pixel - first.pixel) / (before->time - first.time);
-      view.pixel +=
-          bend / (last.time + after->time - before->time - first.time) * time * (time - gap);
-      // Not from before and after: with the pixel's errors the clock would be off. First and last
-      // enter the pixel alike, but the velocity with opposite signs.
-      view.velocity = (last.pixel - first.pixel) / (last.time - first.time);
-    }
-  }
-  return view;
-}
-
 double KeyframeSource::nextSpot(const geometry::Rig& rig, double time) const {
   double next = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < tracks_.size(); ++i) {
@@ -155,16 +108,21 @@ std::vector<Keyframe> KeyframeSource::keyframes(const geometry::Rig& rig, double
   }
   std::vector<Keyframe> keyframes;
   for (double time = begin; time < end; time += capture::kSamplePeriod) {
-    Keyframe keyframe;
+    std::vector<View> views;
     for (std::size_t i = 0; i < tracks_.size(); ++i) {
-      if (const auto view = viewAt(i, time - rig.cameras[i].time_offset))
-        keyframe.views.push_back(*view);
+      const double stamp = time - rig.cameras[i].time_offset;
+      if (const auto view = capture::viewAt(i, tracks_[i].spots, stamp))
+        views.push_back(onCurve(*view, tracks_[i].spots, stamp));
     }
-    if (keyframe.views.empty())  // A pause, or a step of the clock, may take years.
+    if (views.empty())  // A pause, or a step of the clock, may take years.
       time = std::max(time, nextSpot(rig, time) - capture::kSamplePeriod);
-    if (locateWithoutOutlier(cameras, gate, &keyframe) &&
-        (keyframes.empty() || (keyframe.point - keyframes.back().point).norm() > kLeastStep))
-      keyframes.push_back(std::move(keyframe));
+    const auto found = capture::locate(cameras, views, gate, kLeastViews);
+    if (!found || (!keyframes.empty() &&
+                   (found->point.position - keyframes.back().point).norm() <= kLeastStep))
+      continue;
+    const double squared = std::pow(found->point.reprojection_error, 2);
+    keyframes.push_back(
+        {found->point.position, found->views, squared * static_cast<double>(found->views.size())});
   }
   return keyframes;
 }

@@ -2,7 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
 
 #include "capture/image.h"
-#include "capture/moving_spots.h"
+#include "capture/views.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -15,16 +15,12 @@
 
 namespace wiimote_tracker::continuous {
 
-/// The LED in one camera's image at some instant, interpolated between two images.
-struct View {
-  std::size_t camera;        ///< As the rig counts them.
-  Eigen::Vector2d pixel;     ///< [px]
-  Eigen::Vector2d velocity;  ///< [px/s]; its error is independent of the pixel's, but beside a gap.
-};
+using capture::View;
 
 /// The LED at one instant, as three cameras or more see it.
 struct Keyframe {
   Eigen::Vector3d point;  ///< World [m].
+  /// On the LED's curve; the error of a velocity is independent of the pixel's, but beside a gap.
   std::vector<View> views;
   double squared = 0.0;  ///< Sum of the squared residuals [px^2].
 };
@@ -50,7 +46,6 @@ class KeyframeSource {
     std::vector<capture::Spot> spots;  // By the camera's clock.
   };
 
-  std::optional<View> viewAt(std::size_t camera, double stamp) const;
   /// When any camera sees its next spot after a time; infinite: never [s].
   double nextSpot(const geometry::Rig& rig, double time) const;
 

@@ -64,26 +64,22 @@ bool DriftWatch::add(const capture::Image& image) {
       rig_.cameras[static_cast<std::size_t>(found - cameras_.begin())];
   const auto time_offset = calibrated.timeOffsetIn(image.clock_epoch);
   found->clock_known = time_offset.has_value();
-  Frame frame;
-  frame.time = image.stamp + time_offset.value_or(0.0);
-  if (image.spots.size() == 1)
-    frame.pixel = image.spots.front();
-  if (!std::isfinite(frame.time))
+  const double time = image.stamp + time_offset.value_or(0.0);
+  if (!std::isfinite(time))
     return false;
-  const double late = newest_ - frame.time;
+  const double late = newest_ - time;
   const std::size_t later_than = newest_camera_;
-  if (frame.time - newest_ > options_.window + kJump || frame.time < newest_ - kJump) {
+  if (time - newest_ > options_.window + kJump || time < newest_ - kJump) {
     restart();
-    newest_ = frame.time;
-    next_sample_ = frame.time;
-    next_judgement_ = frame.time + options_.window / kJudgements;
+    newest_ = time;
+    next_sample_ = time;
+    next_judgement_ = time + options_.window / kJudgements;
   }
   found->late = late;
   found->later_than = later_than;
-  if (found->frames.empty() || frame.time > found->frames.newest().time)
-    found->frames.push(frame);
-  if (frame.time >= newest_) {
-    newest_ = frame.time;
+  capture::append(time, image, &found->spots);
+  if (time >= newest_) {
+    newest_ = time;
     newest_camera_ = static_cast<std::size_t>(found - cameras_.begin());
   }
   sampleUntil(newest_ - kPatience);
@@ -112,7 +108,7 @@ std::string DriftWatch::whyNotJudged(std::size_t camera) const {
 
 void DriftWatch::restart() {
   for (Camera& camera : cameras_) {
-    camera.frames.clear();
+    camera.spots.clear();
     camera.late = 0.0;
     camera.last_sample.reset();
   }
@@ -135,18 +131,17 @@ void DriftWatch::sampleAt(double time) {
   std::vector<std::optional<Eigen::Vector2d>> pixels(cameras_.size());
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     Camera& camera = cameras_[i];
-    camera.frames.forgetBefore(time);
-    const auto bracket = camera.frames.bracket(time);
-    if (!bracket || bracket->gap() > capture::kLongestGap || !bracket->before->pixel ||
-        !bracket->after->pixel)
+    std::vector<capture::Spot>& spots = camera.spots;
+    const auto later = std::find_if(spots.begin(), spots.end(),
+                                    [&](const auto& spot) { return spot.time >= time; });
+    if (later - spots.begin() > 1)
+      spots.erase(spots.begin(), later - 1);
+    const auto view = capture::viewAt(i, spots, time);
+    if (!view ||
+        view->velocity.norm() * (camera.clock_known ? kKnownOffset : capture::kUnknownOffset) >
+            kLargestShift)
       continue;
-    const Eigen::Vector2d step = *bracket->after->pixel - *bracket->before->pixel;
-    const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * step;
-    if (bracket->gap() > 0.0) {
-      const double speed = step.norm() / bracket->gap();
-      if (speed * (camera.clock_known ? kKnownOffset : capture::kUnknownOffset) > kLargestShift)
-        continue;
-    }
+    const Eigen::Vector2d& pixel = view->pixel;
     const auto sight = geometry::sightFromPixel(camera.rays, pixel);
     if (!sight)
       continue;

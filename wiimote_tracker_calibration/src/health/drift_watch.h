@@ -2,8 +2,8 @@
 #define WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
 
 #include "capture/image.h"
+#include "capture/views.h"
 
-#include <wiimote_tracker_triangulation/fusion/frame_history.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 #include <wiimote_tracker_triangulation/geometry/sight.h>
 
@@ -76,15 +76,11 @@ class DriftWatch {
   std::string whyNotJudged(std::size_t camera) const;
 
  private:
-  struct Frame {
-    double time = 0.0;                     // Of the exposure [s].
-    std::optional<Eigen::Vector2d> pixel;  // Nothing unless there was exactly one spot.
-  };
   struct Camera {
     geometry::Camera rays;
-    fusion::FrameHistory<Frame> frames;
-    bool clock_known = false;  // The time offset holds for the latest image.
-    double late = 0.0;         // By how much the latest image was older than the newest of all [s].
+    std::vector<capture::Spot> spots;  // By the time of the exposure, from the next sample on.
+    bool clock_known = false;          // The time offset holds for the latest image.
+    double late = 0.0;  // By how much the latest image was older than the newest of all [s].
     std::size_t later_than = 0;                  // The camera of that newest image.
     std::optional<Eigen::Vector2d> last_sample;  // [px]
   };

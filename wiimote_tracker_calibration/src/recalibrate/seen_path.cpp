@@ -1,7 +1,5 @@
 #include "seen_path.h"
 
-#include <wiimote_tracker_triangulation/geometry/triangulate.h>
-
 #include <utility>
 
 namespace wiimote_tracker::recalibrate {
@@ -25,7 +23,7 @@ SeenPath::SeenPath(const geometry::Rig& rig,
   for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
     const geometry::RigCamera& camera = rig.cameras[i];
     Track track;
-    track.rays = rig.rayCamera(camera);
+    rays_.push_back(rig.rayCamera(camera));
     if (camera.camera.name != without) {
       for (const capture::Image& image : capture::imagesOf(camera.camera.name, images)) {
         const auto offset = camera.timeOffsetIn(image.clock_epoch);
@@ -40,45 +38,28 @@ SeenPath::SeenPath(const geometry::Rig& rig,
 }
 
 SeenPath::Sight SeenPath::positionAt(double time, PathPoint* point) const {
-  std::vector<geometry::Observation> observations;
-  point->cameras.clear();
+  std::vector<capture::View> views;
   double largest_miss = kLargestMiss;
   for (const std::size_t i : seeing_) {
-    const Track& track = tracks_[i];
-    const auto found = capture::bracket(track.spots, time);
-    if (!found)
+    const auto view = capture::viewAt(i, tracks_[i].spots, time);
+    if (!view)
       continue;
-    const Eigen::Vector2d step = found->after->pixel - found->before->pixel;
-    observations.push_back({&track.rays, found->before->pixel + found->shareAt(time) * step});
-    point->cameras.push_back(i);
-    if (!track.clock_known)
+    views.push_back(*view);
+    if (!tracks_[i].clock_known)
       largest_miss = kLargestMissUnclocked;
   }
-  if (observations.size() < 2)
+  if (views.size() < 2)
     return Sight::kNotSeen;
-  geometry::TriangulationOptions options;
-  options.pixel_stddev = 1.0;
-  auto result = geometry::triangulate(observations, options);
-  // Of three or more, leave one out if it sees another light.
-  if (observations.size() > 2 && (!result || result->reprojection_error > largest_miss)) {
-    std::size_t left_out = 0;
-    for (std::size_t i = 0; i < observations.size(); ++i) {
-      std::vector<geometry::Observation> others = observations;
-      others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
-      const auto without = geometry::triangulate(others, options);
-      if (without && (!result || without->reprojection_error < result->reprojection_error)) {
-        result = without;
-        left_out = i;
-      }
-    }
-    point->cameras.erase(point->cameras.begin() + static_cast<std::ptrdiff_t>(left_out));
-  }
-  if (!result || result->reprojection_error > largest_miss)
+  const auto found = capture::locate(rays_, views, largest_miss, 2);
+  if (!found)
     return Sight::kContradictory;
-  if (result->covariance.trace() > kLargestSpread * kLargestSpread)
+  if (found->point.covariance.trace() > kLargestSpread * kLargestSpread)
     return Sight::kUndetermined;
-  point->position = result->position;
-  point->unit_covariance = result->covariance;
+  point->position = found->point.position;
+  point->unit_covariance = found->point.covariance;
+  point->cameras.clear();
+  for (const capture::View& view : found->views)
+    point->cameras.push_back(view.camera);
   return Sight::kSeen;
 }
 

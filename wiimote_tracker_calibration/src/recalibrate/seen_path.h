@@ -3,6 +3,7 @@
 
 #include "capture/image.h"
 #include "capture/moving_spots.h"
+#include "capture/views.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -47,13 +48,13 @@ class SeenPath {
 
  private:
   struct Track {
-    geometry::Camera rays;
     bool clock_known = false;
     std::vector<capture::Spot> spots;  // By the time of the exposure.
   };
 
   Sight positionAt(double time, PathPoint* point) const;
 
+  std::vector<geometry::Camera> rays_;
   std::vector<Track> tracks_;
   std::vector<std::size_t> seeing_;
 };

@@ -1,10 +1,10 @@
 #include "start_path.h"
 
+#include "capture/views.h"
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_msgs/text.h>
-#include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
@@ -35,10 +35,7 @@ constexpr double kLongestGap = 0.3;
 // Fewest places to start from.
 constexpr std::size_t kLeastPlaces = 40;
 
-struct Spot {
-  std::size_t camera;
-  Eigen::Vector2d pixel;
-};
+using Spot = capture::View;  // Of unknown velocity.
 
 /// A point in space that two or more spots of different cameras agree on.
 struct Point {
@@ -56,13 +53,11 @@ struct Instant {
 std::optional<geometry::TriangulatedPoint> triangulate(const std::vector<geometry::Camera>& cameras,
                                                        const std::vector<Spot>& spots,
                                                        const std::vector<std::size_t>& chosen) {
-  std::vector<geometry::Observation> observations;
+  std::vector<Spot> views;
   for (std::size_t i : chosen)
-    observations.push_back({&cameras[spots[i].camera], spots[i].pixel});
-  auto point = geometry::triangulate(observations, geometry::TriangulationOptions());
-  if (point && point->reprojection_error > kTolerance)
-    point.reset();
-  return point;
+    views.push_back(spots[i]);
+  const auto found = capture::locate(cameras, views, kTolerance, chosen.size());
+  return found ? std::make_optional(found->point) : std::nullopt;
 }
 
 /// Extends two spots by those of other cameras that lie where their point is seen.
@@ -202,7 +197,7 @@ class Instants {
       if (distance(i) > kSameInstant)
         continue;
       for (const Eigen::Vector2d& spot : frames[i].spots)
-        spots_.push_back({c, spot});
+        spots_.push_back({c, spot, Eigen::Vector2d::Zero()});
     }
     return spots_;
   }

@@ -1,7 +1,7 @@
 #include "start_poses.h"
 
 #include "bundle/start.h"
-#include "capture/moving_spots.h"
+#include "capture/views.h"
 #include "wave/error.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
@@ -13,7 +13,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace wiimote_tracker::wave {
 
@@ -43,17 +42,6 @@ std::vector<capture::Spot> middlesOf(const std::vector<Frame>& frames, bool wand
   return middles;
 }
 
-/// Nothing where the camera does not see it.
-std::optional<Eigen::Vector2d> middleAt(const std::vector<capture::Spot>& middles, double time) {
-  const auto found = capture::bracket(middles, time);
-  if (!found)
-    return std::nullopt;
-  const Eigen::Vector2d step = found->after->pixel - found->before->pixel;
-  if (step.norm() > capture::kLongestJump)
-    return std::nullopt;
-  return found->before->pixel + found->shareAt(time) * step;
-}
-
 /// What the cameras saw at common times, each of which is one point.
 bundle::Reconstruction viewsAtInstants(const Recording& recording, int attempt) {
   bundle::Reconstruction all;
@@ -67,8 +55,8 @@ bundle::Reconstruction viewsAtInstants(const Recording& recording, int attempt) 
   for (double time = start + std::fmod(0.5 + kShift * attempt, 1.0) * step; time < end;
        time += step) {
     for (std::size_t c = 0; c < middles.size(); ++c) {
-      if (const auto pixel = middleAt(middles[c], time))
-        all.observations.push_back({c, all.points.size(), *pixel});
+      if (const auto view = capture::viewAt(c, middles[c], time))
+        all.observations.push_back({c, all.points.size(), view->pixel});
     }
     all.points.emplace_back();
   }

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::health {
 
@@ -27,17 +28,150 @@ constexpr double kJudgements = 12.0;
 // Residuals of a camera that scatter by more are not those of a turn alone [px].
 constexpr double kMisplaced = 10.0;
 
+/// Judges a rig by samples of one LED.
+class Judgement {
+ public:
+  Judgement(const geometry::Rig& rig, const DriftSamples& samples, double limit)
+      : rig_(rig), samples_(samples), limit_(limit) {}
+
+  Drifts judge();
+
+ private:
+  std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const {
+    return medianDrift(residualsAgainst(&rig_, samples_, active, camera), rig_.covariance, 2,
+                       limit_);
+  }
+  std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const {
+    return medianDrift(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, limit_);
+  }
+  double worstRatio(const std::vector<bool>& active) const;
+  void judgeAgainstOthers(std::vector<bool>* active);
+  void judgePairs(const std::vector<bool>& active);
+  void noteExchange(std::vector<bool>* active);
+
+  const geometry::Rig& rig_;
+  const DriftSamples& samples_;
+  double limit_;
+  Drifts drifts_;
+};
+
+/// The largest ratio among these cameras.
+double Judgement::worstRatio(const std::vector<bool>& active) const {
+  double worst = 0.0;
+  for (std::size_t a = 0; a < active.size(); ++a) {
+    if (!active[a])
+      continue;
+    if (const auto drift = driftOf(a, active)) {
+      worst = std::max(worst, drift->ratio);
+      continue;
+    }
+    for (std::size_t b = 0; b < active.size(); ++b) {
+      const auto pair = active[b] && b != a ? driftOfPair(a, b) : std::nullopt;
+      worst = pair ? std::max(worst, pair->ratio) : worst;
+    }
+  }
+  return worst;
+}
+
+Drifts Judgement::judge() {
+  drifts_.assign(rig_.cameras.size(), std::nullopt);
+  std::vector<bool> active(rig_.cameras.size(), true);
+  judgeAgainstOthers(&active);
+  if (std::any_of(drifts_.begin(), drifts_.end(),
+                  [](const auto& drift) { return drift && drift->scatter > kMisplaced; }))
+    noteExchange(&active);
+  judgePairs(active);
+  return drifts_;
+}
+
+/// Judges the others without two cameras that seem exchanged, if there are such.
+void Judgement::noteExchange(std::vector<bool>* active) {
+  const auto exchanged = exchangedCameras(rig_, samples_);
+  if (!exchanged)
+    return;
+  const auto [a, b] = *exchanged;
+  Drifts found(rig_.cameras.size());
+  for (const std::size_t i : {a, b}) {
+    found[i] = drifts_[i].value_or(Drift());
+    found[i]->ratio = std::max(1.0, found[i]->ratio);
+    found[i]->exchanged_with = rig_.cameras[i == a ? b : a].camera.name;
+  }
+  drifts_ = found;
+  active->assign(rig_.cameras.size(), true);
+  (*active)[a] = (*active)[b] = false;
+  judgeAgainstOthers(active);
+}
+
+/// Removes the cameras that drifted, one after the other.
+void Judgement::judgeAgainstOthers(std::vector<bool>* remaining) {
+  std::vector<bool>& active = *remaining;
+  // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
+  // the camera without which the rest fit best, and judge the rest without it.
+  while (true) {
+    double least = 0.0;
+    std::optional<std::size_t> culprit;
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+      if (!active[i])
+        continue;
+      drifts_[i] = driftOf(i, active);
+      if (!drifts_[i] || drifts_[i]->ratio < 1.0)
+        continue;
+      std::vector<bool> rest = active;
+      rest[i] = false;
+      const double worst = worstRatio(rest);
+      if (!culprit || worst < least) {
+        least = worst;
+        culprit = i;
+      }
+    }
+    if (!culprit)
+      break;
+    active[*culprit] = false;
+  }
+  // Where several are removed, two that remain may agree by chance.
+  const auto removed = std::count(active.begin(), active.end(), false);
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < active.size(); ++i)
+    judged += active[i] && drifts_[i] ? 1 : 0;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (!active[i])
+      drifts_[i]->or_others = removed > 1 && judged < 3;
+  }
+}
+
+/// Judges cameras that share their view with one other camera only.
+void Judgement::judgePairs(const std::vector<bool>& active) {
+  for (std::size_t a = 0; a < rig_.cameras.size(); ++a) {
+    for (std::size_t b = a + 1; b < rig_.cameras.size(); ++b) {
+      if (!active[a] || !active[b] || (drifts_[a] && drifts_[b]))
+        continue;
+      const auto pair = driftOfPair(a, b);
+      if (!pair)
+        continue;
+      for (const std::size_t i : {a, b}) {
+        const bool fits_the_others = drifts_[i] && drifts_[i]->or_camera.empty();
+        if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
+          continue;
+        drifts_[i] = pair;
+        drifts_[i]->or_camera = rig_.cameras[i == a ? b : a].camera.name;
+      }
+    }
+  }
+}
+
 }  // namespace
+
+Drifts driftsOf(const geometry::Rig& rig, const DriftSamples& samples, double limit) {
+  return Judgement(rig, samples, limit).judge();
+}
 
 Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
   DriftOptions options;
-  // So long that nothing is judged before the end.
-  options.window = 100.0 * (images.back().stamp - images.front().stamp);
+  options.window = std::numeric_limits<double>::infinity();
   DriftWatch watch(rig, options);
   for (const capture::Image& image : images)
     watch.add(image);
-  watch.judge();
-  return watch.drifts();
+  return driftsOf(rig, watch.samples(), options.limit);
 }
 
 bool allFit(const Drifts& drifts, std::ptrdiff_t cameras) {
@@ -69,7 +203,7 @@ bool DriftWatch::add(const capture::Image& image) {
     return false;
   const double late = newest_ - time;
   const std::size_t later_than = newest_camera_;
-  if (time - newest_ > options_.window + kJump || time < newest_ - kJump) {
+  if (std::isinf(newest_) || time - newest_ > options_.window + kJump || time < newest_ - kJump) {
     restart();
     newest_ = time;
     next_sample_ = time;
@@ -86,7 +220,7 @@ bool DriftWatch::add(const capture::Image& image) {
   if (newest_ < next_judgement_)
     return false;
   next_judgement_ = newest_ + options_.window / kJudgements;
-  judge();
+  drifts_ = driftsOf(rig_, samples_, options_.limit);
   return true;
 }
 
@@ -157,117 +291,6 @@ void DriftWatch::sampleAt(double time) {
       cameras_[i].last_sample = pixels[i];
   }
   samples_.push_back(std::move(sample));
-}
-
-std::optional<Drift> DriftWatch::driftOf(std::size_t camera,
-                                         const std::vector<bool>& active) const {
-  return medianDrift(residualsAgainst(rig_, samples_, active, camera), rig_.covariance, 2,
-                     options_.limit);
-}
-
-std::optional<Drift> DriftWatch::driftOfPair(std::size_t a, std::size_t b) const {
-  return medianDrift(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, options_.limit);
-}
-
-double DriftWatch::worstRatio(const std::vector<bool>& active) const {
-  double worst = 0.0;
-  for (std::size_t a = 0; a < active.size(); ++a) {
-    if (!active[a])
-      continue;
-    if (const auto drift = driftOf(a, active)) {
-      worst = std::max(worst, drift->ratio);
-      continue;
-    }
-    for (std::size_t b = 0; b < active.size(); ++b) {
-      const auto pair = active[b] && b != a ? driftOfPair(a, b) : std::nullopt;
-      worst = pair ? std::max(worst, pair->ratio) : worst;
-    }
-  }
-  return worst;
-}
-
-void DriftWatch::judge() {
-  drifts_.assign(cameras_.size(), std::nullopt);
-  std::vector<bool> active(cameras_.size(), true);
-  judgeAgainstOthers(&active);
-  if (std::any_of(drifts_.begin(), drifts_.end(),
-                  [](const auto& drift) { return drift && drift->scatter > kMisplaced; }))
-    noteExchange(&active);
-  judgePairs(active);
-}
-
-/// Judges the others without two cameras that seem exchanged, if there are such.
-void DriftWatch::noteExchange(std::vector<bool>* active) {
-  const auto exchanged = exchangedCameras(rig_, samples_);
-  if (!exchanged)
-    return;
-  const auto [a, b] = *exchanged;
-  Drifts found(cameras_.size());
-  for (const std::size_t i : {a, b}) {
-    found[i] = drifts_[i].value_or(Drift());
-    found[i]->ratio = std::max(1.0, found[i]->ratio);
-    found[i]->exchanged_with = cameras_[i == a ? b : a].rays.name;
-  }
-  drifts_ = found;
-  active->assign(cameras_.size(), true);
-  (*active)[a] = (*active)[b] = false;
-  judgeAgainstOthers(active);
-}
-
-void DriftWatch::judgeAgainstOthers(std::vector<bool>* remaining) {
-  std::vector<bool>& active = *remaining;
-  // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
-  // the camera without which the rest fit best, and judge the rest without it.
-  while (true) {
-    double least = 0.0;
-    std::optional<std::size_t> culprit;
-    for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      if (!active[i])
-        continue;
-      drifts_[i] = driftOf(i, active);
-      if (!drifts_[i] || drifts_[i]->ratio < 1.0)
-        continue;
-      std::vector<bool> rest = active;
-      rest[i] = false;
-      const double worst = worstRatio(rest);
-      if (!culprit || worst < least) {
-        least = worst;
-        culprit = i;
-      }
-    }
-    if (!culprit)
-      break;
-    active[*culprit] = false;
-  }
-  // Where several are removed, two that remain may agree by chance.
-  const auto removed = std::count(active.begin(), active.end(), false);
-  std::size_t judged = 0;
-  for (std::size_t i = 0; i < active.size(); ++i)
-    judged += active[i] && drifts_[i] ? 1 : 0;
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    if (!active[i])
-      drifts_[i]->or_others = removed > 1 && judged < 3;
-  }
-}
-
-/// Judges cameras that share their view with one other camera only.
-void DriftWatch::judgePairs(const std::vector<bool>& active) {
-  for (std::size_t a = 0; a < cameras_.size(); ++a) {
-    for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
-      if (!active[a] || !active[b] || (drifts_[a] && drifts_[b]))
-        continue;
-      const auto pair = driftOfPair(a, b);
-      if (!pair)
-        continue;
-      for (const std::size_t i : {a, b}) {
-        const bool fits_the_others = drifts_[i] && drifts_[i]->or_camera.empty();
-        if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
-          continue;
-        drifts_[i] = pair;
-        drifts_[i]->or_camera = cameras_[i == a ? b : a].rays.name;
-      }
-    }
-  }
 }
 
 }  // namespace wiimote_tracker::health

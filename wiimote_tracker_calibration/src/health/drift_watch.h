@@ -20,8 +20,9 @@
 namespace wiimote_tracker::health {
 
 struct DriftOptions {
-  double limit = 0.7;    ///< Largest median residual of a camera that did not move [px, > 0].
-  double window = 60.0;  ///< Over which the median is taken; judged twelve times in it [s, > 0].
+  double limit = 0.7;  ///< Largest median residual of a camera that did not move [px, > 0].
+  /// Over which the median is taken; judged twelve times in it [s, > 0]. Infinite: never judged.
+  double window = 60.0;
 };
 
 /// Pixels of the LED in two cameras or more at one time, with the cameras' indices in the rig,
@@ -30,6 +31,7 @@ struct DriftSample {
   double time;  ///< [s]
   std::vector<std::pair<std::size_t, geometry::Sight>> sights;
 };
+using DriftSamples = std::deque<DriftSample>;
 
 /// How far a camera's images are from what the other cameras see.
 struct Drift {
@@ -48,7 +50,10 @@ struct Drift {
 /// Per camera of a rig; nothing: it was not judged.
 using Drifts = std::vector<std::optional<Drift>>;
 
-/// How far each camera of a rig is off in these images, by the default limit.
+/// How far each camera of a rig is off in these samples. @param limit as in DriftOptions.
+Drifts driftsOf(const geometry::Rig& rig, const DriftSamples& samples, double limit);
+
+/// The same in these images, by the default limit.
 Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
 
 /// Whether so many cameras at least were judged, and none contradicts the others.
@@ -65,8 +70,8 @@ class DriftWatch {
   /// @returns true when a new judgement is there.
   bool add(const capture::Image& image);
 
-  /// Judges the window now; add() does so twelve times in it.
-  void judge();
+  /// In the window.
+  const DriftSamples& samples() const { return samples_; }
 
   /// At the time of the latest judgement. Nothing for cameras that shared too little motion with
   /// others in the window.
@@ -86,20 +91,12 @@ class DriftWatch {
   };
   void sampleUntil(double time);
   void sampleAt(double time);
-  std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const;
-  std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
-  /// Removes the cameras that drifted, one after the other.
-  void judgeAgainstOthers(std::vector<bool>* active);
-  void judgePairs(const std::vector<bool>& active);
-  void noteExchange(std::vector<bool>* active);
-  /// The largest ratio among these cameras.
-  double worstRatio(const std::vector<bool>& active) const;
   void restart();
 
   geometry::Rig rig_;
   DriftOptions options_;
   std::vector<Camera> cameras_;
-  std::deque<DriftSample> samples_;
+  DriftSamples samples_;
   double newest_ = -std::numeric_limits<double>::infinity();  // Latest exposure [s].
   std::size_t newest_camera_ = 0;
   double next_sample_ = 0.0;     // [s]

@@ -58,7 +58,6 @@ const Association& ViewAssociator::associate(const std::vector<View>& views) {
     }
   }
   result_.points.clear();
-  result_.spots.clear();
   result_.cost = 0.0;
   result_.steps = 0;
   result_.proven = true;
@@ -153,11 +152,9 @@ void ViewAssociator::solveComponent(const std::vector<View>& views) {
   result_.cost += search_.cost();
   for (std::size_t i = 0; i < search_.pointCount(); ++i) {
     const PointSearch::Point& point = search_.point(i);
-    result_.points.push_back({point.location, result_.spots.size(), point.spots.size()});
-    for (const std::size_t place : point.spots) {
-      const Component::Spot& spot = component_.spots[place];
-      result_.spots.push_back({spot.view, spot.index});
-    }
+    SpotReferences& spots = result_.points.emplace_back(AssociatedPoint{point.location, {}}).spots;
+    for (const std::size_t place : point.spots)
+      spots.push_back({component_.spots[place].view, component_.spots[place].index});
   }
 }
 

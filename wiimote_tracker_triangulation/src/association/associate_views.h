@@ -7,6 +7,7 @@
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
 
 #include <Eigen/Core>
+#include <boost/container/small_vector.hpp>
 
 #include <cstddef>
 #include <vector>
@@ -33,15 +34,16 @@ struct SpotReference {
   std::size_t spot;
 };
 
+/// More than 16 allocate.
+using SpotReferences = boost::container::small_vector<SpotReference, 16>;
+
 struct AssociatedPoint {
   geometry::TriangulatedPoint point;  ///< Maximum likelihood, linearised (see geometry::Sight).
-  std::size_t first_spot;             ///< In Association::spots.
-  std::size_t spot_count;
+  SpotReferences spots;               ///< In the order of the views.
 };
 
 struct Association {
   std::vector<AssociatedPoint> points;  ///< In the order of their first spots.
-  std::vector<SpotReference> spots;     ///< Of the points, each in the order of the views.
   double cost = 0.0;                    ///< Of the points and of all spots that belong to none.
   bool proven = true;                   ///< No other association costs less.
   std::size_t steps = 0;                ///< Of the search.

@@ -136,11 +136,8 @@ void BodySearch::listMatchedSpots(std::size_t body,
   for (std::size_t led = 0; led < setup_.bodies[body].constellation.leds.size(); ++led) {
     if (match.point_of_led[led] == kUnseen)
       continue;
-    const association::AssociatedPoint& point = found.points[match.point_of_led[led]];
-    for (std::size_t i = 0; i < point.spot_count; ++i) {
-      const association::SpotReference& spot = found.spots[point.first_spot + i];
+    for (const association::SpotReference& spot : found.points[match.point_of_led[led]].spots)
       matched_spots_.push_back({led, spot.view, candidates_[spot.view][spot.spot]});
-    }
   }
 }
 

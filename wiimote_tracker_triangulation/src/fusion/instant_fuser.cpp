@@ -92,8 +92,7 @@ void InstantFuser::Parts::describe(const LedMemory::Led& led) {
 
 void InstantFuser::Parts::describeRays(const Locator::Point& point, TrackedLed* led) {
   led->residual = point.located.reprojection_error;
-  for (std::size_t i = 0; i < point.spot_count; ++i) {
-    const association::SpotReference& ray = locator->spots()[point.first_spot + i];
+  for (const association::SpotReference& ray : point.spots) {
     if (led->cameras.size() < led->cameras.capacity())
       led->cameras.push_back(ray.view);
     tracking::SeenSpot& spot = snapshot.views[ray.view].spots[ray.spot];

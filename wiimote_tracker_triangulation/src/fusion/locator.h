@@ -21,9 +21,8 @@ class Locator {
  public:
   struct Point {
     geometry::TriangulatedPoint located;
-    double last_observed;    ///< Newest image of its spots [s].
-    std::size_t first_spot;  ///< In spots().
-    std::size_t spot_count;
+    double last_observed;               ///< Newest image of its spots [s].
+    association::SpotReferences spots;  ///< In the order of the views.
   };
 
   /// @param rig has passed Rig::check.
@@ -41,12 +40,10 @@ class Locator {
   void locate(const std::vector<InstantView>& views) {
     associate(views);
     points_.clear();
-    spots_.clear();
     for (const association::AssociatedPoint& associated : association_->points) {
       rays_.clear();
       observations_.clear();
-      for (std::size_t i = 0; i < associated.spot_count; ++i) {
-        const association::SpotReference& sight = association_->spots[associated.first_spot + i];
+      for (const association::SpotReference& sight : associated.spots) {
         const std::size_t spot = spot_of_sight_[sight.view][sight.spot];
         rays_.push_back({sight.view, spot});
         observations_.push_back({&ray_cameras_[sight.view], views[sight.view].spots[spot].pixel});
@@ -59,20 +56,16 @@ class Locator {
       double observed = -std::numeric_limits<double>::infinity();
       for (const association::SpotReference& ray : rays_)
         observed = std::max(observed, *views[ray.view].time);
-      points_.push_back({*located, observed, spots_.size(), rays_.size()});
-      spots_.insert(spots_.end(), rays_.begin(), rays_.end());
+      points_.push_back({*located, observed, rays_});
     }
     std::sort(points_.begin(), points_.end(), [](const Point& a, const Point& b) {
-      return a.spot_count != b.spot_count
-                 ? a.spot_count > b.spot_count
+      return a.spots.size() != b.spots.size()
+                 ? a.spots.size() > b.spots.size()
                  : a.located.reprojection_error < b.located.reprojection_error;
     });
   }
 
   const std::vector<Point>& points() const { return points_; }
-
-  /// The spots of the points, each point's in the order of the views.
-  const std::vector<association::SpotReference>& spots() const { return spots_; }
 
  private:
   static association::AssociationOptions associationOptions(const geometry::Rig& rig,
@@ -141,10 +134,9 @@ class Locator {
   std::vector<association::View> views_;
   const association::Association* association_ = nullptr;
   std::vector<Point> points_;
-  std::vector<association::SpotReference> spots_;
 
   // Of one point.
-  std::vector<association::SpotReference> rays_;
+  association::SpotReferences rays_;
   std::vector<geometry::Observation> observations_;  // of rays_
   std::vector<geometry::Observation> subset_;
 };

@@ -40,33 +40,29 @@ void TrackInitiation::apply(std::size_t newest, GroupState* state) {
   const association::Association& found = associator_.associate(views_);
   used_.clear();
   for (const association::AssociatedPoint& point : found.points) {
-    const auto* first = found.spots.data() + point.first_spot;
-    const auto* last = first + point.spot_count;
-    if (std::none_of(first, last, [&](auto& spot) { return spot.view == newest; }) ||
-        !isAllowed(point) || mayShowInAnother(point, first))
+    if (std::none_of(point.spots.begin(), point.spots.end(),
+                     [&](auto& spot) { return spot.view == newest; }) ||
+        !isAllowed(point) || mayShowInAnother(point))
       continue;
-    start(point, first, unassignedOf(newest).time);
-    used_.insert(used_.end(), first, last);
+    start(point, unassignedOf(newest).time);
+    used_.insert(used_.end(), point.spots.begin(), point.spots.end());
   }
   removeUsed();
 }
 
 /// Starts a track from the spots of a point, at the time of the newest of them.
-void TrackInitiation::start(const association::AssociatedPoint& point,
-                            const association::SpotReference* spots,
-                            double time) {
-  const auto* end = spots + point.spot_count;
+void TrackInitiation::start(const association::AssociatedPoint& point, double time) {
   initial_spots_.clear();
-  for (const auto* spot = spots; spot != end; ++spot)
-    initial_spots_.push_back(spotAt(*spot).key);
+  for (const association::SpotReference& spot : point.spots)
+    initial_spots_.push_back(spotAt(spot).key);
   const std::uint32_t id = ids_->idFor(initial_spots_, time, [&](std::uint32_t candidate) {
     return std::any_of(state_->tracks.begin(), state_->tracks.end(),
                        [&](const Track& track) { return track.id == candidate; });
   });
-  Track& track = state_->tracks.emplace_back(filterOf(point, spots), id);
-  for (const auto* spot = spots; spot != end; ++spot) {
-    track.addInitialSpot(spot->view, unassignedOf(spot->view).time, point.point.reprojection_error);
-    starts_.push_back({spot->view, spotAt(*spot).key.spot, id});
+  Track& track = state_->tracks.emplace_back(filterOf(point), id);
+  for (const association::SpotReference& spot : point.spots) {
+    track.addInitialSpot(spot.view, unassignedOf(spot.view).time, point.point.reprojection_error);
+    starts_.push_back({spot.view, spotAt(spot).key.spot, id});
   }
 }
 
@@ -82,16 +78,15 @@ void TrackInitiation::removeUsed() {
 
 /// Takes each spot at the time of its own image. Where the LED was before, and how fast, is hardly
 /// known: the images are not of one time, so the point serves to linearise only.
-motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoint& point,
-                                               const association::SpotReference* spots) {
+motion::MotionFilter TrackInitiation::filterOf(const association::AssociatedPoint& point) const {
   constexpr double kVague = 100.0;  // times the point's covariance
-  by_time_.assign(spots, spots + point.spot_count);
-  std::sort(by_time_.begin(), by_time_.end(), [&](auto& a, auto& b) {
+  association::SpotReferences by_time = point.spots;
+  std::sort(by_time.begin(), by_time.end(), [&](auto& a, auto& b) {
     return unassignedOf(a.view).time < unassignedOf(b.view).time;
   });
-  motion::MotionFilter filter(options_.motion, unassignedOf(by_time_.front().view).time,
+  motion::MotionFilter filter(options_.motion, unassignedOf(by_time.front().view).time,
                               point.point.position, kVague * point.point.covariance);
-  for (const association::SpotReference& spot : by_time_) {
+  for (const association::SpotReference& spot : by_time) {
     const UnassignedSpots& image = unassignedOf(spot.view);
     const TrackerCamera& camera = cameras_[spot.view];
     filter.predict(image.time);
@@ -161,11 +156,10 @@ bool TrackInitiation::collectViews(std::size_t newest) {
 }
 
 /// Whether a camera that has not looked yet may show the point too.
-bool TrackInitiation::mayShowInAnother(const association::AssociatedPoint& point,
-                                       const association::SpotReference* spots) const {
+bool TrackInitiation::mayShowInAnother(const association::AssociatedPoint& point) const {
   double since = std::numeric_limits<double>::infinity();
-  for (const auto* spot = spots; spot != spots + point.spot_count; ++spot)
-    since = std::min(since, unassignedOf(spot->view).since);
+  for (const association::SpotReference& spot : point.spots)
+    since = std::min(since, unassignedOf(spot.view).since);
   for (std::size_t camera = 0; camera < cameras_.size(); ++camera) {
     if (views_[camera].watching && unassignedOf(camera).time < since &&
         cameras_[camera].forRays().sees(point.point.position))

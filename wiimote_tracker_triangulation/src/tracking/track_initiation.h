@@ -53,13 +53,9 @@ class TrackInitiation {
     return unassignedOf(spot.view).spots[spot.spot];
   }
   bool isAllowed(const association::AssociatedPoint& point) const;
-  bool mayShowInAnother(const association::AssociatedPoint& point,
-                        const association::SpotReference* spots) const;
-  void start(const association::AssociatedPoint& point,
-             const association::SpotReference* spots,
-             double time);
-  motion::MotionFilter filterOf(const association::AssociatedPoint& point,
-                                const association::SpotReference* spots);
+  bool mayShowInAnother(const association::AssociatedPoint& point) const;
+  void start(const association::AssociatedPoint& point, double time);
+  motion::MotionFilter filterOf(const association::AssociatedPoint& point) const;
   void removeUsed();
 
   const std::vector<TrackerCamera>& cameras_;
@@ -68,8 +64,7 @@ class TrackInitiation {
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
   std::vector<association::View> views_;
-  std::vector<SpotKey> initial_spots_;               // of one point
-  std::vector<association::SpotReference> by_time_;  // of one point
+  std::vector<SpotKey> initial_spots_;  // of one point
   std::vector<association::SpotReference> used_;
   std::vector<StartSpot> starts_;
   GroupState* state_ = nullptr;  // of the last apply(); valid while it runs

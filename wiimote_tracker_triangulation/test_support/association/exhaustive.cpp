@@ -215,10 +215,8 @@ Division divisionOf(const Association& association, std::size_t cameras) {
   division.cost = association.cost;
   for (const AssociatedPoint& point : association.points) {
     Tuple tuple(cameras, -1);
-    for (std::size_t i = 0; i < point.spot_count; ++i) {
-      const SpotReference& spot = association.spots[point.first_spot + i];
+    for (const SpotReference& spot : point.spots)
       tuple[spot.view] = static_cast<int>(spot.spot);
-    }
     division.points.insert(tuple);
   }
   return division;

@@ -1,12 +1,12 @@
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 
+#include "geometry/output_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -20,49 +20,12 @@
 namespace wiimote_tracker::geometry {
 namespace {
 
-[[noreturn]] void fail(const std::string& what, const std::string& path, int error) {
-  throw FileError("cannot " + what + " " + path + " (" + std::strerror(error) + "); " +
-                  (error == ENOENT
-                       ? "check its name"
-                       : "check its permissions and free space, or choose another path"));
-}
-
 [[noreturn]] void failToRead(const std::string& path, int error) {
   throw FileError("cannot read " + path + " (" + std::strerror(error) +
                   "); check its name and permissions");
 }
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-void writeAndSync(const std::string& path, const std::string& content) {
-  const File file(std::fopen(path.c_str(), "we"), std::fclose);
-  if (!file)
-    fail("create", path, errno);
-  if (std::fwrite(content.data(), 1, content.size(), file.get()) != content.size() ||
-      std::fflush(file.get()) != 0 || ::fsync(::fileno(file.get())) != 0)
-    fail("write", path, errno);
-}
-
-/// Replaces the file by a rename, which is atomic within a folder.
-void replace(const std::filesystem::path& path, const std::string& content) {
-  static unsigned count = 0;
-  const std::string fresh =
-      path.string() + ".new" + std::to_string(::getpid()) + "." + std::to_string(count++);
-  try {
-    writeAndSync(fresh, content);
-    if (::rename(fresh.c_str(), path.c_str()) != 0)
-      fail("replace", path.string(), errno);
-  } catch (const FileError&) {
-    ::unlink(fresh.c_str());
-    throw;
-  }
-  // So that the rename survives a power failure, if the file system supports it.
-  const int folder = ::open(path.parent_path().c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (folder >= 0) {
-    ::fsync(folder);
-    ::close(folder);
-  }
-}
 
 /// What kind of file a content is, by its key `format`; empty: it does not say.
 std::string kindOf(const std::string& content) {
@@ -82,24 +45,29 @@ std::string kindOf(const std::string& content) {
 
 void writeFileAtomically(const std::string& path, const std::string& content) {
   namespace fs = std::filesystem;
-  static std::mutex mutex;  // of the old file and its backup
+  static std::mutex mutex;  // another thread is refused as another program is
   const std::lock_guard<std::mutex> lock(mutex);
   try {
     fs::path target = fs::absolute(path);
     if (fs::is_symlink(target))
       target = fs::weakly_canonical(target);
-    fs::create_directories(target.parent_path());
     if (fs::exists(target)) {
-      const std::string old = readFile(target.string(), std::numeric_limits<std::size_t>::max());
-      const std::string kind = kindOf(old);
+      const std::string kind =
+          kindOf(readFile(target.string(), std::numeric_limits<std::size_t>::max()));
       if (!kind.empty() && kind != kindOf(content))
         throw FileError(path + " was not written: it is a file of another kind (" + kind +
                         "); choose another name");
-      replace(target.string() + ".bak", old);
     }
-    replace(target, content);
+    OutputFile file(target.string(), false);
+    try {
+      file.write(content);
+      file.finish();
+    } catch (...) {
+      file.discard();
+      throw;
+    }
   } catch (const fs::filesystem_error& e) {
-    fail("write", path, e.code().value());
+    failToWrite(path, e.code().value());
   }
 }
 

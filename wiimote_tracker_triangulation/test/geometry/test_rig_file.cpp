@@ -230,7 +230,7 @@ TEST_F(RigFile, AFailedWriteLeavesTheOldFile) {
   EXPECT_NE(std::string::npos, complaint.find(path_)) << complaint;
   EXPECT_EQ(written_, contentOf(path_));
   for (const auto& entry : fs::directory_iterator(folder_)) {
-    EXPECT_EQ(std::string::npos, entry.path().string().find(".new"))
+    EXPECT_EQ(std::string::npos, entry.path().string().find(".part"))
         << "left behind: " << entry.path();
   }
 }

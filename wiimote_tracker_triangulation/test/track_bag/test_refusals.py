@@ -166,8 +166,10 @@ def test_a_folder_that_cannot_be_created(bag, tmp_path):
     assert 'choose another place' in refused(tmp_path, bag, tmp_path / 'file' / 'out.bag')
 
 
-def test_two_programs_do_not_write_one_bag(bag, tmp_path):
-    out, part = tmp_path / 'out.bag', tmp_path / 'out.bag.part'
+@pytest.mark.parametrize('name', ['out.bag', 'out.csv'])
+def test_two_programs_do_not_write_one_file(bag, tmp_path, name):
+    out, part, other = tmp_path / 'out.bag', tmp_path / (name + '.part'), {
+        'out.bag': 'out.csv', 'out.csv': 'out.bag'}[name]
     with open(str(part), 'w') as file:
         file.write('of the other program')
         file.flush()
@@ -175,9 +177,10 @@ def test_two_programs_do_not_write_one_bag(bag, tmp_path):
         status, _, errors = run(bag, out, '--csv', tmp_path / 'out.csv')
         assert status == 1 and 'another program writes' in errors and not out.exists()
         assert part.read_text() == 'of the other program'
-        assert not (tmp_path / 'out.csv.part').exists()
-    track(bag, out)  # over what it left
+        assert not (tmp_path / (other + '.part')).exists()
+    track(bag, out, '--csv', tmp_path / 'out.csv')  # over what it left
     assert not part.exists() and len(arrays(out)) > 300
+    assert (tmp_path / 'out.csv.part.bak').exists() == (name == 'out.csv')
 
 
 def test_ctrl_c_leaves_no_part_of_a_file(tmp_path):

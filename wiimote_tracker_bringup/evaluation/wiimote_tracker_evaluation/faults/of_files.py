@@ -163,7 +163,7 @@ def full_disk(room):
         with open(path, 'rb') as file:
             if file.read() != before:
                 problems.append('the older file was lost')
-        problems += [f'left behind: {name}' for name in os.listdir(folder) if '.new' in name]
+        problems += [f'left behind: {name}' for name in os.listdir(folder) if '.part' in name]
         os.remove(filler)
         if not helper.ask(path)[0]:
             problems.append('not saved afterwards')

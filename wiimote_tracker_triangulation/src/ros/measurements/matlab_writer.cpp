@@ -1,4 +1,4 @@
-#include "ros/measurements/part_file.h"
+#include "geometry/output_file.h"
 #include "ros/measurements/table_fields.h"
 #include "ros/measurements/writer.h"
 
@@ -238,14 +238,14 @@ class MatlabWriter : public Writer {
 
   std::string finish() override {
     errno = 0;
-    file_.reset(Mat_CreateVer(partOf(path_).c_str(), kFileHeader, MAT_FT_MAT5));
+    file_.reset(Mat_CreateVer(geometry::partOf(path_).c_str(), kFileHeader, MAT_FT_MAT5));
     if (!file_)
-      failToWrite(path_, errno);
+      geometry::failToWrite(path_, errno);
     write(text("readme", kReadme));
     leds_.write([this](const Variable& variable) { write(variable); });
     write(structOf("bodies", bodies_));
-    if (Mat_Close(file_.release()) != 0 || !isWhole(partOf(path_), written_))
-      failToWrite(path_, errno != 0 ? errno : EIO);
+    if (Mat_Close(file_.release()) != 0 || !isWhole(geometry::partOf(path_), written_))
+      geometry::failToWrite(path_, errno != 0 ? errno : EIO);
     return Writer::finish();
   }
 
@@ -256,7 +256,7 @@ class MatlabWriter : public Writer {
 
   void write(const Variable& variable) {
     if (!variable || Mat_VarWrite(file_.get(), variable.get(), MAT_COMPRESSION_ZLIB) != 0)
-      failToWrite(path_, errno != 0 ? errno : EIO);
+      geometry::failToWrite(path_, errno != 0 ? errno : EIO);
     ++written_;
   }
 

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H
 
-#include "ros/measurements/part_file.h"
+#include "geometry/output_file.h"
 #include "ros/measurements/writer.h"
 
 #include <Eigen/Core>

@@ -1,4 +1,4 @@
-#include "ros/measurements/part_file.h"
+#include "geometry/output_file.h"
 #include "ros/measurements/writer.h"
 
 #include <map>

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
 
-#include "ros/measurements/part_file.h"
+#include "geometry/output_file.h"
 
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
@@ -17,6 +17,8 @@
 #include <vector>
 
 namespace wiimote_tracker::measurements {
+
+using geometry::OutputFile;
 
 /// One row of a table: an LED of a message.
 struct Measurement {
@@ -140,7 +142,7 @@ struct OutputNames {
 /// One for each file. @throws Error: one cannot be created, or two are the same; then no part is
 /// left of those that were created.
 inline std::vector<std::unique_ptr<Writer>> makeWriters(const OutputNames& names) {
-  checkDistinct(names.tables());
+  geometry::checkDistinct(names.tables());
   std::vector<std::unique_ptr<Writer>> writers;
   const auto add = [&](const std::string& name, const auto& make, auto... rate) {
     if (!name.empty())

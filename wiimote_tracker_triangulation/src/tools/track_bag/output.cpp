@@ -1,18 +1,13 @@
 #include "output.h"
 
-#include "ros/measurements/part_file.h"
+#include "geometry/output_file.h"
 #include "ros/tracker/body_message.h"
 #include "ros/tracker/point_message.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <tf2_msgs/TFMessage.h>
-#include <unistd.h>
 #include <boost/make_shared.hpp>
 
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
 
 namespace wiimote_tracker {
@@ -24,43 +19,6 @@ using wiimote_tracker_msgs::TrackedPointArray;
 
 constexpr char kTransforms[] = "/tf";
 
-LockedPart::LockedPart(const std::string& path) : part_(measurements::partOf(path)) {
-  lock(path);
-  if (file_ >= 0 && ::ftruncate(file_, 0) != 0)  // of an earlier run: can be computed again
-    measurements::failToWrite(path, errno);
-  measurements::createPart(path);
-  if (file_ < 0)
-    lock(path);
-}
-
-LockedPart::~LockedPart() {
-  if (isThere())
-    ::unlink(part_.c_str());
-  ::close(file_);
-}
-
-/// Whether the locked file has the part's name.
-bool LockedPart::isThere() const {
-  struct stat mine {};
-  struct stat present {};
-  return ::fstat(file_, &mine) == 0 && ::stat(part_.c_str(), &present) == 0 &&
-         mine.st_ino == present.st_ino;
-}
-
-/// Does nothing if there is no part.
-void LockedPart::lock(const std::string& path) {
-  file_ = ::open(part_.c_str(), O_RDWR | O_CLOEXEC);
-  if (file_ >= 0 && ::flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-    ::close(file_);
-    throw BagError("another program writes " + path +
-                   ": wait until it has ended, or name another file");
-  }
-  if (file_ >= 0 && !isThere()) {  // the other program has just finished it
-    ::close(file_);
-    file_ = -1;
-  }
-}
-
 Output::Output(const std::string& bag,
                const measurements::OutputNames& names,
                const Topics& topics,
@@ -68,14 +26,17 @@ Output::Output(const std::string& bag,
     : path_(bag),
       topics_(topics),
       options_(options),
-      part_(path_),
-      bag_(std::make_unique<rosbag::Bag>()),
-      writers_(measurements::makeWriters(names)) {
+      part_(path_, false),  // that of an earlier run can be computed again
+      bag_(std::make_unique<rosbag::Bag>()) {
   try {
-    bag_->open(measurements::partOf(path_), rosbag::bagmode::Write);
+    writers_ = measurements::makeWriters(names);
+    bag_->open(geometry::partOf(path_), rosbag::bagmode::Write);
   } catch (const rosbag::BagException& e) {
     abandon();
     fail(e.what());
+  } catch (...) {
+    abandon();
+    throw;
   }
 }
 
@@ -89,6 +50,7 @@ void Output::abandon() {
   if (bag_.release()) {
     for (const std::unique_ptr<measurements::Writer>& writer : writers_)
       writer->discard();
+    part_.discard();
   }
 }
 
@@ -199,8 +161,8 @@ void Output::finish() {
   } catch (const rosbag::BagException& e) {
     fail(e.what());
   }
+  part_.finish();
   bag_.reset();
-  measurements::finishPart(path_);
 }
 
 /// `header`: of the connection; without one the topic has one connection for all its messages.

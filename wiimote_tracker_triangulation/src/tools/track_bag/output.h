@@ -16,24 +16,6 @@
 
 namespace wiimote_tracker {
 
-/// The part of a bag: the unfinished file beside it, whose name ends in .part (part_file.h). Locked
-/// against other programs, removed unless it was finished.
-class LockedPart {
- public:
-  /// @throws Error: another program writes the file, or it cannot be written.
-  explicit LockedPart(const std::string& path);
-  ~LockedPart();
-  LockedPart(const LockedPart&) = delete;
-  LockedPart& operator=(const LockedPart&) = delete;
-
- private:
-  bool isThere() const;
-  void lock(const std::string& path);
-
-  std::string part_;
-  int file_ = -1;
-};
-
 /// Writes the tracker's results and recorded messages to a new bag, and results to tables. The
 /// files get their names in finish(); existing files are kept as path + ".bak". Without it, the
 /// parts of all of them are removed. All member functions throw BagError or Error.
@@ -90,7 +72,7 @@ class Output : public MessageSink {
   std::string path_;
   Topics topics_;
   OutputOptions options_;
-  LockedPart part_;
+  geometry::OutputFile part_;         // of the bag, which rosbag writes
   std::unique_ptr<rosbag::Bag> bag_;  // null when finished
   std::vector<std::unique_ptr<measurements::Writer>> writers_;
   std::set<std::string> dropped_topics_;  // of the recording

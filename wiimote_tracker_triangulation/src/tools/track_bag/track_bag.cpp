@@ -1,8 +1,8 @@
 // Recomputes the points of a recording with the code of the node, as fast as possible.
 
+#include "geometry/output_file.h"
 #include "output.h"
 #include "recording.h"
-#include "ros/measurements/part_file.h"
 #include "ros/tracker/message_tracker.h"
 #include "smoothed_tracks.h"
 #include "wiimote_tracker_triangulation/geometry/rig_file.h"
@@ -167,8 +167,8 @@ void checkFiles(const Arguments& arguments, const BodyParameters& bodies) {
     if (!folder.empty())
       to_write.push_back(measurements::tumPath(folder, body.name));
   }
-  measurements::checkDistinct(to_write,
-                              {arguments.input, arguments.parameters, arguments.rig, bodies.file});
+  geometry::checkDistinct(to_write,
+                          {arguments.input, arguments.parameters, arguments.rig, bodies.file});
 }
 
 TrackingParameters parametersOf(const Arguments& arguments) {

@@ -1,0 +1,55 @@
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_OUTPUT_FILE_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_OUTPUT_FILE_H
+
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace wiimote_tracker::geometry {
+
+/// Name of a file while it is being written.
+std::string partOf(const std::string& path);
+
+/// Empty names are no files. @throws FileError: a file to write is also to be read, or to be
+/// written as something else.
+void checkDistinct(const std::vector<std::string>& to_write,
+                   const std::vector<std::string>& to_read = {});
+
+/// @throws FileError with the reason for `error`, an errno.
+[[noreturn]] void failToWrite(const std::string& path, int error);
+
+/// A file that is written as its part until it is complete. All throw FileError.
+class OutputFile {
+ public:
+  /// Creates the folder and an empty part, which is locked against other programs. Refuses a
+  /// folder, a device, a pipe, and what another program writes.
+  /// @param keeps_part of a program that crashed, unless empty, as path + ".part.bak", or
+  /// ".part.bak2" and so on where that exists.
+  explicit OutputFile(const std::string& path, bool keeps_part = true);
+
+  void write(const std::string& bytes);
+  void flush();
+
+  /// Syncs the part to disk and renames it: for every reader, and after a crash, the file has its
+  /// old content or all of the new. Keeps an existing file as path + ".bak". Where it throws, the
+  /// file is as it was, and the part stays.
+  void finish();
+
+  void discard();  ///< Removes the part, if it is not finished. Throws nothing.
+
+ private:
+  void openPart();
+  bool isNamedAsPart() const;
+
+  struct Close {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+  };
+
+  std::string path_;
+  std::unique_ptr<std::FILE, Close> file_;  // the part
+};
+
+}  // namespace wiimote_tracker::geometry
+
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_OUTPUT_FILE_H

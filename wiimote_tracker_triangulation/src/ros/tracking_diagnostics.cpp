@@ -35,8 +35,7 @@ TrackingDiagnostics::TrackingDiagnostics(const ros::NodeHandle& nh,
       shedding_(shedding),
       clocks_(clock_tolerance),
       lenses_(nh),
-      updater_(nh, private_nh),
-      reported_clocks_(clock_tolerance) {
+      updater_(nh, private_nh) {
   updater_.setHardwareID("none");
   updater_.add("triangulation", this, &TrackingDiagnostics::report);
 }
@@ -49,8 +48,6 @@ void TrackingDiagnostics::setRig() {
     cameras_.push_back(camera.camera.name);
   nodes_.assign(cameras_.size(), "");
   clocks_.clear(cameras_.size());
-  reported_clocks_ = clocks_;
-  reported_ = tracker_->statistics();
   lenses_.setRig(tracker_->rig());
   since_ = ros::SteadyTime::now();
   updater_.wait(kFirstImages);
@@ -74,7 +71,14 @@ void TrackingDiagnostics::addArrival(const std::string& camera,
   clocks_.add(index, receipt.toSec() - arrival.toSec());
 }
 
-/// Runs before the reports of the cameras and begins a new period for all.
+void TrackingDiagnostics::update() {
+  if (!updater_.update())
+    return;
+  tracker_->statistics().clear();
+  clocks_.clear(cameras_.size());
+  since_ = ros::SteadyTime::now();
+}
+
 void TrackingDiagnostics::report(Status& status) {
   if (!tracker_->hasRig()) {
     status.summary(DiagnosticStatus::WARN,
@@ -82,21 +86,14 @@ void TrackingDiagnostics::report(Status& status) {
                    "cameras says why none was loaded");
     return;
   }
-  const ros::SteadyTime now = ros::SteadyTime::now();
-  period_ = (now - since_).toSec();
-  since_ = now;
-  reported_ = tracker_->statistics();
-  tracker_->statistics().clear();
-  reported_clocks_ = clocks_;
-  clocks_.clear(cameras_.size());
-
-  if (reported_.snapshots() == 0)
+  const Statistics& statistics = tracker_->statistics();
+  if (statistics.snapshots() == 0)
     status.summary(DiagnosticStatus::WARN,
                    imagesCome() ? "no image can be used: see what is said of each camera"
                                 : "no images: start the cameras' drivers; those that run say in "
                                   "/diagnostics what they lack");
   else
-    status.summary(DiagnosticStatus::OK, reported_.describe());
+    status.summary(DiagnosticStatus::OK, statistics.describe());
   const VolumeCorrection& correction = tracker_->correction();
   if (!correction.problem().empty())
     status.mergeSummary(DiagnosticStatus::WARN, correction.problem());
@@ -104,13 +101,13 @@ void TrackingDiagnostics::report(Status& status) {
     status.mergeSummary(DiagnosticStatus::WARN, LoadShedding::kAdvice);
   status.add("rig", tracker_->rigId());
   status.add("correction of the volume", correction.state());
-  status.add("LEDs tracked", reported_.leds(TrackState::kTracked));
-  status.add("LEDs predicted", reported_.leds(TrackState::kPredicted));
-  status.add("LEDs tentative", reported_.leds(TrackState::kTentative));
+  status.add("LEDs tracked", statistics.leds(TrackState::kTracked));
+  status.add("LEDs predicted", statistics.leds(TrackState::kPredicted));
+  status.add("LEDs tentative", statistics.leds(TrackState::kTentative));
   status.add("LEDs with doubtful labels", doubtfulLabels(tracker_->labels()));
-  status.addf("rate [Hz]", "%.1f", reported_.snapshots() / period_);
-  status.addf("latency p50 [ms]", "%.3f", 1e3 * reported_.latency(0.50));
-  status.addf("latency p99 [ms]", "%.3f", 1e3 * reported_.latency(0.99));
+  status.addf("rate [Hz]", "%.1f", statistics.snapshots() / period());
+  status.addf("latency p50 [ms]", "%.3f", 1e3 * statistics.latency(0.50));
+  status.addf("latency p99 [ms]", "%.3f", 1e3 * statistics.latency(0.99));
   const tracking::Counters& counters = tracker_->counters();
   status.add("images older than one already used (normal)", counters.late);
   status.add("images dropped: too late, or by a wrong clock", counters.dropped);
@@ -123,14 +120,15 @@ void TrackingDiagnostics::report(Status& status) {
 /// Whether any came in the period, also such that cannot be used.
 bool TrackingDiagnostics::imagesCome() const {
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (reported_.camera(i).images > 0 || !reported_.camera(i).problem.empty())
+    const CameraStatistics& camera = tracker_->statistics().camera(i);
+    if (camera.images > 0 || !camera.problem.empty())
       return true;
   }
   return false;
 }
 
 void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
-  const CameraStatistics& statistics = reported_.camera(camera);
+  const CameraStatistics& statistics = tracker_->statistics().camera(camera);
   status.summary(DiagnosticStatus::OK, "in use");
   if (statistics.images == 0 && statistics.problem.empty())
     status.summary(
@@ -141,11 +139,11 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   for (const std::string& problem :
        {statistics.problem, describeLights(statistics, cameras_[camera]),
         lenses_.problemOf(cameras_[camera]), clockProblem(camera),
-        reported_.describeClock(camera, cameras_[camera])}) {
+        tracker_->statistics().describeClock(camera, cameras_[camera])}) {
     if (!problem.empty())
       status.mergeSummary(DiagnosticStatus::WARN, problem);
   }
-  status.addf("images [Hz]", "%.1f", statistics.images / period_);
+  status.addf("images [Hz]", "%.1f", statistics.images / period());
   status.add("images lost since the last report", statistics.lost);
   status.addf("delay from exposure to arrival [ms]", "%.3f", 1e3 * statistics.meanDelay());
   status.addf("spots that belong to an LED [%]", "%.1f", 100.0 * statistics.inlierRatio());
@@ -153,8 +151,8 @@ void TrackingDiagnostics::reportCamera(std::size_t camera, Status& status) {
   status.add("spots masked", statistics.masked);
 }
 
-std::string TrackingDiagnostics::clockProblem(std::size_t camera) {
-  const auto ahead = reported_clocks_.ahead(camera);
+std::string TrackingDiagnostics::clockProblem(std::size_t camera) const {
+  const auto ahead = clocks_.ahead(camera);
   if (!ahead)
     return "";
   return format("the clock of the driver of %s (%s) is %.3f s %s: run chrony on all computers",

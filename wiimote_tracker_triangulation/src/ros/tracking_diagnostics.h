@@ -36,7 +36,7 @@ class TrackingDiagnostics {
                   const std::string& node);
 
   /// Publishes when due.
-  void update() { updater_.update(); }
+  void update();
 
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
@@ -44,7 +44,8 @@ class TrackingDiagnostics {
   void report(Status& status);
   bool imagesCome() const;
   void reportCamera(std::size_t camera, Status& status);
-  std::string clockProblem(std::size_t camera);
+  std::string clockProblem(std::size_t camera) const;
+  double period() const { return (ros::SteadyTime::now() - since_).toSec(); }  ///< [s]
 
   MessageTracker* tracker_;
   const LoadShedding* shedding_;
@@ -53,12 +54,7 @@ class TrackingDiagnostics {
   std::vector<std::string> cameras_;
   std::vector<std::string> nodes_;  // per camera
   SteadyUpdater updater_;
-
-  // State of the reported period.
-  Statistics reported_;
-  HostClockCheck reported_clocks_;
-  ros::SteadyTime since_ = ros::SteadyTime::now();
-  double period_ = 0.0;  // [s]
+  ros::SteadyTime since_ = ros::SteadyTime::now();  // the last report
 };
 
 }  // namespace wiimote_tracker

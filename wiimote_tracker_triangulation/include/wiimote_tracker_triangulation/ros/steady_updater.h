@@ -15,13 +15,14 @@ class SteadyUpdater : public diagnostic_updater::Updater {
  public:
   using Updater::Updater;
 
-  /// Publishes when due. Replaces update() of the base.
-  void update() {
+  /// Publishes when due. Replaces update() of the base. @returns whether it did.
+  bool update() {
     const ros::SteadyTime now = ros::SteadyTime::now();
     if (now < due_)
-      return;
+      return false;
     due_ = now + ros::WallDuration(getPeriod());
     force_update();
+    return true;
   }
 
   /// Puts off the next report for at least `duration` from now: an earlier one would say little.

@@ -8,30 +8,27 @@ namespace wiimote_tracker::adjust {
 
 CameraBlocks::CameraBlocks(const geometry::Camera& camera, double offset)
     : world_from_start(camera.world_from_camera.linear()),
-      distortion_model(camera.intrinsics.distortion_model),
-      rotation{},
-      time_offset(offset) {
+      distortion_model(camera.intrinsics.distortion_model) {
   const Eigen::Vector3d center = camera.center();
-  position = {center.x(), center.y(), center.z()};
   const geometry::Intrinsics& in = camera.intrinsics;
-  lens = {in.fx, in.fy, in.cx, in.cy, in.distortion[0]};
-  std::copy(in.distortion.begin() + 1, in.distortion.end(), higher_distortion.begin());
+  values = {0.0, 0.0, 0.0, center.x(), center.y(), center.z(), in.fx, in.fy, in.cx, in.cy};
+  std::copy(in.distortion.begin(), in.distortion.end(), values.begin() + geometry::kDistortion);
+  values.back() = offset;
 }
 
 geometry::Camera CameraBlocks::cameraLike(const geometry::Camera& other) const {
   geometry::Camera camera = other;
   Eigen::Matrix3d turn;
-  ceres::AngleAxisToRotationMatrix(rotation.data(), turn.data());
+  ceres::AngleAxisToRotationMatrix(values.data(), turn.data());
   camera.world_from_camera.linear() =
       Eigen::Quaterniond(turn * world_from_start).normalized().toRotationMatrix();
-  camera.world_from_camera.translation() = Eigen::Map<const Eigen::Vector3d>(position.data());
+  const double* next = values.data() + geometry::kPosition;
+  camera.world_from_camera.translation() = Eigen::Map<const Eigen::Vector3d>(next);
+  next += kPositionSize;
   geometry::Intrinsics& in = camera.intrinsics;
-  in.fx = lens[0];
-  in.fy = lens[1];
-  in.cx = lens[2];
-  in.cy = lens[3];
-  in.distortion[0] = lens[4];
-  std::copy(higher_distortion.begin(), higher_distortion.end(), in.distortion.begin() + 1);
+  for (double* const value : {&in.fx, &in.fy, &in.cx, &in.cy})
+    *value = *next++;
+  std::copy_n(next, in.distortion.size(), in.distortion.begin());
   return camera;
 }
 

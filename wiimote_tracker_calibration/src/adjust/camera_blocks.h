@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
+#include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 
 #include <ceres/loss_function.h>
 #include <ceres/problem.h>
@@ -10,28 +11,38 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace wiimote_tracker::adjust {
 
-// Parameter blocks of one camera. Side by side they are its parameters in the order of a rig's
-// covariance (geometry/camera_parameters.h); a solver holds the blocks that it does not estimate
-// with ceres::Problem::SetParameterBlockConstant(): the higher distortion but in self_calibrate.
+// Sizes of a camera's parameter blocks.
 constexpr int kRotationSize = 3;  ///< w [rad]: R = exp([w]x) R_start, about the world's axes.
 constexpr int kPositionSize = 3;  ///< Optical centre in the world [m].
 constexpr int kLensSize = 5;  ///< fx, fy, cx, cy [px], the lens model's first coefficient k1 [1].
 constexpr int kHigherDistortionSize = 4;  ///< The coefficients after k1 [1].
+constexpr int kTimeOffsetSize = 1;        ///< Exposure time minus stamp [s].
 
+/// One camera as parameter blocks of Ceres, side by side in the order of a rig's covariance
+/// (geometry/camera_parameters.h). A solver holds the blocks that it does not estimate with
+/// ceres::Problem::SetParameterBlockConstant(): the higher distortion but in self_calibrate.
 struct CameraBlocks {
   explicit CameraBlocks(const geometry::Camera& camera, double time_offset = 0.0);
 
   /// The camera that these values describe; name, identity and image size are those of `other`.
   geometry::Camera cameraLike(const geometry::Camera& other) const;
 
-  /// The blocks in the order of a rig's covariance.
+  double* rotation() { return values.data(); }
+  double* position() { return rotation() + kRotationSize; }
+  double* lens() { return position() + kPositionSize; }
+  double* higherDistortion() { return lens() + kLensSize; }
+  double* timeOffset() { return &values.back(); }
+
   std::vector<double*> all() {
-    return {rotation.data(), position.data(), lens.data(), higher_distortion.data(), &time_offset};
+    return {rotation(), position(), lens(), higherDistortion(), timeOffset()};
   }
+  static constexpr std::array<std::int32_t, 5> kSizes = {kRotationSize, kPositionSize, kLensSize,
+                                                         kHigherDistortionSize, kTimeOffsetSize};
 
   /// Adds a residual of the first four blocks and of some others to a problem.
   /// @param loss null: none. The problem owns it.
@@ -40,17 +51,13 @@ struct CameraBlocks {
                                ceres::CostFunction* cost,
                                ceres::LossFunction* loss,
                                Others*... others) {
-    return problem->AddResidualBlock(cost, loss, rotation.data(), position.data(), lens.data(),
-                                     higher_distortion.data(), others...);
+    return problem->AddResidualBlock(cost, loss, rotation(), position(), lens(), higherDistortion(),
+                                     others...);
   }
 
-  Eigen::Matrix3d world_from_start;            ///< Where `rotation` starts from; not estimated.
+  Eigen::Matrix3d world_from_start;            ///< Where the rotation starts from; not estimated.
   geometry::DistortionModel distortion_model;  ///< Not estimated.
-  std::array<double, kRotationSize> rotation;
-  std::array<double, kPositionSize> position;
-  std::array<double, kLensSize> lens;
-  std::array<double, kHigherDistortionSize> higher_distortion;
-  double time_offset;  ///< Exposure time minus stamp [s].
+  std::array<double, geometry::kParameters> values;
 };
 
 /// A new Cauchy loss for one residual; null if the scale is infinite.

@@ -34,8 +34,7 @@ void BundleProblem::addObservations() {
     problem_.AddResidualBlock(
         error.cost(),
         std::isfinite(options_.loss_scale) ? new ceres::HuberLoss(options_.loss_scale) : nullptr,
-        camera.rotation.data(), camera.position.data(), lens.lens.data(),
-        lens.higher_distortion.data(), point);
+        camera.rotation(), camera.position(), lens.lens(), lens.higherDistortion(), point);
     points_.push_back(point);
   }
   if (problem_.NumResidualBlocks() == 0)
@@ -48,23 +47,23 @@ void BundleProblem::addObservations() {
 void BundleProblem::holdPoses() {
   bool world_fixed = options_.fixed_positions;
   for (adjust::CameraBlocks& camera : cameras_) {
-    if (!problem_.HasParameterBlock(camera.rotation.data()))
+    if (!problem_.HasParameterBlock(camera.rotation()))
       continue;
     if (!world_fixed)
-      problem_.SetParameterBlockConstant(camera.rotation.data());
+      problem_.SetParameterBlockConstant(camera.rotation());
     if (options_.fixed_positions || !world_fixed)
-      problem_.SetParameterBlockConstant(camera.position.data());
+      problem_.SetParameterBlockConstant(camera.position());
     world_fixed = true;
   }
 }
 
 void BundleProblem::holdLensOrAddPrior(std::size_t index) {
   adjust::CameraBlocks& camera = cameras_[index];
-  if (!problem_.HasParameterBlock(camera.lens.data()))
+  if (!problem_.HasParameterBlock(camera.lens()))
     return;
   if (options_.fixed_lenses) {
-    problem_.SetParameterBlockConstant(camera.lens.data());
-    problem_.SetParameterBlockConstant(camera.higher_distortion.data());
+    problem_.SetParameterBlockConstant(camera.lens());
+    problem_.SetParameterBlockConstant(camera.higherDistortion());
     return;
   }
   const ExpectedLens& expected = options_.lens;
@@ -78,10 +77,10 @@ void BundleProblem::holdLensOrAddPrior(std::size_t index) {
   const adjust::LensPrior lens{mean, expected.focal_length * weight, expected.aspect * weight,
                                expected.principal_point * mean.width * weight,
                                expected.distortion[0] * weight};
-  problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens.data());
+  problem_.AddResidualBlock(lens.cost(), nullptr, camera.lens());
   const Eigen::Map<const Eigen::Vector4d> distortion(expected.distortion.data() + 1);
   problem_.AddResidualBlock(adjust::priorOf(Eigen::Vector4d::Zero(), weight * distortion), nullptr,
-                            camera.higher_distortion.data());
+                            camera.higherDistortion());
 }
 
 void BundleProblem::addScale() {
@@ -95,7 +94,7 @@ void BundleProblem::addScale() {
       cameras.begin(), cameras.end(),
       [&](const auto& a, const auto& b) { return from_origin(a) < from_origin(b); });
   double* const position =
-      cameras_[static_cast<std::size_t>(farthest - cameras.begin())].position.data();
+      cameras_[static_cast<std::size_t>(farthest - cameras.begin())].position();
   if (!problem_.HasParameterBlock(position))
     return;
   const Eigen::Vector3d baseline = farthest->center() - origin;
@@ -137,8 +136,9 @@ bool BundleProblem::solve() {
     throw BundleError("the adjustment failed (" + summary.message +
                       "): record the light in more places");
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    cameras_[i].lens = lensOf(i).lens;
-    cameras_[i].higher_distortion = lensOf(i).higher_distortion;
+    if (&lensOf(i) != &cameras_[i])
+      std::copy_n(lensOf(i).lens(), adjust::kLensSize + adjust::kHigherDistortionSize,
+                  cameras_[i].lens());
     geometry::Camera& camera = reconstruction_.cameras[i];
     camera = cameras_[i].cameraLike(camera);
   }
@@ -148,8 +148,8 @@ bool BundleProblem::solve() {
 std::optional<adjust::Estimate> BundleProblem::estimate(const std::vector<std::size_t>& points) {
   std::vector<double*> blocks;
   for (std::size_t i = 0; i < (options_.one_lens ? 1 : cameras_.size()); ++i) {
-    blocks.push_back(cameras_[i].lens.data());
-    blocks.push_back(cameras_[i].higher_distortion.data());
+    blocks.push_back(cameras_[i].lens());
+    blocks.push_back(cameras_[i].higherDistortion());
   }
   for (const std::size_t point : points)
     blocks.push_back(reconstruction_.points[point]->data());

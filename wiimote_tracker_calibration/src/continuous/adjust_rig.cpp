@@ -175,18 +175,18 @@ class RigProblem {
              double pixel_stddev,
              double loss_scale,
              std::vector<CameraBlocks>* cameras)
-      : keyframes_(std::move(keyframes)) {
+      : keyframes_(std::move(keyframes)), blocks_(adjust::blocksOf(cameras)) {
     for (Keyframe& keyframe : keyframes_) {
       for (const View& view : keyframe.views) {
         CameraBlocks& camera = (*cameras)[view.camera];
         const adjust::InterpolatedPixelError error{
             adjust::PixelError(camera, view.pixel, pixel_stddev), view.velocity,
-            camera.time_offset};
-        camera.addTo(&problem_, error.cost(), adjust::lossOf(loss_scale), &camera.time_offset,
+            *camera.timeOffset()};
+        camera.addTo(&problem_, error.cost(), adjust::lossOf(loss_scale), camera.timeOffset(),
                      keyframe.point.data());
       }
     }
-    addPrior(prior, cameras);
+    addPrior(prior);
   }
 
   /// Changes the cameras' blocks. @returns whether it could.
@@ -210,25 +210,18 @@ class RigProblem {
   std::optional<Eigen::MatrixXd> covariance() { return adjust::covarianceOf(&problem_, blocks_); }
 
  private:
-  void addPrior(const geometry::Rig& prior, std::vector<CameraBlocks>* cameras) {
-    Eigen::VectorXd mean(prior.covariance.rows());
+  void addPrior(const geometry::Rig& prior) {
+    std::vector<double> mean;
     std::vector<std::int32_t> sizes;
-    Eigen::Index first = 0;
-    for (std::size_t i = 0; i < cameras->size(); ++i) {
-      CameraBlocks start(prior.cameras[i].camera, prior.cameras[i].time_offset);
-      const std::vector<double*> starts = start.all();
-      const std::vector<double*> blocks = (*cameras)[i].all();
-      const std::int32_t kSizes[] = {adjust::kRotationSize, adjust::kPositionSize,
-                                     adjust::kLensSize, adjust::kHigherDistortionSize, 1};
-      for (std::size_t k = 0; k < blocks.size(); ++k) {
-        mean.segment(first, kSizes[k]) = Eigen::Map<Eigen::VectorXd>(starts[k], kSizes[k]);
-        first += kSizes[k];
-        blocks_.push_back(blocks[k]);
-        sizes.push_back(kSizes[k]);
-      }
+    for (const geometry::RigCamera& camera : prior.cameras) {
+      const CameraBlocks start(camera.camera, camera.time_offset);
+      mean.insert(mean.end(), start.values.begin(), start.values.end());
+      sizes.insert(sizes.end(), CameraBlocks::kSizes.begin(), CameraBlocks::kSizes.end());
     }
-    problem_.AddResidualBlock(new adjust::JointPrior(mean, prior.covariance, sizes), nullptr,
-                              blocks_);
+    problem_.AddResidualBlock(
+        new adjust::JointPrior(Eigen::Map<Eigen::VectorXd>(mean.data(), prior.covariance.rows()),
+                               prior.covariance, sizes),
+        nullptr, blocks_);
   }
 
   std::vector<Keyframe> keyframes_;
@@ -270,7 +263,7 @@ class Adjustment {
       return false;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       rig_.cameras[i].camera = cameras_[i].cameraLike(rig_.cameras[i].camera);
-      rig_.cameras[i].time_offset = cameras_[i].time_offset;
+      rig_.cameras[i].time_offset = *cameras_[i].timeOffset();
     }
     if (std::isfinite(loss_scale))
       return true;

@@ -42,20 +42,14 @@ geometry::Rig between(const geometry::Rig& from, const geometry::Rig& to, double
     const geometry::Camera& start = from.cameras[i].camera;
     geometry::Camera& camera = rig.cameras[i].camera;
     adjust::CameraBlocks then(start);
-    Eigen::Vector3d::Map(then.rotation.data()) = geometry::so3::log(
+    Eigen::Vector3d::Map(then.rotation()) = geometry::so3::log(
         start.world_from_camera.linear() * camera.world_from_camera.linear().transpose());
     adjust::CameraBlocks now(camera);
-    double* next = &left[geometry::firstParameter(i)];
-    const auto goBack = [&](const auto& before, auto* values) {
-      for (std::size_t k = 0; k < before.size(); ++k, ++next) {
-        *next = (1.0 - share) * (before[k] - (*values)[k]);
-        (*values)[k] += *next;
-      }
-    };
-    goBack(then.rotation, &now.rotation);
-    goBack(then.position, &now.position);
-    goBack(then.lens, &now.lens);
-    goBack(then.higher_distortion, &now.higher_distortion);
+    for (std::size_t k = 0; k < now.values.size(); ++k) {
+      double& back = left[geometry::firstParameter(i) + static_cast<Eigen::Index>(k)];
+      back = (1.0 - share) * (then.values[k] - now.values[k]);
+      now.values[k] += back;
+    }
     camera = now.cameraLike(camera);
   }
   if (geometry::hasCovariance(rig))

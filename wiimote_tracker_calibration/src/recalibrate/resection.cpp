@@ -184,12 +184,12 @@ class ResectionProblem {
       const adjust::MovingPixelError error{
           adjust::PixelError(blocks_, match.pixel, match.whitening), match.point.position,
           match.point.velocity, fit.time_offset};
-      matches_.push_back(blocks_.addTo(&problem_, error.cost(), nullptr, &blocks_.time_offset));
+      matches_.push_back(blocks_.addTo(&problem_, error.cost(), nullptr, blocks_.timeOffset()));
     }
-    problem_.SetParameterBlockConstant(blocks_.higher_distortion.data());
+    problem_.SetParameterBlockConstant(blocks_.higherDistortion());
     problem_.AddResidualBlock(adjust::priorOf(prior.time_offset, kOffsetStddev), nullptr,
-                              &blocks_.time_offset);
-    problem_.AddResidualBlock(lensCost(prior), nullptr, blocks_.lens.data());
+                              blocks_.timeOffset());
+    problem_.AddResidualBlock(lensCost(prior), nullptr, blocks_.lens());
   }
 
   void solve(Fit* fit) {
@@ -200,7 +200,7 @@ class ResectionProblem {
     ceres::Solver::Summary summary;
     ceres::Solve(options, &problem_, &summary);
     fit->camera = blocks_.cameraLike(fit->camera);
-    fit->time_offset = blocks_.time_offset;
+    fit->time_offset = *blocks_.timeOffset();
   }
 
   /// Root mean square of the whitened residuals of the matches.

@@ -30,10 +30,10 @@ void KnownTerms::addLenses(const std::vector<CameraSightings>& sightings) {
     adjust::LensPrior own = marginalLensPrior(start, stated_);
     own.principal_point = stated_.principal_point;  // given the offset
     if (sharesOffset(start))
-      add(adjust::SharedLensPrior{own}.cost(), cameras_[i].lens.data(), offset);
+      add(adjust::SharedLensPrior{own}.cost(), cameras_[i].lens(), offset);
     else
-      add(own.cost(), cameras_[i].lens.data());
-    problem_.SetParameterBlockConstant(cameras_[i].higher_distortion.data());
+      add(own.cost(), cameras_[i].lens());
+    problem_.SetParameterBlockConstant(cameras_[i].higherDistortion());
   }
 }
 
@@ -45,7 +45,7 @@ void KnownTerms::addGravity(const std::vector<CameraSightings>& sightings,
     add(adjust::GravityError{sightings[i].gravity->normalized(), up, cameras_[i].world_from_start,
                              stated_.gravity}
             .cost(),
-        cameras_[i].rotation.data());
+        cameras_[i].rotation());
     ++surplus_;  // two directions differ by two angles, in three residuals
   }
 }

@@ -103,8 +103,8 @@ std::optional<PlanarPose> refined(geometry::Camera camera, const SeenCorners& se
                  places[i].data());
     problem.SetParameterBlockConstant(places[i].data());
   }
-  problem.SetParameterBlockConstant(blocks.lens.data());
-  problem.SetParameterBlockConstant(blocks.higher_distortion.data());
+  problem.SetParameterBlockConstant(blocks.lens());
+  problem.SetParameterBlockConstant(blocks.higherDistortion());
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::DENSE_QR;
   // Near the view from straight above, where the two branches meet, it converges slowly.

@@ -34,8 +34,8 @@ class SquareModel::Problem {
     known.addLenses(model.sightings_);
     known.addGravity(model.sightings_, model.up());
     for (adjust::CameraBlocks& camera : cameras) {
-      problem.AddParameterBlock(&camera.time_offset, 1);
-      problem.SetParameterBlockConstant(&camera.time_offset);
+      problem.AddParameterBlock(camera.timeOffset(), adjust::kTimeOffsetSize);
+      problem.SetParameterBlockConstant(camera.timeOffset());
     }
   }
 

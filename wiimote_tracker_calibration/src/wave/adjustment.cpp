@@ -76,7 +76,7 @@ class WaveProblem {
     known_.addLenses(recording_.sightings());
     // The first one's is held at 0: it cannot disagree.
     for (std::size_t i = 1; i < cameras_.size(); ++i)
-      known_.add(adjust::priorOf(0.0, options_.offset), &cameras_[i].time_offset);
+      known_.add(adjust::priorOf(0.0, options_.offset), cameras_[i].timeOffset());
     if (recording_.square)
       known_.addSquare(*recording_.square, state->z_up, recording_.sightings(),
                        &state->corner_offsets);
@@ -107,7 +107,7 @@ class WaveProblem {
           "and record again");
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       state_.cameras[i] = cameras_[i].cameraLike(state_.cameras[i]);
-      state_.offsets[i] = cameras_[i].time_offset;
+      state_.offsets[i] = *cameras_[i].timeOffset();
     }
   }
 
@@ -149,7 +149,7 @@ class WaveProblem {
           &problem_,
           adjust::PathPixelError{pixel, match.stamp - path.timeOf(match.interval), path.spacing()}
               .cost(),
-          adjust::lossOf(loss_scale), &camera.time_offset, path.control(match.interval, match.led),
+          adjust::lossOf(loss_scale), camera.timeOffset(), path.control(match.interval, match.led),
           path.control(match.interval + 1, match.led), path.control(match.interval + 2, match.led),
           path.control(match.interval + 3, match.led)));
       for (Eigen::Index k = 0; k < 4; ++k)
@@ -210,11 +210,11 @@ class WaveProblem {
   /// All clocks could be shifted together with the path, and without square or floor all cameras
   /// moved.
   void holdGauge() {
-    problem_.SetParameterBlockConstant(&cameras_.front().time_offset);
+    problem_.SetParameterBlockConstant(cameras_.front().timeOffset());
     if (recording_.square || state_.floor)
       return;
-    problem_.SetParameterBlockConstant(cameras_.front().rotation.data());
-    problem_.SetParameterBlockConstant(cameras_.front().position.data());
+    problem_.SetParameterBlockConstant(cameras_.front().rotation());
+    problem_.SetParameterBlockConstant(cameras_.front().position());
   }
 
   const Recording& recording_;

@@ -119,7 +119,7 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, const ProgressCallbac
   if (!recording.square)
     useFirstCameraAsWorld(recording, &poses.cameras);
   State state;
-  state.trajectory = startPath(recording, task.options, &poses);
+  state.trajectory = startPath(recording, task.options, &poses.cameras);
   state.cameras = poses.cameras;
   state.offsets.assign(recording.cameras.size(), 0.0);
   state.z_up = poses.z_up;

@@ -231,7 +231,9 @@ void refuseFew(std::size_t places) {
 }
 
 /// Scales cameras and LEDs by the wand. Leaves out instants at which its length is another.
-void scaleByWand(double wand_length, std::vector<Instant>* instants, StartPoses* poses) {
+void scaleByWand(double wand_length,
+                 std::vector<Instant>* instants,
+                 std::vector<geometry::Camera>* cameras) {
   const auto lengthAt = [](const Instant& instant) {
     return (instant.leds[0] - instant.leds[1]).norm();
   };
@@ -249,9 +251,8 @@ void scaleByWand(double wand_length, std::vector<Instant>* instants, StartPoses*
     for (Eigen::Vector3d& led : instant.leds)
       led *= scale;
   }
-  for (geometry::Camera& camera : poses->cameras)
+  for (geometry::Camera& camera : *cameras)
     camera.world_from_camera.translation() *= scale;
-  poses->metric = true;
 }
 
 /// Control points of one LED's path, one per row: least squares over places of it and the prior of
@@ -315,15 +316,17 @@ void fitSplines(const std::vector<Instant>& instants, double acceleration, Traje
 
 }  // namespace
 
-Trajectory startPath(const Recording& recording, const WaveOptions& options, StartPoses* poses) {
+Trajectory startPath(const Recording& recording,
+                     const WaveOptions& options,
+                     std::vector<geometry::Camera>* cameras) {
   const auto [start, end] = recording.span();
   const bool wand = recording.wand.has_value();
   const double length =
-      wand && poses->metric ? recording.wand->length : std::numeric_limits<double>::quiet_NaN();
+      wand && recording.square ? recording.wand->length : std::numeric_limits<double>::quiet_NaN();
   Instants views(recording);
   std::vector<Instant> instants;
   for (double time = start; time <= end; time += 0.5 * options.knot_spacing) {
-    const std::vector<Point> points = pointsOf(poses->cameras, views.at(time));
+    const std::vector<Point> points = pointsOf(*cameras, views.at(time));
     if (wand) {
       if (const auto ends = wandEnds(points, length))
         instants.push_back({time, {ends->first, ends->second}});
@@ -335,8 +338,8 @@ Trajectory startPath(const Recording& recording, const WaveOptions& options, Sta
 
   if (wand) {
     keepLabels(&instants);
-    if (!poses->metric)
-      scaleByWand(recording.wand->length, &instants, poses);
+    if (!recording.square)
+      scaleByWand(recording.wand->length, &instants, cameras);
   }
   Trajectory trajectory(start - kMargin, end + kMargin, options.knot_spacing, wand ? 2 : 1);
   fitSplines(instants, options.acceleration, &trajectory);

@@ -100,12 +100,12 @@ void placeRest(const bundle::Options& options, bundle::Reconstruction* reconstru
 }
 
 /// Places the cameras that saw the whole square by it, and the others by the wave.
-void startFromSquare(const square::SquareLayout& layout,
+/// @returns whether z points up.
+bool startFromSquare(const square::SquareLayout& layout,
                      const std::vector<square::CameraSightings>& sightings,
                      const square::Uncertainty& uncertainty,
                      const bundle::Options& options,
-                     bundle::Reconstruction* wave,
-                     StartPoses* result) {
+                     bundle::Reconstruction* wave) {
   square::SolveOptions square_options;
   square_options.uncertainty = uncertainty;
   const square::Solution solution = square::solveSquare(layout, sightings, square_options);
@@ -114,16 +114,14 @@ void startFromSquare(const square::SquareLayout& layout,
       camera = solved->camera;
   }
   placeRest(options, wave);
-  result->metric = true;
-  result->from_square = true;
-  result->z_up = solution.z_up;
+  return solution.z_up;
 }
 
 /// Aligns a reconstruction, known up to a similarity, with the corners that two cameras saw.
-void moveOnSquare(const Recording& recording,
+/// @returns whether z points up.
+bool moveOnSquare(const Recording& recording,
                   const bundle::Options& options,
-                  bundle::Reconstruction* wave,
-                  StartPoses* result) {
+                  bundle::Reconstruction* wave) {
   bundle::Reconstruction corners;
   corners.cameras = wave->cameras;
   corners.points.resize(4);
@@ -163,11 +161,11 @@ void moveOnSquare(const Recording& recording,
   for (const geometry::Camera& camera : wave->cameras)
     height += (similarity * camera.center()).z();
   // All cameras are above the floor, as the LED is: with z down it has the opposite height.
-  result->z_up = height > 0.0;
-  if (!result->z_up)
+  const bool z_up = height > 0.0;
+  if (!z_up)
     similarity.translation().z() -= 2.0 * recording.square->led_height;
   bundle::transform(similarity, wave);
-  result->metric = true;
+  return z_up;
 }
 
 }  // namespace
@@ -187,16 +185,18 @@ StartPoses startPoses(const Recording& recording, const WaveOptions& options, in
     if (wave.placed.back())
       sightings.push_back(camera);
   }
-  if (sightings.size() < 2)
+  result.from_square = sightings.size() >= 2;
+  if (!result.from_square)
     wave.placed.assign(recording.cameras.size(), false);
   requireConnected(wave, wave.placed);
   try {
-    if (sightings.size() >= 2) {
-      startFromSquare(*recording.square, sightings, options.uncertainty, rough, &wave, &result);
+    if (result.from_square) {
+      result.z_up =
+          startFromSquare(*recording.square, sightings, options.uncertainty, rough, &wave);
     } else {
       wave = bundle::solve(wave, rough);
       if (recording.square)
-        moveOnSquare(recording, rough, &wave, &result);
+        result.z_up = moveOnSquare(recording, rough, &wave);
     }
   } catch (const bundle::BundleError& error) {
     throw WaveContradiction(std::string("the wave does not tell where the cameras stand: ") +

@@ -10,10 +10,9 @@
 
 namespace wiimote_tracker::wave {
 
-/// Rough poses of the cameras (centimetres).
+/// Rough poses of the cameras (centimetres): with a square in its world, else up to scale.
 struct StartPoses {
   std::vector<geometry::Camera> cameras;  ///< In the order of the recording.
-  bool metric = false;                    ///< In metres, in the square's world. Else up to scale.
   bool z_up = true;                       ///< As in SquareLayout::corners().
   bool from_square = false;               ///< Not from the wave alone.
 };

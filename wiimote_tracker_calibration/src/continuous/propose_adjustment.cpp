@@ -35,15 +35,6 @@ bool clocksHold(const geometry::Rig& rig, const std::vector<capture::Image>& ima
   });
 }
 
-/// The rig with the time offsets of those cameras that reconnected.
-geometry::Rig withNewClocks(const geometry::Rig& adjusted, geometry::Rig rig) {
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    if (rig.cameras[i].hasNewClock(adjusted.cameras[i].time_offset_epoch))
-      copyClock(adjusted, i, &rig);
-  }
-  return rig;
-}
-
 /// The misfit that the second fit explains and the first does not, root mean square [px]; 0: none.
 double gainOf(const Fit& before, const Fit& after) {
   return std::sqrt(std::max(0.0, before.misfit * before.misfit - after.misfit * after.misfit));
@@ -63,7 +54,7 @@ std::optional<Correction> correctionOf(const geometry::Rig& before,
                                        const geometry::Rig& adjusted,
                                        const std::vector<capture::Image>& later) {
   const geometry::Rig same_poses = withClocks(adjusted, before);
-  const auto fit_before = fitOf(withNewClocks(adjusted, before), later);
+  const auto fit_before = fitOf(withClocks(adjusted, before, true), later);
   const auto fit_of_clocks = fitOf(same_poses, later);
   const auto fit_of_all = fitOf(adjusted, later);
   if (!fit_before || !fit_of_clocks || !fit_of_all)
@@ -173,9 +164,11 @@ std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
   return proposal;
 }
 
-geometry::Rig withClocks(const geometry::Rig& adjusted, geometry::Rig rig) {
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
-    copyClock(adjusted, i, &rig);
+geometry::Rig withClocks(const geometry::Rig& adjusted, geometry::Rig rig, bool only_new) {
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
+    if (!only_new || rig.cameras[i].hasNewClock(adjusted.cameras[i].time_offset_epoch))
+      copyClock(adjusted, i, &rig);
+  }
   return rig;
 }
 

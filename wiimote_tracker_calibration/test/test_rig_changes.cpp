@@ -3,6 +3,7 @@
 #include "misled_trial.h"
 #include "waved_led.h"
 
+#include "capture/masks.h"
 #include "continuous/rig_changes.h"
 
 #include <gtest/gtest.h>
@@ -160,7 +161,7 @@ TEST(AppliedRig, KeepsTheCorrectionOfTheVolume) {
   EXPECT_EQ(idWithoutMasks(applied), idWithoutMasks(goal));
   EXPECT_NE(idWithoutMasks(applied), idWithoutMasks(rig));
 
-  const geometry::Rig undone = withMasksOf(goal, rig);
+  const geometry::Rig undone = capture::withMasks(rig, capture::masksOf(goal));
   EXPECT_TRUE(undone.cameras[2].masks.empty());
   EXPECT_EQ(undone.remap->rig_id, undone.id());
   EXPECT_EQ(idWithoutMasks(undone), idWithoutMasks(rig));

@@ -1,5 +1,7 @@
 #include "continuous/rig_changes.h"
 
+#include "capture/masks.h"
+
 #include <cstddef>
 
 namespace wiimote_tracker::continuous {
@@ -18,19 +20,8 @@ std::string idWithoutMasks(std::optional<geometry::Rig> rig) {
   return rig->id();
 }
 
-geometry::Rig withMasksOf(const geometry::Rig& other, geometry::Rig rig) {
-  const std::string id = rig.id();
-  for (geometry::RigCamera& camera : rig.cameras) {
-    if (const geometry::RigCamera* const same = other.find(camera.camera.name))
-      camera.masks = same->masks;
-  }
-  if (rig.remap && rig.remap->rig_id == id)
-    rig.remap->rig_id = rig.id();
-  return rig;
-}
-
 geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& before) {
-  geometry::Rig rig = withMasksOf(before, proposed);
+  geometry::Rig rig = capture::withMasks(proposed, capture::masksOf(before));
   rig.zones = before.zones;
   rig.remap = before.remap;
   if (rig.remap && rig.remap->rig_id == before.id())
@@ -77,7 +68,7 @@ std::optional<geometry::Rig> RigChanges::step(const geometry::Rig& in_use, doubl
 std::optional<geometry::Rig> RigChanges::revert(const geometry::Rig& in_use) {
   if (changes_.empty() || idWithoutMasks(in_use) != changes_.back().id)
     return std::nullopt;
-  const geometry::Rig before = withMasksOf(in_use, changes_.back().before);
+  const geometry::Rig before = capture::withMasks(changes_.back().before, capture::masksOf(in_use));
   changes_.pop_back();
   approach_.reset();  // Perhaps before its first step.
   reverted_to_ = idWithoutMasks(before);

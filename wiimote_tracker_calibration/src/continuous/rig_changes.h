@@ -16,10 +16,6 @@ namespace wiimote_tracker::continuous {
 /// which move no point. Empty for no rig.
 std::string idWithoutMasks(std::optional<geometry::Rig> rig);
 
-/// A rig with the masks of another one with the same cameras. A correction of the volume stays
-/// valid.
-geometry::Rig withMasksOf(const geometry::Rig& other, geometry::Rig rig);
-
 /// The proposed rig with zones, masks and correction of the volume of the rig before, which may
 /// have changed meanwhile. The correction belongs to the world, which the other cameras hold.
 geometry::Rig appliedRig(const geometry::Rig& proposed, const geometry::Rig& before);

@@ -41,8 +41,7 @@ class KeptRig {
  public:
   void use(const geometry::Rig& rig) {
     rig_ = rig;
-    for (const geometry::RigCamera& camera : rig.cameras)
-      masks_[camera.camera.name] = camera.masks;
+    masks_ = capture::masksOf(rig);
     selection_.emplace(rig);
     continuous_.emplace(rig, continuous::Options{});
   }

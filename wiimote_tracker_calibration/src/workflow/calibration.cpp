@@ -13,18 +13,6 @@ namespace {
 
 constexpr double kLongestSide = 20.0;  // of a square that Wii Remotes see [m]
 
-void setMasksOf(std::optional<geometry::Rig>* rig, const capture::Masks& masks) {
-  if (!*rig)
-    return;
-  const std::string id = (*rig)->id();
-  for (geometry::RigCamera& camera : (*rig)->cameras) {
-    const auto found = masks.find(camera.camera.name);
-    camera.masks = found != masks.end() ? found->second : std::vector<geometry::ImageMask>();
-  }
-  if ((*rig)->remap && (*rig)->remap->rig_id == id)
-    (*rig)->remap->rig_id = (*rig)->id();
-}
-
 }  // namespace
 
 Reply Calibration::start(double side_x, double side_y, const std::vector<std::string>& cameras) {
@@ -322,8 +310,9 @@ bool Calibration::setMasks(const capture::Masks& masks) {
   if (!rig_)
     return false;
   const std::string id = rig_->id();
-  setMasksOf(&rig_, masks);
-  setMasksOf(&goal_, masks);
+  rig_ = capture::withMasks(*rig_, masks);
+  if (goal_)
+    goal_ = capture::withMasks(*goal_, masks);
   if (captured_.solved_to == id)
     captured_.solved_to = rig_->id();
   return rig_->id() != id;

@@ -1,4 +1,6 @@
 // What saving a rig must not replace without a word.
+#include "../src/ros/file_paths.h"
+#include "../src/ros/parameters.h"
 #include "../src/ros/requests.h"
 #include "../src/ros/rig_storage.h"
 
@@ -189,6 +191,24 @@ TEST_F(RigStorage, OnlyRigsThatAreThereAreOffered) {
   EXPECT_TRUE(files_.save(rig, path).empty());
   EXPECT_EQ(describeEarlierRigs(path),
             "load an earlier rig of " + folder + "/: rig.yaml.bak or one of versions/");
+}
+
+TEST_F(RigStorage, TheRigFileIsKnownByAnyOfItsNames) {
+  const std::string folder = folder_ + "/links";
+  EXPECT_TRUE(files_.save(rigOf({"a"}), folder + "/rig.yaml").empty());
+  const auto link = [&folder](const std::string& name, const std::string& to) {
+    std::filesystem::create_symlink(to, folder + "/" + name);
+    return folder + "/" + name;
+  };
+  Parameters parameters;
+  parameters.rig_file = folder + "/rig.yaml";
+  EXPECT_TRUE(isRigFile(parameters.rig_file, parameters));
+  EXPECT_TRUE(isRigFile(link("other", "rig.yaml"), parameters));
+  EXPECT_FALSE(isRigFile(folder + "/hall.yaml", parameters));
+  // Neither can be looked up.
+  parameters.rig_file = link("endless", "endless");
+  EXPECT_TRUE(isRigFile(parameters.rig_file, parameters));
+  EXPECT_FALSE(isRigFile(link("also_endless", "also_endless"), parameters));
 }
 
 }  // namespace

@@ -54,6 +54,14 @@ std::string rigPath(const std::string& requested, const Parameters& parameters) 
   return requested.empty() ? parameters.rig_file : permittedPath(requested, parameters);
 }
 
+bool isRigFile(const std::string& path, const Parameters& parameters) {
+  try {
+    return path == parameters.rig_file || withoutLinks(path) == withoutLinks(parameters.rig_file);
+  } catch (const Refusal&) {
+    return false;
+  }
+}
+
 std::string describeMissingRig(const std::string& rig_file) {
   std::error_code error;
   if (fs::exists(rig_file, error) || error)

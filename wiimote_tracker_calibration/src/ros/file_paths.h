@@ -14,6 +14,10 @@ namespace wiimote_tracker {
 /// @throws Refusal: it lies elsewhere, begins with "~/", or is not UTF-8.
 std::string rigPath(const std::string& requested, const Parameters& parameters);
 
+/// Whether the next start loads this file. Its lenses are those of the drivers, for programs that
+/// do not know the rig. Links are followed.
+bool isRigFile(const std::string& path, const Parameters& parameters);
+
 /// Name of the rig's file where the parameter rig_file names none.
 inline constexpr char kRigFile[] = "rig.yaml";
 

@@ -14,10 +14,8 @@
 #include <wiimote_tracker_msgs/SaveSamples.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -26,17 +24,6 @@ using namespace wiimote_tracker_msgs;
 using workflow::Reply;
 
 namespace {
-
-/// Whether the next start loads this file. Its lenses are those of the drivers, for programs that
-/// do not know the rig.
-bool isRigFile(const std::string& path, const Parameters& parameters) {
-  // Before the first save it is missing.
-  const auto withoutLinks = [](const std::string& file) {
-    std::error_code error;
-    return std::filesystem::weakly_canonical(std::filesystem::absolute(file), error);
-  };
-  return withoutLinks(path) == withoutLinks(parameters.rig_file);
-}
 
 /// What to do so that a rig of this file is used after the next start, too.
 std::string nextStart(const std::string& path, const Parameters& parameters) {

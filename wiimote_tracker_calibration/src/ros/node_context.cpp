@@ -51,13 +51,6 @@ double NodeContext::now() {
   return ros::Time::now().toSec();
 }
 
-workflow::Reply NodeContext::handle(const std::function<workflow::Reply(Lock&)>& handler,
-                                    bool shows_reply) {
-  Lock lock(mutex_);
-  const workflow::Reply reply = replyOf([&] { return handler(lock); });
-  return shows_reply ? show(reply, lock) : reply;
-}
-
 ros::WallTimer NodeContext::everyHalfSecond(const std::string& name,
                                             const std::function<void()>& call) {
   return nh_.createWallTimer(ros::WallDuration(0.5),

@@ -56,13 +56,8 @@ class NodeContext {
 
   CameraInputs& inputs() { return inputs_; }
 
-  /// Handles a request with the mutex locked, and shows the reply in the status if it is to. What
-  /// the handler throws becomes a refusal.
-  workflow::Reply handle(const std::function<workflow::Reply(Lock&)>& handler,
-                         bool shows_reply = true);
-
   /// Offers the service calibration/<name> of this type. Its handler has the mutex locked, returns
-  /// the reply, and fills the other fields of the response.
+  /// the reply, and fills the other fields of the response. What it throws becomes a refusal.
   /// @param shows_reply whether the status shows the reply.
   template <typename Part, typename Service>
   void offer(const std::string& name,
@@ -73,7 +68,9 @@ class NodeContext {
         "calibration/" + name, [=](auto& request, auto& response) {
           Service call{request, {}};
           const workflow::Reply reply = replyOf([&] {
-            return handle([&](Lock& lock) { return (part->*handler)(call, lock); }, shows_reply);
+            Lock lock(mutex_);
+            const workflow::Reply own = replyOf([&] { return (part->*handler)(call, lock); });
+            return shows_reply ? show(own, lock) : own;
           });
           response = call.response;
           response.success = reply.success;

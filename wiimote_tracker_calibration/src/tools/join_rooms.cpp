@@ -40,26 +40,24 @@ class RoomTracks {
       if (point.state != TrackedPoint::TRACKED || !(variance <= kMeasured * kMeasured))
         continue;
       const double time = points.header.stamp.toSec();
-      rooms::Path& track = open_[{source, point.id}];
-      if (!track.empty() && time - track.back().time > kLongestGap) {
-        closed_.push_back(track);
-        track.clear();
-      }
+      std::vector<rooms::Path>& tracks = of_leds_[{source, point.id}];
+      if (tracks.empty() || time - tracks.back().back().time > kLongestGap)
+        tracks.emplace_back();
+      rooms::Path& track = tracks.back();
       if (track.empty() || time > track.back().time)
         track.push_back({time, {point.position.x, point.position.y, point.position.z}, variance});
     }
   }
 
   std::vector<rooms::Path> all() const {
-    std::vector<rooms::Path> tracks = closed_;
-    for (const auto& [led, track] : open_)
-      tracks.push_back(track);
-    return tracks;
+    std::vector<rooms::Path> all;
+    for (const auto& [led, tracks] : of_leds_)
+      all.insert(all.end(), tracks.begin(), tracks.end());
+    return all;
   }
 
  private:
-  std::map<std::pair<std::string, std::uint32_t>, rooms::Path> open_;
-  std::vector<rooms::Path> closed_;
+  std::map<std::pair<std::string, std::uint32_t>, std::vector<rooms::Path>> of_leds_;
 };
 
 /// Adds the tracks of a bag to the rooms whose rig they were computed with.

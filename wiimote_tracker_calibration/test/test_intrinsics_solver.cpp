@@ -192,7 +192,6 @@ TEST(SolveIntrinsics, ChoosesTheLensModelThatTheDataAskFor) {
   for (unsigned seed = 0; seed < 3; ++seed) {
     const IntrinsicsSolution none =
         solveIntrinsics(simulatedSamples(straight, 16, 0.5, seed), SolverOptions());
-    EXPECT_EQ(none.candidates.size(), 4u);
     right += none.model == LensModel::kNoDistortion ? 1 : 0;
     const IntrinsicsSolution one =
         solveIntrinsics(simulatedSamples(paperCamera(), 16, 0.2, seed), SolverOptions());

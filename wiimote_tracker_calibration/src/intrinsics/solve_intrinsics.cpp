@@ -20,7 +20,9 @@ namespace {
 constexpr double kSmallestTilt = 10.0 * M_PI / 180.0;  // between the most different views
 constexpr double kSmallestTravel = 0.1;                // of the board, of the image's width
 
-bool holdsOverImage(const geometry::Intrinsics& intrinsics) {
+/// Whether the lens is one-to-one over the whole image.
+bool holds(const Fit& fit, const Points& points) {
+  const geometry::Intrinsics intrinsics = intrinsicsOf(fit, points);
   for (const double u : {0.0, intrinsics.width - 1.0}) {
     for (const double v : {0.0, intrinsics.height - 1.0}) {
       if (!intrinsics.normalizedFromPixel({u, v}))
@@ -30,18 +32,14 @@ bool holdsOverImage(const geometry::Intrinsics& intrinsics) {
   return true;
 }
 
-Candidate candidateOf(const Fit& fit, const Points& points) {
+/// Bayesian information criterion (Schwarz 1978): low is good.
+double bicOf(const Fit& fit, const Points& points) {
   const double n = 2.0 * static_cast<double>(points.count);
   const double parameters =
       parameterCount(fit.model) + kPoseParameters * static_cast<double>(points.board.size());
-  Candidate candidate;
-  candidate.model = fit.model;
-  candidate.reprojection_error = fit.error;
   // Residuals below a millionth of a pixel are rounding errors: they justify no parameter.
   const double variance = std::max(fit.error * fit.error / 2.0, 1e-12);
-  candidate.bic = n * std::log(variance) + parameters * std::log(n);
-  candidate.holds = holdsOverImage(intrinsicsOf(fit, points));
-  return candidate;
+  return n * std::log(variance) + parameters * std::log(n);
 }
 
 /// Inverse information of the intrinsics, poses eliminated (Schur complement), for unit noise.
@@ -103,11 +101,12 @@ std::string summaryOf(const IntrinsicsSolution& s) {
 }
 
 /// Fits the models from simple to rich, each starting from the one before, up to options.model.
-Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSolution* solution) {
+Fit chooseModel(const Points& points, const SolverOptions& options) {
   Fit fit = firstFit(points, false, options.start_focal_length);
   checkTilts(fit);
   Fit chosen;
   double least_bic = HUGE_VAL;
+  double least_error = HUGE_VAL;  // of those that do not hold [px]
   for (const LensModel model :
        {LensModel::kNoDistortion, LensModel::kK1, LensModel::kK1K2, LensModel::kFull}) {
     if (model != LensModel::kNoDistortion) {
@@ -116,11 +115,11 @@ Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSo
         continue;
       fit = next;
     }
-    const Candidate candidate = candidateOf(fit, points);
-    solution->candidates.push_back(candidate);
-    const bool wanted = options.model ? model == *options.model : candidate.bic < least_bic;
-    if (wanted && candidate.holds) {
-      least_bic = candidate.bic;
+    const double bic = bicOf(fit, points);
+    if (!holds(fit, points)) {
+      least_error = std::min(least_error, fit.error);
+    } else if (options.model ? model == *options.model : bic < least_bic) {
+      least_bic = bic;
       chosen = fit;
     }
     if (model == options.model)
@@ -128,12 +127,7 @@ Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSo
   }
   // If a model that is not one-to-one over the image fits far better, the chosen one is poor.
   constexpr double kMuchBetter = 0.7;
-  const bool is_makeshift =
-      chosen.ok() && !options.model &&
-      std::any_of(solution->candidates.begin(), solution->candidates.end(),
-                  [&chosen](const Candidate& other) {
-                    return !other.holds && other.reprojection_error < kMuchBetter * chosen.error;
-                  });
+  const bool is_makeshift = !options.model && least_error < kMuchBetter * chosen.error;
   if (!chosen.ok() || is_makeshift)
     throw Error(
         "the lens model does not hold over the whole image: show the board in "
@@ -142,9 +136,7 @@ Fit chooseModel(const Points& points, const SolverOptions& options, IntrinsicsSo
   return chosen;
 }
 
-Fit fitEquidistant(const Points& points,
-                   const SolverOptions& options,
-                   IntrinsicsSolution* solution) {
+Fit fitEquidistant(const Points& points, const SolverOptions& options) {
   const Fit first = firstFit(points, true, options.start_focal_length);
   checkTilts(first);
   const Fit fit = refined(first, LensModel::kEquidistant, points);
@@ -152,8 +144,7 @@ Fit fitEquidistant(const Points& points,
     throw Error(
         "the views fit no equidistant lens: check the board's spacings, show it in all corners of "
         "the image, or choose another model");
-  solution->candidates.push_back(candidateOf(fit, points));
-  if (!solution->candidates.back().holds)
+  if (!holds(fit, points))
     throw Error(
         "the equidistant lens does not hold over the whole image: show the board in all corners of "
         "the image, or choose another model");
@@ -175,11 +166,10 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
                        counted(samples.views.size(), "view").c_str(), options.minimum_views));
   checkTravel(samples);
   const Points points(samples);
-  IntrinsicsSolution solution;
-  const Fit chosen = options.model == LensModel::kEquidistant
-                         ? fitEquidistant(points, options, &solution)
-                         : chooseModel(points, options, &solution);
+  const Fit chosen = options.model == LensModel::kEquidistant ? fitEquidistant(points, options)
+                                                              : chooseModel(points, options);
 
+  IntrinsicsSolution solution;
   solution.model = chosen.model;
   solution.intrinsics = intrinsicsOf(chosen, points);
   solution.reprojection_error = chosen.error;

@@ -37,14 +37,6 @@ struct SolverOptions {
   double maximum_aspect_error = 0.03;  ///< |fx / fy - 1|, else refused [1, > 0].
 };
 
-/// One lens model that was tried.
-struct Candidate {
-  LensModel model;
-  double reprojection_error = 0.0;  ///< sqrt(mean(du^2 + dv^2)) [px].
-  double bic = 0.0;                 ///< Bayesian information criterion (Schwarz 1978); low is good.
-  bool holds = true;                ///< One-to-one over the whole image.
-};
-
 struct IntrinsicsSolution {
   geometry::Intrinsics intrinsics;
 
@@ -53,8 +45,9 @@ struct IntrinsicsSolution {
   /// poses.
   Eigen::Matrix<double, 9, 9> covariance = Eigen::Matrix<double, 9, 9>::Zero();
 
-  LensModel model;  ///< The one that holds with the least bic, or the one requested.
-  std::vector<Candidate> candidates;                 ///< All that were tried, simple ones first.
+  /// The one requested, or of those that are one-to-one over the whole image the one with the least
+  /// Bayesian information criterion (Schwarz 1978).
+  LensModel model;
   double reprojection_error = 0.0;                   ///< sqrt(mean(du^2 + dv^2)) [px].
   double pixel_stddev = 0.0;                         ///< Of a pixel coordinate, as estimated [px].
   std::vector<Eigen::Isometry3d> camera_from_board;  ///< Of each view [m].

@@ -327,7 +327,6 @@ Recalibration recalibrateCamera(const geometry::Rig& before,
   result.rig.cameras[index] =
       rigCamera(rig.cameras[index], request, images.back().clock_epoch, fit);
   checkCertainty(fit, path, exact_others, result, options);
-  result.images = fit.matches.size();
   std::string change = " was added";
   if (!is_new) {
     const Eigen::Isometry3d& then = rig.cameras[index].camera.world_from_camera;
@@ -342,7 +341,7 @@ Recalibration recalibrateCamera(const geometry::Rig& before,
       format(
           "; it is known to %.1f mm and %.2f degrees, from %zu images; check a known place, "
           "then save the rig",
-          1000.0 * result.position_stddev, result.rotation_stddev * kDegrees, result.images);
+          1000.0 * result.position_stddev, result.rotation_stddev * kDegrees, fit.matches.size());
   const std::string how = (is_new ? "+added " : "+recalibrated ") + request.camera;
   // The name of a camera may begin with that of another one.
   if ((rig.method + "+").find(how + "+") == std::string::npos)

@@ -8,7 +8,6 @@
 
 #include <Eigen/Core>
 
-#include <cstddef>
 #include <optional>
 #include <string>
 #include <vector>
@@ -42,7 +41,6 @@ struct Recalibration {
   double position_stddev = 0.0;  ///< Root of the trace [m].
   double rotation_stddev = 0.0;  ///< Root of the trace [rad].
   double offset_stddev = 0.0;    ///< [s]
-  std::size_t images = 0;        ///< Of the camera, that the LED was found in.
   std::string message;           ///< One sentence: how far it moved, how sure that is.
 };
 

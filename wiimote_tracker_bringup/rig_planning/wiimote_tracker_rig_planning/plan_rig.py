@@ -14,7 +14,7 @@ from wiimote_tracker_bringup.programs import package_file
 from wiimote_tracker_rig_planning import picture, plan, prediction, search
 
 ACROSS = 7  # points along an edge of the volume, of what is told
-TELL_EVERY = 0.5  # how far the search is [s]
+TELL_EVERY = {True: 0.5, False: 10.0}  # how far the search is, on a terminal or in a file [s]
 
 
 def describe_cameras(positions, targets):
@@ -54,7 +54,7 @@ def describe_sight(chosen, names, positions, targets):
 def describe_body(chosen, positions, targets, points):
     """The same of a body."""
     each, located = prediction.target_information(chosen, positions, targets, points, None)
-    lines = ['  seen four times or more, by three LEDs or more: %.1f %% of places and headings'
+    lines = ['  with four sightings or more, of three LEDs or more: %.1f %% of places and headings'
              % (100 * located.mean())]
     if not located.any():
         return lines
@@ -126,19 +126,17 @@ def places_of(rig):
 
 
 class Progress:
-    """One line on a terminal, that a search goes on; in a file, that it begins."""
+    """How far a search is: one line on a terminal, in a file some."""
 
     def __init__(self):
         self.told = -np.inf  # when [s]
 
     def __call__(self, share):
-        if not sys.stderr.isatty():
-            if share == 0.0:
-                print('searching: a minute or more', file=sys.stderr, flush=True)
-        elif share == 1.0 or time.monotonic() > self.told + TELL_EVERY:
+        is_terminal = sys.stderr.isatty()
+        if share == 1.0 or time.monotonic() > self.told + TELL_EVERY[is_terminal]:
             self.told = time.monotonic()
-            print(f'\rsearching: {share:4.0%} ', end='\n' if share == 1.0 else '',
-                  file=sys.stderr, flush=True)
+            print(('\r' if is_terminal else '') + f'searching: {share:4.0%} ',
+                  end='' if is_terminal and share < 1.0 else '\n', file=sys.stderr, flush=True)
 
 
 def check_folder(path):

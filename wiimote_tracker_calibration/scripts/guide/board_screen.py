@@ -20,7 +20,8 @@ def advice(guide: Guide, camera: str) -> Advice:
     if board is None or board.camera != camera:
         return Advice(f'Hold the 16-LED board in front of {camera}. {following} starts.', 'start')
     if guide.has_done('commit', 'undo'):
-        return Advice(f'The lens is in use. Calibrate the rig now. {guide.asking["quit"]} ends.')
+        return Advice('The next calibration starts with this lens: calibrate the rig now. '
+                      f'{guide.asking["quit"]} ends.')
     if guide.has_done('solve', 'undo'):
         return Advice(f'{following} saves the lens and gives it to the driver.', 'commit')
     if board.missing:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 namespace wiimote_tracker::exposure_clock {
 
@@ -52,6 +53,7 @@ constexpr double kNegligible = 1e-6;
 }  // namespace
 
 FilterBank::FilterBank(double period) {
+  static_assert(std::size(kPriors) == kModels, "models_ has room for these");
   for (const Prior& prior : kPriors)
     models_.push_back({ClockFilter(prior.model, period, period * kPeriodStddev), prior.weight});
 }

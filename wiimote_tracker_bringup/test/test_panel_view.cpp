@@ -164,17 +164,22 @@ TEST_F(View, AKnockedCameraSaysWhatTheHealthWatchSays) {
 }
 
 TEST_F(View, ACameraOfWhichTheTrackerWarnsSaysSoWhileItWarns) {
-  view_.onRig(rigOf({"a", "b"}), now_);
+  auto rig = rigOf({"a", "b"});
+  rig.id = "0123456789abcdef";
+  view_.onRig(rig, now_);
   run(0.1, {"a", "b"}, {});
   diagnostic_msgs::DiagnosticArray message;
-  message.status.resize(2);
+  message.status.resize(3);
   message.status[0].name = "triangulation: a";
-  message.status[0].hardware_id = "rig 0123456789abcdef";
+  message.status[0].hardware_id = "rig " + rig.id;
   message.status[0].level = diagnostic_msgs::DiagnosticStatus::WARN;
   message.status[0].message = "its images are ignored";
   message.status[1] = message.status[0];  // not the tracker's
   message.status[1].name = "driver: Wii Remote b";
   message.status[1].hardware_id = "00:1e:35:00:00:03";
+  message.status[2] = message.status[0];  // of another room
+  message.status[2].name = "/room2/triangulation: b";
+  message.status[2].hardware_id = "rig fedcba9876543210";
   view_.onDiagnostics(message, now_);
   EXPECT_EQ(state("a"), CameraState::kWarned);
   EXPECT_EQ(words("a"), "its images are ignored");

@@ -231,6 +231,28 @@ TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
   EXPECT_EQ(watch.healths().at("camera_3").text, "");
 }
 
+TEST(HealthWatch, CamerasThatMayNotHaveMovedAreWellOnceTheOthersAreSolved) {
+  Random random(36);
+  geometry::Rig rig = paperRigWith(calibratedByWave());
+  for (geometry::RigCamera& camera : rig.cameras)
+    camera.gravity.reset();
+  HealthWatch watch(rig, {});
+  WavedLed scene(drawTruth(rig, random), 704);
+  const Eigen::Vector3d turn(2.0 * kOneDegree, 0.0, 0.0);
+  for (const std::size_t i : {1, 2})
+    scene.truth[i] = turned(scene.truth[i], turn);
+  track(&scene, 0.0, 90.0, &watch, &random);
+  int doubtful = 0;
+  for (const auto& [name, health] : watch.healths())
+    doubtful += health.or_others && !health.text.empty();
+  EXPECT_GT(doubtful, 0);
+  for (const std::size_t i : {1, 2})
+    rig.cameras[i] = turned(rig.cameras[i], turn);
+  EXPECT_TRUE(watch.follow(rig));
+  for (const auto& [name, health] : watch.healths())
+    EXPECT_EQ(health.text, "") << name;
+}
+
 /// Health after a minute in which the images of camera_3 came so much later [s].
 std::map<std::string, CameraHealth> healthsWithLateImages(double late, WavedLed* led) {
   HealthWatch watch(paperRigWith(calibratedByWave()), {});

@@ -22,7 +22,8 @@ class CameraView {
  public:
   static constexpr double kFrozenAfter = 1.0;  ///< Without an image [s].
   static constexpr double kLateAfter = 0.1;    ///< From exposure to arrival here [s].
-  static constexpr double kWarnedFor = 3.0;    ///< The tracker's diagnostics come each second [s].
+  static constexpr double kWarnedFor =
+      3.0;  ///< The tracker's diagnostics come each second, by default [s].
   static constexpr double kBlindAfter = 5.0;  ///< Without a spot, while another camera has one [s].
   static constexpr double kTrail = 1.0;  ///< Spots of this time are drawn behind the newest [s].
 

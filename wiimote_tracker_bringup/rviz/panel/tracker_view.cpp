@@ -76,6 +76,7 @@ void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& messag
 
 void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, double now) {
   has_rig_ = true;
+  rig_id_ = message.id;
   for (CameraView& camera : cameras_)
     camera.calibration.reset();
   for (const auto& calibration : message.cameras)
@@ -84,7 +85,7 @@ void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, dou
 
 void TrackerView::onDiagnostics(const diagnostic_msgs::DiagnosticArray& message, double now) {
   for (const diagnostic_msgs::DiagnosticStatus& status : message.status) {
-    if (status.hardware_id.rfind("rig ", 0) != 0)
+    if (status.hardware_id != "rig " + rig_id_)  // such as of another room
       continue;
     // Of the tracker, a part for each camera: "NODE: CAMERA".
     for (CameraView& camera : cameras_) {

@@ -53,6 +53,7 @@ class TrackerView {
 
   std::vector<CameraView> cameras_;
   bool has_rig_ = false;
+  std::string rig_id_;
 };
 
 }  // namespace wiimote_tracker::panel

@@ -74,8 +74,15 @@ HealthWatch::HealthWatch(const geometry::Rig& rig, const HealthOptions& options)
 bool HealthWatch::follow(const geometry::Rig& rig) {
   if (!geometry::haveSameCameras(rig_, rig))
     return false;
+  bool any = false;
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (!isStillCalibratedAs(cameras_[i].calibrated, rig.cameras[i]))
+    if (isStillCalibratedAs(cameras_[i].calibrated, rig.cameras[i]))
+      continue;
+    cameras_[i] = Watched(rig.cameras[i], options_.tilt);
+    any = true;
+  }
+  for (std::size_t i = 0; i < cameras_.size() && any; ++i) {
+    if (cameras_[i].health.or_others)  // these were the others
       cameras_[i] = Watched(rig.cameras[i], options_.tilt);
   }
   rig_ = rig;

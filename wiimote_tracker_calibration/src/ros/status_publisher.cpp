@@ -167,7 +167,7 @@ std::string StatusPublisher::health(const std::string& camera) const {
 workflow::Findings StatusPublisher::findings() const {
   workflow::Findings findings;
   for (const auto& [name, health] : health_) {
-    if (this->health(name).empty())
+    if (health.text.empty())
       continue;
     const bool is_same = findings.changed.empty() || findings.remedy == health.advice;
     findings.changed.push_back(name);

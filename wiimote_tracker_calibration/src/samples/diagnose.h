@@ -20,7 +20,8 @@ struct Mistake {
 /// Each hypothesis changes the recording, or frees the quantity, and is solved. The one with the
 /// least misfit is named with its size; those that leave out a camera, or its corners, are tested
 /// only if no other one explains the data well. @param contradicts if not, only the scale is
-/// questioned. @returns nothing when no hypothesis explains the data.
+/// questioned. @returns nothing when no hypothesis explains the data, or the images that are looked
+/// at (of 500 or more, every second) do not contradict each other.
 std::optional<Mistake> diagnose(const wave::Recording& recording,
                                 const SolveOptions& options,
                                 bool contradicts,

@@ -34,8 +34,8 @@ struct SpotReference {
   std::size_t spot;
 };
 
-/// More than 16 allocate.
-using SpotReferences = boost::container::small_vector<SpotReference, 16>;
+/// More than 32 allocate.
+using SpotReferences = boost::container::small_vector<SpotReference, 32>;
 
 struct AssociatedPoint {
   geometry::TriangulatedPoint point;  ///< Maximum likelihood, linearised (see geometry::Sight).

@@ -45,7 +45,7 @@ std::string kindOf(const std::string& content) {
 
 void writeFileAtomically(const std::string& path, const std::string& content) {
   namespace fs = std::filesystem;
-  static std::mutex mutex;  // another thread is refused as another program is
+  static std::mutex mutex;  // without it another thread would be refused as another program is
   const std::lock_guard<std::mutex> lock(mutex);
   try {
     fs::path target = fs::absolute(path);

@@ -75,7 +75,7 @@ void OutputFile::openPart() {
   do {
     file_.reset(std::fopen(partOf(path_).c_str(), "abe"));
     if (!file_)
-      failToWrite(path_, errno);
+      failToWrite(partOf(path_), errno);
     if (::flock(::fileno(file_.get()), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw FileError("another program writes " + path_ +
                       ": wait until it has ended, or name another file");
@@ -108,8 +108,10 @@ void OutputFile::finish() {
     if (::unlink(kept.c_str()) != 0 && errno != ENOENT)
       failToWrite(kept, errno);
     std::error_code error;
-    if (::link(path_.c_str(), kept.c_str()) != 0 && !fs::copy_file(path_, kept, error))  // on FAT
-      failToWrite(kept, error.value());
+    // FAT has no links; of a large file it may have no room for a copy.
+    if (::link(path_.c_str(), kept.c_str()) != 0 && !fs::copy_file(path_, kept, error) &&
+        std::rename(path_.c_str(), kept.c_str()) != 0)
+      failToWrite(kept, errno);
   }
   if (std::rename(partOf(path_).c_str(), path_.c_str()) != 0)
     failToWrite(path_, errno);
@@ -124,7 +126,8 @@ void OutputFile::finish() {
 }
 
 void OutputFile::discard() {
-  ::unlink(partOf(path_).c_str());
+  if (file_)
+    ::unlink(partOf(path_).c_str());
 }
 
 }  // namespace wiimote_tracker::geometry

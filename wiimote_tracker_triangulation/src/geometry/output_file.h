@@ -24,8 +24,8 @@ class OutputFile {
  public:
   /// Creates the folder and an empty part, which is locked against other programs. Refuses a
   /// folder, a device, a pipe, and what another program writes.
-  /// @param keeps_part of a program that crashed, unless empty, as path + ".part.bak", or
-  /// ".part.bak2" and so on where that exists.
+  /// @param keeps_part renames a part that a crash left, unless it is empty, to path + ".part.bak",
+  /// or ".part.bak2" and so on where that exists.
   explicit OutputFile(const std::string& path, bool keeps_part = true);
 
   void write(const std::string& bytes);

@@ -29,6 +29,8 @@ std::error_code writePlaces(const std::string& file,
   const std::string fresh = file + ".new";
   std::error_code error;
   fs::create_directories(fs::absolute(file).parent_path(), error);
+  if (error)
+    return error;
   errno = 0;
   std::ofstream out(fresh);
   out << kRig << ' ' << std::quoted(rig_id) << '\n';
@@ -37,7 +39,7 @@ std::error_code writePlaces(const std::string& file,
         << std::max(0.0, place.age) << ' ' << place.confidence << '\n';
   out.close();
   if (!out)
-    return {errno, std::generic_category()};
+    return {errno != 0 ? errno : EIO, std::generic_category()};
   fs::rename(fresh, file, error);
   return error;
 }

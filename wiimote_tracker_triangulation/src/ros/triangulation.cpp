@@ -225,7 +225,8 @@ void Triangulation::onProblem(const std::string& sentence) {
 
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
-    if (++seconds_without_rig_ > kUntilAdvice && !is_calibrating_)
+    const bool is_calibrating = is_calibrating_ && calibration_.getNumPublishers() > 0;
+    if (++seconds_without_rig_ > kUntilAdvice && !is_calibrating)
       ROS_WARN_THROTTLE(600.0,
                         "Waiting for a calibrated rig on %s: run  %srosrun "
                         "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",

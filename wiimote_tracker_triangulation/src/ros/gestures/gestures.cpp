@@ -310,7 +310,8 @@ bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
     return true;
   wanted_ = gesture::Example{request.gesture, request.zone, {}};
   response.message = "the next movement is kept as an example of '" + request.gesture +
-                     "', also one to where it begins; gestures/remove drops it";
+                     "', also one to where it begins; gestures/remove drops all of '" +
+                     request.gesture + "'";
   return true;
 }
 

@@ -236,7 +236,9 @@ void MessageTracker::reportDoubtfulLabels() {
   if (!labels.empty() && parameters_.allLabels().size() > 1)
     sink_->onProblem(
         "labels may be wrong after LEDs were out of sight or met (probability of being right): " +
-        labels + "; see which LED has which and say it by set_label, or let LEDs blink by codes");
+        labels +
+        "; see which LED has which, and say it: rosservice call set_label LABEL RIGHT_LABEL; or "
+        "let LEDs blink by codes");
 }
 
 }  // namespace wiimote_tracker

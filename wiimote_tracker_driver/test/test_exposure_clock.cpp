@@ -386,6 +386,20 @@ TEST(ExposureClock, a_long_gap_restarts_the_phase_and_keeps_the_period) {
   EXPECT_LE(run.clock.statistics().period_stddev, stddev);
 }
 
+TEST(ExposureClock, is_not_too_certain_after_long_gaps_on_a_link_of_little_jitter) {
+  Running run(0);
+  run.delay = std::exponential_distribution<double>(1.0 / 0.00003);
+  for (int gap = 0; gap < 20; ++gap) {
+    for (int i = 0; i < 1400; ++i, run.frame += i % 50 == 0 ? 2 : 1) {
+      const Estimate e = run.clock.update(run.arrival());
+      if (gap > 0) {
+        ASSERT_LT(std::abs(e.exposure - run.time()), 4.0 * e.stddev) << gap << ' ' << i;
+      }
+    }
+    run.frame += 600 + 37 * gap;
+  }
+}
+
 TEST(ExposureClock, a_clock_that_steps_back_restarts) {
   Running run(500);
   const double step = 3600.0;

@@ -20,7 +20,7 @@ std::optional<View> viewAt(std::size_t camera, const std::vector<Spot>& spots, d
   const auto before = after - 1;
   const double gap = after->time - before->time;
   const Eigen::Vector2d step = after->pixel - before->pixel;
-  if (gap > kLongestGap || step.norm() > kLongestJump)
+  if (gap > kLongestGap || !(step.norm() <= kLongestJump))
     return std::nullopt;
   return View{camera, before->pixel + (time - before->time) / gap * step, step / gap};
 }

@@ -212,6 +212,10 @@ bool DriftWatch::add(const capture::Image& image) {
   found->late = late;
   found->later_than = later_than;
   capture::append(time, image, &found->spots);
+  // Behind an image with no or several lights there may be another light.
+  if (image.spots.size() != 1 && !found->spots.empty() && time > found->spots.back().time)
+    found->spots.push_back(
+        {time, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())});
   if (time >= newest_) {
     newest_ = time;
     newest_camera_ = static_cast<std::size_t>(found - cameras_.begin());

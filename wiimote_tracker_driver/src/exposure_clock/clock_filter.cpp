@@ -17,6 +17,9 @@ constexpr double kSpreadMemory = 1000.0;  // reports
 // An arrival before the least delay keeps at least this share of the variance: the posterior is not
 // exactly normal, and one outlier must not make it certain.
 constexpr double kMinVarianceRatio = 0.5;
+// Exponentials of smaller mean, relative to the uncertainty, are negligible. With them, the filter
+// would be far too certain after a gap on a link of little jitter.
+constexpr double kMinRelativeSpread = 0.05;
 // Time over which the wander of a steady clock is added to its variance [s].
 constexpr double kExactMemory = 3.0;
 
@@ -94,9 +97,13 @@ ClockFilter::Prediction ClockFilter::predict(std::int64_t frame) const {
   return z;
 }
 
+bool ClockFilter::hasExponential(const Prediction& z) const {
+  return model_.exponential && spread_ > kMinRelativeSpread * z.stddev;
+}
+
 double ClockFilter::likelihood(const Prediction& z, double arrival) const {
   const double late = arrival - z.mean;
-  if (!model_.exponential)
+  if (!hasExponential(z))
     return normalDensity(late / z.stddev) / z.stddev;
   // Exponentially modified Gaussian; the second form is equal and does not over- or underflow.
   const double b = late / z.stddev - z.stddev / spread_;
@@ -110,7 +117,7 @@ double ClockFilter::readyBefore(const Prediction& z, double time) const {
   if (early < kImpossible)
     return 0.0;
   const double normal = normalCdf(early);
-  return model_.exponential ? std::max(0.0, normal - spread_ * likelihood(z, time)) : normal;
+  return hasExponential(z) ? std::max(0.0, normal - spread_ * likelihood(z, time)) : normal;
 }
 
 void ClockFilter::addHypothesis(const Prediction& z,
@@ -119,7 +126,7 @@ void ClockFilter::addHypothesis(const Prediction& z,
                                 Hypotheses* sums) const {
   double innovation = arrival - z.mean;
   double variance = 0.0;  // of z, given the arrival
-  if (model_.exponential) {
+  if (hasExponential(z)) {
     // A normal of mean z.mean + z.variance / spread_, truncated above at the arrival.
     const double b = innovation / z.stddev - z.stddev / spread_;
     const double mills = inverseMills(b);

@@ -89,6 +89,8 @@ class ClockFilter {
  private:
   /// Whether the state is that of ExactPosterior.
   bool exact() const { return posterior_ && posterior_->ready(); }
+  /// False also where the exponential is negligible beside the uncertainty.
+  bool hasExponential(const Prediction& z) const;
   void learnSpread(const Hypotheses& sums);
 
   DelayModel model_;

@@ -126,7 +126,7 @@ void OutputFile::finish() {
 }
 
 void OutputFile::discard() {
-  if (file_)
+  if (file_ && isNamedAsPart())  // another program may have begun its own
     ::unlink(partOf(path_).c_str());
 }
 

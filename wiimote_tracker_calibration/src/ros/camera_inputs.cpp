@@ -1,6 +1,7 @@
 #include "camera_inputs.h"
 
 #include <ros/master.h>
+#include <ros/this_node.h>
 #include <tf2_eigen/tf2_eigen.h>
 #include <wiimote_tracker_msgs/camera_topics.h>
 #include <wiimote_tracker_msgs/text.h>

@@ -1,9 +1,9 @@
 #include "health/turned_camera.h"
 
-#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
+#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -32,9 +32,6 @@ constexpr double kRival = 0.8;
 // Turns about the optical axis that are tried [rad]; in between, spots are off by up to kGate.
 constexpr std::array<double, 5> kRolls = {0.0, -0.035, 0.035, -0.07, 0.07};
 constexpr int kSteps = 3;
-// Length of the calibrated axes beside the unit vectors of rays: where all rays are the same, they
-// hold the turn about these.
-constexpr double kPrior = 0.001;
 constexpr double kLeastTurn = 0.002;  // A smaller turn stays within kGate [rad].
 
 geometry::Camera turned(geometry::Camera camera, const Eigen::Matrix3d& turn) {
@@ -203,26 +200,26 @@ std::vector<TurnedCamera::Pair> TurnedCamera::agreeing(const std::vector<Pair>& 
   return best;
 }
 
-/// Least squares over the differences between the unit vectors of the spots' rays and to the LEDs
-/// (Wahba's problem).
+/// Least squares over the angles between the spots' rays and the LEDs.
 geometry::Camera TurnedCamera::turnedTo(const std::vector<Pair>& pairs) const {
-  std::vector<Eigen::Vector3d> in_world;
-  std::vector<Eigen::Vector3d> in_camera;
-  // With its opposite, so that the means are zero and nothing but the turn is fitted.
-  const auto add = [&](const Eigen::Vector3d& world, const Eigen::Vector3d& camera) {
-    in_world.insert(in_world.end(), {world, -world});
-    in_camera.insert(in_camera.end(), {camera, -camera});
-  };
   geometry::Camera camera = calibrated_;
-  const Eigen::Matrix3d orientation = camera.world_from_camera.linear();
-  for (Eigen::Index i = 0; i < 3; ++i)
-    add(kPrior * orientation.col(i), kPrior * Eigen::Vector3d::Unit(i));
-  for (const Pair& pair : pairs) {
-    const Sample& sample = samples_[pair.sample];
-    if (const auto spot = camera.intrinsics.normalizedFromPixel(sample.spots[pair.spot]))
-      add((sample.leds[pair.led] - camera.center()).normalized(), spot->homogeneous().normalized());
+  for (int step = 0; step < kSteps; ++step) {
+    Eigen::Matrix3d information = 1e-6 * Eigen::Matrix3d::Identity();
+    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
+    const Eigen::Isometry3d camera_from_world = camera.world_from_camera.inverse();
+    for (const Pair& pair : pairs) {
+      const Sample& sample = samples_[pair.sample];
+      const auto spot = camera.intrinsics.normalizedFromPixel(sample.spots[pair.spot]);
+      if (!spot)
+        continue;
+      const Eigen::Vector3d ray = spot->homogeneous().normalized();
+      const Eigen::Vector3d led = (camera_from_world * sample.leds[pair.led]).normalized();
+      information += Eigen::Matrix3d::Identity() - ray * ray.transpose();
+      moment += ray.cross(led);
+    }
+    const Eigen::Vector3d turn = information.inverse() * moment;
+    camera = turned(camera, geometry::so3::exp(turn).toRotationMatrix());
   }
-  camera.world_from_camera.linear() = geometry::rigidAlignment(in_world, in_camera).linear();
   return camera;
 }
 

@@ -78,8 +78,8 @@ Eigen::Vector4d acrossEpipolarLines(const std::vector<geometry::Sight>& sights,
 
 }  // namespace
 
-std::vector<Residual> residualsAgainst(const geometry::Rig* rig,
-                                       const DriftSamples& samples,
+std::vector<Residual> residualsAgainst(const geometry::Rig& rig,
+                                       const std::deque<DriftSample>& samples,
                                        const std::vector<bool>& active,
                                        std::size_t camera) {
   std::vector<Residual> residuals;
@@ -103,15 +103,14 @@ std::vector<Residual> residualsAgainst(const geometry::Rig* rig,
     if (!point || !(own->depth(*point) > 0.0))
       continue;
     residuals.push_back({own->residual(*point), {}});
-    if (rig != nullptr && geometry::hasCovariance(*rig) &&
-        isDifferentiated(residuals, samples.size()))
-      residuals.back().by_parameters = derivativeAgainst(*rig, others, camera, *point);
+    if (isDifferentiated(residuals, samples.size()) && geometry::hasCovariance(rig))
+      residuals.back().by_parameters = derivativeAgainst(rig, others, camera, *point);
   }
   return residuals;
 }
 
 std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
-                                      const DriftSamples& samples,
+                                      const std::deque<DriftSample>& samples,
                                       std::size_t a,
                                       std::size_t b) {
   std::vector<Residual> residuals;

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <cstddef>
+#include <deque>
 #include <optional>
 #include <vector>
 
@@ -20,16 +21,15 @@ struct Residual {
 };
 
 /// Of a camera against the point that the other active cameras see.
-/// @param rig by whose parameters they are differentiated; null: they are not.
 /// @param active per camera of the rig. Samples with fewer than two others are left out.
-std::vector<Residual> residualsAgainst(const geometry::Rig* rig,
-                                       const DriftSamples& samples,
+std::vector<Residual> residualsAgainst(const geometry::Rig& rig,
+                                       const std::deque<DriftSample>& samples,
                                        const std::vector<bool>& active,
                                        std::size_t camera);
 
 /// Of two cameras against each other: the distance across the epipolar lines, in x [px].
 std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
-                                      const DriftSamples& samples,
+                                      const std::deque<DriftSample>& samples,
                                       std::size_t a,
                                       std::size_t b);
 

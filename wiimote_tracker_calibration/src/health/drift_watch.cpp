@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace wiimote_tracker::health {
 
@@ -28,35 +27,154 @@ constexpr double kJudgements = 12.0;
 // Residuals of a camera that scatter by more are not those of a turn alone [px].
 constexpr double kMisplaced = 10.0;
 
-/// Judges a rig by samples of one LED.
-class Judgement {
- public:
-  Judgement(const geometry::Rig& rig, const DriftSamples& samples, double limit)
-      : rig_(rig), samples_(samples), limit_(limit) {}
+}  // namespace
 
-  Drifts judge();
+Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
+  DriftOptions options;
+  // So long that nothing is judged before the end.
+  options.window = 100.0 * (images.back().stamp - images.front().stamp);
+  DriftWatch watch(rig, options);
+  for (const capture::Image& image : images)
+    watch.add(image);
+  watch.judge();
+  return watch.drifts();
+}
 
- private:
-  std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const {
-    return medianDrift(residualsAgainst(&rig_, samples_, active, camera), rig_.covariance, 2,
-                       limit_);
+bool allFit(const Drifts& drifts, std::ptrdiff_t cameras) {
+  const auto judged = std::count_if(drifts.begin(), drifts.end(),
+                                    [](const auto& drift) { return drift.has_value(); });
+  return judged >= cameras && std::none_of(drifts.begin(), drifts.end(), [](const auto& drift) {
+           return drift && drift->ratio >= 1.0;
+         });
+}
+
+DriftWatch::DriftWatch(const geometry::Rig& rig, const DriftOptions& options)
+    : rig_(rig), options_(options), drifts_(rig.cameras.size()) {
+  for (const geometry::RigCamera& camera : rig_.cameras)
+    cameras_.push_back({rig_.rayCamera(camera), {}, false, 0.0, 0, std::nullopt});
+}
+
+bool DriftWatch::add(const capture::Image& image) {
+  const auto found = std::find_if(cameras_.begin(), cameras_.end(), [&](const Camera& camera) {
+    return camera.rays.name == image.camera;
+  });
+  if (found == cameras_.end() || rig_.ray_model != geometry::RayModel::kCalibrated)
+    return false;
+  const geometry::RigCamera& calibrated =
+      rig_.cameras[static_cast<std::size_t>(found - cameras_.begin())];
+  const auto time_offset = calibrated.timeOffsetIn(image.clock_epoch);
+  found->clock_known = time_offset.has_value();
+  Frame frame;
+  frame.time = image.stamp + time_offset.value_or(0.0);
+  if (image.spots.size() == 1)
+    frame.pixel = image.spots.front();
+  if (!std::isfinite(frame.time))
+    return false;
+  const double late = newest_ - frame.time;
+  const std::size_t later_than = newest_camera_;
+  if (frame.time - newest_ > options_.window + kJump || frame.time < newest_ - kJump) {
+    restart();
+    newest_ = frame.time;
+    next_sample_ = frame.time;
+    next_judgement_ = frame.time + options_.window / kJudgements;
   }
-  std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const {
-    return medianDrift(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, limit_);
+  found->late = late;
+  found->later_than = later_than;
+  if (found->frames.empty() || frame.time > found->frames.newest().time)
+    found->frames.push(frame);
+  if (frame.time >= newest_) {
+    newest_ = frame.time;
+    newest_camera_ = static_cast<std::size_t>(found - cameras_.begin());
   }
-  double worstRatio(const std::vector<bool>& active) const;
-  void judgeAgainstOthers(std::vector<bool>* active);
-  void judgePairs(const std::vector<bool>& active);
-  void noteExchange(std::vector<bool>* active);
+  sampleUntil(newest_ - kPatience);
+  if (newest_ < next_judgement_)
+    return false;
+  next_judgement_ = newest_ + options_.window / kJudgements;
+  judge();
+  return true;
+}
 
-  const geometry::Rig& rig_;
-  const DriftSamples& samples_;
-  double limit_;
-  Drifts drifts_;
-};
+std::string DriftWatch::whyNotJudged(std::size_t camera) const {
+  if (rig_.ray_model != geometry::RayModel::kCalibrated)
+    return "the rig's rays are built through the image centre";
+  // An image later than kJump begins everything anew.
+  const auto latest =
+      std::max_element(cameras_.begin(), cameras_.end(),
+                       [](const Camera& a, const Camera& b) { return a.late < b.late; });
+  const Camera& late = latest->late > kJump ? *latest : cameras_[camera];
+  if (late.late > kPatience)
+    return format(
+        "images of %s come %.2f s later than those of %s: see their links, and the clocks of their "
+        "computers",
+        late.rays.name.c_str(), late.late, cameras_[late.later_than].rays.name.c_str());
+  return "no LED has moved lately where it and others see it";
+}
 
-/// The largest ratio among these cameras.
-double Judgement::worstRatio(const std::vector<bool>& active) const {
+void DriftWatch::restart() {
+  for (Camera& camera : cameras_) {
+    camera.frames.clear();
+    camera.late = 0.0;
+    camera.last_sample.reset();
+  }
+  samples_.clear();
+  drifts_.assign(cameras_.size(), std::nullopt);
+}
+
+void DriftWatch::sampleUntil(double time) {
+  if (next_sample_ < time - kJump)
+    next_sample_ = time;
+  for (; next_sample_ <= time; next_sample_ += capture::kSamplePeriod)
+    sampleAt(next_sample_);
+  while (!samples_.empty() && samples_.front().time < time - options_.window)
+    samples_.pop_front();
+}
+
+void DriftWatch::sampleAt(double time) {
+  DriftSample sample{time, {}};
+  bool has_moved = false;
+  std::vector<std::optional<Eigen::Vector2d>> pixels(cameras_.size());
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    Camera& camera = cameras_[i];
+    camera.frames.forgetBefore(time);
+    const auto bracket = camera.frames.bracket(time);
+    if (!bracket || bracket->gap() > capture::kLongestGap || !bracket->before->pixel ||
+        !bracket->after->pixel)
+      continue;
+    const Eigen::Vector2d step = *bracket->after->pixel - *bracket->before->pixel;
+    const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * step;
+    if (bracket->gap() > 0.0) {
+      const double speed = step.norm() / bracket->gap();
+      if (speed * (camera.clock_known ? kKnownOffset : capture::kUnknownOffset) > kLargestShift)
+        continue;
+    }
+    const auto sight = geometry::sightFromPixel(camera.rays, pixel);
+    if (!sight)
+      continue;
+    pixels[i] = pixel;
+    has_moved =
+        has_moved || !camera.last_sample || (pixel - *camera.last_sample).norm() > kLeastMotion;
+    sample.sights.emplace_back(i, *sight);
+  }
+  if (sample.sights.size() < 2 || !has_moved)
+    return;
+  for (std::size_t i = 0; i < cameras_.size(); ++i) {
+    if (pixels[i])
+      cameras_[i].last_sample = pixels[i];
+  }
+  samples_.push_back(std::move(sample));
+}
+
+std::optional<Drift> DriftWatch::driftOf(std::size_t camera,
+                                         const std::vector<bool>& active) const {
+  return medianDrift(residualsAgainst(rig_, samples_, active, camera), rig_.covariance, 2,
+                     options_.limit);
+}
+
+std::optional<Drift> DriftWatch::driftOfPair(std::size_t a, std::size_t b) const {
+  return medianDrift(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, options_.limit);
+}
+
+double DriftWatch::worstRatio(const std::vector<bool>& active) const {
   double worst = 0.0;
   for (std::size_t a = 0; a < active.size(); ++a) {
     if (!active[a])
@@ -73,44 +191,42 @@ double Judgement::worstRatio(const std::vector<bool>& active) const {
   return worst;
 }
 
-Drifts Judgement::judge() {
-  drifts_.assign(rig_.cameras.size(), std::nullopt);
-  std::vector<bool> active(rig_.cameras.size(), true);
+void DriftWatch::judge() {
+  drifts_.assign(cameras_.size(), std::nullopt);
+  std::vector<bool> active(cameras_.size(), true);
   judgeAgainstOthers(&active);
   if (std::any_of(drifts_.begin(), drifts_.end(),
                   [](const auto& drift) { return drift && drift->scatter > kMisplaced; }))
     noteExchange(&active);
   judgePairs(active);
-  return drifts_;
 }
 
 /// Judges the others without two cameras that seem exchanged, if there are such.
-void Judgement::noteExchange(std::vector<bool>* active) {
+void DriftWatch::noteExchange(std::vector<bool>* active) {
   const auto exchanged = exchangedCameras(rig_, samples_);
   if (!exchanged)
     return;
   const auto [a, b] = *exchanged;
-  Drifts found(rig_.cameras.size());
+  Drifts found(cameras_.size());
   for (const std::size_t i : {a, b}) {
     found[i] = drifts_[i].value_or(Drift());
     found[i]->ratio = std::max(1.0, found[i]->ratio);
-    found[i]->exchanged_with = rig_.cameras[i == a ? b : a].camera.name;
+    found[i]->exchanged_with = cameras_[i == a ? b : a].rays.name;
   }
   drifts_ = found;
-  active->assign(rig_.cameras.size(), true);
+  active->assign(cameras_.size(), true);
   (*active)[a] = (*active)[b] = false;
   judgeAgainstOthers(active);
 }
 
-/// Removes the cameras that drifted, one after the other.
-void Judgement::judgeAgainstOthers(std::vector<bool>* remaining) {
+void DriftWatch::judgeAgainstOthers(std::vector<bool>* remaining) {
   std::vector<bool>& active = *remaining;
   // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
   // the camera without which the rest fit best, and judge the rest without it.
   while (true) {
     double least = 0.0;
     std::optional<std::size_t> culprit;
-    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+    for (std::size_t i = 0; i < cameras_.size(); ++i) {
       if (!active[i])
         continue;
       drifts_[i] = driftOf(i, active);
@@ -140,9 +256,9 @@ void Judgement::judgeAgainstOthers(std::vector<bool>* remaining) {
 }
 
 /// Judges cameras that share their view with one other camera only.
-void Judgement::judgePairs(const std::vector<bool>& active) {
-  for (std::size_t a = 0; a < rig_.cameras.size(); ++a) {
-    for (std::size_t b = a + 1; b < rig_.cameras.size(); ++b) {
+void DriftWatch::judgePairs(const std::vector<bool>& active) {
+  for (std::size_t a = 0; a < cameras_.size(); ++a) {
+    for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
       if (!active[a] || !active[b] || (drifts_[a] && drifts_[b]))
         continue;
       const auto pair = driftOfPair(a, b);
@@ -153,148 +269,10 @@ void Judgement::judgePairs(const std::vector<bool>& active) {
         if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
           continue;
         drifts_[i] = pair;
-        drifts_[i]->or_camera = rig_.cameras[i == a ? b : a].camera.name;
+        drifts_[i]->or_camera = cameras_[i == a ? b : a].rays.name;
       }
     }
   }
-}
-
-}  // namespace
-
-Drifts driftsOf(const geometry::Rig& rig, const DriftSamples& samples, double limit) {
-  return Judgement(rig, samples, limit).judge();
-}
-
-Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
-  DriftOptions options;
-  options.window = std::numeric_limits<double>::infinity();
-  DriftWatch watch(rig, options);
-  for (const capture::Image& image : images)
-    watch.add(image);
-  return driftsOf(rig, watch.samples(), options.limit);
-}
-
-bool allFit(const Drifts& drifts, std::ptrdiff_t cameras) {
-  const auto judged = std::count_if(drifts.begin(), drifts.end(),
-                                    [](const auto& drift) { return drift.has_value(); });
-  return judged >= cameras && std::none_of(drifts.begin(), drifts.end(), [](const auto& drift) {
-           return drift && drift->ratio >= 1.0;
-         });
-}
-
-DriftWatch::DriftWatch(const geometry::Rig& rig, const DriftOptions& options)
-    : rig_(rig), options_(options), drifts_(rig.cameras.size()) {
-  for (const geometry::RigCamera& camera : rig_.cameras)
-    cameras_.push_back({rig_.rayCamera(camera), {}, false, 0.0, 0, std::nullopt});
-}
-
-bool DriftWatch::add(const capture::Image& image) {
-  const auto found = std::find_if(cameras_.begin(), cameras_.end(), [&](const Camera& camera) {
-    return camera.rays.name == image.camera;
-  });
-  if (found == cameras_.end() || rig_.ray_model != geometry::RayModel::kCalibrated)
-    return false;
-  const geometry::RigCamera& calibrated =
-      rig_.cameras[static_cast<std::size_t>(found - cameras_.begin())];
-  const auto time_offset = calibrated.timeOffsetIn(image.clock_epoch);
-  found->clock_known = time_offset.has_value();
-  const double time = image.stamp + time_offset.value_or(0.0);
-  if (!std::isfinite(time))
-    return false;
-  const double late = newest_ - time;
-  const std::size_t later_than = newest_camera_;
-  if (std::isinf(newest_) || time - newest_ > options_.window + kJump || time < newest_ - kJump) {
-    restart();
-    newest_ = time;
-    next_sample_ = time;
-    next_judgement_ = time + options_.window / kJudgements;
-  }
-  found->late = late;
-  found->later_than = later_than;
-  capture::append(time, image, &found->spots);
-  // Behind an image with no or several lights there may be another light.
-  if (image.spots.size() != 1 && !found->spots.empty() && time > found->spots.back().time)
-    found->spots.push_back(
-        {time, Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN())});
-  if (time >= newest_) {
-    newest_ = time;
-    newest_camera_ = static_cast<std::size_t>(found - cameras_.begin());
-  }
-  sampleUntil(newest_ - kPatience);
-  if (newest_ < next_judgement_)
-    return false;
-  next_judgement_ = newest_ + options_.window / kJudgements;
-  drifts_ = driftsOf(rig_, samples_, options_.limit);
-  return true;
-}
-
-std::string DriftWatch::whyNotJudged(std::size_t camera) const {
-  if (rig_.ray_model != geometry::RayModel::kCalibrated)
-    return "the rig's rays are built through the image centre";
-  // An image later than kJump begins everything anew.
-  const auto latest =
-      std::max_element(cameras_.begin(), cameras_.end(),
-                       [](const Camera& a, const Camera& b) { return a.late < b.late; });
-  const Camera& late = latest->late > kJump ? *latest : cameras_[camera];
-  if (late.late > kPatience)
-    return format(
-        "images of %s come %.2f s later than those of %s: see their links, and the clocks of their "
-        "computers",
-        late.rays.name.c_str(), late.late, cameras_[late.later_than].rays.name.c_str());
-  return "no LED has moved lately where it and others see it";
-}
-
-void DriftWatch::restart() {
-  for (Camera& camera : cameras_) {
-    camera.spots.clear();
-    camera.late = 0.0;
-    camera.last_sample.reset();
-  }
-  samples_.clear();
-  drifts_.assign(cameras_.size(), std::nullopt);
-}
-
-void DriftWatch::sampleUntil(double time) {
-  if (next_sample_ < time - kJump)
-    next_sample_ = time;
-  for (; next_sample_ <= time; next_sample_ += capture::kSamplePeriod)
-    sampleAt(next_sample_);
-  while (!samples_.empty() && samples_.front().time < time - options_.window)
-    samples_.pop_front();
-}
-
-void DriftWatch::sampleAt(double time) {
-  DriftSample sample{time, {}};
-  bool has_moved = false;
-  std::vector<std::optional<Eigen::Vector2d>> pixels(cameras_.size());
-  for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    Camera& camera = cameras_[i];
-    std::vector<capture::Spot>& spots = camera.spots;
-    const auto later = std::find_if(spots.begin(), spots.end(),
-                                    [&](const auto& spot) { return spot.time >= time; });
-    if (later - spots.begin() > 1)
-      spots.erase(spots.begin(), later - 1);
-    const auto view = capture::viewAt(i, spots, time);
-    if (!view ||
-        view->velocity.norm() * (camera.clock_known ? kKnownOffset : capture::kUnknownOffset) >
-            kLargestShift)
-      continue;
-    const Eigen::Vector2d& pixel = view->pixel;
-    const auto sight = geometry::sightFromPixel(camera.rays, pixel);
-    if (!sight)
-      continue;
-    pixels[i] = pixel;
-    has_moved =
-        has_moved || !camera.last_sample || (pixel - *camera.last_sample).norm() > kLeastMotion;
-    sample.sights.emplace_back(i, *sight);
-  }
-  if (sample.sights.size() < 2 || !has_moved)
-    return;
-  for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (pixels[i])
-      cameras_[i].last_sample = pixels[i];
-  }
-  samples_.push_back(std::move(sample));
 }
 
 }  // namespace wiimote_tracker::health

@@ -11,6 +11,7 @@ namespace wiimote_tracker::health {
 
 namespace {
 
+using Samples = std::deque<DriftSample>;
 using CameraPair = std::pair<std::size_t, std::size_t>;
 
 // By how much less the residuals must scatter than as they are, and than with any other two
@@ -29,10 +30,7 @@ void move(const Eigen::Isometry3d& motion, geometry::Sight* sight) {
 }
 
 /// The samples if each of two cameras stood where the other one was calibrated.
-DriftSamples exchanged(const geometry::Rig& rig,
-                       std::size_t a,
-                       std::size_t b,
-                       DriftSamples samples) {
+Samples exchanged(const geometry::Rig& rig, std::size_t a, std::size_t b, Samples samples) {
   const Eigen::Isometry3d from_a_to_b =
       rig.cameras[b].camera.world_from_camera * rig.cameras[a].camera.world_from_camera.inverse();
   for (DriftSample& sample : samples) {
@@ -46,11 +44,13 @@ DriftSamples exchanged(const geometry::Rig& rig,
 
 /// Per camera the standard deviation of its residuals against all others [px]; nothing: too few
 /// samples.
-std::vector<std::optional<double>> scattersOf(std::size_t cameras, const DriftSamples& samples) {
+std::vector<std::optional<double>> scattersOf(std::size_t cameras, const Samples& samples) {
+  const geometry::Rig without_covariance;
   const std::vector<bool> all(cameras, true);
   std::vector<std::optional<double>> scatters(cameras);
   for (std::size_t i = 0; i < cameras; ++i) {
-    if (const auto drift = medianDrift(residualsAgainst(nullptr, samples, all, i), {}, 2, 1.0))
+    const auto residuals = residualsAgainst(without_covariance, samples, all, i);
+    if (const auto drift = medianDrift(residuals, {}, 2, 1.0))
       scatters[i] = drift->scatter;
   }
   return scatters;
@@ -62,7 +62,7 @@ double largestOf(const std::vector<std::optional<double>>& scatters) {
 
 }  // namespace
 
-std::optional<CameraPair> exchangedCameras(const geometry::Rig& rig, const DriftSamples& samples) {
+std::optional<CameraPair> exchangedCameras(const geometry::Rig& rig, const Samples& samples) {
   const std::size_t count = rig.cameras.size();
   const auto as_is = scattersOf(count, samples);
   const double worst = largestOf(as_is);

@@ -189,12 +189,12 @@ void HealthWatch::describe(Watched* camera) {
         kPutBackBoth);
   if (camera->tilt_alarm.on() && !is_exchanged)
     add(tiltText(*health.tilt), putBack(rig_, true));
-  health.or_others = false;
-  if (camera->drift_alarm.on() && !is_exchanged) {
-    const bool is_known = drift.or_camera.empty() && !drift.or_others;
-    health.or_others = findings.empty() && !is_known;
+  const bool is_drift = camera->drift_alarm.on() && !is_exchanged;
+  const bool is_known = drift.or_camera.empty() && !drift.or_others;
+  health.by_images = is_drift && findings.empty();
+  health.or_others = health.by_images && !is_known;
+  if (is_drift)
     add(driftText(drift), putBack(rig_, is_known));
-  }
   health.text = joined(findings, "; ");
   if (was_well && !health.text.empty())
     news_.push_back(camera->calibrated.camera.name);

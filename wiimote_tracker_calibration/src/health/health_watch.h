@@ -25,7 +25,8 @@ struct HealthOptions {
 struct CameraHealth {
   std::string text;            ///< What has changed; empty: nothing has.
   std::string advice;          ///< What to do then.
-  bool or_others = false;      ///< Only the images show it, and perhaps others were moved instead.
+  bool by_images = false;      ///< Only the images show it, against those of the other cameras.
+  bool or_others = false;      ///< Then: perhaps others were moved instead.
   std::optional<Tilt> tilt;    ///< Latest judgement; nothing: none yet.
   std::optional<Drift> drift;  ///< Same.
   std::string no_drift;        ///< Why there is none; empty: there is one.

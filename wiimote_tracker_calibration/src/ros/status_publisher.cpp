@@ -150,9 +150,9 @@ std::string StatusPublisher::health(const std::string& camera) const {
   const health::CameraHealth health =
       found == health_.end() ? health::CameraHealth() : found->second;
   if (std::count(correctable_.begin(), correctable_.end(), camera) == 0) {
-    // What is proposed says which cameras were moved.
+    // What is proposed says which cameras were moved; against these others seem to be off, too.
     const bool is_explained =
-        health.or_others && !correctable_.empty() && cause_ == continuous::Cause::kKnock;
+        health.by_images && !correctable_.empty() && cause_ == continuous::Cause::kKnock;
     return health.text.empty() || is_explained ? "" : health.text + "; " + health.advice;
   }
   const std::string before = health.text.empty() ? "" : health.text + "; ";

@@ -215,11 +215,16 @@ TEST(HealthWatch, FindingsStayWhenTheRigIsAdjustedAndEndWhenItIsSolvedAnew) {
   EXPECT_FALSE(watch.follow(anew));
 }
 
-TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
-  Random random(34);
+geometry::Rig rigWithoutAccelerometers() {
   geometry::Rig rig = paperRigWith(calibratedByWave());
   for (geometry::RigCamera& camera : rig.cameras)
     camera.gravity.reset();
+  return rig;
+}
+
+TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
+  Random random(34);
+  geometry::Rig rig = rigWithoutAccelerometers();
   HealthWatch watch(rig, {});
   WavedLed scene(drawTruth(rig, random), 702);
   const Eigen::Vector3d turn(0.05 * kOneDegree, 0.0, 0.0);
@@ -233,9 +238,7 @@ TEST(HealthWatch, AFindingOfDriftEndsWhenTheCameraIsSolvedThere) {
 
 TEST(HealthWatch, CamerasThatMayNotHaveMovedAreWellOnceTheOthersAreSolved) {
   Random random(36);
-  geometry::Rig rig = paperRigWith(calibratedByWave());
-  for (geometry::RigCamera& camera : rig.cameras)
-    camera.gravity.reset();
+  geometry::Rig rig = rigWithoutAccelerometers();
   HealthWatch watch(rig, {});
   WavedLed scene(drawTruth(rig, random), 704);
   const Eigen::Vector3d turn(2.0 * kOneDegree, 0.0, 0.0);

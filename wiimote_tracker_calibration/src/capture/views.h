@@ -27,7 +27,7 @@ void append(double time, const Image& image, std::vector<Spot>* spots);
 struct View {
   std::size_t camera;        ///< As the rig counts them.
   Eigen::Vector2d pixel;     ///< [px]
-  Eigen::Vector2d velocity;  ///< [px/s]
+  Eigen::Vector2d velocity;  ///< [px/s]; NaN: unknown. locate() does not need it.
 };
 
 /// Interpolated linearly between two images. @param spots of the camera, in the order of their

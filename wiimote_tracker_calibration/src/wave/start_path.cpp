@@ -35,7 +35,9 @@ constexpr double kLongestGap = 0.3;
 // Fewest places to start from.
 constexpr std::size_t kLeastPlaces = 40;
 
-using Spot = capture::View;  // Of unknown velocity.
+const Eigen::Vector2d kUnknownVelocity =
+    Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());
+using Spot = capture::View;  // Its velocity is not known: NaN.
 
 /// A point in space that two or more spots of different cameras agree on.
 struct Point {
@@ -197,7 +199,7 @@ class Instants {
       if (distance(i) > kSameInstant)
         continue;
       for (const Eigen::Vector2d& spot : frames[i].spots)
-        spots_.push_back({c, spot, Eigen::Vector2d::Zero()});
+        spots_.push_back({c, spot, kUnknownVelocity});
     }
     return spots_;
   }

@@ -212,24 +212,8 @@ std::string LedLabels::correct(const std::string& label, const std::string& righ
   if (std::find(listed_.begin(), listed_.end(), right) == listed_.end())
     return "'" + right + "' is no label of LEDs that do not blink: choose from " + joined(listed_);
   const bool is_listed = given_.count(*led) > 0;
-  if (label != right) {
-    for (auto other = given_.begin(); other != given_.end();) {
-      const bool has_it = other->second.name == right;
-      if (has_it)
-        other->second.name = label;
-      other = has_it && !is_listed ? given_.erase(other) : std::next(other);
-    }
-    const auto move = [&](Places::node_type place, const std::string& to) {
-      if (!place || !is_listed)
-        return;
-      place.key() = to;
-      places_.insert(std::move(place));
-    };
-    auto others = places_.extract(right);
-    move(places_.extract(label), right);
-    move(std::move(others), label);
-    former_.erase(label);
-  }
+  if (label != right)
+    exchange(label, right, is_listed);
   former_.erase(right);
   LedLabel& given = given_[*led];
   if (!is_listed)
@@ -241,6 +225,27 @@ std::string LedLabels::correct(const std::string& label, const std::string& righ
   if (place != places_.end())
     place->second.confidence = 1.0;
   return "";
+}
+
+/// Gives other LEDs that have the label `right` the label `label`, and each label the other's
+/// place. Where `label` is not of the list, the others lose theirs, and both places are forgotten.
+void LedLabels::exchange(const std::string& label, const std::string& right, bool is_listed) {
+  for (auto other = given_.begin(); other != given_.end();) {
+    const bool has_it = other->second.name == right;
+    if (has_it)
+      other->second.name = label;
+    other = has_it && !is_listed ? given_.erase(other) : std::next(other);
+  }
+  const auto move = [&](Places::node_type place, const std::string& to) {
+    if (!place || !is_listed)
+      return;
+    place.key() = to;
+    places_.insert(std::move(place));
+  };
+  auto others = places_.extract(right);
+  move(places_.extract(label), right);
+  move(std::move(others), label);
+  former_.erase(label);
 }
 
 bool LedLabels::hasTrack(const std::string& label) const {

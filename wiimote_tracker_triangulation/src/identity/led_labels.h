@@ -114,6 +114,7 @@ class LedLabels {
     }
   };
 
+  void exchange(const std::string& label, const std::string& right, bool is_listed);
   void agePlaces(double time);
   void giveLabel(double time, const tracking::TrackedLed& led, const Identifier* identifier);
   void takeIdentity(std::uint32_t id, const Identifier& identifier);

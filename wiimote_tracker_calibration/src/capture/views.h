@@ -16,8 +16,8 @@ namespace wiimote_tracker::capture {
 
 /// The LED in one camera's image.
 struct Spot {
-  double time;  ///< [s]
-  Eigen::Vector2d pixel;
+  double time;            ///< [s]
+  Eigen::Vector2d pixel;  ///< NaN: the LED is not told from other lights.
 };
 
 /// Appends the spot of an image, if it has exactly one and is later than those before.

@@ -18,8 +18,8 @@ namespace wiimote_tracker::continuous {
 /// several cameras see one spot that has moved.
 struct MotionOptions {
   std::size_t to_solve = 0;  ///< Samples [> 0].
-  /// Later samples, which the solution does not use [>= 40: fewer are not judged, see medianDrift()
-  /// in health/drift_residuals.h].
+  /// Later samples, which the solution does not use [>= 40: fewer are not judged, see driftOf() in
+  /// health/drift_residuals.h].
   std::size_t to_check = 0;
   /// Samples, to which these grow while the motion goes on; below to_solve: they do not grow.
   std::size_t most_to_solve = 0;

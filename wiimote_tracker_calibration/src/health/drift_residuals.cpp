@@ -27,6 +27,12 @@ constexpr double kLeastScatter = 0.3;
 // 99.9 % quantiles of chi-squared, for one and two degrees of freedom.
 constexpr double kQuantile[] = {10.8, 13.8};
 
+/// One residual of a camera, and its derivative by the parameters of the rig.
+struct Residual {
+  Eigen::Vector2d value;          // Predicted less observed [px].
+  Eigen::MatrixXd by_parameters;  // 2 x all parameters of the rig; empty: not computed.
+};
+
 /// Whether the derivative of the latest residual is computed.
 bool isDifferentiated(const std::vector<Residual>& residuals, std::size_t samples) {
   return (residuals.size() - 1) % (samples / kDerivatives + 1) == 0;
@@ -76,10 +82,8 @@ Eigen::Vector4d acrossEpipolarLines(const std::vector<geometry::Sight>& sights,
   return (opposite ? -1.0 : 1.0) * across;
 }
 
-}  // namespace
-
 std::vector<Residual> residualsAgainst(const geometry::Rig& rig,
-                                       const std::deque<DriftSample>& samples,
+                                       const DriftSamples& samples,
                                        const std::vector<bool>& active,
                                        std::size_t camera) {
   std::vector<Residual> residuals;
@@ -110,7 +114,7 @@ std::vector<Residual> residualsAgainst(const geometry::Rig& rig,
 }
 
 std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
-                                      const std::deque<DriftSample>& samples,
+                                      const DriftSamples& samples,
                                       std::size_t a,
                                       std::size_t b) {
   std::vector<Residual> residuals;
@@ -148,6 +152,7 @@ std::vector<Residual> residualsOfPair(const geometry::Rig& rig,
   return residuals;
 }
 
+/// @param dimensions 2, or 1 for x only.
 std::optional<Drift> medianDrift(const std::vector<Residual>& residuals,
                                  const Eigen::MatrixXd& covariance,
                                  int dimensions,
@@ -171,18 +176,16 @@ std::optional<Drift> medianDrift(const std::vector<Residual>& residuals,
     expected(axis, axis) = kMedianOverMean * kMedianOverMean * scatter * scatter /
                            static_cast<double>(residuals.size());
   }
-  if (covariance.size() > 0) {
-    Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(2, covariance.rows());
-    double count = 0.0;
-    for (const Residual& residual : residuals) {
-      if (residual.by_parameters.size() == 0)
-        continue;
-      mean += residual.by_parameters;
-      count += 1.0;
-    }
-    if (count > 0.0)
-      expected += geometry::propagated(mean / count, covariance);
+  Eigen::MatrixXd mean = Eigen::MatrixXd::Zero(2, covariance.rows());
+  double count = 0.0;
+  for (const Residual& residual : residuals) {
+    if (residual.by_parameters.size() == 0)
+      continue;
+    mean += residual.by_parameters;
+    count += 1.0;
   }
+  if (count > 0.0)
+    expected += geometry::propagated(mean / count, covariance);
   const auto n = static_cast<Eigen::Index>(dimensions);
   const auto bias = drift.bias.head(n);
   const auto known = expected.topLeftCorner(n, n);
@@ -190,6 +193,24 @@ std::optional<Drift> medianDrift(const std::vector<Residual>& residuals,
   drift.stddev = std::sqrt(known.trace());
   drift.ratio = std::min(bias.norm() / limit, std::sqrt(distance / kQuantile[dimensions - 1]));
   return drift;
+}
+
+}  // namespace
+
+std::optional<Drift> driftOf(std::size_t camera,
+                             const geometry::Rig& rig,
+                             const DriftSamples& samples,
+                             const std::vector<bool>& active,
+                             double limit) {
+  return medianDrift(residualsAgainst(rig, samples, active, camera), rig.covariance, 2, limit);
+}
+
+std::optional<Drift> driftOfPair(std::size_t a,
+                                 std::size_t b,
+                                 const geometry::Rig& rig,
+                                 const DriftSamples& samples,
+                                 double limit) {
+  return medianDrift(residualsOfPair(rig, samples, a, b), rig.covariance, 1, limit);
 }
 
 }  // namespace wiimote_tracker::health

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace wiimote_tracker::health {
 
@@ -26,13 +27,138 @@ constexpr double kLargestShift = 0.5;    // [px]
 constexpr double kJudgements = 12.0;
 // Residuals of a camera that scatter by more are not those of a turn alone [px].
 constexpr double kMisplaced = 10.0;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+/// Judges a rig by samples of one LED.
+class Judgement {
+ public:
+  Judgement(const geometry::Rig& rig, const DriftSamples& samples, double limit)
+      : rig_(rig), samples_(samples), limit_(limit) {}
+
+  Drifts judge();
+
+ private:
+  double worstRatio(const std::vector<bool>& active) const;
+  void judgeAgainstOthers(std::vector<bool>* active);
+  void judgePairs(const std::vector<bool>& active);
+  void noteExchange(std::vector<bool>* active);
+
+  const geometry::Rig& rig_;
+  const DriftSamples& samples_;
+  double limit_;
+  Drifts drifts_;
+};
+
+/// The largest ratio among these cameras.
+double Judgement::worstRatio(const std::vector<bool>& active) const {
+  double worst = 0.0;
+  for (std::size_t a = 0; a < active.size(); ++a) {
+    if (!active[a])
+      continue;
+    if (const auto drift = driftOf(a, rig_, samples_, active, limit_)) {
+      worst = std::max(worst, drift->ratio);
+      continue;
+    }
+    for (std::size_t b = 0; b < active.size(); ++b) {
+      const auto pair =
+          active[b] && b != a ? driftOfPair(a, b, rig_, samples_, limit_) : std::nullopt;
+      worst = pair ? std::max(worst, pair->ratio) : worst;
+    }
+  }
+  return worst;
+}
+
+Drifts Judgement::judge() {
+  drifts_.assign(rig_.cameras.size(), std::nullopt);
+  std::vector<bool> active(rig_.cameras.size(), true);
+  judgeAgainstOthers(&active);
+  if (std::any_of(drifts_.begin(), drifts_.end(),
+                  [](const auto& drift) { return drift && drift->scatter > kMisplaced; }))
+    noteExchange(&active);
+  judgePairs(active);
+  return drifts_;
+}
+
+/// Judges the others without two cameras that seem exchanged, if there are such.
+void Judgement::noteExchange(std::vector<bool>* active) {
+  const auto exchanged = exchangedCameras(rig_, samples_);
+  if (!exchanged)
+    return;
+  const auto [a, b] = *exchanged;
+  Drifts found(rig_.cameras.size());
+  for (const std::size_t i : {a, b}) {
+    found[i] = drifts_[i].value_or(Drift());
+    found[i]->ratio = std::max(1.0, found[i]->ratio);
+    found[i]->exchanged_with = rig_.cameras[i == a ? b : a].camera.name;
+  }
+  drifts_ = found;
+  active->assign(rig_.cameras.size(), true);
+  (*active)[a] = (*active)[b] = false;
+  judgeAgainstOthers(active);
+}
+
+/// Removes the cameras that drifted, one after the other.
+void Judgement::judgeAgainstOthers(std::vector<bool>* remaining) {
+  std::vector<bool>& active = *remaining;
+  // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
+  // the camera without which the rest fit best, and judge the rest without it.
+  while (true) {
+    double least = 0.0;
+    std::optional<std::size_t> culprit;
+    for (std::size_t i = 0; i < rig_.cameras.size(); ++i) {
+      if (!active[i])
+        continue;
+      drifts_[i] = driftOf(i, rig_, samples_, active, limit_);
+      if (!drifts_[i] || drifts_[i]->ratio < 1.0)
+        continue;
+      std::vector<bool> rest = active;
+      rest[i] = false;
+      const double worst = worstRatio(rest);
+      if (!culprit || worst < least) {
+        least = worst;
+        culprit = i;
+      }
+    }
+    if (!culprit)
+      break;
+    active[*culprit] = false;
+  }
+  // Where several are removed, two that remain may agree by chance.
+  const auto removed = std::count(active.begin(), active.end(), false);
+  std::size_t judged = 0;
+  for (std::size_t i = 0; i < active.size(); ++i)
+    judged += active[i] && drifts_[i] ? 1 : 0;
+  for (std::size_t i = 0; i < active.size(); ++i) {
+    if (!active[i])
+      drifts_[i]->or_others = removed > 1 && judged < 3;
+  }
+}
+
+/// Judges cameras that share their view with one other camera only.
+void Judgement::judgePairs(const std::vector<bool>& active) {
+  for (std::size_t a = 0; a < rig_.cameras.size(); ++a) {
+    for (std::size_t b = a + 1; b < rig_.cameras.size(); ++b) {
+      if (!active[a] || !active[b] || (drifts_[a] && drifts_[b]))
+        continue;
+      const auto pair = driftOfPair(a, b, rig_, samples_, limit_);
+      if (!pair)
+        continue;
+      for (const std::size_t i : {a, b}) {
+        const bool fits_the_others = drifts_[i] && drifts_[i]->or_camera.empty();
+        if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
+          continue;
+        drifts_[i] = pair;
+        drifts_[i]->or_camera = rig_.cameras[i == a ? b : a].camera.name;
+      }
+    }
+  }
+}
 
 }  // namespace
 
 Drifts driftsOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
   DriftOptions options;
-  // So long that nothing is judged before the end.
-  options.window = 100.0 * (images.back().stamp - images.front().stamp);
+  options.window = std::numeric_limits<double>::infinity();
   DriftWatch watch(rig, options);
   for (const capture::Image& image : images)
     watch.add(image);
@@ -64,26 +190,25 @@ bool DriftWatch::add(const capture::Image& image) {
       rig_.cameras[static_cast<std::size_t>(found - cameras_.begin())];
   const auto time_offset = calibrated.timeOffsetIn(image.clock_epoch);
   found->clock_known = time_offset.has_value();
-  Frame frame;
-  frame.time = image.stamp + time_offset.value_or(0.0);
-  if (image.spots.size() == 1)
-    frame.pixel = image.spots.front();
-  if (!std::isfinite(frame.time))
+  const double time = image.stamp + time_offset.value_or(0.0);
+  if (!std::isfinite(time))
     return false;
-  const double late = newest_ - frame.time;
+  const double late = newest_ - time;
   const std::size_t later_than = newest_camera_;
-  if (frame.time - newest_ > options_.window + kJump || frame.time < newest_ - kJump) {
+  if (std::isinf(newest_) || time - newest_ > options_.window + kJump || time < newest_ - kJump) {
     restart();
-    newest_ = frame.time;
-    next_sample_ = frame.time;
-    next_judgement_ = frame.time + options_.window / kJudgements;
+    newest_ = time;
+    next_sample_ = time;
+    next_judgement_ = time + options_.window / kJudgements;
   }
   found->late = late;
   found->later_than = later_than;
-  if (found->frames.empty() || frame.time > found->frames.newest().time)
-    found->frames.push(frame);
-  if (frame.time >= newest_) {
-    newest_ = frame.time;
+  // Behind an image with no or several lights there may be another light.
+  if (found->spots.empty() || time > found->spots.back().time)
+    found->spots.push_back(
+        {time, image.spots.size() == 1 ? image.spots.front() : Eigen::Vector2d::Constant(kNan)});
+  if (time >= newest_) {
+    newest_ = time;
     newest_camera_ = static_cast<std::size_t>(found - cameras_.begin());
   }
   sampleUntil(newest_ - kPatience);
@@ -92,6 +217,10 @@ bool DriftWatch::add(const capture::Image& image) {
   next_judgement_ = newest_ + options_.window / kJudgements;
   judge();
   return true;
+}
+
+void DriftWatch::judge() {
+  drifts_ = Judgement(rig_, samples_, options_.limit).judge();
 }
 
 std::string DriftWatch::whyNotJudged(std::size_t camera) const {
@@ -112,7 +241,7 @@ std::string DriftWatch::whyNotJudged(std::size_t camera) const {
 
 void DriftWatch::restart() {
   for (Camera& camera : cameras_) {
-    camera.frames.clear();
+    camera.spots.clear();
     camera.late = 0.0;
     camera.last_sample.reset();
   }
@@ -131,148 +260,29 @@ void DriftWatch::sampleUntil(double time) {
 
 void DriftWatch::sampleAt(double time) {
   DriftSample sample{time, {}};
+  std::vector<capture::View> views;
   bool has_moved = false;
-  std::vector<std::optional<Eigen::Vector2d>> pixels(cameras_.size());
   for (std::size_t i = 0; i < cameras_.size(); ++i) {
     Camera& camera = cameras_[i];
-    camera.frames.forgetBefore(time);
-    const auto bracket = camera.frames.bracket(time);
-    if (!bracket || bracket->gap() > capture::kLongestGap || !bracket->before->pixel ||
-        !bracket->after->pixel)
+    while (camera.spots.size() > 1 && camera.spots[1].time < time)
+      camera.spots.erase(camera.spots.begin());
+    const auto view = capture::viewAt(i, camera.spots, time);
+    const double clock_error = camera.clock_known ? kKnownOffset : capture::kUnknownOffset;
+    if (!view || view->velocity.norm() * clock_error > kLargestShift)
       continue;
-    const Eigen::Vector2d step = *bracket->after->pixel - *bracket->before->pixel;
-    const Eigen::Vector2d pixel = *bracket->before->pixel + bracket->shareAt(time) * step;
-    if (bracket->gap() > 0.0) {
-      const double speed = step.norm() / bracket->gap();
-      if (speed * (camera.clock_known ? kKnownOffset : capture::kUnknownOffset) > kLargestShift)
-        continue;
-    }
-    const auto sight = geometry::sightFromPixel(camera.rays, pixel);
+    const auto sight = geometry::sightFromPixel(camera.rays, view->pixel);
     if (!sight)
       continue;
-    pixels[i] = pixel;
-    has_moved =
-        has_moved || !camera.last_sample || (pixel - *camera.last_sample).norm() > kLeastMotion;
+    has_moved = has_moved || !camera.last_sample ||
+                (view->pixel - *camera.last_sample).norm() > kLeastMotion;
+    views.push_back(*view);
     sample.sights.emplace_back(i, *sight);
   }
-  if (sample.sights.size() < 2 || !has_moved)
+  if (views.size() < 2 || !has_moved)
     return;
-  for (std::size_t i = 0; i < cameras_.size(); ++i) {
-    if (pixels[i])
-      cameras_[i].last_sample = pixels[i];
-  }
+  for (const capture::View& view : views)
+    cameras_[view.camera].last_sample = view.pixel;
   samples_.push_back(std::move(sample));
-}
-
-std::optional<Drift> DriftWatch::driftOf(std::size_t camera,
-                                         const std::vector<bool>& active) const {
-  return medianDrift(residualsAgainst(rig_, samples_, active, camera), rig_.covariance, 2,
-                     options_.limit);
-}
-
-std::optional<Drift> DriftWatch::driftOfPair(std::size_t a, std::size_t b) const {
-  return medianDrift(residualsOfPair(rig_, samples_, a, b), rig_.covariance, 1, options_.limit);
-}
-
-double DriftWatch::worstRatio(const std::vector<bool>& active) const {
-  double worst = 0.0;
-  for (std::size_t a = 0; a < active.size(); ++a) {
-    if (!active[a])
-      continue;
-    if (const auto drift = driftOf(a, active)) {
-      worst = std::max(worst, drift->ratio);
-      continue;
-    }
-    for (std::size_t b = 0; b < active.size(); ++b) {
-      const auto pair = active[b] && b != a ? driftOfPair(a, b) : std::nullopt;
-      worst = pair ? std::max(worst, pair->ratio) : worst;
-    }
-  }
-  return worst;
-}
-
-void DriftWatch::judge() {
-  drifts_.assign(cameras_.size(), std::nullopt);
-  std::vector<bool> active(cameras_.size(), true);
-  judgeAgainstOthers(&active);
-  if (std::any_of(drifts_.begin(), drifts_.end(),
-                  [](const auto& drift) { return drift && drift->scatter > kMisplaced; }))
-    noteExchange(&active);
-  judgePairs(active);
-}
-
-/// Judges the others without two cameras that seem exchanged, if there are such.
-void DriftWatch::noteExchange(std::vector<bool>* active) {
-  const auto exchanged = exchangedCameras(rig_, samples_);
-  if (!exchanged)
-    return;
-  const auto [a, b] = *exchanged;
-  Drifts found(cameras_.size());
-  for (const std::size_t i : {a, b}) {
-    found[i] = drifts_[i].value_or(Drift());
-    found[i]->ratio = std::max(1.0, found[i]->ratio);
-    found[i]->exchanged_with = cameras_[i == a ? b : a].rays.name;
-  }
-  drifts_ = found;
-  active->assign(cameras_.size(), true);
-  (*active)[a] = (*active)[b] = false;
-  judgeAgainstOthers(active);
-}
-
-void DriftWatch::judgeAgainstOthers(std::vector<bool>* remaining) {
-  std::vector<bool>& active = *remaining;
-  // A camera that drifted moves the points of the others, so that they seem to drift too. Remove
-  // the camera without which the rest fit best, and judge the rest without it.
-  while (true) {
-    double least = 0.0;
-    std::optional<std::size_t> culprit;
-    for (std::size_t i = 0; i < cameras_.size(); ++i) {
-      if (!active[i])
-        continue;
-      drifts_[i] = driftOf(i, active);
-      if (!drifts_[i] || drifts_[i]->ratio < 1.0)
-        continue;
-      std::vector<bool> rest = active;
-      rest[i] = false;
-      const double worst = worstRatio(rest);
-      if (!culprit || worst < least) {
-        least = worst;
-        culprit = i;
-      }
-    }
-    if (!culprit)
-      break;
-    active[*culprit] = false;
-  }
-  // Where several are removed, two that remain may agree by chance.
-  const auto removed = std::count(active.begin(), active.end(), false);
-  std::size_t judged = 0;
-  for (std::size_t i = 0; i < active.size(); ++i)
-    judged += active[i] && drifts_[i] ? 1 : 0;
-  for (std::size_t i = 0; i < active.size(); ++i) {
-    if (!active[i])
-      drifts_[i]->or_others = removed > 1 && judged < 3;
-  }
-}
-
-/// Judges cameras that share their view with one other camera only.
-void DriftWatch::judgePairs(const std::vector<bool>& active) {
-  for (std::size_t a = 0; a < cameras_.size(); ++a) {
-    for (std::size_t b = a + 1; b < cameras_.size(); ++b) {
-      if (!active[a] || !active[b] || (drifts_[a] && drifts_[b]))
-        continue;
-      const auto pair = driftOfPair(a, b);
-      if (!pair)
-        continue;
-      for (const std::size_t i : {a, b}) {
-        const bool fits_the_others = drifts_[i] && drifts_[i]->or_camera.empty();
-        if (fits_the_others || (drifts_[i] && drifts_[i]->ratio >= pair->ratio))
-          continue;
-        drifts_[i] = pair;
-        drifts_[i]->or_camera = cameras_[i == a ? b : a].rays.name;
-      }
-    }
-  }
 }
 
 }  // namespace wiimote_tracker::health

@@ -2,8 +2,8 @@
 #define WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
 
 #include "capture/image.h"
+#include "capture/views.h"
 
-#include <wiimote_tracker_triangulation/fusion/frame_history.h>
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 #include <wiimote_tracker_triangulation/geometry/sight.h>
 
@@ -20,8 +20,9 @@
 namespace wiimote_tracker::health {
 
 struct DriftOptions {
-  double limit = 0.7;    ///< Largest median residual of a camera that did not move [px, > 0].
-  double window = 60.0;  ///< Over which the median is taken; judged twelve times in it [s, > 0].
+  double limit = 0.7;  ///< Largest median residual of a camera that did not move [px, > 0].
+  /// Over which the median is taken; add() judges twelve times in it [s, > 0].
+  double window = 60.0;
 };
 
 /// Pixels of the LED in two cameras or more at one time, with the cameras' indices in the rig,
@@ -30,6 +31,7 @@ struct DriftSample {
   double time;  ///< [s]
   std::vector<std::pair<std::size_t, geometry::Sight>> sights;
 };
+using DriftSamples = std::deque<DriftSample>;
 
 /// How far a camera's images are from what the other cameras see.
 struct Drift {
@@ -76,34 +78,22 @@ class DriftWatch {
   std::string whyNotJudged(std::size_t camera) const;
 
  private:
-  struct Frame {
-    double time = 0.0;                     // Of the exposure [s].
-    std::optional<Eigen::Vector2d> pixel;  // Nothing unless there was exactly one spot.
-  };
   struct Camera {
     geometry::Camera rays;
-    fusion::FrameHistory<Frame> frames;
-    bool clock_known = false;  // The time offset holds for the latest image.
-    double late = 0.0;         // By how much the latest image was older than the newest of all [s].
+    std::vector<capture::Spot> spots;  // By the time of the exposure, from the next sample on.
+    bool clock_known = false;          // The time offset holds for the latest image.
+    double late = 0.0;  // By how much the latest image was older than the newest of all [s].
     std::size_t later_than = 0;                  // The camera of that newest image.
     std::optional<Eigen::Vector2d> last_sample;  // [px]
   };
   void sampleUntil(double time);
   void sampleAt(double time);
-  std::optional<Drift> driftOf(std::size_t camera, const std::vector<bool>& active) const;
-  std::optional<Drift> driftOfPair(std::size_t a, std::size_t b) const;
-  /// Removes the cameras that drifted, one after the other.
-  void judgeAgainstOthers(std::vector<bool>* active);
-  void judgePairs(const std::vector<bool>& active);
-  void noteExchange(std::vector<bool>* active);
-  /// The largest ratio among these cameras.
-  double worstRatio(const std::vector<bool>& active) const;
   void restart();
 
   geometry::Rig rig_;
   DriftOptions options_;
   std::vector<Camera> cameras_;
-  std::deque<DriftSample> samples_;
+  DriftSamples samples_;
   double newest_ = -std::numeric_limits<double>::infinity();  // Latest exposure [s].
   std::size_t newest_camera_ = 0;
   double next_sample_ = 0.0;     // [s]

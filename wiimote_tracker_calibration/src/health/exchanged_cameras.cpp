@@ -11,7 +11,6 @@ namespace wiimote_tracker::health {
 
 namespace {
 
-using Samples = std::deque<DriftSample>;
 using CameraPair = std::pair<std::size_t, std::size_t>;
 
 // By how much less the residuals must scatter than as they are, and than with any other two
@@ -30,7 +29,10 @@ void move(const Eigen::Isometry3d& motion, geometry::Sight* sight) {
 }
 
 /// The samples if each of two cameras stood where the other one was calibrated.
-Samples exchanged(const geometry::Rig& rig, std::size_t a, std::size_t b, Samples samples) {
+DriftSamples exchanged(const geometry::Rig& rig,
+                       std::size_t a,
+                       std::size_t b,
+                       DriftSamples samples) {
   const Eigen::Isometry3d from_a_to_b =
       rig.cameras[b].camera.world_from_camera * rig.cameras[a].camera.world_from_camera.inverse();
   for (DriftSample& sample : samples) {
@@ -44,13 +46,12 @@ Samples exchanged(const geometry::Rig& rig, std::size_t a, std::size_t b, Sample
 
 /// Per camera the standard deviation of its residuals against all others [px]; nothing: too few
 /// samples.
-std::vector<std::optional<double>> scattersOf(std::size_t cameras, const Samples& samples) {
-  const geometry::Rig without_covariance;
-  const std::vector<bool> all(cameras, true);
-  std::vector<std::optional<double>> scatters(cameras);
-  for (std::size_t i = 0; i < cameras; ++i) {
-    const auto residuals = residualsAgainst(without_covariance, samples, all, i);
-    if (const auto drift = medianDrift(residuals, {}, 2, 1.0))
+std::vector<std::optional<double>> scattersOf(const geometry::Rig& rig,
+                                              const DriftSamples& samples) {
+  const std::vector<bool> all(rig.cameras.size(), true);
+  std::vector<std::optional<double>> scatters(rig.cameras.size());
+  for (std::size_t i = 0; i < scatters.size(); ++i) {
+    if (const auto drift = driftOf(i, rig, samples, all, 1.0))
       scatters[i] = drift->scatter;
   }
   return scatters;
@@ -62,16 +63,16 @@ double largestOf(const std::vector<std::optional<double>>& scatters) {
 
 }  // namespace
 
-std::optional<CameraPair> exchangedCameras(const geometry::Rig& rig, const Samples& samples) {
+std::optional<CameraPair> exchangedCameras(const geometry::Rig& rig, const DriftSamples& samples) {
   const std::size_t count = rig.cameras.size();
-  const auto as_is = scattersOf(count, samples);
+  const auto as_is = scattersOf(rig, samples);
   const double worst = largestOf(as_is);
   std::vector<std::pair<double, CameraPair>> found;
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       if (std::min(as_is[a], as_is[b]).value_or(0.0) < kSuspect * worst)
         continue;
-      const auto scatters = scattersOf(count, exchanged(rig, a, b, samples));
+      const auto scatters = scattersOf(rig, exchanged(rig, a, b, samples));
       if (scatters[a] && scatters[b])
         found.emplace_back(largestOf(scatters), CameraPair(a, b));
     }

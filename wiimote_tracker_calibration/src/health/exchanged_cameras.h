@@ -6,7 +6,6 @@
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
 #include <cstddef>
-#include <deque>
 #include <optional>
 #include <utility>
 
@@ -17,9 +16,8 @@ namespace wiimote_tracker::health {
 /// two. (A turn moves their median; another place scatters them.)
 /// @returns nothing for fewer than three cameras, or where two other ones explain as much, as in a
 /// square of cameras whose opposite ones were exchanged.
-std::optional<std::pair<std::size_t, std::size_t>> exchangedCameras(
-    const geometry::Rig& rig,
-    const std::deque<DriftSample>& samples);
+std::optional<std::pair<std::size_t, std::size_t>> exchangedCameras(const geometry::Rig& rig,
+                                                                    const DriftSamples& samples);
 
 }  // namespace wiimote_tracker::health
 

@@ -1,9 +1,9 @@
 #include "health/turned_camera.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <Eigen/Geometry>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <array>
@@ -32,6 +32,9 @@ constexpr double kRival = 0.8;
 // Turns about the optical axis that are tried [rad]; in between, spots are off by up to kGate.
 constexpr std::array<double, 5> kRolls = {0.0, -0.035, 0.035, -0.07, 0.07};
 constexpr int kSteps = 3;
+// Length of the calibrated axes beside the unit vectors of rays: where all rays are the same, they
+// hold the turn about these.
+constexpr double kPrior = 0.001;
 constexpr double kLeastTurn = 0.002;  // A smaller turn stays within kGate [rad].
 
 geometry::Camera turned(geometry::Camera camera, const Eigen::Matrix3d& turn) {
@@ -130,12 +133,11 @@ void TurnedCamera::judge() {
     camera = turnedTo(explained);
     explained.clear();
     possible = 0;
-    for (std::size_t i = 0; i < samples_.size(); ++i) {
-      const Sample& sample = samples_[i];
+    for (const Sample& sample : samples_) {
       const LedMatches matches = matchesOf(camera, sample.leds, sample.spots);
       for (std::size_t led = 0; led < sample.leds.size(); ++led) {
         if (matches.spot_of[led])
-          explained.push_back({i, led, *matches.spot_of[led]});
+          explained.push_back({sample.leds[led], sample.spots[*matches.spot_of[led]]});
       }
       possible += std::min(matches.visible, sample.spots.size());
     }
@@ -143,7 +145,7 @@ void TurnedCamera::judge() {
   std::vector<Pair> others;
   std::copy_if(pairs.begin(), pairs.end(), std::back_inserter(others), [&](const Pair& pair) {
     return std::none_of(explained.begin(), explained.end(), [&](const Pair& other) {
-      return pair.sample == other.sample && pair.led == other.led && pair.spot == other.spot;
+      return pair.led == other.led && pair.spot == other.spot;
     });
   });
   const auto count = static_cast<double>(explained.size());
@@ -157,13 +159,13 @@ void TurnedCamera::judge() {
 
 std::vector<TurnedCamera::Pair> TurnedCamera::allPairs() const {
   std::vector<Pair> pairs;
-  for (std::size_t i = 0; i < samples_.size(); ++i) {
-    for (std::size_t led = 0; led < samples_[i].leds.size(); ++led) {
-      const auto pixel = calibrated_.project(samples_[i].leds[led]);
+  for (const Sample& sample : samples_) {
+    for (const Eigen::Vector3d& led : sample.leds) {
+      const auto pixel = calibrated_.project(led);
       if (!pixel || !calibrated_.intrinsics.isInImage(*pixel, kMargin))
         continue;
-      for (std::size_t spot = 0; spot < samples_[i].spots.size(); ++spot)
-        pairs.push_back({i, led, spot});
+      for (const Eigen::Vector2d& spot : sample.spots)
+        pairs.push_back({led, spot});
     }
   }
   return pairs;
@@ -177,12 +179,9 @@ std::vector<TurnedCamera::Pair> TurnedCamera::agreeing(const std::vector<Pair>& 
     const geometry::Camera rolled =
         turned(calibrated_, Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitZ()).toRotationMatrix());
     std::vector<Eigen::Vector2d> offsets;
-    for (const Pair& pair : pairs) {
-      const Sample& sample = samples_[pair.sample];
-      offsets.push_back(
-          sample.spots[pair.spot] -
-          rolled.project(sample.leds[pair.led]).value_or(Eigen::Vector2d::Constant(std::nan(""))));
-    }
+    for (const Pair& pair : pairs)
+      offsets.push_back(pair.spot -
+                        rolled.project(pair.led).value_or(Eigen::Vector2d::Constant(std::nan(""))));
     for (const Eigen::Vector2d& center : offsets) {
       const auto isNear = [&](const Eigen::Vector2d& offset) {
         return (offset - center).squaredNorm() < kGate * kGate;
@@ -200,26 +199,25 @@ std::vector<TurnedCamera::Pair> TurnedCamera::agreeing(const std::vector<Pair>& 
   return best;
 }
 
-/// Least squares over the angles between the spots' rays and the LEDs.
+/// Least squares over the differences between the unit vectors of the spots' rays and to the LEDs
+/// (Wahba's problem).
 geometry::Camera TurnedCamera::turnedTo(const std::vector<Pair>& pairs) const {
+  std::vector<Eigen::Vector3d> in_world;
+  std::vector<Eigen::Vector3d> in_camera;
+  // With its opposite, so that the means are zero and nothing but the turn is fitted.
+  const auto add = [&](const Eigen::Vector3d& world, const Eigen::Vector3d& camera) {
+    in_world.insert(in_world.end(), {world, -world});
+    in_camera.insert(in_camera.end(), {camera, -camera});
+  };
   geometry::Camera camera = calibrated_;
-  for (int step = 0; step < kSteps; ++step) {
-    Eigen::Matrix3d information = 1e-6 * Eigen::Matrix3d::Identity();
-    Eigen::Vector3d moment = Eigen::Vector3d::Zero();
-    const Eigen::Isometry3d camera_from_world = camera.world_from_camera.inverse();
-    for (const Pair& pair : pairs) {
-      const Sample& sample = samples_[pair.sample];
-      const auto spot = camera.intrinsics.normalizedFromPixel(sample.spots[pair.spot]);
-      if (!spot)
-        continue;
-      const Eigen::Vector3d ray = spot->homogeneous().normalized();
-      const Eigen::Vector3d led = (camera_from_world * sample.leds[pair.led]).normalized();
-      information += Eigen::Matrix3d::Identity() - ray * ray.transpose();
-      moment += ray.cross(led);
-    }
-    const Eigen::Vector3d turn = information.inverse() * moment;
-    camera = turned(camera, geometry::so3::exp(turn).toRotationMatrix());
+  const Eigen::Matrix3d orientation = camera.world_from_camera.linear();
+  for (Eigen::Index i = 0; i < 3; ++i)
+    add(kPrior * orientation.col(i), kPrior * Eigen::Vector3d::Unit(i));
+  for (const Pair& pair : pairs) {
+    if (const auto spot = camera.intrinsics.normalizedFromPixel(pair.spot))
+      add((pair.led - camera.center()).normalized(), spot->homogeneous().normalized());
   }
+  camera.world_from_camera.linear() = geometry::rigidAlignment(in_world, in_camera).linear();
   return camera;
 }
 

@@ -63,9 +63,8 @@ class TurnedCamera {
   };
   /// An LED and a spot of one image.
   struct Pair {
-    std::size_t sample;
-    std::size_t led;
-    std::size_t spot;
+    Eigen::Vector3d led;   // World [m].
+    Eigen::Vector2d spot;  // [px]
   };
 
   LedMatches matchesOf(const geometry::Camera& camera,

@@ -30,6 +30,28 @@ constexpr double kLongestWay = 0.05;
 // Images are late by at most this, as in the tracker's history [s].
 constexpr double kLatest = 0.2;
 
+/// The spot of an LED, unless it may be that of another one, or of both.
+std::optional<Eigen::Vector2d> clearSpot(const TurnedCamera& camera,
+                                         const std::vector<Eigen::Vector3d>& places,
+                                         std::size_t led,
+                                         const LedMatches& matches,
+                                         const capture::Blobs& spots) {
+  const auto predicted = camera.project(places[led]);
+  if (!predicted || !matches.spot_of[led] || matches.isContradictory())
+    return std::nullopt;
+  const Eigen::Vector2d& spot = spots[*matches.spot_of[led]];
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto other = camera.project(places[i]);
+    if (i != led && !matches.spot_of[i] && other && (*other - *predicted).norm() < kMerged)
+      return std::nullopt;
+  }
+  const double clear = 2.0 * (spot - *predicted).norm() + kClearance;
+  const bool is_clear = std::count_if(spots.begin(), spots.end(), [&](const auto& other) {
+                          return (other - *predicted).norm() < clear;
+                        }) == 1;
+  return is_clear ? std::make_optional(spot) : std::nullopt;
+}
+
 }  // namespace
 
 LedSelection::LedSelection(const geometry::Rig& rig) : rig_(rig), tracked_rig_(rig) {
@@ -211,28 +233,6 @@ std::optional<std::uint32_t> LedSelection::followedAt(double time) const {
   if (isSilent(time))
     return std::nullopt;
   return time < followed_since_ ? followed_before_ : followed_;
-}
-
-/// The spot of an LED, unless it may be that of another one, or of both.
-std::optional<Eigen::Vector2d> LedSelection::clearSpot(const TurnedCamera& camera,
-                                                       const std::vector<Eigen::Vector3d>& places,
-                                                       std::size_t led,
-                                                       const LedMatches& matches,
-                                                       const capture::Blobs& spots) {
-  const auto predicted = camera.project(places[led]);
-  if (!predicted || !matches.spot_of[led] || matches.isContradictory())
-    return std::nullopt;
-  const Eigen::Vector2d& spot = spots[*matches.spot_of[led]];
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto other = camera.project(places[i]);
-    if (i != led && !matches.spot_of[i] && other && (*other - *predicted).norm() < kMerged)
-      return std::nullopt;
-  }
-  const double clear = 2.0 * (spot - *predicted).norm() + kClearance;
-  const bool is_clear = std::count_if(spots.begin(), spots.end(), [&](const auto& other) {
-                          return (other - *predicted).norm() < clear;
-                        }) == 1;
-  return is_clear ? std::make_optional(spot) : std::nullopt;
 }
 
 }  // namespace wiimote_tracker::health

@@ -66,11 +66,6 @@ class LedSelection {
   void follow(const std::vector<Led>& leds, double time);
   std::optional<std::uint32_t> followedAt(double time) const;
   bool isSilent(double time) const { return std::abs(time - silence_) < capture::kLongestGap; }
-  static std::optional<Eigen::Vector2d> clearSpot(const TurnedCamera& camera,
-                                                  const std::vector<Eigen::Vector3d>& places,
-                                                  std::size_t led,
-                                                  const LedMatches& matches,
-                                                  const capture::Blobs& spots);
 
   geometry::Rig rig_;
   geometry::Rig tracked_rig_;    // With the estimated orientations.

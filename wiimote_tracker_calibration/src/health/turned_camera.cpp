@@ -183,17 +183,13 @@ std::vector<TurnedCamera::Pair> TurnedCamera::agreeing(const std::vector<Pair>& 
       offsets.push_back(pair.spot -
                         rolled.project(pair.led).value_or(Eigen::Vector2d::Constant(std::nan(""))));
     for (const Eigen::Vector2d& center : offsets) {
-      const auto isNear = [&](const Eigen::Vector2d& offset) {
-        return (offset - center).squaredNorm() < kGate * kGate;
-      };
-      const auto count = std::count_if(offsets.begin(), offsets.end(), isNear);
-      if (static_cast<std::size_t>(count) <= best.size())
-        continue;
-      best.clear();
+      std::vector<Pair> near;
       for (std::size_t i = 0; i < pairs.size(); ++i) {
-        if (isNear(offsets[i]))
-          best.push_back(pairs[i]);
+        if ((offsets[i] - center).norm() < kGate)
+          near.push_back(pairs[i]);
       }
+      if (near.size() > best.size())
+        best = near;
     }
   }
   return best;

@@ -117,7 +117,7 @@ void SpotCosts::reset(std::size_t spot_count,
   std::fill_n(miss.begin(), tracks, miss_cost);
 }
 
-std::array<int, kMaximumSpots> assignSpots(const SpotCosts& costs) {
+TrackOfSpot assignSpots(const SpotCosts& costs) {
   return Assignment(costs).solve();
 }
 

@@ -24,10 +24,13 @@ struct SpotCosts {
 
 constexpr int kFalseDetection = -1;
 
+/// For each spot of an image its track, or kFalseDetection.
+using TrackOfSpot = std::array<int, kMaximumSpots>;
+
 /// The assignment of least cost in which each spot has at most one track and each track at most one
 /// spot: shortest augmenting paths (Jonker and Volgenant 1987), exact. Never allocates.
-/// @returns for each spot its track or kFalseDetection; undefined from SpotCosts::spots on.
-std::array<int, kMaximumSpots> assignSpots(const SpotCosts& costs);
+/// @returns undefined from SpotCosts::spots on.
+TrackOfSpot assignSpots(const SpotCosts& costs);
 
 }  // namespace wiimote_tracker::association
 

@@ -3,12 +3,8 @@
 
 #include "camera_clocks.h"
 #include "group_state.h"
-#include "image_update.h"
 #include "track_initiation.h"
-#include "tracker_camera.h"
 #include "tracking/history.h"
-#include "wiimote_tracker_triangulation/geometry/rig.h"
-#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -24,16 +20,14 @@ class CameraGroup {
   /// What happened to an image.
   enum class Outcome { kAdded, kLate, kRepeated, kDropped };
 
+  /// @param setup its parts must live longer, with useRig() where they change, and options longer
+  /// than the tracks, also those that another group adopts.
   /// @param members the group's cameras, as their indices in the rig, ascending.
   /// @param partners see geometry::sharedViews.
-  /// @param cameras of the rig; must live longer, with useRig() where they change.
-  /// @param options must outlive the group and the tracks, also those that another group adopts.
   /// @param ids, views must live longer; `views`, one per camera of the rig, get the use of spots.
-  CameraGroup(const geometry::Rig& rig,
+  CameraGroup(const GroupSetup& setup,
               const std::vector<std::size_t>& members,
               const std::vector<std::vector<std::size_t>>& partners,
-              const std::vector<TrackerCamera>& cameras,
-              const TrackerOptions& options,
               Ids* ids,
               std::vector<CameraView>* views);
 
@@ -54,11 +48,6 @@ class CameraGroup {
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  /// Covariance of an LED's position where unknown LEDs may be merged with it (see isInCrowd); else
-  /// zero.
-  /// @param led as the track reports it at this time [s]
-  Eigen::Matrix3d mergingCovariance(const Track& track, const TrackedLed& led, double time) const;
-
   CameraClocks& clocks() { return clocks_; }
   const CameraClocks& clocks() const { return clocks_; }
 
@@ -66,7 +55,7 @@ class CameraGroup {
   const std::vector<Track>& tracks() const { return state_.tracks; }
 
   /// Goes on with slightly better poses and lenses of the same cameras, whose clocks are the same.
-  void useRig(const geometry::Rig& rig, const std::vector<std::vector<std::size_t>>& partners);
+  void useRig(const std::vector<std::vector<std::size_t>>& partners);
 
   /// Takes over a track from a group of another rig.
   void adopt(const Track& track);
@@ -76,20 +65,15 @@ class CameraGroup {
  private:
   std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image);
-  bool noteCrowd(const StoredImage& image);
-  void removeMergedPairs(double time);
-  void doubtPartnerOf(std::uint32_t ended);
-  Track* continuing(std::uint32_t id, double since);
-  void collectUnassigned(const StoredImage& image);
-  void show(const StoredImage& image) const;
-  void showStarts() const;
+  void updateStatuses(double time, bool in_crowd);
+  void collectUnassigned(const StoredImage& image, const association::TrackOfSpot& track_of_spot);
+  void show(const StoredImage& image, const association::TrackOfSpot& track_of_spot) const;
+  void showStarts(const std::vector<StartSpot>& starts) const;
 
-  const TrackerOptions& options_;
+  GroupSetup setup_;
   Ids* ids_;
   std::vector<CameraView>* views_;
   std::vector<std::size_t> members_;
-  const std::vector<TrackerCamera>& cameras_;  // of the rig
-  std::optional<ImageUpdate> update_;          // never empty
   std::optional<TrackInitiation> initiation_;  // never empty
   CameraClocks clocks_;
   GroupState state_;  // before the image of index next_step_

@@ -4,11 +4,15 @@
 #include "association/assign_spots.h"
 #include "camera_fit.h"
 #include "clock_regression.h"
+#include "crowd.h"
 #include "ids.h"
 #include "merged_pair.h"
 #include "track.h"
+#include "tracker_camera.h"
+#include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
+#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <Eigen/Core>
 #include <boost/container/flat_map.hpp>
@@ -17,7 +21,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -58,13 +61,6 @@ struct UnassignedSpots {
   boost::container::static_vector<geometry::Sight, association::kMaximumSpots> sights;  // theirs
 };
 
-/// What a camera's newest image tells of a crowd.
-struct NewestImage {
-  double time = -std::numeric_limits<double>::infinity();  // [s]
-  bool full = false;                                       // StoredImage::full
-  bool has_unknown = false;                                // it shows a light of no confirmed LED
-};
-
 /// What a late image may change of one camera.
 struct CameraState {
   CameraFit fit;
@@ -80,6 +76,13 @@ using CameraStates =
                                CameraState,
                                std::less<std::size_t>,
                                std::allocator<std::pair<std::size_t, CameraState>>>;
+
+/// What is the same for all images of a group.
+struct GroupSetup {
+  const geometry::Rig& rig;
+  const std::vector<TrackerCamera>& cameras;  // of the rig
+  const TrackerOptions& options;
+};
 
 /// Everything of a group of cameras that a late image may change.
 struct GroupState {

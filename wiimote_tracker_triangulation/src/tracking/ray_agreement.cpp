@@ -20,6 +20,24 @@ constexpr double kCorrelationTime = 0.2;  // of distances [s]
 constexpr double kLeast = -20.0;
 constexpr double kMost = 10.0;
 
+/// The distance of two rays of one track from each other, positive or negative, over the standard
+/// deviation that a pixel error of 1 px in each camera causes: of an LED, an error in pixels.
+/// Motion that the predictions did not expect moves both rays alike and does not count.
+double distanceOf(const RayOffset& a, const RayOffset& b) {
+  constexpr double kLeastSine = 0.05;  // of rays with a common normal
+  const Eigen::Vector3d difference = a.offset - b.offset;
+  const Eigen::Vector3d normal = a.direction.cross(b.direction);
+  const double sine = normal.norm();
+  const double distance = sine < kLeastSine ? difference.norm() : normal.dot(difference) / sine;
+  return distance / std::hypot(a.scale, b.scale);
+}
+
+/// Standard deviation of this distance by the noise of both cameras [px].
+double stddevOf(const RayOffset& a, const RayOffset& b) {
+  return std::hypot(a.scale * a.pixel_stddev, b.scale * b.pixel_stddev) /
+         std::hypot(a.scale, b.scale);
+}
+
 }  // namespace
 
 void RayOffset::add(const RayOffset& spot) {
@@ -30,20 +48,21 @@ void RayOffset::add(const RayOffset& spot) {
   pixel_stddev = spot.pixel_stddev;
 }
 
-double distanceOf(const RayOffset& a, const RayOffset& b) {
-  constexpr double kLeastSine = 0.05;  // of rays with a common normal
-  const Eigen::Vector3d difference = a.offset - b.offset;
-  const Eigen::Vector3d normal = a.direction.cross(b.direction);
-  const double sine = normal.norm();
-  const double distance = sine < kLeastSine ? difference.norm() : normal.dot(difference) / sine;
-  return distance / std::hypot(a.scale, b.scale);
+/// Where a third camera sees the LED too, the rays meet.
+void RayAgreement::update(std::size_t seen_by,
+                          const std::array<const RayOffset*, 2>& rays,
+                          double pixel_stddev,
+                          double time) {
+  const auto [a, b] = rays;
+  if (seen_by > 2)
+    weigh(0.0, pixel_stddev, time);
+  else if (seen_by == 2 && a->count > 0.0 && b->count > 0.0)
+    weigh(distanceOf(*a, *b), stddevOf(*a, *b), time);
+  else
+    time_ = time;
 }
 
-double stddevOf(const RayOffset& a, const RayOffset& b) {
-  return std::hypot(a.scale * a.pixel_stddev, b.scale * b.pixel_stddev) /
-         std::hypot(a.scale, b.scale);
-}
-
+/// @param distance of the rays [px] @param stddev of that of an LED's rays [px]
 void RayAgreement::weigh(double distance, double stddev, double time) {
   const double normalized = distance / stddev;
   latest_ = std::log(kRange / (stddev * std::sqrt(2.0 * M_PI))) - 0.5 * normalized * normalized;

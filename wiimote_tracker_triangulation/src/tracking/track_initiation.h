@@ -4,8 +4,6 @@
 #include "association/associate_views.h"
 #include "group_state.h"
 #include "ids.h"
-#include "tracker_camera.h"
-#include "wiimote_tracker_triangulation/tracking/tracker_options.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -20,54 +18,35 @@ struct StartSpot {
   std::uint32_t led;  // id of the track
 };
 
-/// Track initiation: starts a track where unassigned spots of several cameras form a point. Once it
-/// is ready, it may turn out to continue a track that lost its LED.
+/// Track initiation: starts a track where unassigned spots of several cameras form a point.
 class TrackInitiation {
  public:
-  /// @param partners see geometry::sharedViews.
-  /// @param cameras of the rig; must live longer.
-  /// @param options must outlive the tracks: their filters refer to options.motion.
-  /// @param ids must live longer.
-  TrackInitiation(const geometry::Rig& rig,
+  /// @param setup its parts must live longer, and options longer than the tracks: their filters
+  /// refer to options.motion. @param partners see geometry::sharedViews. @param ids must live
+  /// longer.
+  TrackInitiation(const GroupSetup& setup,
                   const std::vector<std::vector<std::size_t>>& partners,
-                  const std::vector<TrackerCamera>& cameras,
-                  const TrackerOptions& options,
                   Ids* ids);
 
   /// Searches for LEDs at the time of camera `newest`'s image, and removes their spots from the
   /// unassigned ones.
-  void apply(std::size_t newest, GroupState* state);
-
-  /// Of the tracks that the last apply() started.
-  const std::vector<StartSpot>& starts() const { return starts_; }
-
-  /// The most likely track of the LED of a track that is ready; null: it is a new LED.
-  Track* formerTrackOf(const Track& found, GroupState* state) const;
+  /// @returns these spots, until the next call
+  const std::vector<StartSpot>& apply(std::size_t newest, GroupState* state);
 
  private:
-  bool collectViews(std::size_t newest);
-  UnassignedSpots& unassignedOf(std::size_t camera) const {
-    return state_->cameras.at(camera).unassigned;
-  }
-  const UnassignedSpots::Spot& spotAt(const association::SpotReference& spot) const {
-    return unassignedOf(spot.view).spots[spot.spot];
-  }
-  bool isAllowed(const association::AssociatedPoint& point) const;
-  bool mayShowInAnother(const association::AssociatedPoint& point) const;
-  void start(const association::AssociatedPoint& point, double time);
-  motion::MotionFilter filterOf(const association::AssociatedPoint& point) const;
-  void removeUsed();
+  bool collectViews(std::size_t newest, const CameraStates& cameras);
+  bool mayShowInAnother(const association::AssociatedPoint& point,
+                        const CameraStates& cameras) const;
+  void start(const association::AssociatedPoint& point, double time, GroupState* state);
 
-  const std::vector<TrackerCamera>& cameras_;
-  const TrackerOptions& options_;
+  GroupSetup setup_;
   Ids* ids_;
   std::vector<std::vector<std::size_t>> partners_;
   association::ViewAssociator associator_;
+  // Reused:
   std::vector<association::View> views_;
   std::vector<SpotKey> initial_spots_;  // of one point
-  std::vector<association::SpotReference> used_;
   std::vector<StartSpot> starts_;
-  GroupState* state_ = nullptr;  // of the last apply(); valid while it runs
 };
 
 }  // namespace wiimote_tracker::tracking

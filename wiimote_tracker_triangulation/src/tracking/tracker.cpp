@@ -1,6 +1,7 @@
 #include "wiimote_tracker_triangulation/tracking/tracker.h"
 
 #include "camera_group.h"
+#include "crowd.h"
 #include "ids.h"
 #include "tracking/arrival_clocks.h"
 #include "wiimote_tracker_triangulation/geometry/shared_views.h"
@@ -39,7 +40,7 @@ void Tracker::setRig(const geometry::Rig& rig) {
   if (hasSameGroups(rig, partners)) {
     useCameras(rig);
     for (const auto& group : groups_)
-      group->useRig(rig_, partners);
+      group->useRig(partners);
     return;
   }
   updateGroups();
@@ -71,8 +72,8 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
   groups_.clear();
   inputs_.resize(cameras_.size());
   for (const std::vector<std::size_t>& members : geometry::groupsOf(partners)) {
-    groups_.push_back(std::make_unique<CameraGroup>(rig_, members, partners, cameras_, options_,
-                                                    ids_.get(), &views_));
+    groups_.push_back(std::make_unique<CameraGroup>(GroupSetup{rig_, cameras_, options_}, members,
+                                                    partners, ids_.get(), &views_));
     for (const std::size_t member : members)
       inputs_[member] = Input{groups_.back().get()};
   }
@@ -85,7 +86,7 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
 void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before) {
   for (const auto& old_group : before) {
     for (const Track& track : old_group->tracks()) {
-      const Eigen::Vector3d position = track.filter.position();
+      const Eigen::Vector3d position = track.filter().position();
       const auto viewers = [&](const std::unique_ptr<CameraGroup>& group) {
         return std::count_if(
             group->members().begin(), group->members().end(),
@@ -226,7 +227,8 @@ void Tracker::report(double time, Snapshot* snapshot) const {
       track.report(time, options_, &*led);
       if (led->state == TrackState::kTracked && group->isDoubtful())
         led->state = TrackState::kPredicted;
-      led->position_covariance += group->mergingCovariance(track, *led, time);
+      if (track.crowd().isCrowded(time))
+        led->position_covariance += mergingCovariance(*led, cameras_, options_.merging_distance);
       ++led;
     }
   }

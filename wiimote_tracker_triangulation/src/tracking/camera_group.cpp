@@ -217,7 +217,7 @@ void CameraGroup::showStarts(const std::vector<StartSpot>& starts) const {
 
 void CameraGroup::adopt(const Track& track) {
   state_.tracks.push_back(track);
-  state_.tracks.back().forgetCameras();
+  state_.tracks.back().cameras().clear();
   std::sort(state_.tracks.begin(), state_.tracks.end(),
             [](auto& a, auto& b) { return a.id() < b.id(); });
 }

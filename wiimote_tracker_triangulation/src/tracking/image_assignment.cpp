@@ -6,16 +6,6 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-/// Without recent spots a prediction may be too uncertain for a single spot to confirm the track.
-/// Then two cameras must reacquire it (see reacquiredBy). Blinking LEDs may just be dark.
-bool isTooUncertain(double unseen,
-                    const Eigen::Matrix2d& covariance,
-                    const TrackerOptions& options) {
-  const double limit = 2.0 * options.birth_pixel_stddev;
-  return unseen > options.birth_window + options.dark_time &&
-         covariance.trace() > 2.0 * limit * limit;
-}
-
 void addCandidate(Track* track, ImageAssignment* assignment) {
   constexpr double kEdge = 8.0;  // where a spot may be cut off, or just outside [px]
   const auto& [rig, camera, image, options, noise, candidates] = *assignment;
@@ -26,7 +16,11 @@ void addCandidate(Track* track, ImageAssignment* assignment) {
   if (!prediction)
     return;
   const Eigen::Matrix2d covariance = prediction->covariance();
-  if (isTooUncertain(image.time - track->lastObserved(), covariance, options))
+  // Without recent spots a prediction may be too uncertain for a single spot to confirm the track.
+  // Then two cameras must reacquire it (see reacquiredBy). Blinking LEDs may just be dark.
+  const double limit = 2.0 * options.birth_pixel_stddev;
+  if (image.time - track->lastObserved() > options.birth_window + options.dark_time &&
+      covariance.trace() > 2.0 * limit * limit)
     return;
   // Its spot may be in the image though its prediction is not.
   const Eigen::Vector2d& pixel = prediction->pixel();

@@ -97,11 +97,11 @@ void updateTrack(const ImageAssignment& assignment, const Candidate& candidate) 
       return;
     const Eigen::Vector2d residual = pixel - candidate.pixel();
     track.hit(image.camera, residual, other ? other->track : nullptr, true);
-    track.noteRay(image.camera, camera.rayOffset(track.filter().position(), residual));
+    track.cameras().noteRay(image.camera, camera.rayOffset(track.filter().position(), residual));
   } else if (is_merged || candidate.expected) {
     track.miss(image.camera, image.time);
   } else if (candidate.in_view && image.full) {
-    track.noteSaturated(image.camera, image.time);
+    track.cameras().noteSaturated(image.camera, image.time);
   }
 }
 

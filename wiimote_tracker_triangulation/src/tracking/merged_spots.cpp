@@ -11,32 +11,35 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-/// Probability [0..1] that a spot is that of two merged LEDs, rather than of one while the other is
-/// hidden. A merged spot is between both predictions, a single one at its own. The distance below
-/// which two LEDs merge is uniform up to merging_distance, as far as we know.
-/// @param visible, absent predictions of the LED that the spot was assigned to, and of the other
-/// @param hidden prior probability that the absent one is hidden [0..1, exclusive]
-double mergedProbability(const Eigen::Vector2d& spot,
-                         const motion::PixelPrediction& visible,
-                         const motion::PixelPrediction& absent,
-                         double hidden,
-                         double pixel_stddev,
-                         double merging_distance) {
+/// Probability [0..1] that the spot of one LED is that of two merged LEDs, rather than of this one
+/// while the other, which has none, is hidden. A merged spot is between both predictions, a single
+/// one at its own. The distance below which two LEDs merge is uniform up to merging_distance, as
+/// far as we know.
+double mergedProbability(const ImageAssignment& assignment,
+                         const Candidate& visible,
+                         const Candidate& absent) {
   constexpr double kSpread = 0.15;  // of the place between two LEDs, by their brightness [1]
+  const TrackerOptions& options = assignment.options;
+  const Eigen::Vector2d& spot = assignment.image.pixels[*visible.spot];
+  const double pixel_stddev = assignment.noise.pixel_stddev;
+  // An LED that was hidden from this camera mostly stays hidden.
+  const double hidden = absent.track->cameras().wasMissedBy(assignment.image.camera)
+                            ? options.detection_probability
+                            : 1.0 - options.detection_probability;
   const Eigen::Vector2d between = absent.pixel() - visible.pixel();
-  const double merging = 1.0 - between.norm() / merging_distance;  // prior probability
+  const double merging = 1.0 - between.norm() / options.merging_distance;  // prior probability
   if (merging <= 0.0)
     return 0.0;
   const Eigen::Vector2d residual = spot - visible.pixel() - 0.5 * between;
   // Of the spot about the middle. Half of the pixel noise comes with the two predictions.
   const Eigen::Matrix2d covariance =
-      0.25 * (visible.covariance() + absent.covariance()) +
+      0.25 * (visible.prediction.covariance() + absent.prediction.covariance()) +
       0.5 * pixel_stddev * pixel_stddev * Eigen::Matrix2d::Identity() +
       kSpread * kSpread * between * between.transpose();
   const double merged = -0.5 * residual.dot(covariance.inverse() * residual) -
                         std::log(2.0 * M_PI * std::sqrt(covariance.determinant()));
   const double log_odds =
-      merged - visible.logLikelihood(spot) + std::log((1.0 - hidden) * merging / hidden);
+      merged - visible.prediction.logLikelihood(spot) + std::log((1.0 - hidden) * merging / hidden);
   return 1.0 / (1.0 + std::exp(-log_odds));
 }
 
@@ -75,22 +78,14 @@ bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) 
 }
 
 const Candidate* mergedWith(const ImageAssignment& assignment, const Candidate& candidate) {
-  const TrackerOptions& options = assignment.options;
   const Candidate* result = nullptr;
   double greatest = 0.5;
   for (const Candidate& other : assignment.candidates) {
     if (other.track == candidate.track || other.spot.has_value() == candidate.spot.has_value() ||
         !other.track->isConfirmed())
       continue;
-    const Candidate& visible = other.spot ? other : candidate;
-    const Candidate& absent = other.spot ? candidate : other;
-    // An LED that was hidden from this camera mostly stays hidden.
-    const double hidden = absent.track->cameras().wasMissedBy(assignment.image.camera)
-                              ? options.detection_probability
-                              : 1.0 - options.detection_probability;
-    const double probability = mergedProbability(
-        assignment.image.pixels[*visible.spot], visible.prediction, absent.prediction, hidden,
-        assignment.noise.pixel_stddev, options.merging_distance);
+    const double probability = other.spot ? mergedProbability(assignment, other, candidate)
+                                          : mergedProbability(assignment, candidate, other);
     if (probability > greatest) {
       greatest = probability;
       result = &other;

@@ -1,5 +1,7 @@
 #include "ray_agreement.h"
 
+#include "camera_records.h"
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -49,14 +51,11 @@ void RayOffset::add(const RayOffset& spot) {
 }
 
 /// Where a third camera sees the LED too, the rays meet.
-void RayAgreement::update(std::size_t seen_by,
-                          const std::array<const RayOffset*, 2>& rays,
-                          double pixel_stddev,
-                          double time) {
-  const auto [a, b] = rays;
-  if (seen_by > 2)
+void RayAgreement::update(const Visibility& now, double pixel_stddev, double time) {
+  const auto [a, b] = now.rays;
+  if (now.detected > 2)
     weigh(0.0, pixel_stddev, time);
-  else if (seen_by == 2 && a->count > 0.0 && b->count > 0.0)
+  else if (now.detected == 2 && a->count > 0.0 && b->count > 0.0)
     weigh(distanceOf(*a, *b), stddevOf(*a, *b), time);
   else
     time_ = time;

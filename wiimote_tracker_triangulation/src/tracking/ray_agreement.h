@@ -3,11 +3,11 @@
 
 #include <Eigen/Core>
 
-#include <array>
-#include <cstddef>
 #include <limits>
 
 namespace wiimote_tracker::tracking {
+
+struct Visibility;
 
 /// How far a camera's rays are from the predictions of a track: of one spot, or the mean of recent
 /// spots.
@@ -26,12 +26,9 @@ struct RayOffset {
 /// over time (Blackman and Popoli 1999, section 6.2: track score).
 class RayAgreement {
  public:
-  /// Adds the evidence since the last call. @param seen_by number of cameras at this time [s]
-  /// @param rays of the first two of them @param pixel_stddev of an LED's rays [px]
-  void update(std::size_t seen_by,
-              const std::array<const RayOffset*, 2>& rays,
-              double pixel_stddev,
-              double time);
+  /// Adds the evidence since the last call. @param now of this time [s]
+  /// @param pixel_stddev of an LED's rays [px]
+  void update(const Visibility& now, double pixel_stddev, double time);
 
   /// Where a track had lost its LED, the LED is likelier than two lights.
   void reacquire();

@@ -48,29 +48,27 @@ void Track::miss(std::size_t camera, double time) {
   ++misses_in_a_row_;
 }
 
-void Track::updateStatus(double time, const TrackerOptions& options, bool in_crowd) {
-  const Visibility now = cameras_.visibility(time - options.tracked_time);
-  if (now.detected >= 2)
-    last_located_ = time;
-  agreement_.update(now.detected, now.rays, options.pixel_stddev, time);
-  if (!position_.allFinite())
-    finished_ = true;
-  else if (confirmed_)
-    finished_ = time - last_observed_ > options.prediction_time ||
-                time - last_located_ > options.single_view_time || isDuplicate();
-  else
-    updateTentative(now, time, options, in_crowd);
-}
-
 /// In a crowd, nobody is confirmed where only two cameras look: facing ones often show a light each
 /// whose rays meet.
-void Track::updateTentative(const Visibility& now,
-                            double time,
-                            const TrackerOptions& options,
-                            bool in_crowd) {
+void Track::updateStatus(double time, const TrackerOptions& options, bool in_crowd) {
   constexpr double kMaximumTentativeTime = 0.5;  // [s]
   // Two or three false detections may form a point; a fourth hardly ever is near it.
   constexpr std::size_t kReacquisitionSpots = 4;
+  const Visibility now = cameras_.visibility(time - options.tracked_time);
+  if (now.detected >= 2)
+    last_located_ = time;
+  agreement_.update(now, options.pixel_stddev, time);
+  const double unseen = time - last_observed_;
+  const double unlocated = time - last_located_;
+  if (!position_.allFinite()) {
+    finished_ = true;
+    return;
+  }
+  if (confirmed_) {
+    finished_ =
+        unseen > options.prediction_time || unlocated > options.single_view_time || isDuplicate();
+    return;
+  }
   const std::size_t hits = shares_.alone();
   const bool is_supported =
       now.supporting >= 2 && now.supporting >= options.minimum_support * now.expected;
@@ -81,15 +79,12 @@ void Track::updateTentative(const Visibility& now,
                    (now.detected >= 3 || (is_supported && agreement_.areNowOne()));
   confirmed_ = is_supported && hits >= options.confirmation_hits && !is_doubtful &&
                !(in_crowd && now.in_view == 2);
-
-  const double unseen = time - last_observed_;
   const double patience = options.tracked_time + options.dark_time;
   const bool is_missed =
       unseen >= options.dark_time && misses_in_a_row_ >= 2 * std::max<std::size_t>(now.expected, 2);
   const bool is_too_old =
       time - initiated_ > kMaximumTentativeTime + options.dark_time && !is_doubtful;
-  finished_ = !confirmed_ &&
-              (unseen > patience || time - last_located_ > patience || is_missed || is_too_old);
+  finished_ = !confirmed_ && (unseen > patience || unlocated > patience || is_missed || is_too_old);
 }
 
 /// Whether only two cameras see it of more that have it in view, and these two may see different

@@ -23,6 +23,7 @@ class Track {
 
   std::uint32_t id() const { return id_; }
   const motion::MotionFilter& filter() const { return filter_; }
+  CameraRecords& cameras() { return cameras_; }
   const CameraRecords& cameras() const { return cameras_; }
   CrowdMemory& crowd() { return crowd_; }
   const CrowdMemory& crowd() const { return crowd_; }
@@ -54,11 +55,8 @@ class Track {
   /// @param time of its image [s] @param residual [px]
   void addInitialSpot(std::size_t camera, double time, double residual);
 
-  // See CameraRecords.
+  /// See CameraRecords.
   void miss(std::size_t camera, double time);
-  void noteSaturated(std::size_t camera, double time) { cameras_.noteSaturated(camera, time); }
-  void noteRay(std::size_t camera, const RayOffset& ray) { cameras_.noteRay(camera, ray); }
-  void forgetCameras() { cameras_.clear(); }
 
   /// The track may have changed places with another one. @param probability that it did not [0..1]
   void noteMeeting(double probability) { same_led_probability_ *= probability; }
@@ -89,10 +87,6 @@ class Track {
 
  private:
   bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
-  void updateTentative(const Visibility& now,
-                       double time,
-                       const TrackerOptions& options,
-                       bool in_crowd);
 
   std::uint32_t id_;
   motion::MotionFilter filter_;

@@ -3,9 +3,11 @@
 #include "adjust/lens_prior.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
+#include "adjust/solver.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
 
-#include <ceres/ceres.h>
+#include <ceres/loss_function.h>
+#include <ceres/normal_prior.h>
 
 #include <algorithm>
 #include <cmath>
@@ -104,34 +106,14 @@ void BundleProblem::addScale() {
       nullptr, position);
 }
 
-ceres::Solver::Options BundleProblem::solverOptions() {
-  ceres::Solver::Options solver;
-  // The points are eliminated first (Schur complement).
-  solver.linear_solver_type = ceres::DENSE_SCHUR;
-  auto* const ordering = new ceres::ParameterBlockOrdering;
-  std::vector<double*> blocks;
-  problem_.GetParameterBlocks(&blocks);
-  for (double* const block : blocks)
-    ordering->AddElementToGroup(block, 1);
-  for (double* const point : points_)
-    ordering->AddElementToGroup(point, 0);
-  solver.linear_solver_ordering.reset(ordering);
-  solver.max_num_iterations = options_.rough ? 20 : 200;
+bool BundleProblem::solve() {
   // In simulations, iterations beyond 1e-7 change focal lengths by less than 1 % of their
   // standard deviations.
-  solver.function_tolerance = options_.rough ? 1e-4 : 1e-7;
-  solver.parameter_tolerance = 1e-12;
-  solver.gradient_tolerance = 1e-14;
+  ceres::Solver::Options solver = adjust::solverOptionsForPoints(
+      problem_, points_, options_.rough ? 20 : 200, {options_.rough ? 1e-4 : 1e-7, 1e-14, 1e-12});
   // The scale is free, so only the damping keeps the normal equations regular: keep some of it.
   solver.max_trust_region_radius = 1e8;
-  solver.num_threads = 1;  // the same bits on every run
-  solver.logging_type = ceres::SILENT;
-  return solver;
-}
-
-bool BundleProblem::solve() {
-  ceres::Solver::Summary summary;
-  ceres::Solve(solverOptions(), &problem_, &summary);
+  const ceres::Solver::Summary summary = adjust::minimise(solver, &problem_);
   if (!summary.IsSolutionUsable())
     throw BundleError("the adjustment failed (" + summary.message +
                       "): record the light in more places");

@@ -6,7 +6,6 @@
 #include "wiimote_tracker_calibration/bundle/solve.h"
 
 #include <ceres/problem.h>
-#include <ceres/solver.h>
 
 #include <Eigen/Core>
 
@@ -44,7 +43,6 @@ class BundleProblem {
   void addObservations();
   void holdPoses();
   void holdLensOrAddPrior(std::size_t index);
-  ceres::Solver::Options solverOptions();
 
   Reconstruction& reconstruction_;
   const Options options_;

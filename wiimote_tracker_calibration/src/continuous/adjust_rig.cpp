@@ -5,13 +5,14 @@
 #include "adjust/covariance.h"
 #include "adjust/joint_prior.h"
 #include "adjust/moving_pixel.h"
+#include "adjust/solver.h"
 #include "continuous/keyframes.h"
 
 #include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <ceres/ceres.h>
+#include <ceres/problem.h>
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -191,20 +192,11 @@ class RigProblem {
 
   /// Changes the cameras' blocks. @returns whether it could.
   bool solve() {
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_SCHUR;
-    auto* const ordering = new ceres::ParameterBlockOrdering;
-    for (double* const block : blocks_)
-      ordering->AddElementToGroup(block, 1);
+    std::vector<double*> points;
     for (Keyframe& keyframe : keyframes_)
-      ordering->AddElementToGroup(keyframe.point.data(), 0);
-    options.linear_solver_ordering.reset(ordering);
-    options.max_num_iterations = kSteps;
-    options.num_threads = 1;  // the same bits on every run
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
-    return summary.IsSolutionUsable();
+      points.push_back(keyframe.point.data());
+    return adjust::minimise(adjust::solverOptionsForPoints(problem_, points, kSteps), &problem_)
+        .IsSolutionUsable();
   }
 
   std::optional<Eigen::MatrixXd> covariance() { return adjust::covarianceOf(&problem_, blocks_); }

@@ -3,6 +3,7 @@
 #include "adjust/covariance.h"
 #include "adjust/moving_pixel.h"
 #include "adjust/prior.h"
+#include "adjust/solver.h"
 #include "bundle/start.h"
 #include "square/lens_priors.h"
 #include "wiimote_tracker_calibration/bundle/error.h"
@@ -10,8 +11,8 @@
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>
 
-#include <ceres/ceres.h>
 #include <ceres/normal_prior.h>
+#include <ceres/problem.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
@@ -193,12 +194,7 @@ class ResectionProblem {
   }
 
   void solve(Fit* fit) {
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::DENSE_QR;
-    options.max_num_iterations = kSteps;
-    options.logging_type = ceres::SILENT;
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
+    adjust::minimise(adjust::solverOptions(ceres::DENSE_QR, kSteps), &problem_);
     fit->camera = blocks_.cameraLike(fit->camera);
     fit->time_offset = *blocks_.timeOffset();
   }

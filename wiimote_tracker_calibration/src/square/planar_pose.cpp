@@ -2,10 +2,11 @@
 
 #include "adjust/opencv.h"
 #include "adjust/pixel.h"
+#include "adjust/solver.h"
 
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 
-#include <ceres/ceres.h>
+#include <ceres/problem.h>
 
 #include <opencv2/calib3d.hpp>
 
@@ -105,16 +106,9 @@ std::optional<PlanarPose> refined(geometry::Camera camera, const SeenCorners& se
   }
   problem.SetParameterBlockConstant(blocks.lens());
   problem.SetParameterBlockConstant(blocks.higherDistortion());
-  ceres::Solver::Options options;
-  options.linear_solver_type = ceres::DENSE_QR;
   // Near the view from straight above, where the two branches meet, it converges slowly.
-  options.max_num_iterations = 200;
-  options.function_tolerance = 1e-14;
-  options.gradient_tolerance = 1e-12;
-  options.parameter_tolerance = 1e-14;
-  options.logging_type = ceres::SILENT;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &problem, &summary);
+  const ceres::Solver::Summary summary = adjust::minimise(
+      adjust::solverOptions(ceres::DENSE_QR, 200, {1e-14, 1e-12, 1e-14}), &problem);
   if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost))
     return std::nullopt;
   camera = blocks.cameraLike(camera);

@@ -4,13 +4,14 @@
 
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
+#include "adjust/solver.h"
 #include "square/known_terms.h"
 #include "square/lens_priors.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
-#include <ceres/ceres.h>
+#include <ceres/problem.h>
 
 #include <Eigen/Geometry>
 
@@ -69,16 +70,11 @@ RigState SquareModel::start(const std::vector<Eigen::Isometry3d>& world_from_cam
 
 std::optional<double> SquareModel::refineAll(RigState* state, Precision precision) const {
   Problem at(*this, *state);
-  ceres::Solver::Options options;
-  options.max_num_iterations = 200;
-  options.logging_type = ceres::SILENT;
   const bool coarse = precision == Precision::kCoarse;
-  options.linear_solver_type = coarse ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR;
-  options.function_tolerance = coarse ? 1e-9 : 1e-15;
-  options.gradient_tolerance = 1e-13;
-  options.parameter_tolerance = 1e-13;
-  ceres::Solver::Summary summary;
-  ceres::Solve(options, &at.problem, &summary);
+  const ceres::Solver::Summary summary = adjust::minimise(
+      adjust::solverOptions(coarse ? ceres::DENSE_NORMAL_CHOLESKY : ceres::DENSE_QR, 200,
+                            {coarse ? 1e-9 : 1e-15, 1e-13, 1e-13}),
+      &at.problem);
   if (!summary.IsSolutionUsable() || !std::isfinite(summary.final_cost))
     return std::nullopt;
   for (std::size_t i = 0; i < at.cameras.size(); ++i)

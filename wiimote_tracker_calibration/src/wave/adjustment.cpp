@@ -6,10 +6,13 @@
 #include "adjust/path.h"
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
+#include "adjust/solver.h"
 #include "square/known_terms.h"
 #include "wave/error.h"
 
-#include <ceres/ceres.h>
+#include <ceres/iteration_callback.h>
+#include <ceres/normal_prior.h>
+#include <ceres/problem.h>
 
 #include <algorithm>
 #include <array>
@@ -88,20 +91,13 @@ class WaveProblem {
   /// @param tolerance relative change of the sum of squares at which it ends.
   void solve(double tolerance, const std::function<void()>& report) {
     Reporting callback(report);
-    ceres::Solver::Options options;
-    options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
-    options.max_num_iterations = 60;
+    ceres::Solver::Options options =
+        adjust::solverOptions(ceres::SPARSE_NORMAL_CHOLESKY, 60, {tolerance, 1e-14, 1e-12});
     options.max_num_consecutive_invalid_steps = 20;  // the trust region shrinks before
-    options.function_tolerance = tolerance;
-    options.gradient_tolerance = 1e-14;
-    options.parameter_tolerance = 1e-12;
-    options.num_threads = 1;  // the same bits on every run
-    options.logging_type = ceres::SILENT;
     options.callbacks = {&callback};
-    ceres::Solver::Summary summary;
-    ceres::Solve(options, &problem_, &summary);
+    const bool is_solved = adjust::minimise(options, &problem_).IsSolutionUsable();
     callback.rethrow();
-    if (!summary.IsSolutionUsable())
+    if (!is_solved)
       throw WaveContradiction(
           "the LED would be behind the cameras in the solution: check that nobody moved a camera, "
           "and record again");

@@ -8,6 +8,7 @@
 
 #include "continuous/adjust_rig.h"
 #include "continuous/continuous_calibration.h"
+#include "continuous/keyframes.h"
 #include "continuous/motion_window.h"
 
 #include <gtest/gtest.h>

@@ -18,6 +18,7 @@ constexpr std::size_t kLeastViews = 3;  // With two none can be found to be the 
 // A spot farther from the middle between those before and after is another light. An LED 3 m away
 // that accelerates by 10 m/s^2 bends by 5 px between images capture::kLongestGap apart [px].
 constexpr double kLargestBend = 8.0;
+constexpr double kCheckGate = 10.0;  // Of the keyframes in fitOf() [px].
 
 /// A chord cuts the curve short, which would move the cameras: moves a view from the chord to the
 /// curve through two spots before and two after. Not for spots with other lights among them: each
@@ -135,6 +136,21 @@ double rmsResidual(const std::vector<Keyframe>& keyframes) {
     freedom += 2.0 * static_cast<double>(keyframe.views.size()) - 3.0;
   }
   return std::sqrt(squared / std::max(1.0, freedom));
+}
+
+std::optional<Fit> fitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images) {
+  const KeyframeSource source(rig, images);
+  geometry::Rig valid = rig;
+  for (std::size_t i = 0; i < rig.cameras.size(); ++i)
+    valid.cameras[i].time_offset =
+        rig.cameras[i].timeOffsetIn(source.epoch(i).value_or(0)).value_or(0.0);
+  const auto keyframes = source.keyframes(valid, kCheckGate);
+  if (keyframes.size() < kLeastKeyframes)
+    return std::nullopt;
+  Fit fit{rmsResidual(keyframes), {}};
+  for (const Keyframe& keyframe : keyframes)
+    fit.places.push_back(keyframe.point);
+  return fit;
 }
 
 }  // namespace wiimote_tracker::continuous

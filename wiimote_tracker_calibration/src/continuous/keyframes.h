@@ -52,8 +52,20 @@ class KeyframeSource {
   std::vector<Track> tracks_;  // Per camera of the rig.
 };
 
+constexpr std::size_t kLeastKeyframes = 40;  ///< As DriftWatch needs for a judgement.
+
 /// Root mean square of the residuals per axis, corrected for the points that were fitted [px].
 double rmsResidual(const std::vector<Keyframe>& keyframes);
+
+/// How well images fit together.
+struct Fit {
+  double misfit;                        ///< Root mean square of the residuals per axis [px].
+  std::vector<Eigen::Vector3d> places;  ///< Where the LED was, world [m].
+};
+
+/// The fit of the images of each camera's latest epoch, with the time offsets that hold then.
+/// Nothing when three cameras agree on too few places.
+std::optional<Fit> fitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
 
 }  // namespace wiimote_tracker::continuous
 

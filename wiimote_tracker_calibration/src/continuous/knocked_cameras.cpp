@@ -1,6 +1,6 @@
 #include "continuous/knocked_cameras.h"
 
-#include "continuous/adjust_rig.h"
+#include "continuous/drift.h"
 #include "health/drift_watch.h"
 #include "health/tilt_watch.h"
 

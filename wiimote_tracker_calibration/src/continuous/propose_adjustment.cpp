@@ -1,6 +1,8 @@
 #include "continuous/propose_adjustment.h"
 
-#include "continuous/adjust_rig.h"
+#include "continuous/drift.h"
+#include "continuous/keyframes.h"
+#include "continuous/rig_clocks.h"
 #include "health/drift_watch.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -162,14 +164,6 @@ std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
   if (!correction->turns_cameras)
     proposal.rig.solved_at = before.solved_at;
   return proposal;
-}
-
-geometry::Rig withClocks(const geometry::Rig& adjusted, geometry::Rig rig, bool only_new) {
-  for (std::size_t i = 0; i < rig.cameras.size(); ++i) {
-    if (!only_new || rig.cameras[i].hasNewClock(adjusted.cameras[i].time_offset_epoch))
-      copyClock(adjusted, i, &rig);
-  }
-  return rig;
 }
 
 double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b) {

@@ -25,9 +25,6 @@ std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
                                           const geometry::Rig& adjusted,
                                           const std::vector<capture::Image>& later);
 
-/// The rig with the time offsets of an adjusted one. @param only_new of cameras that reconnected.
-geometry::Rig withClocks(const geometry::Rig& adjusted, geometry::Rig rig, bool only_new = false);
-
 /// The angle between the attitudes of a camera [rad].
 double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b);
 

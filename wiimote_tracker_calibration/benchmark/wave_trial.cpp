@@ -38,7 +38,7 @@ std::vector<geometry::Camera> movedBy(std::vector<geometry::Camera> cameras,
 /// Without square and floor the cameras stand in the first, whose true place is known here.
 Eigen::Isometry3d trueFromSolved(const WaveScene& scene,
                                  const SimulatedWave& wave,
-                                 const WaveSolution& solution) {
+                                 const square::Solution& solution) {
   if (scene.square)
     return Eigen::Isometry3d::Identity();
   if (scene.rest > 0.0)
@@ -49,7 +49,7 @@ Eigen::Isometry3d trueFromSolved(const WaveScene& scene,
 
 void countCoverage(const std::vector<geometry::Camera>& truth,
                    const SimulatedWave& wave,
-                   const WaveSolution& solution,
+                   const square::Solution& solution,
                    WaveTrial* trial) {
   const Eigen::MatrixXd& covariance = solution.rig.covariance;
   for (std::size_t i = 0; i < truth.size(); ++i) {
@@ -202,7 +202,7 @@ WaveOptions optionsFor(const WaveScene& scene) {
 
 std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const SimulatedWave& wave,
-                                          const WaveSolution& solution) {
+                                          const square::Solution& solution) {
   return movedBy(camerasOf(solution.rig.cameras), trueFromSolved(scene, wave, solution));
 }
 
@@ -211,7 +211,7 @@ WaveTrial runWaveTrial(const WaveScene& scene, std::uint64_t seed, bool with_pos
   const WaveOptions options = optionsFor(scene);
   const std::vector<Eigen::Vector3d> points = cubePoints(wave.cameras);
   WaveTrial trial;
-  WaveSolution solution;
+  square::Solution solution;
   try {
     solution = solveWave(wave.recording, options);
   } catch (const geometry::Error& error) {

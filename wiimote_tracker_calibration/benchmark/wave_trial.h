@@ -67,7 +67,7 @@ WaveOptions optionsFor(const WaveScene& scene);
 /// stand in the first camera, whose true place is known here.
 std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const SimulatedWave& wave,
-                                          const WaveSolution& solution);
+                                          const square::Solution& solution);
 
 }  // namespace wiimote_tracker::wave
 

@@ -10,7 +10,7 @@ namespace wiimote_tracker::samples {
 namespace {
 
 Verdict judged(const Samples& samples, const geometry::Rig& rig) {
-  wave::WaveSolution found;
+  square::Solution found;
   found.rig = rig;
   return judge(samples, found);
 }
@@ -65,17 +65,17 @@ TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
 
 TEST(Judge, AWaveIsJudgedByItsDistanceFromTheCameras) {
   // Without a square the first camera is the world's origin; the other one stands beside it.
-  wave::WaveSolution found;
+  square::Solution found;
   for (const double x : {0.0, 0.5}) {
     geometry::RigCamera& camera = found.rig.cameras.emplace_back();
     camera.camera.world_from_camera.translation().x() = x;
   }
-  found.expected_shape_error = 0.012;
+  found.wave.emplace().expected_shape_error = 0.012;
   found.path = {{0.0, 0.0, 3.5}, {0.5, 0.0, 4.5}};
   EXPECT_EQ(judge({}, found).grade, Grade::kGood);
-  found.expected_shape_error = 0.024;
+  found.wave->expected_shape_error = 0.024;
   EXPECT_EQ(judge({}, found).grade, Grade::kUsable);
-  found.expected_shape_error = 0.1;
+  found.wave->expected_shape_error = 0.1;
   EXPECT_EQ(judge({}, found).grade, Grade::kRedo);
 }
 

@@ -103,10 +103,9 @@ TEST_F(NextMeasurementOf, AWaveKeepsItsPromise) {
 
 TEST_F(NextMeasurementOf, IsNoneWhereNoneGains) {
   const wave::SimulatedWave simulated = wave::simulateWave(scene_, 1);
-  const wave::WaveSolution solution =
-      wave::solveWave(simulated.recording, wave::optionsFor(scene_));
+  const square::Solution solution = wave::solveWave(simulated.recording, wave::optionsFor(scene_));
   const auto next = [&](double scale) {
-    wave::WaveSolution scaled = solution;
+    square::Solution scaled = solution;
     scaled.joint_covariance *= scale;
     return nextMeasurement(scaled, simulated.recording.square.value(),
                            {{0.0, 0.0, 2.0}, {2.5, 2.5, 2.0}}, 0.2);

@@ -16,7 +16,7 @@
 namespace wiimote_tracker::wave {
 namespace {
 
-void expectOffsets(const SimulatedWave& wave, const WaveSolution& solution, double tolerance) {
+void expectOffsets(const SimulatedWave& wave, const square::Solution& solution, double tolerance) {
   for (std::size_t i = 0; i < wave.cameras.size(); ++i)
     EXPECT_NEAR(solution.rig.cameras[i].time_offset, wave.offsets[i], tolerance) << i;
 }
@@ -34,7 +34,7 @@ WaveScene exactScene() {
 TEST(Wave, IsExactWithoutNoise) {
   const WaveScene scene = exactScene();
   const SimulatedWave wave = simulateWave(scene, 1);
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_LT(errorOf(scene, wave, solution).absolute, 5e-5);
   expectOffsets(wave, solution, 2e-6);
   for (std::size_t i = 0; i < wave.cameras.size(); ++i) {
@@ -85,8 +85,9 @@ TEST(Wave, CovarianceIsTheInverseOfTheFisherInformation) {
   for (const double length : {0.0, 0.5}) {
     scene.length = length;
     const SimulatedWave wave = simulateWave(scene, 4);
-    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
-    const WaveBound bound = waveBound(scene, wave, solution.pixel_stddev, cubePoints(wave.cameras));
+    const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
+    const WaveBound bound =
+        waveBound(scene, wave, solution.wave->pixel_stddev, cubePoints(wave.cameras));
     ASSERT_EQ(solution.rig.covariance.rows(), 32);
     for (Eigen::Index camera = 0; camera < 2; ++camera) {
       for (Eigen::Index k = 0; k < 12; ++k) {
@@ -111,7 +112,7 @@ TEST(Wave, WandGivesScaleWithoutSquare) {
   for (const std::size_t cameras : {2, 4}) {
     scene.camera_count = cameras;
     const SimulatedWave wave = simulateWave(scene, 2);
-    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+    const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
     EXPECT_EQ(solution.rig.covariance.topLeftCorner(6, 6).norm(), 0.0);
     const VolumeError error = errorOf(scene, wave, solution);
     EXPECT_LT(error.rigid, 0.002);
@@ -139,7 +140,7 @@ TEST(Wave, AWrongStartIsRepeatedWithOtherPoints) {
     const auto count = [&](const std::string& step, double) {
       starts += step == "finding where the cameras stand";
     };
-    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene), count);
+    const square::Solution solution = solveWave(wave.recording, optionsFor(scene), count);
     EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.005) << seed;
   }
   EXPECT_GT(starts, 1) << "no start failed: take other sessions";
@@ -172,7 +173,7 @@ TEST(Wave, WithoutSquareGravityOfTheFirstCameraIsUp) {
   const WaveScene scene = wandScene();
   SimulatedWave wave = simulateWave(scene, 3);
   addGravity(&wave);
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   for (std::size_t i = 0; i < 2; ++i) {
     const Eigen::Vector3d up = solution.rig.cameras[i].camera.world_from_camera.linear() *
                                *wave.recording.cameras[i].sightings.gravity;
@@ -186,7 +187,7 @@ TEST(Wave, CamerasWithoutAllCornersAreSolvedFromTheWave) {
   SimulatedWave wave = simulateWave(scene, 5);
   wave.recording.cameras[2].sightings.corners = {};
   wave.recording.cameras[3].sightings.corners[0].reset();
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.004);
   EXPECT_LT(errorOf(scene, wave, solution).absolute, 0.03);
   expectOffsets(wave, solution, 4e-4);
@@ -197,7 +198,7 @@ TEST(Wave, CornersSeenByDifferentCamerasDetermineTheWorld) {
   SimulatedWave wave = simulateWave(scene, 6);
   for (std::size_t i = 0; i < 4; ++i)
     wave.recording.cameras[i].sightings.corners[i].reset();
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_TRUE(solution.z_up);
   EXPECT_LT(errorOf(scene, wave, solution).absolute, 0.03);
   EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.004);
@@ -208,7 +209,7 @@ TEST(Wave, ClockwiseCornersPutZDownWithAWarning) {
   SimulatedWave wave = simulateWave(scene, 6);
   for (CameraRecording& camera : wave.recording.cameras)
     std::swap(camera.sightings.corners[1], camera.sightings.corners[3]);
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_FALSE(solution.z_up);
   ASSERT_EQ(solution.warnings.size(), 1U);
   EXPECT_SAYS(solution.warnings[0], "counter-clockwise to get z up");
@@ -223,10 +224,10 @@ TEST(Wave, LampsReflectionsAndWrongSpotsAreLeftOut) {
   for (const double length : {0.0, 0.5}) {
     scene.length = length;
     const SimulatedWave wave = simulateWave(scene, 7);
-    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+    const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
     EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.004) << length;
     expectOffsets(wave, solution, 4e-4);
-    EXPECT_NEAR(solution.pixel_stddev, std::sqrt(0.4 * 0.4 + 1.0 / 12.0), 0.02);
+    EXPECT_NEAR(solution.wave->pixel_stddev, std::sqrt(0.4 * 0.4 + 1.0 / 12.0), 0.02);
     for (const geometry::RigCamera& camera : solution.rig.cameras) {
       EXPECT_GT(camera.inliers, 0.85 * camera.observations);
       EXPECT_LT(camera.inliers, 0.95 * camera.observations);
@@ -246,8 +247,8 @@ TEST(Wave, FewImagesOfTwoCamerasAreNotTakenForNoise) {
   for (const auto& [rate, seed] : seeds) {
     scene.rate = rate;
     const SimulatedWave wave = simulateWave(scene, seed);
-    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
-    EXPECT_LT(solution.pixel_stddev, 0.6) << rate;
+    const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
+    EXPECT_LT(solution.wave->pixel_stddev, 0.6) << rate;
     EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.02) << rate;
   }
 }
@@ -256,7 +257,7 @@ TEST(Wave, StartsWithoutSquareDespiteLamps) {
   WaveScene scene = wandScene();
   scene.lamp = true;
   const SimulatedWave wave = simulateWave(scene, 7);
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_LT(errorOf(scene, wave, solution).similarity, 0.004);
 }
 
@@ -313,8 +314,8 @@ TEST(Wave, IsDeterministic) {
   WaveScene scene = shortScene();
   scene.camera_count = 2;
   const SimulatedWave wave = simulateWave(scene, 8);
-  const WaveSolution first = solveWave(wave.recording, optionsFor(scene));
-  const WaveSolution second = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution first = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution second = solveWave(wave.recording, optionsFor(scene));
   EXPECT_EQ(first.rig.id(), second.rig.id());
   EXPECT_EQ(first.rig.covariance, second.rig.covariance);
 }

@@ -71,7 +71,7 @@ TEST(WandOnFloor, GivesALevelWorldWithItsOriginAtTheNearerEnd) {
   scene.uncertainty.placement = 1e-5;
   SimulatedWave wave = simulateWave(scene, 1);
   wave.recording.wand->led_height = 0.03;
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_EQ(solution.rig.method, "floor+wand");
   EXPECT_EQ(solution.rig.led_height, 0.03);
   for (std::size_t i = 0; i < wave.cameras.size(); ++i) {
@@ -89,7 +89,7 @@ TEST(WandOnFloor, WrongSpotsDoNotMatter) {
   WaveScene scene = floorScene();
   scene.wrong_share = 0.1;
   const SimulatedWave wave = simulateWave(scene, 2);
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   const VolumeError error = errorOf(scene, wave, solution);
   EXPECT_LT(error.similarity, 0.004);
   EXPECT_LT(error.absolute, 0.04);
@@ -102,7 +102,7 @@ double poseNees(const WaveScene& scene, int seeds) {
   double sum = 0.0;
   for (int seed = 1; seed <= seeds; ++seed) {
     const SimulatedWave wave = simulateWave(scene, static_cast<std::uint64_t>(seed));
-    const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+    const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
     Eigen::Matrix<double, 6 * kCameras, 1> error;
     Eigen::Matrix<double, 6 * kCameras, 6 * kCameras> covariance;
     for (Eigen::Index i = 0; i < kCameras; ++i) {
@@ -140,7 +140,7 @@ TEST(WandOnFloor, OneAccelerometerIsEnough) {
       solveWave(wave.recording, optionsFor(scene)).rig.covariance.diagonal().head<2>().sum();
   for (std::size_t i = 0; i < 3; ++i)
     wave.recording.cameras[i].sightings.gravity.reset();
-  const WaveSolution solution = solveWave(wave.recording, optionsFor(scene));
+  const square::Solution solution = solveWave(wave.recording, optionsFor(scene));
   EXPECT_GT(solution.rig.covariance.diagonal().head<2>().sum(), 1.5 * all);
   EXPECT_GT(solution.rig.cameras[0].camera.center().z(), 1.8);
   wave.recording.cameras[3].sightings.gravity.reset();

@@ -18,7 +18,7 @@ TEST(Wave, ResidualsTellTheNoise) {
     double squared = 0.0;
     int count = 0;
     for (std::uint64_t seed = 1; seed <= 4; ++seed) {
-      const WaveSolution solution =
+      const square::Solution solution =
           solveWave(simulateWave(scene, seed).recording, optionsFor(scene));
       for (const geometry::RigCamera& camera : solution.rig.cameras) {
         squared += 0.5 * std::pow(camera.residual_px, 2);
@@ -38,7 +38,7 @@ TEST(Wave, ResidualsOfFewImagesAreNotEnlarged) {
   scene.pixel = 0.0;
   scene.quantized = false;
   scene.wrong_share = 0.0;
-  const WaveSolution solution = solveWave(simulateWave(scene, 1).recording, optionsFor(scene));
+  const square::Solution solution = solveWave(simulateWave(scene, 1).recording, optionsFor(scene));
   for (const geometry::RigCamera& camera : solution.rig.cameras)
     EXPECT_LT(camera.residual_px, 0.05);
 }
@@ -115,7 +115,7 @@ TEST(Wave, WhereTheWandLayIsNoEvidence) {
   options.offset = kOffset;
   options.uncertainty.gravity = square::Uncertainty().gravity;
   options.uncertainty.placement = square::Uncertainty().placement;
-  const WaveSolution solution = solveWave(wave.recording, options);
+  const square::Solution solution = solveWave(wave.recording, options);
   ASSERT_EQ(solution.rig.method, "floor+wand");
   EXPECT_NEAR(std::pow(solution.misfit, 2), 1.0 / kMeasured, 0.02);
 }

@@ -41,7 +41,7 @@ inline void addGravity(SimulatedWave* wave) {
 /// What the solution and the truth differ by in the volume.
 inline VolumeError errorOf(const WaveScene& scene,
                            const SimulatedWave& wave,
-                           const WaveSolution& solution) {
+                           const square::Solution& solution) {
   const auto points = cubePoints(wave.cameras);
   return volumeError(pointErrors(wave.cameras, inTrueWorld(scene, wave, solution), points), points);
 }

@@ -41,9 +41,9 @@ class Diagnosis {
       return std::nullopt;
     const Hypothesis as_is{recording_, options_.square.uncertainty};
     // Too many images may show what is not modelled, such as clocks that wander.
-    if (const auto attempt = solve(recording_, as_is.uncertainty); attempt && !attempt->contradicts)
+    if (const auto found = solve(recording_, as_is.uncertainty); found && !found->contradicts)
       return std::nullopt;
-    std::optional<Attempt> free;
+    std::optional<square::Solution> free;
     if (const auto& layout = recording_.square) {
       square::Uncertainty freed = as_is.uncertainty;
       freed.placement = 0.1 * std::min(layout->side_x, layout->side_y);
@@ -62,20 +62,20 @@ class Diagnosis {
     wave::Recording corners = recording_;
     for (wave::CameraRecording& camera : corners.cameras)
       camera.frames.clear();
-    const auto attempt = solve(corners, options_.square.uncertainty);
-    if (!attempt)
+    const auto found = solve(corners, options_.square.uncertainty);
+    if (!found)
       return "";
-    return scaleQuestion(recording_, attempt->rig, attempt->path);
+    return scaleQuestion(recording_, found->rig, found->path);
   }
 
   /// Solves hypotheses. @returns whether one of all so far explains the data well.
   bool test(const Hypotheses& hypotheses) {
     for (const Hypothesis& hypothesis : hypotheses) {
-      const auto attempt = solve(hypothesis.recording, hypothesis.uncertainty);
-      if (attempt && !attempt->contradicts)
+      const auto found = solve(hypothesis.recording, hypothesis.uncertainty);
+      if (found && !found->contradicts)
         causes_.emplace_back(
-            hypothesis.factor * attempt->misfit,
-            Mistake{hypothesis.describe(*attempt), hypothesis.uncertainty.unknown_corner});
+            hypothesis.factor * found->misfit,
+            Mistake{hypothesis.describe(*found), hypothesis.uncertainty.unknown_corner});
     }
     std::sort(causes_.begin(), causes_.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -91,8 +91,8 @@ class Diagnosis {
     return mistake;
   }
 
-  std::optional<Attempt> solve(const wave::Recording& recording,
-                               const square::Uncertainty& uncertainty) {
+  std::optional<square::Solution> solve(const wave::Recording& recording,
+                                        const square::Uncertainty& uncertainty) {
     if (progress_)
       progress_("looking for the mistake", 1.0);
     try {

@@ -36,11 +36,11 @@ Hypothesis& add(const Hypothesis& as_is, Hypotheses* all, Describe describe) {
 
 void addCorners(const Hypothesis& as_is, Hypotheses* all) {
   for (std::size_t c = 0; c < 4; ++c) {
-    Hypothesis& elsewhere = add(as_is, all, [c](const Attempt& attempt) {
+    Hypothesis& elsewhere = add(as_is, all, [c](const square::Solution& found) {
       return format(
           "corner %zu was captured %.0f mm from its place: put the LED there, capture "
           "corner %zu again and solve",
-          c + 1, 1e3 * attempt.corner_offsets[c].norm(), c + 1);
+          c + 1, 1e3 * found.corner_offsets[c].norm(), c + 1);
     });
     elsewhere.uncertainty.unknown_corner = c;
   }
@@ -50,11 +50,11 @@ void addCorners(const Hypothesis& as_is, Hypotheses* all) {
 void addTapedLengths(const Hypothesis& as_is, Hypotheses* all) {
   const square::SquareLayout& layout = *as_is.recording.square;
   for (std::size_t i = 0; i < layout.lengths.size(); ++i) {
-    Hypothesis& without = add(as_is, all, [layout, i](const Attempt& attempt) {
+    Hypothesis& without = add(as_is, all, [layout, i](const square::Solution& found) {
       const square::TapedLength& taped = layout.lengths[i];
-      const square::Corners places = layout.corners(attempt.z_up);
-      const double length = (places[taped.to] + attempt.corner_offsets[taped.to] -
-                             places[taped.from] - attempt.corner_offsets[taped.from])
+      const square::Corners places = layout.corners(found.z_up);
+      const double length = (places[taped.to] + found.corner_offsets[taped.to] -
+                             places[taped.from] - found.corner_offsets[taped.from])
                                 .norm();
       return format(
           "the length from corner %zu to corner %zu is %.3f m by all else, not "
@@ -67,7 +67,9 @@ void addTapedLengths(const Hypothesis& as_is, Hypotheses* all) {
 }
 
 /// Other sides, in the ratio of free corners, and another length of the wand.
-void addSidesAndWand(const Hypothesis& as_is, const std::optional<Attempt>& free, Hypotheses* all) {
+void addSidesAndWand(const Hypothesis& as_is,
+                     const std::optional<square::Solution>& free,
+                     Hypotheses* all) {
   const square::SquareLayout layout = *as_is.recording.square;
   square::Corners at = layout.corners(!free || free->z_up);
   for (std::size_t c = 0; c < 4 && free; ++c)
@@ -76,7 +78,7 @@ void addSidesAndWand(const Hypothesis& as_is, const std::optional<Attempt>& free
                        ((at[1] - at[0]).norm() + (at[3] - at[2]).norm());
   const double side_y = layout.side_x * ratio;
   if (std::abs(std::log(side_y / layout.side_y)) > kLeastSide) {
-    Hypothesis& other_sides = add(as_is, all, [=](const Attempt&) {
+    Hypothesis& other_sides = add(as_is, all, [=](const square::Solution&) {
       return format(
           "the sides of the square are not %.3g m and %.3g m: the second would be "
           "%.3g m, or the first %.3g m; measure both, and start again with them",
@@ -84,16 +86,16 @@ void addSidesAndWand(const Hypothesis& as_is, const std::optional<Attempt>& free
     });
     other_sides.recording.square->side_y = side_y;
   }
-  if (!as_is.recording.wand)
+  if (!as_is.recording.wand || !as_is.recording.hasFrames())
     return;
   const double length = as_is.recording.wand->length;
-  Hypothesis& other_wand = add(as_is, all, [=](const Attempt& attempt) {
-    const double scale = length / attempt.wand_length;
+  Hypothesis& other_wand = add(as_is, all, [=](const square::Solution& found) {
+    const double scale = length / found.wave->wand_length;
     return format(
         "the wand and the square contradict each other: by the square the wand is %.4g m "
         "long, not %.4g m, or by the wand the sides are %.3g m and %.3g m; measure them "
         "again",
-        attempt.wand_length, length, scale * layout.side_x, scale * layout.side_y);
+        found.wave->wand_length, length, scale * layout.side_x, scale * layout.side_y);
   });
   other_wand.recording.wand->stddev = length;
 }
@@ -102,10 +104,10 @@ void addGravity(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
   if (!as_is.recording.cameras[i].sightings.gravity)
     return;
   Hypothesis& without =
-      add(as_is, all, [seen = as_is.recording.cameras[i].sightings](const Attempt& attempt) {
-        const geometry::RigCamera* camera = attempt.rig.find(seen.name);
+      add(as_is, all, [seen = as_is.recording.cameras[i].sightings](const square::Solution& found) {
+        const geometry::RigCamera* camera = found.rig.find(seen.name);
         const auto tilt =
-            camera ? seen.tilt(camera->camera.world_from_camera, attempt.z_up) : std::nullopt;
+            camera ? seen.tilt(camera->camera.world_from_camera, found.z_up) : std::nullopt;
         return format(
             "the accelerometer of %s contradicts all images by %.0f degrees: its axes or its "
             "image are turned; correct that, or do not use gravity",
@@ -119,8 +121,8 @@ void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
   const std::string& name = nameOf(as_is, i);
   const double lag = clockLag(recording, i).value_or(0.0);
   if (std::abs(lag) > kLeastLag) {
-    Hypothesis& clock = add(as_is, all, [=](const Attempt& attempt) {
-      const double ahead = lag - attempt.rig.find(name)->time_offset;
+    Hypothesis& clock = add(as_is, all, [=](const square::Solution& found) {
+      const double ahead = lag - found.rig.find(name)->time_offset;
       return format(
           "the clock of %s is %.2f s %s the others: check the time of its computer and "
           "its driver, and wave again",
@@ -129,7 +131,7 @@ void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
     for (wave::Frame& frame : clock.recording.cameras[i].frames)
       frame.stamp -= lag;
   }
-  Hypothesis& mirrored = add(as_is, all, [=](const Attempt&) {
+  Hypothesis& mirrored = add(as_is, all, [=](const square::Solution&) {
     return "the image of " + name +
            " is mirrored: make its x run to the right and its y down, and wave again";
   });
@@ -139,7 +141,7 @@ void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
   }
   const std::size_t count = recording.cameras.size();
   for (std::size_t j = i + 1; j < count && count <= kMostForPairs && recording.square; ++j) {
-    Hypothesis& exchanged = add(as_is, all, [=, other = nameOf(as_is, j)](const Attempt&) {
+    Hypothesis& exchanged = add(as_is, all, [=, other = nameOf(as_is, j)](const square::Solution&) {
       return name + " and " + other +
              " were exchanged between the corners and the wave: check the "
              "addresses of their drivers, and start again";
@@ -150,7 +152,7 @@ void addWaveMistakes(const Hypothesis& as_is, std::size_t i, Hypotheses* all) {
 
 }  // namespace
 
-Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<Attempt>& free) {
+Hypotheses likelyMistakes(const Hypothesis& as_is, const std::optional<square::Solution>& free) {
   Hypotheses all;
   if (as_is.recording.square) {
     addCorners(as_is, &all);
@@ -172,10 +174,11 @@ Hypotheses movedCameras(const Hypothesis& as_is) {
   for (std::size_t i = 0; i < as_is.recording.cameras.size(); ++i) {
     const square::CameraSightings& sightings = as_is.recording.cameras[i].sightings;
     Hypothesis& without = add(
-        as_is, &all, [seen = sightings, layout = *as_is.recording.square](const Attempt& attempt) {
-          const geometry::Camera& solved = attempt.rig.find(seen.name)->camera;
+        as_is, &all,
+        [seen = sightings, layout = *as_is.recording.square](const square::Solution& found) {
+          const geometry::Camera& solved = found.rig.find(seen.name)->camera;
           const auto poses =
-              square::cornerPoses(solved.intrinsics, seen.corners, layout.corners(attempt.z_up));
+              square::cornerPoses(solved.intrinsics, seen.corners, layout.corners(found.z_up));
           std::string how_far;
           if (!poses.empty()) {
             const Eigen::Isometry3d moved =
@@ -196,7 +199,7 @@ Hypotheses wrongCameras(const Hypothesis& as_is) {
   Hypotheses all;
   const std::size_t count = as_is.recording.cameras.size();
   for (std::size_t i = 0; i < count && count > 2; ++i) {
-    Hypothesis& without = add(as_is, &all, [name = nameOf(as_is, i)](const Attempt&) {
+    Hypothesis& without = add(as_is, &all, [name = nameOf(as_is, i)](const square::Solution&) {
       return name +
              " alone contradicts the others: check that it did not move and that its spot "
              "was the LED, and its starting intrinsics";

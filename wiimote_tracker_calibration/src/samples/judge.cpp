@@ -99,7 +99,7 @@ double meanDistance(const geometry::Rig& rig, const Eigen::Vector3d& place) {
 
 /// Fills predicted_at and what follows.
 void predict(const square::SquareLayout& layout,
-             const wave::WaveSolution& found,
+             const square::Solution& found,
              double pixel,
              Verdict* verdict) {
   const geometry::Rig& rig = found.rig;
@@ -124,17 +124,15 @@ struct Accuracy {
   std::string text;
 };
 
-Accuracy accuracyOf(const Samples& samples,
-                    const wave::WaveSolution& found,
-                    const Verdict& verdict) {
+Accuracy accuracyOf(const Samples& samples, const square::Solution& found, const Verdict& verdict) {
   const geometry::Rig& rig = found.rig;
   Accuracy accuracy;
   if (!samples.recording.square) {
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
     for (const Eigen::Vector3d& place : found.path)
       middle += place / static_cast<double>(found.path.size());
-    accuracy.share = found.expected_shape_error / meanDistance(rig, middle);
-    accuracy.text = "points are known to " + millimetres(found.expected_shape_error) +
+    accuracy.share = found.wave->expected_shape_error / meanDistance(rig, middle);
+    accuracy.text = "points are known to " + millimetres(found.wave->expected_shape_error) +
                     " to one another (RMS where the LED was waved)";
     return accuracy;
   }
@@ -178,7 +176,7 @@ bool concernsQuality(const std::string& warning) {
 /// Why the rig is not good, or empty.
 std::vector<std::string> shortcomings(const Samples& samples,
                                       const Accuracy& accuracy,
-                                      const wave::WaveSolution& found,
+                                      const square::Solution& found,
                                       const Verdict& verdict) {
   std::vector<std::string> reasons;
   const std::string question = scaleQuestion(samples.recording, found.rig, found.path);
@@ -240,7 +238,7 @@ Verdict verdictOf(const geometry::Rig& rig) {
   return verdict;
 }
 
-Verdict judge(const Samples& samples, const wave::WaveSolution& found, double pixel) {
+Verdict judge(const Samples& samples, const square::Solution& found, double pixel) {
   Verdict verdict = verdictOf(found.rig);
   if (samples.recording.square)
     predict(*samples.recording.square, found, pixel, &verdict);

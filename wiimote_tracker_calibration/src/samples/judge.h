@@ -3,7 +3,7 @@
 
 #include "samples/samples.h"
 #include "samples/verdict.h"
-#include "wiimote_tracker_calibration/wave/solve_wave.h"
+#include "wiimote_tracker_calibration/square/solve_square.h"
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -26,7 +26,7 @@ Verdict verdictOf(const geometry::Rig& rig);
 /// Grades a solution, as of solveRecording(). @param found the verdict of its rig is the solver's,
 /// and is appended. @param pixel standard deviation of a still LED, per axis [px].
 Verdict judge(const Samples& samples,
-              const wave::WaveSolution& found,
+              const square::Solution& found,
               double pixel = square::Uncertainty().pixel);
 
 }  // namespace wiimote_tracker::samples

@@ -19,7 +19,7 @@ namespace {
 void correctPrincipalPoints(const wave::Recording& recording,
                             const SolveOptions& options,
                             const wave::ProgressCallback& progress,
-                            wave::WaveSolution* found,
+                            square::Solution* found,
                             std::optional<principal_point::Trace>* trace) {
   const principal_point::CorrectionOptions correction = {
       options.correction, options.ray_model, options.virtual_hfov, options.square.uncertainty,
@@ -38,12 +38,12 @@ void correctPrincipalPoints(const wave::Recording& recording,
 }
 
 /// As solveRecording(), with corrected principal points if the options ask for it.
-wave::WaveSolution solve(const wave::Recording& recording,
-                         const SolveOptions& options,
-                         const wave::ProgressCallback& progress,
-                         std::optional<principal_point::Trace>* trace) {
+square::Solution solve(const wave::Recording& recording,
+                       const SolveOptions& options,
+                       const wave::ProgressCallback& progress,
+                       std::optional<principal_point::Trace>* trace) {
   if (recording.hasFrames()) {
-    wave::WaveSolution found = solveRecording(recording, options, progress);
+    square::Solution found = solveRecording(recording, options, progress);
     if (options.correct_principal_points)
       found.rig.verdict +=
           "; the principal points were not corrected, because the wave determines them itself";
@@ -57,23 +57,23 @@ wave::WaveSolution solve(const wave::Recording& recording,
     throw square::SquareError(
         "lengths and known places need the method joint without principal_point_correction: set "
         "these, record a wave, or drop the lengths and places");
-  wave::WaveSolution found = solveRecording(recording, options);
+  square::Solution found = solveRecording(recording, options);
   if (options.correct_principal_points)
     correctPrincipalPoints(recording, options, progress, &found, trace);
   return found;
 }
 
 /// The same; names the mistake where the data contradict one another.
-wave::WaveSolution solveOrDiagnose(const wave::Recording& recording,
-                                   const SolveOptions& options,
-                                   const wave::ProgressCallback& progress,
-                                   std::optional<principal_point::Trace>* trace) {
+square::Solution solveOrDiagnose(const wave::Recording& recording,
+                                 const SolveOptions& options,
+                                 const wave::ProgressCallback& progress,
+                                 std::optional<principal_point::Trace>* trace) {
   const auto words = [&](const geometry::Error& error, bool contradicts) {
     const auto mistake = diagnose(recording, options, contradicts, progress);
     return mistake ? mistake->text : error.what();
   };
   try {
-    wave::WaveSolution found = solve(recording, options, progress, trace);
+    square::Solution found = solve(recording, options, progress, trace);
     if (!found.contradicts)
       return found;
     if (const auto mistake = diagnose(recording, options, true, progress)) {
@@ -93,17 +93,12 @@ wave::WaveSolution solveOrDiagnose(const wave::Recording& recording,
 
 }  // namespace
 
-wave::WaveSolution solveRecording(const wave::Recording& recording,
-                                  const SolveOptions& options,
-                                  const wave::ProgressCallback& progress) {
+square::Solution solveRecording(const wave::Recording& recording,
+                                const SolveOptions& options,
+                                const wave::ProgressCallback& progress) {
   if (recording.hasFrames())
     return wave::solveWave(recording, {options.wave, options.square.uncertainty}, progress);
-  wave::WaveSolution found;
-  static_cast<square::Solution&>(found) =
-      square::solveSquare(*recording.square, recording.sightings(), options.square);
-  const square::Corners corners = recording.square->corners(found.z_up);
-  found.path.assign(corners.begin(), corners.end());
-  return found;
+  return square::solveSquare(*recording.square, recording.sightings(), options.square);
 }
 
 Solution solveSamples(const Samples& samples,
@@ -118,7 +113,7 @@ Solution solveSamples(const Samples& samples,
     throw Error(
         "nothing was captured: capture the corners of a square, or wave a wand of known length");
   Solution solution;
-  wave::WaveSolution found = solveOrDiagnose(recording, options, progress, &solution.trace);
+  square::Solution found = solveOrDiagnose(recording, options, progress, &solution.trace);
 
   geometry::Rig& rig = found.rig;
   rig.world_frame = samples.world_frame;

@@ -34,12 +34,10 @@ struct Solution {
   std::optional<principal_point::Trace> trace;  ///< Of the correction, if it was done.
 };
 
-/// Solves the wave of a recording, or without one its square, of which only what square::Solution
-/// has is set, and the corners as the path.
-/// @throws Error as these solvers do.
-wave::WaveSolution solveRecording(const wave::Recording& recording,
-                                  const SolveOptions& options,
-                                  const wave::ProgressCallback& progress = nullptr);
+/// Solves the wave of a recording, or without one its square. @throws Error as these solvers do.
+square::Solution solveRecording(const wave::Recording& recording,
+                                const SolveOptions& options,
+                                const wave::ProgressCallback& progress = nullptr);
 
 /// Solves samples with wave::solveWave() if they have images of a wave, else from their square with
 /// the method of the options. The same samples and options give the same solution, bit for bit.

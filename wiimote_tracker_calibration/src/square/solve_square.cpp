@@ -219,6 +219,7 @@ Solution solveSquare(const SquareLayout& layout,
     rig.covariance = model.covarianceOfPoses(state);
   }
   solution.corner_offsets = offsetsOf(model, state);
+  solution.path.assign(model.nominalCorners().begin(), model.nominalCorners().end());
 
   layout.describeIn(&rig);
   for (std::size_t i = 0; i < state.cameras.size(); ++i)

@@ -118,7 +118,7 @@ double offsetStddev(const geometry::Rig& rig, std::size_t camera) {
   return std::sqrt(rig.covariance(k, k));
 }
 
-void checkCorners(const square::Uncertainty& uncertainty, WaveSolution* solution) {
+void checkCorners(const square::Uncertainty& uncertainty, square::Solution* solution) {
   const std::optional<square::SuspectCorner>& suspect = solution->suspect;
   if (!suspect)
     return;
@@ -160,7 +160,7 @@ void checkLenses(const Task& task, const geometry::Rig& rig) {
 /// Of a camera, by its number.
 /// @throws WaveContradiction: its accelerometer contradicts its pose. WaveError: its clock is not
 /// known well enough.
-void checkGravityAndClock(const Task& task, const WaveSolution& solution, std::size_t i) {
+void checkGravityAndClock(const Task& task, const square::Solution& solution, std::size_t i) {
   const Recording& recording = task.recording;
   const WaveOptions& options = task.options;
   const geometry::RigCamera& camera = solution.rig.cameras[i];
@@ -178,7 +178,7 @@ void checkGravityAndClock(const Task& task, const WaveSolution& solution, std::s
   if (stddev > options.maximum_offset_stddev)
     throw WaveError("the clock of " + name + " is known to " + format("%.2f ms", 1e3 * stddev) +
                     " only, not to " + format("%.2f ms", 1e3 * options.maximum_offset_stddev) +
-                    ": wave faster than the " + format("%.1f m/s", solution.median_speed) +
+                    ": wave faster than the " + format("%.1f m/s", solution.wave->median_speed) +
                     " it was, and longer where it sees the LED");
 }
 
@@ -192,9 +192,9 @@ void checkNoise(const WaveOptions& options, double pixel_stddev) {
         ": check that no camera was moved and that their times are of one clock");
 }
 
-void checkSolution(const Task& task, WaveSolution* solution) {
+void checkSolution(const Task& task, square::Solution* solution) {
   const Recording& recording = task.recording;
-  const Eigen::Vector3d& extent = solution->extent;
+  const Eigen::Vector3d& extent = solution->wave->extent;
   if (extent.y() < kThinnestPath * extent.x())
     throw WaveError("the LED was moved along a line only: wave it through the whole volume");
   if (extent.z() < kThinnestPath * extent.x())
@@ -209,7 +209,7 @@ void checkSolution(const Task& task, WaveSolution* solution) {
     checkCorners(task.options.uncertainty, solution);
   }
   if (recording.square && recording.wand) {
-    const double off = solution->wand_length - recording.wand->length;
+    const double off = solution->wave->wand_length - recording.wand->length;
     if (std::abs(off) > kWarnDeviation * recording.wand->stddev)
       solution->warnings.push_back("by the square the wand is " + format("%+.1f mm", 1e3 * off) +
                                    " longer than stated: measure the wand and the square again");
@@ -230,7 +230,7 @@ std::string worldOf(const Recording& recording, const geometry::Rig& rig) {
 
 }  // namespace
 
-std::string describe(const Recording& recording, const WaveSolution& solution) {
+std::string describe(const Recording& recording, const square::Solution& solution) {
   double worst_px = 0.0;
   double worst_offset = 0.0;
   for (std::size_t i = 0; i < solution.rig.cameras.size(); ++i) {
@@ -240,13 +240,14 @@ std::string describe(const Recording& recording, const WaveSolution& solution) {
   std::string text = format(
       "%zu cameras solved from %.0f s of %s%s; residuals at most %.2f px, time offsets known to "
       "%.2f ms",
-      solution.rig.cameras.size(), solution.seconds_seen, recording.wand ? "a wand" : "a wave",
-      recording.square ? " and the square" : "", worst_px, 1e3 * worst_offset);
+      solution.rig.cameras.size(), solution.wave->seconds_seen,
+      recording.wand ? "a wand" : "a wave", recording.square ? " and the square" : "", worst_px,
+      1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
     text += format(
         ", points along the wave expected within %.1f mm (RMS) in %s, %.1f mm to one another",
         1e3 * solution.expected_error, worldOf(recording, solution.rig).c_str(),
-        1e3 * solution.expected_shape_error);
+        1e3 * solution.wave->expected_shape_error);
   for (const std::string& warning : solution.warnings)
     text += "; warning: " + warning;
   return text;

@@ -21,10 +21,10 @@ void checkMatching(const Recording& recording, const Matching& matching);
 void checkNoise(const WaveOptions& options, double pixel_stddev);
 
 /// Adds warnings to the solution. @throws WaveError: why it must not be used.
-void checkSolution(const Task& task, WaveSolution* solution);
+void checkSolution(const Task& task, square::Solution* solution);
 
 /// The result in words.
-std::string describe(const Recording& recording, const WaveSolution& solution);
+std::string describe(const Recording& recording, const square::Solution& solution);
 
 }  // namespace wiimote_tracker::wave
 

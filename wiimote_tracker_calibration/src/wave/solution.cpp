@@ -80,11 +80,11 @@ geometry::RigCamera rigCamera(const CameraRecording& recording,
 }
 
 /// Duration, speeds and extent of the path where it was seen.
-void describePath(const State& state, const Matching& matching, WaveSolution* solution) {
+void describePath(const State& state, const Matching& matching, square::Solution* solution) {
   const Trajectory& trajectory = state.trajectory;
   std::vector<double> speeds;
   for (const Eigen::Index i : seenIntervals(matching.matches)) {
-    solution->seconds_seen += trajectory.spacing();
+    solution->wave->seconds_seen += trajectory.spacing();
     const Trajectory::Place place =
         trajectory.in(i, trajectory.timeOf(i) + 0.5 * trajectory.spacing());
     for (Eigen::Index led = 0; led < trajectory.leds(); ++led) {
@@ -92,22 +92,23 @@ void describePath(const State& state, const Matching& matching, WaveSolution* so
       speeds.push_back(trajectory.velocity(place, led).norm());
     }
   }
-  solution->median_speed = medianOf(&speeds);
-  solution->extent = geometry::spreadOf(solution->path);
+  solution->wave->median_speed = medianOf(&speeds);
+  solution->wave->extent = geometry::spreadOf(solution->path);
 }
 
 }  // namespace
 
-WaveSolution solutionOf(const Task& task,
-                        const State& state,
-                        const Matching& matching,
-                        double redundancy,
-                        double pixel_stddev) {
+square::Solution solutionOf(const Task& task,
+                            const State& state,
+                            const Matching& matching,
+                            double redundancy,
+                            double pixel_stddev) {
   const Recording& recording = task.recording;
-  WaveSolution solution;
-  solution.pixel_stddev = pixel_stddev;
+  square::Solution solution;
+  square::WavePart& wave = solution.wave.emplace();
+  wave.pixel_stddev = pixel_stddev;
+  wave.wand_length = state.wand_length;
   solution.z_up = state.z_up;
-  solution.wand_length = state.wand_length;
   describePath(state, matching, &solution);
 
   solution.joint_covariance = covarianceOf(task, matching.matches, state);
@@ -115,7 +116,7 @@ WaveSolution solutionOf(const Task& task,
   geometry::Rig& rig = solution.rig;
   rig.method = recording.wand ? "wand" : "wave";
   rig.covariance = solution.joint_covariance.topLeftCorner(cameras, cameras);
-  addWander(task.options, solution.seconds_seen, &rig.covariance);
+  addWander(task.options, wave.seconds_seen, &rig.covariance);
   for (std::size_t i = 0; i < state.cameras.size(); ++i)
     rig.cameras.push_back(rigCamera(recording.cameras[i], state, i, matching, redundancy));
   if (state.floor) {
@@ -132,7 +133,7 @@ WaveSolution solutionOf(const Task& task,
   }
   const std::vector<Eigen::Vector3d> points = thinned(solution.path);
   solution.expected_error = square::expectedError(rig, points);
-  solution.expected_shape_error = square::expectedShapeError(rig, points);
+  wave.expected_shape_error = square::expectedShapeError(rig, points);
   const Agreement agreement = agreementOf(task, matching.matches, state);
   solution.misfit = std::sqrt(agreement.chi_squared / std::max(1.0, agreement.degrees_of_freedom));
   solution.contradicts = agreement.isContradiction();

@@ -10,11 +10,11 @@ namespace wiimote_tracker::wave {
 /// @param matching that the state was adjusted to. @param redundancy of that. @param pixel_stddev
 /// of a moving spot, as estimated [px].
 /// @throws WaveError: some parameter is not determined.
-WaveSolution solutionOf(const Task& task,
-                        const State& state,
-                        const Matching& matching,
-                        double redundancy,
-                        double pixel_stddev);
+square::Solution solutionOf(const Task& task,
+                            const State& state,
+                            const Matching& matching,
+                            double redundancy,
+                            double pixel_stddev);
 
 }  // namespace wiimote_tracker::wave
 

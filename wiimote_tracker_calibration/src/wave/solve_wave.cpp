@@ -72,7 +72,7 @@ bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
 }
 
 /// Alternates matching and adjusting until neither changes.
-WaveSolution fit(const Task& task, State state, const ProgressCallback& progress) {
+square::Solution fit(const Task& task, State state, const ProgressCallback& progress) {
   const WaveOptions& options = task.options;
   const char* const kStep = "adjusting cameras, clocks and path";
   progress(kStep, kPathDone);
@@ -113,7 +113,7 @@ WaveSolution fit(const Task& task, State state, const ProgressCallback& progress
 }
 
 /// From a start to a solution that passed all checks.
-WaveSolution solveFrom(StartPoses poses, const Task& task, const ProgressCallback& progress) {
+square::Solution solveFrom(StartPoses poses, const Task& task, const ProgressCallback& progress) {
   const Recording& recording = task.recording;
   progress("following the LED", kStartDone);
   if (!recording.square)
@@ -128,7 +128,7 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, const ProgressCallbac
     state.wand_length = recording.wand->length;
   if (!task.floor.empty())
     checkStart(task, state);
-  WaveSolution solution = fit(task, std::move(state), progress);
+  square::Solution solution = fit(task, std::move(state), progress);
   checkSolution(task, &solution);
   solution.rig.verdict = describe(recording, solution);
   return solution;
@@ -136,9 +136,9 @@ WaveSolution solveFrom(StartPoses poses, const Task& task, const ProgressCallbac
 
 }  // namespace
 
-WaveSolution solveWave(const Recording& input,
-                       const WaveOptions& options,
-                       const ProgressCallback& progress) {
+square::Solution solveWave(const Recording& input,
+                           const WaveOptions& options,
+                           const ProgressCallback& progress) {
   // Another start begins again, but what is reported only grows.
   const ProgressCallback report = [&, most = 0.0](const std::string& step,
                                                   double fraction) mutable {
@@ -157,7 +157,7 @@ WaveSolution solveWave(const Recording& input,
     try {
       StartPoses poses = startPoses(task.recording, options, attempt);
       is_only_start = poses.from_square;
-      WaveSolution solution = solveFrom(std::move(poses), task, report);
+      square::Solution solution = solveFrom(std::move(poses), task, report);
       report("done", 1.0);
       return solution;
     } catch (const WandMislaid&) {

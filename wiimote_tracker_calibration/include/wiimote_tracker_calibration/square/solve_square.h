@@ -26,7 +26,18 @@ struct SolveOptions {
   double branch_odds = 100.0;
 };
 
-/// What was solved, with a square or without.
+/// What only a wave tells.
+struct WavePart {
+  double pixel_stddev = 0.0;                         ///< Of a moving spot, per axis [px].
+  double wand_length = 0.0;                          ///< As estimated [m]; 0 without wand.
+  double median_speed = 0.0;                         ///< Of the LED [m/s].
+  double seconds_seen = 0.0;                         ///< In which two cameras or more saw it [s].
+  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Of the path: principal stddevs [m].
+  /// Solution::expected_error after the best rigid motion: independent of the world frame [m].
+  double expected_shape_error = 0.0;
+};
+
+/// What was solved, from a square, a wave or both.
 struct Solution {
   /// Poses, intrinsics, residuals, joint covariance, verdict; without solved_at and world_frame.
   geometry::Rig rig;
@@ -48,6 +59,9 @@ struct Solution {
   bool contradicts = false;
   /// One sentence each. They are part of rig.verdict too.
   std::vector<std::string> warnings;
+  /// Where the LED was: a point per knot of a wave that was seen, else the corners [m].
+  std::vector<Eigen::Vector3d> path;
+  std::optional<WavePart> wave;
 };
 
 /// Estimates the cameras' poses. A camera that saw three corners is placed by them and its

@@ -4,11 +4,8 @@
 #include "wiimote_tracker_calibration/square/solve_square.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
 
-#include <Eigen/Core>
-
 #include <functional>
 #include <string>
-#include <vector>
 
 namespace wiimote_tracker::wave {
 
@@ -28,22 +25,6 @@ struct WaveOptions : WaveModel {
   square::Uncertainty uncertainty;
 };
 
-/// A solved recording. Its rig has time offsets, too, in the order of the recording: exposure time
-/// = stamp + time offset. Without a square, the LED of a wand on the floor that is nearer to the
-/// first camera lies at x = y = 0, the other one at y = 0, both exact; z is up by all
-/// accelerometers. Without either, the first camera is the origin, exact; its accelerometer's up is
-/// z, or its optical frame is the world.
-struct WaveSolution : square::Solution {
-  double pixel_stddev = 0.0;                         ///< Of a moving spot, per axis [px].
-  double wand_length = 0.0;                          ///< As estimated [m]; 0 without wand.
-  double median_speed = 0.0;                         ///< Of the LED [m/s].
-  double seconds_seen = 0.0;                         ///< In which two cameras or more saw it [s].
-  Eigen::Vector3d extent = Eigen::Vector3d::Zero();  ///< Of the path: principal stddevs [m].
-  std::vector<Eigen::Vector3d> path;                 ///< A point of it per knot that was seen [m].
-  /// expected_error after the best rigid motion: independent of the world frame [m].
-  double expected_shape_error = 0.0;
-};
-
 /// Called a few times per second or more with what is being done, in words, and the share of the
 /// work that is done [0..1], which grows. What it throws ends the work, unless it is a WaveError.
 using ProgressCallback = std::function<void(const std::string& step, double fraction)>;
@@ -51,17 +32,22 @@ using ProgressCallback = std::function<void(const std::string& step, double frac
 /// One bundle adjustment over all that was recorded: poses, focal lengths, principal points, k1,
 /// time offsets (the first camera's is 0), placement of the corners, length of the wand, and the
 /// LED's path as a uniform cubic B-spline that each camera sees at its own times. Wrong spots are
-/// left out. Scale and world come from the square; without one, scale from the wand, and the world
-/// from the wand on the floor if it lay there before.
+/// left out. Scale and world come from the square. Without one, scale comes from the wand, and the
+/// world from the wand on the floor if it lay there before: its LED that is nearer to the first
+/// camera lies at x = y = 0, the other one at y = 0, both exact; z is up by all accelerometers.
+/// Without either, the first camera is the origin, exact; its accelerometer's up is z, or its
+/// optical frame is the world.
+/// @returns with a wave part; its rig has time offsets, too, in the order of the recording:
+/// exposure time = stamp + time offset.
 /// @throws WaveError: fewer than two cameras; cameras that share too little; neither square nor
 /// wand; an LED that hardly moved, or on a line or a plane only; images that contradict one another
 /// (mirrored, moved, other order of corners); a time offset less certain than the options ask for;
 /// a wand on the floor that moved, was not level, or of which two cameras did not see both LEDs; no
 /// accelerometer for it. square::SquareError: the corners contradict the
 /// layout.
-WaveSolution solveWave(const Recording& recording,
-                       const WaveOptions& options,
-                       const ProgressCallback& progress = nullptr);
+square::Solution solveWave(const Recording& recording,
+                           const WaveOptions& options,
+                           const ProgressCallback& progress = nullptr);
 
 }  // namespace wiimote_tracker::wave
 

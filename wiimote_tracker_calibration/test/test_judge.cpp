@@ -63,6 +63,18 @@ TEST(Judge, ACameraThatSawOtherLightsIsNamed) {
   EXPECT_SAYS(verdict.text, "usable: 30 % of what camera_2 saw was not the LED");
 }
 
+TEST(Judge, SaysOnceWhatTheSolverSaid) {
+  Samples samples;
+  samples.recording.square = square::paperSquare();
+  square::Solution found;
+  found.rig = paperRigWith(wellCalibrated());
+  found.rig.verdict = "4 cameras solved";
+  found.warnings = {"one", "two"};
+  const std::string text = judge(samples, found).text;
+  EXPECT_SAYS(text, "usable: read the warnings; points are known to ");
+  EXPECT_SAYS(text, "; 4 cameras solved; warning: one; warning: two");
+}
+
 TEST(Judge, AWaveIsJudgedByItsDistanceFromTheCameras) {
   // Without a square the first camera is the world's origin; the other one stands beside it.
   square::Solution found;

@@ -10,6 +10,7 @@
 #include "paper_procedure.h"
 #include "simulated_square.h"
 
+#include <wiimote_tracker_msgs/text.h>
 #include <wiimote_tracker_triangulation/geometry/triangulate.h>
 
 #include <gtest/gtest.h>
@@ -136,8 +137,7 @@ TEST(PrincipalPoint, TheOppositeSignDiverges) {
     for (std::size_t i = 1; i < rounds.size(); ++i)
       EXPECT_GT(rounds[i].origin_error, rounds[i - 1].origin_error);
     EXPECT_GT(result.after, 2.0 * result.before);
-    EXPECT_FALSE(result.correction.warnings.empty());
-    EXPECT_SAYS(result.correction.rig.verdict, "made the measured corners worse");
+    EXPECT_SAYS(joined(result.correction.warnings), "made the measured corners worse");
   }
 }
 
@@ -215,7 +215,6 @@ TEST(PrincipalPoint, ImageCenterWithDistortionIsWarnedOf) {
   const CorrectionResult result = correctPrincipalPoints(paperSquare(), cameras, options);
   ASSERT_FALSE(result.warnings.empty());
   EXPECT_SAYS(result.warnings.back(), "know no distortion");
-  EXPECT_SAYS(result.rig.verdict, "know no distortion");
 }
 
 TEST(PrincipalPoint, ProgressSeesEveryRoundAndCanStopIt) {

@@ -206,10 +206,8 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
   result.rig.method = "square, per camera, principal points corrected";
   result.z_up = solution.z_up;
   result.warnings = solution.warnings;
-  for (const std::string& warning : warningsOf(options, result)) {
+  for (const std::string& warning : warningsOf(options, result))
     result.warnings.push_back(warning);
-    result.rig.verdict += "; warning: " + warning;
-  }
   return result;
 }
 

@@ -265,6 +265,8 @@ Verdict judge(const Samples& samples, const square::Solution& found, double pixe
   if (!accuracy.text.empty())
     verdict.text += "; " + accuracy.text;
   verdict.text += "; " + found.rig.verdict;
+  for (const std::string& warning : found.warnings)
+    verdict.text += "; warning: " + warning;
   return verdict;
 }
 

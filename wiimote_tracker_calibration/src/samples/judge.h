@@ -23,8 +23,9 @@ std::string scaleQuestion(const wave::Recording& recording,
 /// The verdict of a rig that was loaded: without predictions for points, which its file lacks.
 Verdict verdictOf(const geometry::Rig& rig);
 
-/// Grades a solution, as of solveRecording(). @param found the verdict of its rig is the solver's,
-/// and is appended. @param pixel standard deviation of a still LED, per axis [px].
+/// Grades a solution, as of solveRecording(). @param found the verdict of its rig, which is the
+/// solver's, and its warnings are appended. @param pixel standard deviation of a still LED, per
+/// axis [px].
 Verdict judge(const Samples& samples,
               const square::Solution& found,
               double pixel = square::Uncertainty().pixel);

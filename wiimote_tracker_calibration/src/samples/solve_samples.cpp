@@ -78,7 +78,6 @@ square::Solution solveOrDiagnose(const wave::Recording& recording,
       return found;
     if (const auto mistake = diagnose(recording, options, true, progress)) {
       found.warnings.push_back("most likely " + mistake->text);
-      found.rig.verdict += "; warning: " + found.warnings.back();
       if (!mistake->corner)
         found.suspect.reset();
     }

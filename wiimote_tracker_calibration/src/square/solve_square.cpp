@@ -172,8 +172,6 @@ std::string describe(const Solution& solution) {
   if (std::isfinite(solution.expected_error))
     text += format(", points over the square expected within %.0f mm (RMS)",
                    1000.0 * solution.expected_error);
-  for (const std::string& warning : solution.warnings)
-    text += "; warning: " + warning;
   return text;
 }
 

@@ -248,8 +248,6 @@ std::string describe(const Recording& recording, const square::Solution& solutio
         ", points along the wave expected within %.1f mm (RMS) in %s, %.1f mm to one another",
         1e3 * solution.expected_error, worldOf(recording, solution.rig).c_str(),
         1e3 * solution.wave->expected_shape_error);
-  for (const std::string& warning : solution.warnings)
-    text += "; warning: " + warning;
   return text;
 }
 

@@ -65,7 +65,7 @@ struct CorrectionResult {
   bool z_up = true;
   Trace trace;
   bool lost = false;                  ///< The last step led to no usable rig of all cameras.
-  std::vector<std::string> warnings;  ///< One sentence each; also in rig.verdict.
+  std::vector<std::string> warnings;  ///< One sentence each.
 };
 
 /// Called after each solving with the number of rounds done. What it throws ends the correction.

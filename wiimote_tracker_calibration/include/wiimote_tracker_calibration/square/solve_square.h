@@ -39,7 +39,8 @@ struct WavePart {
 
 /// What was solved, from a square, a wave or both.
 struct Solution {
-  /// Poses, intrinsics, residuals, joint covariance, verdict; without solved_at and world_frame.
+  /// Poses, intrinsics, residuals, joint covariance; verdict: what was solved, and how well;
+  /// without solved_at and world_frame.
   geometry::Rig rig;
   bool z_up = true;
   /// Displacement of the corners from the layout, as estimated [m]; zero with kPerCamera, and
@@ -57,8 +58,7 @@ struct Solution {
   /// wave it is that of corners, places, lengths and priors.
   double misfit = 0.0;
   bool contradicts = false;
-  /// One sentence each. They are part of rig.verdict too.
-  std::vector<std::string> warnings;
+  std::vector<std::string> warnings;  ///< One sentence each.
   /// Where the LED was: a point per knot of a wave that was seen, else the corners [m].
   std::vector<Eigen::Vector3d> path;
   std::optional<WavePart> wave;

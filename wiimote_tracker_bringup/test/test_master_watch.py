@@ -145,13 +145,18 @@ def test_a_replay_is_refused_beside_a_tracker(programs):
 
 
 def test_a_bag_is_looked_at_before_its_replay(tmp_path):
-    def said(bag):
-        done = subprocess.run([sys.executable, CHECK_REPLAY, bag], capture_output=True, text=True,
-                              timeout=PATIENCE, env=dict(os.environ, ROS_MASTER_URI='http://:1'))
+    def said(bag, rate='1.0', delay='2.0'):
+        done = subprocess.run([sys.executable, CHECK_REPLAY, bag, rate, delay],
+                              capture_output=True, text=True, timeout=PATIENCE,
+                              env=dict(os.environ, ROS_MASTER_URI='http://:1'))
         assert (done.returncode, done.stdout) in ((0, 'true'), (1, ''))
         return done.returncode, done.stderr
     path, unfinished = str(tmp_path / 'my.bag'), str(tmp_path / 'my.bag.active')
     assert said(path) == (0, ''), 'rosbag says that it is not there'
+    for rate in ('0', '-1', 'fast', 'nan', 'inf'):
+        assert f'rate:={rate} is no speed: give a number above 0' in said(path, rate)[1]
+    for delay in ('-1', 'soon'):
+        assert f'delay:={delay} is no time: give seconds' in said(path, '0.5', delay)[1]
     with rosbag.Bag(path, 'w') as bag:
         bag.write('zone_events', ZoneEvent())
     returned, words = said(path)

@@ -161,8 +161,11 @@ class Plain:
         guide = self._dialogue.guide
         status = guide.status
         self._look_at_progress(status)
+        missing = status.missing[0] if status.missing else ''
+        answer = guide.answers[-1][1] if guide.answers else ''
+        is_told = missing in answer or missing in status.message
         self._tell_new('missing', tuple(status.missing[:1]),
-                       f'missing: {status.missing[0]}' if status.missing else '')
+                       f'missing: {missing}' if missing and not is_told else '')
         if guide.trace is not None:
             self._tell_new('trace', guide.trace.table, guide.trace.table.rstrip())
         if guide.verdict is not None:

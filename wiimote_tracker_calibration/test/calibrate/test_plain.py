@@ -78,6 +78,20 @@ def test_plain_tells_every_answer_also_when_it_is_the_same_again():
     assert said.count(f'refused: {refusal}') == 2
 
 
+def test_plain_tells_what_is_missing_once_though_the_answer_says_it_too():
+    todo = 'put the LED on corner 2 and capture it'
+    after = status(CalibrationStatus.READY, message=f'captured; {todo}', missing=[todo])
+
+    class Node(FakeNode):
+        def send(self, word, request):
+            super().send(word, request)
+            self.events.put(('status', after))
+
+    said = plain('undo\nwait 0\n', Node({'undo': (True, after.message)}),
+                 status(CalibrationStatus.READY))[1]
+    assert sum(todo in line for line in said if not line.startswith('waited')) == 1, said
+
+
 def test_plain_says_what_to_do_without_a_node():
     said, node = [], FakeNode()
     guide = Guide(time.monotonic() + 1e6)

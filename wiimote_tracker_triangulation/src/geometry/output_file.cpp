@@ -18,6 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr int kMostOpenings = 100;  // while other programs finish the same file
+
 bool isSameFile(const std::string& a, const std::string& b) {
   std::error_code ignored;
   return fs::absolute(a).lexically_normal() == fs::absolute(b).lexically_normal() ||
@@ -72,14 +74,17 @@ OutputFile::OutputFile(const std::string& path, bool keeps_part) : path_(path) {
 
 /// Creates the part where there is none, and locks it.
 void OutputFile::openPart() {
-  do {
+  for (int i = 0; i < kMostOpenings; ++i) {
     file_.reset(std::fopen(partOf(path_).c_str(), "abe"));
     if (!file_)
       failToWrite(partOf(path_), errno);
     if (::flock(::fileno(file_.get()), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
       throw FileError("another program writes " + path_ +
                       ": wait until it has ended, or name another file");
-  } while (!isNamedAsPart());  // another program has just finished it
+    if (isNamedAsPart())  // else another program has just finished it
+      return;
+  }
+  failToWrite(path_, ESTALE);  // a file system whose files have no lasting numbers
 }
 
 bool OutputFile::isNamedAsPart() const {
@@ -103,16 +108,8 @@ void OutputFile::finish() {
   flush();
   if (::fsync(::fileno(file_.get())) != 0)
     failToWrite(path_, errno);
-  const std::string kept = path_ + ".bak";
-  if (::access(path_.c_str(), F_OK) == 0) {
-    if (::unlink(kept.c_str()) != 0 && errno != ENOENT)
-      failToWrite(kept, errno);
-    std::error_code error;
-    // FAT has no links; of a large file it may have no room for a copy.
-    if (::link(path_.c_str(), kept.c_str()) != 0 && !fs::copy_file(path_, kept, error) &&
-        std::rename(path_.c_str(), kept.c_str()) != 0)
-      failToWrite(kept, errno);
-  }
+  if (::access(path_.c_str(), F_OK) == 0)
+    keep();
   if (std::rename(partOf(path_).c_str(), path_.c_str()) != 0)
     failToWrite(path_, errno);
   // So that the rename survives a power failure, if the file system supports it.
@@ -123,6 +120,21 @@ void OutputFile::finish() {
     ::close(folder);
   }
   file_.reset();
+}
+
+/// Keeps the file as path + ".bak". A crash leaves this one or the one of before.
+void OutputFile::keep() const {
+  const std::string kept = path_ + ".bak";
+  const std::string fresh = partOf(kept);
+  ::unlink(fresh.c_str());  // a crash may have left it
+  std::error_code error;
+  // FAT has no links; of a large file it may have no room for a copy.
+  const bool is_there =
+      ::link(path_.c_str(), fresh.c_str()) == 0 || fs::copy_file(path_, fresh, error);
+  const int failed = std::rename((is_there ? fresh : path_).c_str(), kept.c_str()) != 0 ? errno : 0;
+  ::unlink(fresh.c_str());  // half a copy, or a link to a file that is kept already
+  if (failed != 0)
+    failToWrite(kept, failed);
 }
 
 void OutputFile::discard() {

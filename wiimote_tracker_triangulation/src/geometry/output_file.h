@@ -41,6 +41,7 @@ class OutputFile {
  private:
   void openPart();
   bool isNamedAsPart() const;
+  void keep() const;
 
   struct Close {
     void operator()(std::FILE* file) const { std::fclose(file); }

@@ -7,9 +7,11 @@
 #include <sys/resource.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <cmath>
 #include <csignal>
 #include <filesystem>
+#include <fstream>
 #include <iterator>
 #include <thread>
 
@@ -184,6 +186,25 @@ TEST_F(RigFile, KeepsTheOldFileAsABackup) {
   write(second);
   EXPECT_EQ(old, contentOf(path_ + ".bak"));
   EXPECT_EQ("second", readRigFile(path_).verdict);
+}
+
+TEST_F(RigFile, HasItsBackupAtAllTimes) {
+  const std::string kept = path_ + ".bak";
+  write(fullRig());
+  write(fullRig());
+  std::ofstream(kept + ".part") << "left by a crash";
+  std::atomic<bool> ends = false;
+  int gaps = 0;
+  std::thread reader([&] {
+    while (!ends)
+      gaps += fs::exists(kept) ? 0 : 1;
+  });
+  for (int i = 0; i < 200; ++i)
+    write(fullRig());
+  ends = true;
+  reader.join();
+  EXPECT_EQ(0, gaps);
+  EXPECT_FALSE(fs::exists(kept + ".part"));
 }
 
 TEST_F(RigFile, DoesNotReplaceAFileOfAnotherKind) {

@@ -30,6 +30,7 @@ struct Scene {
   double stamp_noise = 0.001;                       // [s]
   double period = 0.01;                             // of the camera [s]
   std::optional<Eigen::Vector2d> lamp;              // always lit
+  double sway = 0.0;                                // of the lamp, as in a hand [px]
 
   Eigen::Vector2d place(int led, double time) const {
     const int column = led % 4, row = led / 4;
@@ -54,7 +55,9 @@ struct Scene {
         continue;
       std::vector<Eigen::Vector2d> spots;
       if (lamp)
-        spots.push_back(*lamp);
+        spots.emplace_back(*lamp + sway * Eigen::Vector2d(std::sin(time + 10.0 * phase) +
+                                                              0.4 * std::sin(1.7 * time),
+                                                          0.6 * std::sin(1.3 * time)));
       for (const int led : litAt(board_rate * (time + phase))) {
         const Eigen::Vector2d p = place(led, time);
         const Eigen::Vector2d seen(std::round(p.x() + noise * normal(random)),
@@ -167,6 +170,25 @@ TEST(BoardDecoder, LeavesOutALamp) {
     // so 7 of the 16; lost images cost a few more.
     EXPECT_GE(correctLeds(scene, reading), 6);
   }
+}
+
+/// Where it moves little, its spots look like those of an LED: in one place, in two flashes.
+TEST(BoardDecoder, TakesALightThatMovesForAnLedHardlyEver) {
+  int right = 0;
+  int wrong = 0;
+  for (unsigned seed = 0; seed < 600; ++seed) {
+    Scene scene;
+    scene.lamp = Eigen::Vector2d(512.0, 384.0);
+    scene.sway = 20.0;
+    const BoardReading reading = scene.read(seed, 6);
+    for (int led = 0; led < kBoardLeds && reading.view; ++led) {
+      const auto& pixel = reading.view->pixels[static_cast<std::size_t>(led)];
+      if (pixel)
+        ++((*pixel - scene.place(led, 0.0)).norm() < 2.0 ? right : wrong);
+    }
+  }
+  EXPECT_GT(right, 0);
+  EXPECT_LT(wrong, 0.005 * right) << right;  // of LED 12 the flashes follow one another
 }
 
 TEST(BoardDecoder, RefusesABoardThatMoves) {

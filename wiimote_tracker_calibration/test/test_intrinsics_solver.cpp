@@ -156,6 +156,14 @@ TEST(SolveIntrinsics, ExactPixelsGiveTheExactCamera) {
   }
 }
 
+TEST(SolveIntrinsics, SaysWhereTheViewsFitBadly) {
+  const auto summary = [](double noise) {
+    return solveIntrinsics(simulatedSamples(paperCamera(), 16, noise, 1), SolverOptions()).summary;
+  };
+  EXPECT_EQ(summary(0.5).find("that is much"), std::string::npos) << summary(0.5);
+  EXPECT_SAYS(summary(1.5), "; that is much: check that the board is flat");
+}
+
 TEST(ExtensiveSolveIntrinsics, TwelveViewsReachTheStatedBound) {
   const geometry::Intrinsics camera = paperCamera();
   SolverOptions options;

@@ -18,8 +18,9 @@ constexpr double kLampShare = 0.25;        // above this share of the images: no
 constexpr double kRadius = 4.0;            // spots this close are one light [px]
 constexpr double kLeastSeparation = 12.0;  // between LEDs of a view [px]
 constexpr double kMostMotion = 1.5;        // of an LED between its two flashes, RMS [px]
-constexpr double kLeastExplained = 0.8;    // share of spots that follow the sequence
-constexpr double kLongestGap = 0.1;        // between images [s]
+// Share of the spots, and of those of an LED, that follow the sequence.
+constexpr double kLeastExplained = 0.8;
+constexpr double kLongestGap = 0.1;  // between images [s]
 
 /// Spots of one light that stayed in one place.
 struct Light {
@@ -41,7 +42,11 @@ struct Flash {
 struct Led {
   Flash row;
   Flash column;
-  bool seen() const { return row.count >= kSpotsPerFlash && column.count >= kSpotsPerFlash; }
+  std::size_t spots = 0;  // of the light: one that moves slowly shines on after a flash
+  bool seen() const {
+    return row.count >= kSpotsPerFlash && column.count >= kSpotsPerFlash &&
+           count() >= kLeastExplained * static_cast<double>(spots);
+  }
   double weight() const { return seen() ? row.weight + column.weight : 0.0; }
   int count() const { return row.count + column.count; }
   Eigen::Vector2d mean() const { return (row.sum + column.sum) / count(); }
@@ -106,7 +111,7 @@ Led ledFromLight(const Light& light, double phase, int* number) {
       column = i;
   }
   *number = row * kBoardColumns + column;
-  return {flash(sequence::rowStep(row)), flash(sequence::columnStep(column))};
+  return {flash(sequence::rowStep(row)), flash(sequence::columnStep(column)), light.times.size()};
 }
 
 Leds ledsAtPhase(const std::vector<Light>& lights, double phase) {

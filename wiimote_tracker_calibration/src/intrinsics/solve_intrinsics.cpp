@@ -19,6 +19,8 @@ namespace {
 
 constexpr double kSmallestTilt = 10.0 * M_PI / 180.0;  // between the most different views
 constexpr double kSmallestTravel = 0.1;                // of the board, of the image's width
+// Of a pixel coordinate: an LED 0.5 mm beside its place on the board, 0.7 m away [px].
+constexpr double kUsualPixelStddev = 1.0;
 
 /// Whether the lens is one-to-one over the whole image.
 bool holds(const Fit& fit, const Points& points) {
@@ -92,12 +94,17 @@ void checkTilts(const Fit& fit) {
 
 std::string summaryOf(const IntrinsicsSolution& s) {
   const Eigen::Matrix<double, 9, 1> stddev = s.covariance.diagonal().cwiseSqrt();
+  const char* const doubt = s.pixel_stddev > kUsualPixelStddev
+                                ? "; that is much: check that the board is flat and its LEDs in "
+                                  "place, cover other lights, "
+                                  "and show it again"
+                                : "";
   return format(
       "%zu views, %s: fx %.1f +- %.1f, fy %.1f +- %.1f, cx %.1f +- %.1f, cy %.1f +- %.1f "
-      "px; reprojection error %.2f px",
+      "px; reprojection error %.2f px%s",
       s.camera_from_board.size(), nameOf(s.model).c_str(), s.intrinsics.fx, stddev(0),
       s.intrinsics.fy, stddev(1), s.intrinsics.cx, stddev(2), s.intrinsics.cy, stddev(3),
-      s.reprojection_error);
+      s.reprojection_error, doubt);
 }
 
 /// Fits the models from simple to rich, each starting from the one before, up to options.model.
@@ -179,8 +186,10 @@ IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& 
   solution.pixel_stddev =
       chosen.error * std::sqrt(static_cast<double>(points.count) / degrees_of_freedom);
   if (!(solution.pixel_stddev <= options.maximum_pixel_stddev))
-    throw Error("the views do not fit the board (" + std::to_string(solution.pixel_stddev) +
-                " px): check its spacings, that it is flat and that it was held still");
+    throw Error(
+        format("the views do not fit the board (%.1f px): check its spacings, that it is "
+               "flat, that it was held still, and that no other light was in view",
+               solution.pixel_stddev));
 
   const auto covariance = unitCovariance(chosen, points);
   const double f = solution.intrinsics.fx;

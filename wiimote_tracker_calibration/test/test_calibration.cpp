@@ -171,10 +171,12 @@ TEST_F(Workflow, LengthsAreTakenReplacedAndDropped) {
   EXPECT_EQ(calibration_.step(), Step::kSolved);
   const Reply taken = measure(0, 2, diagonal + 0.004);
   EXPECT_TRUE(taken.success);
-  EXPECT_SAYS(taken.message, "corner 1 to corner 3 is 3.5395 m by tape, +4.0 mm");
+  EXPECT_SAYS(taken.message,
+              "corner 1 to corner 3 is 3.5395 m by tape, 4.0 mm more than by the sides");
   EXPECT_EQ(calibration_.step(), Step::kComplete);
   ASSERT_TRUE(solve(2.0).success);
 
+  EXPECT_SAYS(measure(2, 0, diagonal - 1e-5).message, "by tape, 0.0 mm less than by the sides");
   EXPECT_TRUE(measure(2, 0, diagonal).success);
   ASSERT_EQ(lengths().size(), 1U);
   EXPECT_EQ(lengths()[0].length, diagonal);

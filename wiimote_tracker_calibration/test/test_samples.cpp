@@ -208,7 +208,7 @@ TEST(SolveSamples, AWandNeedsNoSquare) {
   EXPECT_TRUE(solution.verdict.predicted_at.empty());
   EXPECT_TRUE(solution.verdict.predicted_stddev.empty());
   EXPECT_EQ(solution.verdict.cameras[0].position_stddev, 0.0);
-  EXPECT_SAYS(solution.verdict.text, "points along the wave expected within ");
+  EXPECT_SAYS(solution.verdict.text, "points where the LED was waved expected within ");
   EXPECT_SAYS(solution.verdict.text, "to one another");
 }
 

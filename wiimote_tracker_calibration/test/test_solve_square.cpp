@@ -331,7 +331,8 @@ TEST_F(FourCameras, IsDeterministic) {
 
 /// Else residuals of 0.00 px look like a measurement.
 TEST_F(FourCameras, TheVerdictSaysThatFittedCornersMakeResidualsSmall) {
-  const std::string fitted = "px (0.0 mm) with the corners fitted, points over the square";
+  const std::string fitted =
+      "px (0.0 mm) with the corners fitted; points in the box over the square";
   SolveOptions options;
   EXPECT_SAYS(solveSquare(layout_, simulated_.sightings, options).rig.verdict, fitted);
   options.method = Method::kPerCamera;

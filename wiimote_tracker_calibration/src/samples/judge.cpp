@@ -153,10 +153,10 @@ Accuracy accuracyOf(const Samples& samples, const square::Solution& found, const
     accuracy.share = std::fmax(accuracy.share, stddev / meanDistance(rig, verdict.predicted_at[i]));
   }
   if (std::isfinite(below))
-    accuracy.text = "points are known to " + millimetres(below) + " at the corners";
+    accuracy.text = "points are known to " + millimetres(below) + " at the worst corner";
   if (std::isfinite(above))
     accuracy.text += (accuracy.text.empty() ? "points are known to " : " and ") +
-                     millimetres(above) + " at 2.5 m above them";
+                     millimetres(above) + " at the worst place 2.5 m above one";
   if (accuracy.text.empty())
     accuracy.text = "no two cameras look at a corner or at 2.5 m above one";
   return accuracy;

@@ -132,8 +132,8 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
   best.expected_error = std::sqrt(least);
   if (!(best.expected_error < (1.0 - kLeastGain) * std::sqrt(now)))
     return std::nullopt;
-  best.text =
-      textOf(best) + format(": %.1f -> %.1f mm", 1e3 * std::sqrt(now), 1e3 * best.expected_error);
+  best.text = textOf(best) + format(": expected RMS error %.1f -> %.1f mm", 1e3 * std::sqrt(now),
+                                    1e3 * best.expected_error);
   return best;
 }
 

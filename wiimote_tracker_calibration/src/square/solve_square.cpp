@@ -170,7 +170,7 @@ std::string describe(const Solution& solution) {
   if (solution.joint_covariance.size() > 0)  // else the corners were taken as exact
     text += " with the corners fitted";
   if (std::isfinite(solution.expected_error))
-    text += format(", points over the square expected within %.0f mm (RMS)",
+    text += format("; points in the box over the square expected within %.0f mm (RMS)",
                    1000.0 * solution.expected_error);
   return text;
 }

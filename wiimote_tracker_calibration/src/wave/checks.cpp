@@ -211,8 +211,10 @@ void checkSolution(const Task& task, square::Solution* solution) {
   if (recording.square && recording.wand) {
     const double off = solution->wave->wand_length - recording.wand->length;
     if (std::abs(off) > kWarnDeviation * recording.wand->stddev)
-      solution->warnings.push_back("by the square the wand is " + format("%+.1f mm", 1e3 * off) +
-                                   " longer than stated: measure the wand and the square again");
+      solution->warnings.push_back("by the square the wand is " +
+                                   format("%.1f mm ", 1e3 * std::abs(off)) +
+                                   (off > 0.0 ? "longer" : "shorter") +
+                                   " than stated: measure the wand and the square again");
   }
 }
 
@@ -245,7 +247,8 @@ std::string describe(const Recording& recording, const square::Solution& solutio
       1e3 * worst_offset);
   if (std::isfinite(solution.expected_error))
     text += format(
-        ", points along the wave expected within %.1f mm (RMS) in %s, %.1f mm to one another",
+        "; points where the LED was waved expected within %.1f mm (RMS) in %s, %.1f mm to one "
+        "another",
         1e3 * solution.expected_error, worldOf(recording, solution.rig).c_str(),
         1e3 * solution.wave->expected_shape_error);
   return text;

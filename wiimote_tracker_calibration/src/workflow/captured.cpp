@@ -118,8 +118,10 @@ Reply Captured::measureLength(const square::TapedLength& taped, double placement
   dropLengths(same, this);
   layout->lengths.push_back(taped);
   ++latest_lengths;
-  return {true, format("%s is %.4f m by tape, %+.1f mm against the sides: solve again",
-                       name.c_str(), taped.length, 1e3 * (taped.length - by_sides))};
+  const double longer = taped.length - by_sides;
+  return {true,
+          format("%s is %.4f m by tape, %.1f mm %s than by the sides: solve again", name.c_str(),
+                 taped.length, 1e3 * std::abs(longer), longer < 0.0 ? "less" : "more")};
 }
 
 void Captured::dropLengthsTo(std::size_t corner) {

@@ -180,8 +180,21 @@ TEST(Log, WhatIsPutRightAgainAndAgainIsNamedNowAndThen) {
     }
   });
   EXPECT_EQ(1, count(text, "images come from")) << text;
-  EXPECT_EQ(2, count(text, "put right: the report mode was changed")) << text;
+  EXPECT_EQ(3, count(text, "put right: the report mode was changed")) << text;
   EXPECT_EQ(2, count(text, "another program")) << text;
+}
+
+// As on a busy computer.
+TEST(Log, WhatIsPutRightOnceIsNoWarning) {
+  LinkLog log("wiimote_1", true);
+  wiimote::Link link;
+  link.accelerometer_calibrated = true;
+  link.state = wiimote::Link::State::kStreaming;
+  link.restorations = 1;
+  link.last_restoration = "the images stopped";
+  const std::string text = printed([&] { log.report(link, 0.0); });
+  EXPECT_EQ(1, count(text, "put right: the images stopped")) << text;
+  EXPECT_EQ(0, count(text, "WARN")) << text;
 }
 
 TEST(Log, EachNewStreamIsAnnounced) {

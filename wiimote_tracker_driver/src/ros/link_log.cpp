@@ -73,16 +73,19 @@ void LinkLog::reportError(const std::string& error, double now) {
 }
 
 void LinkLog::reportRestoration(const wiimote::Link& link, double now) {
-  if (link.restorations == restorations_ ||
-      (restorations_ > 0 && now - restoration_logged_at_ <= kRepeatRestorationAfter))
+  if (link.restorations == restorations_ || now - restoration_logged_at_ <= kRepeatRestorationAfter)
     return;
+  restorations_ = link.restorations;
+  if (restorations_ == 1) {  // a busy computer does this, too
+    ROS_INFO("%s: put right: %s", camera_.c_str(), link.last_restoration.c_str());
+    return;
+  }
+  restoration_logged_at_ = now;
   ROS_WARN(
       "%s: put right: %s (%llu in all); if this repeats, another program uses the remote: "
       "stop it, or see doc/session.md of wiimote_tracker_driver",
       camera_.c_str(), link.last_restoration.c_str(),
-      static_cast<unsigned long long>(link.restorations));
-  restorations_ = link.restorations;
-  restoration_logged_at_ = now;
+      static_cast<unsigned long long>(restorations_));
 }
 
 void LinkLog::reportStream(const wiimote::Link& link) const {

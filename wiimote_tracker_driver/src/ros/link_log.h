@@ -4,6 +4,7 @@
 #include "wiimote/wiimote.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -45,7 +46,7 @@ class LinkLog {
   std::string error_;  ///< Logged, and not yet followed by a stream.
   double error_logged_at_ = 0.0;
   std::uint64_t restorations_ = 0;  ///< Logged already.
-  double restoration_logged_at_ = 0.0;
+  double restoration_logged_at_ = -std::numeric_limits<double>::infinity();
   std::string notice_;
 };
 

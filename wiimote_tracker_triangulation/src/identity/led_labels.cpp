@@ -202,6 +202,15 @@ void LedLabels::setConfidence(double confidence, double same, LedLabel* given) {
   given->confidence = confidence;
 }
 
+std::vector<std::string> LedLabels::doubtfulNow() const {
+  std::vector<std::string> labels;
+  for (const auto& [label, place] : places_) {
+    if (place.confidence < kDoubtfulLabel && hasTrack(label))
+      labels.push_back(label);
+  }
+  return labels;
+}
+
 std::string LedLabels::correct(const std::string& label, const std::string& right) {
   const auto led = std::find_if(tracked_.begin(), tracked_.end(),
                                 [&](std::uint32_t id) { return of(id).name == label; });

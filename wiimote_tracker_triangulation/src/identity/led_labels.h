@@ -88,6 +88,9 @@ class LedLabels {
   /// Labels that became doubtful by the last update, or once more.
   const std::vector<std::string>& doubtful() const { return doubtful_; }
 
+  /// Doubtful labels of LEDs that have a track.
+  std::vector<std::string> doubtfulNow() const;
+
  private:
   /// The free label that fits an LED best.
   struct Choice {

@@ -1,6 +1,5 @@
 #include "tracking_diagnostics.h"
 
-#include <wiimote_tracker_msgs/doubtful_label.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -14,15 +13,6 @@ using tracking::TrackState;
 
 // From a new rig until the images of its cameras can be judged.
 const ros::WallDuration kFirstImages(1.0);
-
-std::string doubtfulLabels(const identity::LedLabels& labels) {
-  std::string names;
-  for (const auto& [label, place] : labels.places()) {
-    if (place.confidence < kDoubtfulLabel)
-      names += (names.empty() ? "" : ", ") + label;
-  }
-  return names;
-}
 
 }  // namespace
 
@@ -104,7 +94,7 @@ void TrackingDiagnostics::report(Status& status) {
   status.add("LEDs tracked", statistics.leds(TrackState::kTracked));
   status.add("LEDs predicted", statistics.leds(TrackState::kPredicted));
   status.add("LEDs tentative", statistics.leds(TrackState::kTentative));
-  status.add("LEDs with doubtful labels", doubtfulLabels(tracker_->labels()));
+  status.add("LEDs with doubtful labels", joined(tracker_->labels().doubtfulNow()));
   status.addf("rate [Hz]", "%.1f", statistics.snapshots() / period());
   status.addf("latency p50 [ms]", "%.3f", 1e3 * statistics.latency(0.50));
   status.addf("latency p99 [ms]", "%.3f", 1e3 * statistics.latency(0.99));

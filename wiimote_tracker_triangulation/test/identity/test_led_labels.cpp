@@ -361,9 +361,11 @@ TEST(LedLabels, AreNamedAgainWhenTheyBecomeDoubtfulOnceMore) {
       led.state = TrackState::kLost;
     labels.update(time - 60.0, leds);
     labels.update(time, {});
+    EXPECT_TRUE(labels.doubtfulNow().empty()) << "dark";
     for (TrackedLed& led : leds)
       led = at(led.id + 2, led.position.x());
     labels.update(time, leds);
+    EXPECT_EQ(2u, labels.doubtfulNow().size()) << time;
     EXPECT_EQ(2u, labels.doubtful().size()) << time;
     labels.update(time, leds);
     EXPECT_TRUE(labels.doubtful().empty()) << "said once";

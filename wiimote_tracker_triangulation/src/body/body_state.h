@@ -6,6 +6,7 @@
 #include "body/inertial_filter.h"
 #include "body/inertial_samples.h"
 #include "body/solve_pose.h"
+#include "tracking/timed_image.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -115,22 +116,15 @@ struct BodyState {
 };
 
 /// An image to track bodies in.
-struct BodyImage {
+struct BodyImage : tracking::TimedImage {
   struct LabelStart {
     std::size_t body;
     BodyPose pose;
   };
 
-  std::size_t camera;
-  double time;          ///< [s]
-  double stamp_stddev;  ///< [s]
   std::vector<Eigen::Vector2d> pixels;
   bool is_doubtful = false;        ///< Of a camera that does not fit the others.
   std::vector<LabelStart> starts;  ///< Of bodies that were unknown after this image.
-
-  bool operator<(const BodyImage& other) const {
-    return time != other.time ? time < other.time : camera < other.camera;
-  }
 };
 
 }  // namespace wiimote_tracker::body

@@ -12,22 +12,6 @@ namespace {
 /// Images that may be computed again per new image, because samples of an IMU came later.
 constexpr std::size_t kRepeats = 16;
 
-/// Of a camera's time offset, with which images before and after it cannot be combined [s].
-constexpr double kOffsetJump = 0.05;
-
-double offsetOf(const geometry::RigCamera& camera) {
-  return camera.time_offset_rule == geometry::TimeOffsetRule::kNone ? 0.0 : camera.time_offset;
-}
-
-bool haveSameTimes(const geometry::Rig& before, const geometry::Rig& now) {
-  return std::all_of(now.cameras.begin(), now.cameras.end(), [&](const auto& camera) {
-    return std::all_of(before.cameras.begin(), before.cameras.end(), [&](const auto& other) {
-      return other.camera.name != camera.camera.name ||
-             std::abs(offsetOf(other) - offsetOf(camera)) < kOffsetJump;
-    });
-  });
-}
-
 void lose(BodyEstimate* body) {
   body->lost = true;
   for (LedEstimate& led : body->leds)
@@ -37,7 +21,10 @@ void lose(BodyEstimate* body) {
 }  // namespace
 
 BodyTracker::BodyTracker(const BodyTrackerOptions& options)
-    : setup_{options, {}, {}, {}, {}}, update_(setup_, &state_) {}
+    : setup_{options, {}, {}, {}, {}},
+      intake_(options.stamp_stddev),
+      history_(&state_, options.history),
+      update_(setup_, &state_) {}
 
 BodyTracker::BodyTracker(const geometry::Rig& rig,
                          const std::vector<Constellation>& constellations,
@@ -57,30 +44,23 @@ void BodyTracker::useRig(const geometry::Rig& rig) {
 
 void BodyTracker::setRig(const geometry::Rig& rig) {
   rig.check();
-  const bool keeps_times = haveSameTimes(setup_.rig, rig);
-  if (!keeps_times)
+  if (!intake_.setRig(rig))
     reset();
-  if (!arrival_clocks_ || !keeps_times || !haveSameCameras(setup_.rig, rig))
-    arrival_clocks_.emplace(rig.cameras.size(), arrival_clocks_
-                                                    ? arrival_clocks_->newestUsed()
-                                                    : -std::numeric_limits<double>::infinity());
   auto images = history_.images();
-  if (!images.empty())
-    history_.rollBack(images.begin(), &state_);
+  history_.rollBack(images.begin());
   history_.clear();
   const std::vector<geometry::RigCamera> before = setup_.rig.cameras;
   useRig(rig);
   for (std::uint64_t i = images.begin(); i < images.end(); ++i) {
-    BodyImage& image = images.at(i);
     const auto same = std::find_if(rig.cameras.begin(), rig.cameras.end(), [&](const auto& camera) {
-      return camera.camera.name == before[image.camera].camera.name;
+      return camera.camera.name == before[images.at(i).camera].camera.name;
     });
     if (same == rig.cameras.end())
       continue;
-    image.camera = same - rig.cameras.begin();
-    history_.insert(history_.images().end(), image);
-    step(history_.images().end() - 1);
+    images.at(i).camera = same - rig.cameras.begin();
+    history_.add(images.at(i));
   }
+  history_.catchUp([this](const BodyImage& image) { step(image); });
   for (std::optional<KnownBody>& body : state_.bodies) {
     if (body && time_ - body->last_observed > setup_.options.tracked_time)
       body.reset();
@@ -151,74 +131,46 @@ void BodyTracker::reset() {
   estimates_.assign(setup_.bodies.size(), std::nullopt);
 }
 
-bool BodyTracker::add(std::size_t camera,
-                      double time,
-                      double stamp_stddev,
-                      const std::vector<Eigen::Vector2d>& pixels,
-                      bool is_doubtful) {
-  taken_.assign(pixels.size(), false);
-  fit_ = {};
-  image_.camera = camera;
-  image_.time = time;
-  image_.stamp_stddev = stamp_stddev;
-  image_.pixels = pixels;
-  image_.is_doubtful = is_doubtful;
-  const auto place = history_.placeOf(image_);
-  if (!place || time < time_ - setup_.options.history)
-    return false;
-  const auto& images = history_.images();
-  std::uint64_t next = firstOutdated(*place);
-  if (next < images.end())
-    next = history_.rollBack(next, &state_);
-  history_.insert(*place, image_);
-  for (; next < images.end(); ++next) {
-    step(next);
-    if (next == *place) {
-      taken_ = update_.taken();
-      fit_ = update_.fit();
-    }
-  }
-  time_ = std::max(time_, time);
-  history_.forgetBefore(time_ - setup_.options.history);
-  estimate();
-  return true;
-}
-
 void BodyTracker::take(std::size_t camera,
                        const tracking::ClockError& clock,
                        tracking::CameraImage* image,
                        bool is_doubtful) {
+  using Result = tracking::ImageIntake::Result;
   image->bodies = {};
   if (constellations_.empty())
     return;
-  const geometry::RigCamera& calibration = setup_.rig.cameras[camera];
-  const tracking::ImageTimes times = tracking::timesOf(calibration, *image);
-  switch (arrival_clocks_->check(camera, times)) {
-    case tracking::ArrivalClocks::Result::kWrongClock:
-      return;
-    case tracking::ArrivalClocks::Result::kJumpedBack:
-      reset();
-      latest_arrival_ = image->arrival;
-      last_output_ = -std::numeric_limits<double>::infinity();
-      break;
-    case tracking::ArrivalClocks::Result::kUsable:
-      break;
+  const Result result = intake_.take(camera, *image, clock, &image_);
+  if (result == Result::kWrongClock)
+    return;
+  if (result == Result::kJumpedBack) {
+    reset();
+    latest_arrival_ = image->arrival;
+    last_output_ = -std::numeric_limits<double>::infinity();
   }
+  image_.is_doubtful = is_doubtful;
+  image_.pixels.clear();
   const auto isMasked = [&](const tracking::Spot& spot) {
-    return geometry::isMasked(calibration.masks, spot.pixel);
+    return geometry::isMasked(setup_.rig.cameras[camera].masks, spot.pixel);
   };
-  pixels_.clear();
   for (const tracking::Spot& spot : image->spots) {
     if (!isMasked(spot))
-      pixels_.push_back(spot.pixel);
+      image_.pixels.push_back(spot.pixel);
   }
-  const double stamp_stddev =
-      std::isnan(image->stamp_stddev) ? setup_.options.stamp_stddev : image->stamp_stddev;
-  if (!add(camera, times.exposure - clock.offset,
-           std::hypot(stamp_stddev, std::sqrt(clock.variance)), pixels_, is_doubtful))
+  const tracking::Outcome outcome = history_.add(image_);
+  if (outcome == tracking::Outcome::kDropped || outcome == tracking::Outcome::kRepeated)
     return;
+  const std::uint64_t place = *history_.placeOf(image_);
+  history_.rollBack(firstOutdated(place));
+  history_.catchUp([&](const BodyImage& stored) {
+    step(stored);
+    if (&stored == &history_.images().at(place)) {
+      taken_ = update_.taken();
+      image->bodies = update_.fit();
+    }
+  });
+  time_ = std::max(time_, image_.time);
+  estimate();
   latest_arrival_ = std::max(latest_arrival_, image->arrival);
-  image->bodies = fit_;
   auto taken = taken_.begin();  // of each spot that is not masked
   std::size_t kept = 0;
   for (const tracking::Spot& spot : image->spots) {
@@ -266,9 +218,7 @@ void BodyTracker::addInertial(std::size_t body, const InertialSample& sample) {
   inertial_change_ = std::min(inertial_change_, setup_.bodies[body].inertial.add(sample));
 }
 
-void BodyTracker::step(std::uint64_t place) {
-  history_.keep(place, state_);
-  const BodyImage& image = history_.images().at(place);
+void BodyTracker::step(const BodyImage& image) {
   update_.follow(image);
   dropLost(image.time);
   search_->find(image);

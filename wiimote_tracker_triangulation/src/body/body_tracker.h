@@ -7,8 +7,8 @@
 #include "body/body_update.h"
 #include "body/constellation.h"
 #include "body/inertial_samples.h"
-#include "tracking/arrival_clocks.h"
 #include "tracking/history.h"
+#include "tracking/image_intake.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
@@ -85,16 +85,6 @@ class BodyTracker {
   /// next call.
   const BodySnapshot* next();
 
-  /// As take(), for the spots of a camera's image whose time is known.
-  /// @param time exposure [s]. @param stamp_stddev of that time [s, >= 0].
-  /// @param pixels distorted, finite [px].
-  /// @returns false, and does nothing, if the image is too old.
-  bool add(std::size_t camera,
-           double time,
-           double stamp_stddev,
-           const std::vector<Eigen::Vector2d>& pixels,
-           bool is_doubtful = false);
-
   /// Adds a sample of the IMU of a body, whose constellation has one. A late sample changes the
   /// estimates from the next image on.
   void addInertial(std::size_t body, const InertialSample& sample);
@@ -112,7 +102,7 @@ class BodyTracker {
   void useRig(const geometry::Rig& rig);
   void replaceBodies(const std::vector<Constellation>& constellations);
   std::uint64_t firstOutdated(std::uint64_t place);
-  void step(std::uint64_t place);
+  void step(const BodyImage& image);
   void dropLost(double time);
   void estimate();
   void reset();
@@ -120,6 +110,7 @@ class BodyTracker {
   std::vector<Constellation> constellations_;
   BodySetup setup_;
   BodyState state_;
+  tracking::ImageIntake intake_;
   tracking::History<BodyImage, BodyState> history_;
   BodyUpdate update_;
   std::optional<BodySearch> search_;  // nothing without a rig
@@ -130,16 +121,11 @@ class BodyTracker {
 
   double time_ = -std::numeric_limits<double>::infinity();
   std::vector<std::optional<BodyEstimate>> estimates_;
-  std::vector<bool> taken_;  // spots of the image added last, by a body
-  tracking::LedFit fit_;     // of that image; each body counts as one LED
-  BodyImage image_;          // of add(), reused
-
-  // Of take() and next():
-  std::optional<tracking::ArrivalClocks> arrival_clocks_;  // nothing without a rig
-  double latest_arrival_ = 0.0;                            // [s]
+  std::vector<bool> taken_;      // spots of the last image, by a body
+  BodyImage image_;              // the last one; reused
+  double latest_arrival_ = 0.0;  // [s]
   double last_output_ = -std::numeric_limits<double>::infinity();
   BodySnapshot snapshot_;
-  std::vector<Eigen::Vector2d> pixels_;  // reused
 };
 
 }  // namespace wiimote_tracker::body

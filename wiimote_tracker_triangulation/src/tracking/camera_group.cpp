@@ -19,8 +19,6 @@ constexpr CameraFit::Limits kFitOfMany{40.0, 0.4, 0.7};
 // cameras sees look like misfits, too.
 constexpr CameraFit::Limits kFitOfTwo{30.0, 0.55, 0.1};
 
-constexpr double kLeastInterval = 1e-4;  // between exposures of one camera [s]
-
 /// Standard deviation of each camera's turn about its optical axis [rad] or of its focal length, as
 /// a share of it, the larger one; 0 without a covariance.
 std::vector<double> turnStddevs(const geometry::Rig& rig) {
@@ -46,7 +44,12 @@ CameraGroup::CameraGroup(const GroupSetup& setup,
                          const std::vector<std::vector<std::size_t>>& partners,
                          Ids* ids,
                          std::vector<CameraView>* views)
-    : setup_(setup), ids_(ids), views_(views), members_(members), clocks_(members) {
+    : setup_(setup),
+      ids_(ids),
+      views_(views),
+      members_(members),
+      clocks_(members),
+      history_(&state_, setup.options.history) {
   const CameraFit fit(setup_.options.ghost_rate, members_.size() > 2 ? kFitOfMany : kFitOfTwo);
   for (const std::size_t member : members_)
     state_.cameras.emplace(member, CameraState{fit, {}, {}, {}});
@@ -69,58 +72,17 @@ bool CameraGroup::isDoubtful() const {
   return members_.size() == 2 && (isMisfit(members_[0]) || isMisfit(members_[1]));
 }
 
-CameraGroup::Outcome CameraGroup::add(const StoredImage& image) {
-  const auto& images = history_.images();
-  if (!images.empty() && image.time < images.back().time - setup_.options.history)
-    return Outcome::kDropped;
-  auto place = history_.placeOf(image);
-  if (!place)
-    return Outcome::kDropped;
-  if (*place > images.begin()) {
-    const StoredImage& before = images.at(*place - 1);
-    if (before.time == image.time && before.camera == image.camera)
-      return Outcome::kRepeated;
-  }
-  const auto mistimed = mistimedBefore(*place, image);
-  const bool is_late = mistimed || *place < images.end();
-  const std::uint64_t first_changed = mistimed.value_or(*place);
-  if (first_changed < next_step_)
-    next_step_ = history_.rollBack(first_changed, &state_);
-  if (mistimed) {
-    history_.remove(*mistimed);
-    --*place;
-  }
-  history_.insert(*place, image);
-  if (is_late)
-    return Outcome::kLate;
-  update();
-  history_.forgetBefore(images.back().time - setup_.options.history);
-  return Outcome::kAdded;
+Outcome CameraGroup::add(const StoredImage& image) {
+  const Outcome outcome = history_.add(image);
+  if (outcome == Outcome::kAdded)
+    update();
+  return outcome;
 }
 
 void CameraGroup::update() {
-  for (; next_step_ < history_.images().end(); ++next_step_) {
-    history_.keep(next_step_, state_);
-    step(history_.images().at(next_step_));
-  }
+  history_.catchUp([this](const StoredImage& image) { step(image); });
   if (state_.clocks == clocks_.version())
     clocks_.update(state_.cameras);
-}
-
-/// Finds an image of the same camera at nearly the same time. A busy computer delivers delayed
-/// images in a burst with nearly equal stamps, of which only the last is right. The others would
-/// make the LED appear to stop and jump.
-std::optional<std::uint64_t> CameraGroup::mistimedBefore(std::uint64_t place,
-                                                         const StoredImage& image) const {
-  const auto& images = history_.images();
-  for (std::uint64_t i = place; i > images.begin() && history_.canRepeatFrom(i - 1); --i) {
-    const StoredImage& before = images.at(i - 1);
-    if (before.time < image.time - kLeastInterval)
-      break;
-    if (before.camera == image.camera && before.arrival <= image.arrival)
-      return i - 1;
-  }
-  return std::nullopt;
 }
 
 void CameraGroup::step(const StoredImage& image) {
@@ -224,7 +186,6 @@ void CameraGroup::adopt(const Track& track) {
 
 void CameraGroup::clear() {
   history_.clear();
-  next_step_ = 0;
   state_.tracks.clear();
   state_.pairs.clear();
   for (auto& [camera, state] : state_.cameras) {

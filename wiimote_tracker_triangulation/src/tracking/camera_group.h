@@ -17,9 +17,6 @@ namespace wiimote_tracker::tracking {
 /// they see. Groups are independent of each other.
 class CameraGroup {
  public:
-  /// What happened to an image.
-  enum class Outcome { kAdded, kLate, kRepeated, kDropped };
-
   /// @param setup its parts must live longer, with useRig() where they change, and options longer
   /// than the tracks, also those that another group adopts.
   /// @param members the group's cameras, as their indices in the rig, ascending.
@@ -63,7 +60,6 @@ class CameraGroup {
   void clear();
 
  private:
-  std::optional<std::uint64_t> mistimedBefore(std::uint64_t place, const StoredImage& image) const;
   void step(const StoredImage& image);
   void updateStatuses(double time, bool in_crowd);
   void collectUnassigned(const StoredImage& image, const association::TrackOfSpot& track_of_spot);
@@ -76,8 +72,7 @@ class CameraGroup {
   std::vector<std::size_t> members_;
   std::optional<TrackInitiation> initiation_;  // never empty
   CameraClocks clocks_;
-  GroupState state_;  // before the image of index next_step_
-  std::uint64_t next_step_ = 0;
+  GroupState state_;
   History<StoredImage, GroupState> history_;
 };
 

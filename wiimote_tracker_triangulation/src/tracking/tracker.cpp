@@ -3,7 +3,7 @@
 #include "camera_group.h"
 #include "crowd.h"
 #include "ids.h"
-#include "tracking/arrival_clocks.h"
+#include "tracking/image_intake.h"
 #include "wiimote_tracker_triangulation/geometry/shared_views.h"
 
 #include <algorithm>
@@ -24,6 +24,7 @@ bool hasSmallerId(const TrackedLed& a, const TrackedLed& b) {
 
 Tracker::Tracker(const geometry::Rig& rig, const TrackerOptions& options)
     : options_(options),
+      intake_(std::make_unique<ImageIntake>(options.stamp_stddev)),
       ids_(std::make_unique<Ids>()),
       newest_time_(kNever),
       newest_arrival_(kNever),
@@ -61,6 +62,7 @@ bool Tracker::hasSameGroups(const geometry::Rig& rig, const Partners& partners) 
 
 void Tracker::useCameras(const geometry::Rig& rig) {
   rig_ = rig;
+  intake_->setRig(rig);
   uncertainty_.emplace(rig_);
   cameras_.clear();
   for (const geometry::RigCamera& camera : rig_.cameras)
@@ -77,8 +79,6 @@ void Tracker::useRig(const geometry::Rig& rig, const Partners& partners) {
     for (const std::size_t member : members)
       inputs_[member] = Input{groups_.back().get()};
   }
-  arrival_clocks_ = std::make_unique<ArrivalClocks>(
-      rig_.cameras.size(), arrival_clocks_ ? arrival_clocks_->newestUsed() : kNever);
   views_.assign(rig_.cameras.size(), CameraView());
 }
 
@@ -101,34 +101,35 @@ void Tracker::takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& be
 }
 
 void Tracker::add(std::size_t camera, const CameraImage& image) {
-  const ImageTimes times = timesOf(rig_.cameras.at(camera), image);
-  const ArrivalClocks::Result result = arrival_clocks_->check(camera, times);
-  counters_.disordered += arrival_clocks_->isDisordered();
-  if (result == ArrivalClocks::Result::kWrongClock) {
+  StoredImage stored;
+  const ImageIntake::Result result =
+      intake_->take(camera, image, clockError(camera, image.clock_epoch), &stored);
+  counters_.disordered += intake_->isDisordered();
+  if (result == ImageIntake::Result::kWrongClock) {
     ++counters_.dropped;
     return;
   }
-  if (result == ArrivalClocks::Result::kJumpedBack)
+  if (result == ImageIntake::Result::kJumpedBack)
     reset();
-  const StoredImage stored_image = stored(camera, image, times.exposure);
+  complete(image, &stored);
   Input& input = inputs_[camera];
-  switch (input.group->add(stored_image)) {
-    case CameraGroup::Outcome::kRepeated:
+  switch (input.group->add(stored)) {
+    case Outcome::kRepeated:
       ++counters_.repeated;
       return;
-    case CameraGroup::Outcome::kDropped:
+    case Outcome::kDropped:
       ++counters_.dropped;
       ++input.dropped_in_a_row;
-      input.lateness = newest_time_ - stored_image.time;
+      input.lateness = newest_time_ - stored.time;
       return;
-    case CameraGroup::Outcome::kLate:
+    case Outcome::kLate:
       ++counters_.late;
       break;
-    case CameraGroup::Outcome::kAdded:
+    case Outcome::kAdded:
       break;
   }
   input.dropped_in_a_row = 0;
-  newest_time_ = std::max(newest_time_, stored_image.time);
+  newest_time_ = std::max(newest_time_, stored.time);
   newest_arrival_ = std::max(newest_arrival_, image.arrival);
   ids_->forgetBefore(newest_time_ - 2.0 * options_.history);
 }
@@ -142,36 +143,28 @@ void Tracker::reset() {
   newest_time_ = newest_arrival_ = last_output_ = kNever;
 }
 
-/// The image at its time by the camera's corrected clock, with the usable spots first, then the
-/// masked ones. Spots outside the image are left out. @param exposure by the rig's time offset [s]
-StoredImage Tracker::stored(std::size_t camera, const CameraImage& image, double exposure) {
+/// Adds to an image's time all else, with the usable spots first, then the masked ones. Spots
+/// outside the image are left out.
+void Tracker::complete(const CameraImage& image, StoredImage* stored) {
+  const std::size_t camera = stored->camera;
   CameraClocks& clocks = inputs_[camera].group->clocks();
   clocks.enterEpoch(camera, image.clock_epoch,
                     !rig_.cameras[camera].hasNewClock(image.clock_epoch));
-  const ClockError clock = clockError(camera, image.clock_epoch);
-  const double stamp_stddev =
-      std::isnan(image.stamp_stddev) ? options_.stamp_stddev : image.stamp_stddev;
-  StoredImage result;
-  result.camera = camera;
-  result.time = exposure - clock.offset;
-  result.arrival = image.arrival;
-  result.stamp_stddev = std::hypot(stamp_stddev, std::sqrt(clock.variance));
-  result.clocks = clocks.version();
-  result.number = images_++;
-  result.full = image.spots.size() >= image.maximum_spots;
-  result.bodies = image.bodies;
+  stored->clocks = clocks.version();
+  stored->number = images_++;
+  stored->full = image.spots.size() >= image.maximum_spots;
+  stored->bodies = image.bodies;
   const TrackerCamera& view = cameras_[camera];
   const auto collect = [&](bool masked) {
     for (const Spot& spot : image.spots) {
       if (view.isInImage(spot.pixel, 0.5) && view.isMasked(spot.pixel) == masked &&
-          result.pixels.size() < result.pixels.capacity())
-        result.pixels.push_back(spot.pixel);
+          stored->pixels.size() < stored->pixels.capacity())
+        stored->pixels.push_back(spot.pixel);
     }
   };
   collect(false);
-  result.spot_count = result.pixels.size();
+  stored->spot_count = stored->pixels.size();
   collect(true);
-  return result;
 }
 
 void Tracker::updateGroups() {
@@ -253,7 +246,7 @@ void Tracker::addLost() {
 }
 
 std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
-  if (const std::optional<double> ahead = arrival_clocks_->ahead(camera))
+  if (const std::optional<double> ahead = intake_->ahead(camera))
     return CameraFault{CameraFault::Kind::kWrongClock, *ahead};
   // More than a driver reads at once after a pause.
   constexpr std::size_t kManyLate = 100;

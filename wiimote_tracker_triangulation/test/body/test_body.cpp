@@ -19,7 +19,6 @@ using test::FollowedBody;
 using test::fourLeds;
 using test::handheld;
 using test::pathsOf;
-using test::pixelsOf;
 using test::randomPose;
 using test::rotationError;
 using test::tumbling;
@@ -174,7 +173,7 @@ TEST(BodyTracker, TwoBodiesAndAFreeLed) {
   int good = 0;
   while (tracker.time() < 1006.0 || std::isinf(tracker.time())) {
     const tracking::test::SceneImage& image = scene.next();
-    tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, pixelsOf(image));
+    test::take(image, &tracker);
     if (tracker.time() < 1001.0 || !tracker.bodies()[0] || !tracker.bodies()[1])
       continue;
     ++known;
@@ -186,63 +185,6 @@ TEST(BodyTracker, TwoBodiesAndAFreeLed) {
   }
   EXPECT_GE(known, 1900);
   EXPECT_GE(good, known * 99 / 100);
-}
-
-TEST(BodyTracker, TheOrderOfArrivalDoesNotMatter) {
-  tracking::test::SceneOptions options = halfAPixel();
-  options.delay_jitter = 0.004;
-  tracking::test::Scene scene(paperRig(), pathsOf(fourLeds(), handheld), options, 27);
-  struct Image {
-    std::size_t camera;
-    double time;
-    std::vector<Eigen::Vector2d> pixels;
-  };
-  std::vector<Image> images;
-  for (int i = 0; i < 800; ++i) {
-    const tracking::test::SceneImage& image = scene.next();
-    images.push_back({image.camera, image.image.stamp, pixelsOf(image)});
-  }
-  BodyTracker as_arrived(paperRig(), {fourLeds()}, BodyTrackerOptions());
-  for (const Image& image : images)
-    EXPECT_TRUE(as_arrived.add(image.camera, image.time, 0.0, image.pixels));
-  const bool was_sorted = std::is_sorted(
-      images.begin(), images.end(), [](const Image& a, const Image& b) { return a.time < b.time; });
-  EXPECT_FALSE(was_sorted);
-  std::sort(images.begin(), images.end(),
-            [](const Image& a, const Image& b) { return a.time < b.time; });
-  BodyTracker in_order(paperRig(), {fourLeds()}, BodyTrackerOptions());
-  for (const Image& image : images)
-    in_order.add(image.camera, image.time, 0.0, image.pixels);
-  ASSERT_TRUE(as_arrived.bodies()[0]);
-  ASSERT_TRUE(in_order.bodies()[0]);
-  EXPECT_EQ(as_arrived.bodies()[0]->world_from_body.matrix(),
-            in_order.bodies()[0]->world_from_body.matrix());
-  EXPECT_FALSE(as_arrived.add(0, as_arrived.time() - 1.0, 0.0, {}));
-}
-
-TEST(BodyTracker, TwoImagesOfOneTimeMayComeInEitherOrder) {
-  tracking::test::SceneOptions options = halfAPixel();
-  options.synchronised = true;
-  BodyTracker forth(paperRig(), {fourLeds()}, BodyTrackerOptions());
-  BodyTracker back(paperRig(), {fourLeds()}, BodyTrackerOptions());
-  tracking::test::Scene scene(paperRig(), pathsOf(fourLeds(), handheld), options, 30);
-  for (int instant = 0; instant < 50; ++instant) {
-    std::vector<std::vector<Eigen::Vector2d>> pixels(4);
-    double time = 0.0;
-    for (int i = 0; i < 4; ++i) {
-      const tracking::test::SceneImage& image = scene.next();
-      time = image.image.stamp;
-      pixels[image.camera] = pixelsOf(image);
-    }
-    for (std::size_t i = 0; i < 4; ++i) {
-      forth.add(i, time, 0.0, pixels[i]);
-      back.add(3 - i, time, 0.0, pixels[3 - i]);
-    }
-  }
-  ASSERT_TRUE(forth.bodies()[0]);
-  ASSERT_TRUE(back.bodies()[0]);
-  EXPECT_EQ(forth.bodies()[0]->world_from_body.matrix(),
-            back.bodies()[0]->world_from_body.matrix());
 }
 
 /// Images of a body at rest without errors, camera by camera.
@@ -259,7 +201,7 @@ void showExactly(const Isometry3d& pose,
       if (camera.sees(pose * led))
         pixels.push_back(*camera.project(pose * led));
     }
-    tracker->add(static_cast<std::size_t>(i) % 4, 1000.0 + 0.0025 * i, 0.0, pixels);
+    test::take(static_cast<std::size_t>(i) % 4, 1000.0 + 0.0025 * i, pixels, tracker);
   }
 }
 
@@ -347,13 +289,13 @@ TEST_F(SymmetricBody, FoundByItsLabelsSurvivesALateImage) {
   tracker_.startFromLabels(points);
   ASSERT_TRUE(tracker_.bodies()[0]);
   const double first_seen = tracker_.bodies()[0]->first_seen;
-  tracker_.add(0, tracker_.time() - 0.005, 0.0, {});
+  test::take(0, tracker_.time() - 0.005, {}, &tracker_);
   ASSERT_TRUE(tracker_.bodies()[0]) << "the newest image was computed again";
   EXPECT_EQ(tracker_.bodies()[0]->first_seen, first_seen);
   // Also after another body has come first.
   const Constellation other{"other", {{0.0, 0.0, 0.0}, {0.3, 0.0, 0.0}, {0.0, 0.4, 0.1}}};
   tracker_.setBodies({other, square_});
-  tracker_.add(1, tracker_.time() - 0.005, 0.0, {});
+  test::take(1, tracker_.time() - 0.005, {}, &tracker_);
   EXPECT_FALSE(tracker_.bodies()[0]);
   ASSERT_TRUE(tracker_.bodies()[1]);
   EXPECT_EQ(tracker_.bodies()[1]->first_seen, first_seen);

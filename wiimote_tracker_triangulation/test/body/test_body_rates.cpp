@@ -164,7 +164,7 @@ TEST_P(BodyRates, AreAtTheBoundOfTheSameScene) {
         pixels.push_back(*camera.project(truth.pose * led) +
                          Eigen::Vector2d(du, options.pixel_stddev * random.gaussian()));
       }
-      tracker.add(c, 1000.0 + kInterval * i, 0.0, pixels);
+      test::take(c, 1000.0 + kInterval * i, pixels, &tracker);
       if (i < 160 || i % 16 != 0)
         continue;
       const std::optional<BodyEstimate>& found = tracker.bodies()[0];

@@ -66,7 +66,7 @@ void hideFourTimes(const Motion& motion,
   double late_end = 0.0;  // of the last one in which it was late
   for (int i = 0; i < 4 * 100 * 8; ++i) {
     const tracking::test::SceneImage& image = scene.next();
-    tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, test::pixelsOf(image));
+    test::take(image, &tracker);
     const double begin = hiddenFrom(tracker.time());
     if (tracker.time() < begin + kSilence)
       continue;

@@ -107,7 +107,7 @@ class Carried {
     const tracking::test::SceneImage& image = scene_.next();
     while (imu_.time() + delay_ < image.image.arrival && imu_.time() < end_)
       tracker_.addInertial(0, change_(imu_.next()));
-    tracker_.add(image.camera, image.image.stamp, image.image.stamp_stddev, test::pixelsOf(image));
+    test::take(image, &tracker_);
   }
 
   void catchUp() { delay_ = 0.0; }  ///< From the next image on no sample is late.

@@ -96,7 +96,7 @@ TEST(CalibrationCovariance, MakesTheTrackedPoseConsistent) {
     BodyTracker tracker(rig, {fourLeds()}, BodyTrackerOptions());
     for (int i = 0; i < 160; ++i) {
       const tracking::test::SceneImage& image = scene.next();
-      tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, test::pixelsOf(image));
+      test::take(image, &tracker);
     }
     ASSERT_TRUE(tracker.bodies()[0]) << draw;
     const PoseCovariance covariance = tracker.bodies()[0]->covariance.topLeftCorner<6, 6>();

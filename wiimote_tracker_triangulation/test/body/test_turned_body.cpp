@@ -88,7 +88,7 @@ TEST(TurnedBody, IsRareBesideAnotherLed) {
     BodyTracker tracker(rig, {test::fourLeds()}, BodyTrackerOptions());
     while (!(tracker.time() > 1005.0)) {
       const tracking::test::SceneImage& image = scene.next();
-      tracker.add(image.camera, image.image.stamp, 0.0, test::pixelsOf(image));
+      test::take(image, &tracker);
       if (!tracker.bodies()[0])
         continue;
       ++images;
@@ -117,7 +117,7 @@ TEST(TurnedBody, IsFoundAgain) {
     BodyTracker tracker(tracking::test::paperRig(), {test::fourLeds()}, BodyTrackerOptions());
     while (!(tracker.time() > kBegin + 0.5)) {
       const tracking::test::SceneImage& image = scene.next();
-      tracker.add(image.camera, image.image.stamp, image.image.stamp_stddev, test::pixelsOf(image));
+      test::take(image, &tracker);
       if (tracker.time() < kBegin || !tracker.bodies()[0])
         continue;
       ++images;

@@ -133,6 +133,26 @@ TEST(TrackerRig, NoLedIsTrackedInAnotherWorldBeforeItIsSeenThere) {
   EXPECT_GT(trackedUntil(1.5, Eigen::Vector3d(1.0, 0.0, 0.0)), 400u);
 }
 
+TEST(TrackerRig, AWrongClockStaysKnownWhenCamerasAreMoved) {
+  std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(3, 12), {}, 1200);
+  geometry::Rig moved = paperRig();
+  moved.cameras[0].camera.world_from_camera.pretranslate(Eigen::Vector3d(0.1, 0.0, 0.0));
+  Tracker tracker(paperRig(), exactOptions());
+  std::uint64_t wrong = 0;
+  std::uint64_t dropped = 0;
+  for (std::size_t i = 0; i < images.size(); ++i) {
+    const bool is_wrong = images[i].camera == 2;
+    images[i].image.stamp += is_wrong ? 0.3 : 0.0;
+    images[i].image.arrival += is_wrong ? 0.3 : 0.0;
+    if (i >= 600 && is_wrong && wrong++ == 0) {  // it sends the first image after the new rig
+      tracker.setRig(moved);
+      dropped = tracker.counters().dropped;
+    }
+    tracker.add(images[i].camera, images[i].image);
+  }
+  EXPECT_EQ(tracker.counters().dropped - dropped, wrong);
+}
+
 TEST(TrackerRig, AStepLosesNoTrackAndNoLateImage) {
   const std::vector<SceneImage> images = imagesOf(paperRig(), wanderers(3, 12), {}, 1200);
   constexpr std::size_t kStep = 600;

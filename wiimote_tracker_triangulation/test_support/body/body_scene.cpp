@@ -136,20 +136,29 @@ FollowedBody::FollowedBody(const geometry::Rig& rig,
       scene_(rig, pathsOf(body, motion), options, seed),
       tracker_(rig, {body}, BodyTrackerOptions()) {}
 
-std::vector<Eigen::Vector2d> pixelsOf(const tracking::test::SceneImage& image) {
-  std::vector<Eigen::Vector2d> pixels;
-  for (const tracking::Spot& spot : image.image.spots)
-    pixels.push_back(spot.pixel);
-  return pixels;
+void take(const tracking::test::SceneImage& image, BodyTracker* tracker) {
+  tracking::CameraImage copy = image.image;
+  tracker->take(image.camera, {}, &copy);
+}
+
+void take(std::size_t camera,
+          double time,
+          const std::vector<Eigen::Vector2d>& pixels,
+          BodyTracker* tracker) {
+  tracking::CameraImage image;
+  image.stamp = image.arrival = time;
+  image.stamp_stddev = 0.0;
+  for (const Eigen::Vector2d& pixel : pixels)
+    image.spots.push_back({pixel});
+  tracker->take(camera, {}, &image);
 }
 
 void FollowedBody::show() {
-  image_ = &scene_.next();
-  pixels_ = pixelsOf(*image_);
+  image_ = scene_.next();
 }
 
 void FollowedBody::track() {
-  tracker_.add(image_->camera, image_->image.stamp, image_->image.stamp_stddev, pixels_);
+  tracker_.take(image_.camera, {}, &image_.image);
 }
 
 Vector3d FollowedBody::trueVelocity() const {

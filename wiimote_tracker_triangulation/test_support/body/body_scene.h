@@ -44,8 +44,14 @@ Eigen::Isometry3d tumbling(double time);
 /// Of a body's LEDs.
 std::vector<tracking::test::Path> pathsOf(const Constellation& body, const Motion& motion);
 
-/// Of an image's spots [px].
-std::vector<Eigen::Vector2d> pixelsOf(const tracking::test::SceneImage& image);
+/// Gives a copy of an image to a tracker.
+void take(const tracking::test::SceneImage& image, BodyTracker* tracker);
+
+/// Gives the pixels of an image with an exact stamp [s], which comes at once, to a tracker.
+void take(std::size_t camera,
+          double time,
+          const std::vector<Eigen::Vector2d>& pixels,
+          BodyTracker* tracker);
 
 /// Small rotation from one orientation to another, about the world's axes [rad].
 Eigen::Vector3d rotationError(const Eigen::Isometry3d& from, const Eigen::Isometry3d& to);
@@ -96,8 +102,7 @@ class FollowedBody {
   double pixel_noise_;
   tracking::test::Scene scene_;
   BodyTracker tracker_;
-  const tracking::test::SceneImage* image_ = nullptr;
-  std::vector<Eigen::Vector2d> pixels_;
+  tracking::test::SceneImage image_;
 };
 
 /// Accuracy of following a body, compared with the bound for one image per camera. Shares count all

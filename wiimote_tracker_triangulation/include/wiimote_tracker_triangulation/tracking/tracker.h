@@ -16,7 +16,7 @@ namespace wiimote_tracker::tracking {
 
 class CameraGroup;
 class Ids;
-class ArrivalClocks;
+class ImageIntake;
 class TrackerCamera;
 struct StoredImage;
 
@@ -67,17 +67,17 @@ class Tracker : public Estimator {
   void useRig(const geometry::Rig& rig, const Partners& partners);
   void takeOverTracks(const std::vector<std::unique_ptr<CameraGroup>>& before);
   void reset();
-  StoredImage stored(std::size_t camera, const CameraImage& image, double exposure);
+  void complete(const CameraImage& image, StoredImage* stored);
   void updateGroups();
   void report(double time, Snapshot* snapshot) const;
   void addLost();
 
   TrackerOptions options_;
+  std::unique_ptr<ImageIntake> intake_;
   geometry::Rig rig_;
   std::vector<TrackerCamera> cameras_;  // of the rig
   std::vector<std::unique_ptr<CameraGroup>> groups_;
   std::vector<Input> inputs_;  // per camera
-  std::unique_ptr<ArrivalClocks> arrival_clocks_;
   std::unique_ptr<Ids> ids_;
   std::optional<geometry::CalibrationUncertainty> uncertainty_;  // never empty
   std::vector<CameraView> views_;

@@ -1,0 +1,118 @@
+#include "tracking/image_intake.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace wiimote_tracker::tracking {
+namespace {
+
+// More images of one camera do not wait in a network: about half a minute.
+constexpr int kLongestBacklog = 3000;
+
+using Cameras = std::vector<geometry::RigCamera>;
+
+bool haveSameNames(const Cameras& a, const Cameras& b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
+    return one.camera.name == other.camera.name;
+  });
+}
+
+bool haveSameTimes(const Cameras& a, const Cameras& b) {
+  constexpr double kOffsetJump = 0.05;  // images before and after it cannot be combined [s]
+  const auto offsetOf = [](const geometry::RigCamera& camera) {
+    return camera.time_offset_rule == geometry::TimeOffsetRule::kNone ? 0.0 : camera.time_offset;
+  };
+  return std::all_of(a.begin(), a.end(), [&](const auto& one) {
+    return std::all_of(b.begin(), b.end(), [&](const auto& other) {
+      return one.camera.name != other.camera.name ||
+             std::abs(offsetOf(one) - offsetOf(other)) < kOffsetJump;
+    });
+  });
+}
+
+}  // namespace
+
+bool ImageIntake::setRig(const geometry::Rig& rig) {
+  const bool keeps_times = haveSameTimes(cameras_, rig.cameras);
+  const bool keeps_clocks = keeps_times && haveSameNames(cameras_, rig.cameras);
+  cameras_ = rig.cameras;
+  if (!keeps_clocks) {
+    agreement_ = ClockAgreement(cameras_.size());
+    progress_.assign(cameras_.size(), {newest_used_});
+    newest_camera_ = 0;
+    awaited_ = newest_used_ > kNever ? 2 * cameras_.size() : 0;
+  }
+  return keeps_times;
+}
+
+ImageIntake::Result ImageIntake::take(std::size_t camera,
+                                      const CameraImage& image,
+                                      const ClockError& clock,
+                                      TimedImage* timed) {
+  disordered_ = false;
+  const double offset = cameras_.at(camera).timeOffsetIn(image.clock_epoch).value_or(0.0);
+  const double exposure = image.stamp + offset;
+  const double arrival = image.arrival + offset;
+  if (!std::isfinite(exposure) || !std::isfinite(arrival))
+    return Result::kWrongClock;
+  const double stddev = std::isnan(image.stamp_stddev) ? stamp_stddev_ : image.stamp_stddev;
+  timed->camera = camera;
+  timed->time = exposure - clock.offset;
+  timed->arrival = image.arrival;
+  timed->stamp_stddev = std::hypot(stddev, std::sqrt(clock.variance));
+  return judge(camera, arrival);
+}
+
+ImageIntake::Result ImageIntake::judge(std::size_t camera, double arrival) {
+  if (awaited_ > 0)
+    --awaited_;
+  if (!agreement_.add(camera, arrival))
+    return Result::kWrongClock;
+  const bool jumped_back = hasJumpedBack(camera);
+  if (jumped_back)
+    progress_.assign(progress_.size(), {kNever});
+  progress_[camera].add(arrival, jumped_back || arrival >= newest_used_ - kJump);
+  disordered_ = !jumped_back && arrival < newest_used_;
+  if (jumped_back || arrival >= newest_used_) {
+    newest_used_ = arrival;
+    newest_camera_ = camera;
+  }
+  return jumped_back ? Result::kJumpedBack : Result::kUsable;
+}
+
+void ImageIntake::Progress::add(double arrival, bool is_in_step) {
+  if (is_in_step) {
+    in_step_until = std::max(in_step_until, arrival);
+    images_behind = 0;
+  } else if (images_behind <= kLongestBacklog) {  // more would overflow some day
+    ++images_behind;
+  }
+}
+
+/// Whether all trusted cameras that are not silent are back behind the newest image that was used,
+/// or that image came from a camera that is not trusted any more. Images that only waited in a
+/// network are no jump, though they may be so many together that the others seem silent.
+bool ImageIntake::hasJumpedBack(std::size_t camera) const {
+  if (awaited_ > 0)
+    return false;
+  const bool is_trusted = agreement_.isTrusted(newest_camera_);
+  if (is_trusted && isBacklog(camera))
+    return false;
+  const double jump = is_trusted ? kJump : ClockAgreement::kTolerance;
+  for (std::size_t i = 0; i < progress_.size(); ++i) {
+    const bool counts = i == camera || (agreement_.isTrusted(i) && agreement_.areActive(camera, i));
+    if (counts && !(*agreement_.newestOf(i) < newest_used_ - jump))
+      return false;
+  }
+  return true;
+}
+
+/// Whether its images go on where they were when the camera was last in step.
+bool ImageIntake::isBacklog(std::size_t camera) const {
+  const Progress& progress = progress_[camera];
+  return progress.in_step_until > kNever &&
+         *agreement_.newestOf(camera) >= progress.in_step_until - ClockAgreement::kTolerance &&
+         progress.images_behind <= kLongestBacklog;
+}
+
+}  // namespace wiimote_tracker::tracking

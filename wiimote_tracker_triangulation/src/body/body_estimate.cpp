@@ -1,11 +1,12 @@
-// What BodyTracker reports of the bodies.
-#include "body/body_tracker.h"
+#include "body/body_estimate.h"
+
+#include "body/body_setup.h"
+#include "body/body_state.h"
 #include "pose_uncertainty.h"
 
 #include <limits>
 
 namespace wiimote_tracker::body {
-
 namespace {
 
 /// Writes the LEDs of a body whose pose is estimated.
@@ -44,32 +45,34 @@ void estimateLeds(const BodySetup& setup,
 
 }  // namespace
 
-void BodyTracker::estimate() {
-  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    if (!state_.bodies[b]) {
-      estimates_[b].reset();
-      continue;
-    }
-    const KnownBody& body = *state_.bodies[b];
-    const BodyModel& model = setup_.bodies[b];
-    BodyFilter filter = body.filter;
-    filter.predict(time_, model.inertial);
-    const PoseState& now = filter.state();
-    if (!estimates_[b])
-      estimates_[b].emplace();
-    BodyEstimate& estimate = *estimates_[b];
-    estimate.tracked = time_ - body.last_observed <= setup_.options.tracked_time;
-    estimate.inertial = filter.isInertial();
-    estimate.world_from_body = now.worldFromBody();
-    estimate.covariance = now.covariance;
-    estimate.velocity = now.velocity;
-    estimate.angular_velocity = now.angular_velocity;
-    estimate.first_seen = body.first_seen;
-    estimate.last_observed = body.last_observed;
-    estimateLeds(setup_, state_, b, time_, &estimate);
-    if (const auto calibration = calibrationCovariance(setup_.rig, model.constellation, estimate))
-      estimate.covariance.topLeftCorner<6, 6>() += *calibration;
+void estimateBody(std::size_t body,
+                  double time,
+                  const BodySetup& setup,
+                  const BodyState& state,
+                  std::optional<BodyEstimate>* result) {
+  if (!state.bodies[body]) {
+    result->reset();
+    return;
   }
+  const KnownBody& known = *state.bodies[body];
+  const BodyModel& model = setup.bodies[body];
+  BodyFilter filter = known.filter;
+  filter.predict(time, model.inertial);
+  const PoseState& now = filter.state();
+  if (!*result)
+    result->emplace();
+  BodyEstimate& estimate = **result;
+  estimate.tracked = time - known.last_observed <= setup.options.tracked_time;
+  estimate.inertial = filter.isInertial();
+  estimate.world_from_body = now.worldFromBody();
+  estimate.covariance = now.covariance;
+  estimate.velocity = now.velocity;
+  estimate.angular_velocity = now.angular_velocity;
+  estimate.first_seen = known.first_seen;
+  estimate.last_observed = known.last_observed;
+  estimateLeds(setup, state, body, time, &estimate);
+  if (const auto calibration = calibrationCovariance(setup.rig, model.constellation, estimate))
+    estimate.covariance.topLeftCorner<6, 6>() += *calibration;
 }
 
 }  // namespace wiimote_tracker::body

@@ -8,9 +8,13 @@
 
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::body {
+
+struct BodySetup;
+struct BodyState;
 
 /// Estimate of one LED of a body.
 struct LedEstimate {
@@ -45,6 +49,13 @@ struct BodyEstimate {
   double first_seen = 0.0;                                     ///< [s]
   double last_observed = 0.0;                                  ///< [s]
 };
+
+/// Writes what is known of a body at the time of the newest image [s].
+void estimateBody(std::size_t body,
+                  double time,
+                  const BodySetup& setup,
+                  const BodyState& state,
+                  std::optional<BodyEstimate>* estimate);
 
 }  // namespace wiimote_tracker::body
 

@@ -2,6 +2,7 @@
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SEARCH_H
 
 #include "association/associate_views.h"
+#include "body/body_setup.h"
 #include "body/body_state.h"
 #include "body/body_update.h"
 #include "body/match_points.h"

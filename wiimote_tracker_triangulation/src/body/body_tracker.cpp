@@ -236,4 +236,26 @@ void BodyTracker::dropLost(double time) {
   }
 }
 
+void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
+  auto& images = history_.images();
+  if (images.empty())
+    return;
+  BodyImage& newest = images.at(images.end() - 1);
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const Constellation& constellation = setup_.bodies[b].constellation;
+    if (state_.bodies[b] || constellation.labels.empty())
+      continue;
+    if (const auto pose = poseFromLabels(constellation, points)) {
+      state_.bodies[b].emplace(setup_.options, newest.time, *pose, 0);
+      newest.starts.push_back({b, *pose});  // for when a late image undoes this one
+    }
+  }
+  estimate();
+}
+
+void BodyTracker::estimate() {
+  for (std::size_t b = 0; b < estimates_.size(); ++b)
+    estimateBody(b, time_, setup_, state_, &estimates_[b]);
+}
+
 }  // namespace wiimote_tracker::body

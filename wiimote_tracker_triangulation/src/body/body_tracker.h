@@ -3,17 +3,17 @@
 
 #include "body/body_estimate.h"
 #include "body/body_search.h"
+#include "body/body_setup.h"
 #include "body/body_state.h"
 #include "body/body_update.h"
 #include "body/constellation.h"
 #include "body/inertial_samples.h"
+#include "body/solve_pose.h"
 #include "tracking/history.h"
 #include "tracking/image_intake.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
-
-#include <Eigen/Core>
 
 #include <cstddef>
 #include <cstdint>
@@ -23,13 +23,6 @@
 #include <vector>
 
 namespace wiimote_tracker::body {
-
-/// An LED identified by its blink code.
-struct LabelledPoint {
-  std::string label;
-  Eigen::Vector3d position;    ///< World [m].
-  Eigen::Matrix3d covariance;  ///< [m^2], positive definite.
-};
 
 /// The bodies at the time of an image.
 struct BodySnapshot {

@@ -20,24 +20,24 @@ void BodyUpdate::follow(const BodyImage& image) {
   }
   assign(image);
   leaveToSearch(image.time);
-  measureFit(image);
+  fit_ = fitOf(image, assignment_, setup_, state_);
   LastImage& last = state_.images[image.camera];
   last.time = image.time;
   last.taken.clear();
   last.free.clear();
   taken_.assign(image.pixels.size(), false);
   for (std::size_t s = 0; s < image.pixels.size(); ++s) {
-    taken_[s] = led_of_spot_[s] && (image.is_doubtful || take(s, image));
+    taken_[s] = assignment_.led_of_spot[s] && (image.is_doubtful || take(s, image));
     if (!taken_[s] && !image.is_doubtful)
       last.free.push_back(image.pixels[s]);
   }
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
-    if (state_.bodies[b] && isSeen(b, last))
+    if (state_.bodies[b] && isSeen(b, image.camera, setup_, state_, &sights_))
       state_.bodies[b]->last_observed = image.time;
   }
 }
 
-/// Assigns spots of an image to LEDs of the bodies, which are predicted to its time: led_of_spot_.
+/// Assigns spots of an image to LEDs of the bodies, which are predicted to its time.
 void BodyUpdate::assign(const BodyImage& image) {
   const std::vector<Eigen::Vector2d>& pixels = image.pixels;
   association::SpotCosts costs;
@@ -45,25 +45,43 @@ void BodyUpdate::assign(const BodyImage& image) {
   // Which LEDs the body itself hides is unknown: a missed LED costs nothing, so that as many spots
   // as possible are assigned.
   costs.reset(spots, association::kMaximumTracks, kGhostCost, 0.0);
-  candidates_.clear();
+  assignment_.candidates.clear();
   for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
     if (!state_.bodies[b])
       continue;
     const LedGroups groups = groupsOf(b, image, 1.0);
     for (std::size_t led = 0; led < setup_.bodies[b].constellation.leds.size(); ++led) {
-      if (candidates_.size() == association::kMaximumTracks)
+      if (assignment_.candidates.size() == association::kMaximumTracks)
         break;
       for (std::size_t s = 0; s < spots; ++s)
-        costs.pair[s][candidates_.size()] = groups.cost(led, pixels[s]);
-      candidates_.push_back({{b, led}, groups.single(led)});
+        costs.pair[s][assignment_.candidates.size()] = groups.cost(led, pixels[s]);
+      assignment_.candidates.push_back({{b, led}, groups.single(led)});
     }
   }
-  costs.tracks = candidates_.size();
+  costs.tracks = assignment_.candidates.size();
   const auto track_of_spot = association::assignSpots(costs);
-  led_of_spot_.assign(pixels.size(), std::nullopt);
+  assignment_.led_of_spot.assign(pixels.size(), std::nullopt);
   for (std::size_t s = 0; s < spots; ++s) {
     if (track_of_spot[s] != association::kFalseDetection)
-      led_of_spot_[s] = candidates_[track_of_spot[s]];
+      assignment_.led_of_spot[s] = assignment_.candidates[track_of_spot[s]];
+  }
+}
+
+/// Frees the spots of bodies that have been hidden for longer than some images, where this image
+/// shows fewer than three of their LEDs: those could be of any lights near the prediction, and
+/// would pull the body to them. Such a body must be found by its shape, if that tells its pose,
+/// unless an IMU does.
+void BodyUpdate::leaveToSearch(double time) {
+  auto& led_of_spot = assignment_.led_of_spot;
+  constexpr auto kShape = 3;  // LEDs
+  const double longest = setup_.options.tracked_time + setup_.options.window;
+  for (std::size_t b = 0; b < state_.bodies.size(); ++b) {
+    const std::optional<KnownBody>& body = state_.bodies[b];
+    const auto isItsSpot = [b](const std::optional<SpotLed>& led) { return led && led->body == b; };
+    if (body && setup_.bodies[b].has_clear_shape && !body->filter.isInertial() &&
+        time - body->last_observed > longest &&
+        std::count_if(led_of_spot.begin(), led_of_spot.end(), isItsSpot) < kShape)
+      std::replace_if(led_of_spot.begin(), led_of_spot.end(), isItsSpot, std::nullopt);
   }
 }
 
@@ -71,9 +89,9 @@ void BodyUpdate::assign(const BodyImage& image) {
 /// each update moves the body: it is of another light, or the pose is wrong, and the search needs
 /// it.
 bool BodyUpdate::take(std::size_t spot, const BodyImage& image) {
-  const auto [body, led] = *led_of_spot_[spot];
+  const auto [body, led] = *assignment_.led_of_spot[spot];
   const Eigen::Vector2d& pixel = image.pixels[spot];
-  const std::array<bool, kMaximumLeds> has_spot = ledsWithSpot(body);
+  const std::array<bool, kMaximumLeds> has_spot = assignment_.ledsWithSpot(body);
   const auto spots = static_cast<double>(std::count(has_spot.begin(), has_spot.end(), true));
   const LedGroups groups = groupsOf(body, image, spots);
   const LedGroup* group = groups.best(led, pixel, has_spot);
@@ -81,16 +99,6 @@ bool BodyUpdate::take(std::size_t spot, const BodyImage& image) {
     return hasMerged(groups, image, spot, has_spot);
   update(body, *group, pixel, image);
   return true;
-}
-
-/// Which LEDs of a body have a spot in the image that assign() was called with.
-std::array<bool, kMaximumLeds> BodyUpdate::ledsWithSpot(std::size_t body) const {
-  std::array<bool, kMaximumLeds> has_spot{};
-  for (const std::optional<SpotLed>& spot : led_of_spot_) {
-    if (spot && spot->body == body)
-      has_spot[spot->led] = true;
-  }
-  return has_spot;
 }
 
 /// Whether a spot of the same body, other than this one, fits only as that of several LEDs.
@@ -101,8 +109,8 @@ bool BodyUpdate::hasMerged(const LedGroups& groups,
   std::array<bool, kMaximumLeds> all_have_spots;
   all_have_spots.fill(true);
   for (std::size_t s = 0; s < image.pixels.size(); ++s) {
-    const std::optional<SpotLed>& other = led_of_spot_[s];
-    if (s != spot && other && other->body == led_of_spot_[spot]->body &&
+    const std::optional<SpotLed>& other = assignment_.led_of_spot[s];
+    if (s != spot && other && other->body == assignment_.led_of_spot[spot]->body &&
         !groups.best(other->led, image.pixels[s], all_have_spots) &&
         groups.best(other->led, image.pixels[s], has_spot))
       return true;
@@ -148,7 +156,7 @@ bool BodyUpdate::followMatch(std::size_t body,
         true;
     update(body, led, spot.pixel, image);
   }
-  const bool is_seen = isSeen(body, last);
+  const bool is_seen = isSeen(body, image.camera, setup_, state_, &sights_);
   if (is_seen)
     known.last_observed = image.time;
   return is_seen;

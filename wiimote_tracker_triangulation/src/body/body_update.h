@@ -1,19 +1,16 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
 
-#include "association/assign_spots.h"
+#include "body/body_fit.h"
+#include "body/body_setup.h"
 #include "body/body_state.h"
-#include "tracking/track.h"
-#include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
 
 #include <Eigen/Core>
-#include <boost/container/static_vector.hpp>
 
 #include <array>
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 namespace wiimote_tracker::body {
@@ -46,27 +43,13 @@ class BodyUpdate {
   /// For each spot of the image: whether a body took it.
   const std::vector<bool>& taken() const { return taken_; }
 
-  /// How the image fits the bodies that other cameras see; each counts as one LED, since a wrong
-  /// pose moves all of its LEDs.
+  /// See fitOf().
   const tracking::LedFit& fit() const { return fit_; }
 
  private:
-  /// An LED that the image may show.
-  struct Candidate : SpotLed {
-    std::optional<LedPrediction> prediction;  // unless it is too uncertain
-  };
-
   void assign(const BodyImage& image);
   void leaveToSearch(double time);
-  void measureFit(const BodyImage& image);
-  bool isInView(const Candidate& led, std::size_t camera) const;
-  bool hasSpot(const SpotLed& led) const;
-  tracking::CameraList othersSeeing(const SpotLed& led, const BodyImage& image) const;
-  bool isExplained(const Candidate& led,
-                   const tracking::CameraList& others,
-                   const BodyImage& image) const;
   bool take(std::size_t spot, const BodyImage& image);
-  std::array<bool, kMaximumLeds> ledsWithSpot(std::size_t body) const;
   bool hasMerged(const LedGroups& groups,
                  const BodyImage& image,
                  std::size_t spot,
@@ -75,17 +58,15 @@ class BodyUpdate {
               const LedGroup& group,
               const Eigen::Vector2d& pixel,
               const BodyImage& image);
-  bool isSeen(std::size_t body, const LastImage& image);
   LedGroups groupsOf(std::size_t body, const BodyImage& image, double spots) const;
   geometry::PixelNoise noiseOf(const BodyImage& image, double spots) const;
 
   const BodySetup& setup_;
   BodyState& state_;
-  boost::container::static_vector<Candidate, association::kMaximumTracks> candidates_;
-  std::vector<std::optional<SpotLed>> led_of_spot_;  // nothing: free
+  LedAssignment assignment_;
   std::vector<bool> taken_;
   tracking::LedFit fit_;
-  std::vector<geometry::Sight> sights_;  // of isSeen(), reused
+  std::vector<geometry::Sight> sights_;  // of isSeen()
 };
 
 }  // namespace wiimote_tracker::body

@@ -1,13 +1,15 @@
-// Levenberg-Marquardt for six parameters, written out because it runs for every image and must not
-// allocate, unlike the solvers of Eigen and Ceres.
+// solvePose() has Levenberg-Marquardt for six parameters written out, because it runs for every
+// image and must not allocate, unlike the solvers of Eigen and Ceres.
 #include "body/solve_pose.h"
 
+#include "body/align.h"
 #include "pixel_update.h"
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
 #include <Eigen/Cholesky>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace wiimote_tracker::body {
@@ -49,6 +51,15 @@ Eigen::Isometry3d moved(const Eigen::Isometry3d& pose, const Vector6& step) {
   return result;
 }
 
+/// Nothing when the information does not determine the pose.
+std::optional<PoseCovariance> inverseOf(const PoseCovariance& information) {
+  const Eigen::LLT<PoseCovariance> factor(information);
+  // A metre moves a spot ten times as far as a radian (arm 0.1 m): scaling is not needed.
+  if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
+    return std::nullopt;
+  return factor.solve(PoseCovariance::Identity());
+}
+
 }  // namespace
 
 std::optional<SolvedPose> solvePose(const LedObservation* observations,
@@ -84,15 +95,50 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
   }
   if (!normal || !converged)
     return std::nullopt;
-  const Eigen::LLT<PoseCovariance> factor(normal->information);
-  // A metre moves a spot ten times as far as a radian (arm 0.1 m): scaling is not needed.
-  if (factor.info() != Eigen::Success || factor.rcond() < 1e-12)
+  const auto covariance = inverseOf(normal->information);
+  if (!covariance)
     return std::nullopt;
   SolvedPose solved;
   solved.world_from_body = pose;
-  solved.covariance = pixel_stddev * pixel_stddev * factor.solve(PoseCovariance::Identity());
+  solved.covariance = pixel_stddev * pixel_stddev * *covariance;
   solved.reprojection_error = std::sqrt(normal->cost / count);
   return solved;
+}
+
+std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
+                                       const std::vector<LabelledPoint>& points) {
+  // Greatest mean squared residual per coordinate [variances]: refuses wrong labels.
+  constexpr double kWorst = 9.0;
+  constexpr double kMotion = 0.002;  // of the LEDs between the images of the points [m]
+  std::array<PointPair, kMaximumLeds> pairs;
+  std::array<Eigen::Matrix3d, kMaximumLeds> information;
+  std::size_t count = 0;
+  for (std::size_t led = 0; led < constellation.leds.size(); ++led) {
+    const auto point =
+        std::find_if(points.begin(), points.end(), [&](const LabelledPoint& candidate) {
+          return candidate.label == constellation.labels[led];
+        });
+    if (point == points.end())
+      continue;
+    const Eigen::Matrix3d covariance =
+        point->covariance + kMotion * kMotion * Eigen::Matrix3d::Identity();
+    information[count] = covariance.inverse();
+    pairs[count++] = {constellation.leds[led], point->position, 3.0 / covariance.trace()};
+  }
+  if (count < 3)
+    return std::nullopt;
+  const Alignment alignment = align(pairs.data(), count);
+  if (alignment.cost > kWorst * 3 * count)
+    return std::nullopt;
+  PoseCovariance normal = PoseCovariance::Zero();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Eigen::Matrix<double, 3, 6> jacobian =
+        pointByPose(alignment.world_from_body.linear() * pairs[i].in_body);
+    normal += jacobian.transpose() * information[i] * jacobian;
+  }
+  const auto covariance = inverseOf(normal);
+  return covariance ? std::make_optional(BodyPose{alignment.world_from_body, *covariance})
+                    : std::nullopt;
 }
 
 }  // namespace wiimote_tracker::body

@@ -1,6 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H
 
+#include "body/constellation.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -9,6 +10,8 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
+#include <vector>
 
 namespace wiimote_tracker::body {
 
@@ -37,6 +40,18 @@ std::optional<SolvedPose> solvePose(const LedObservation* observations,
                                     std::size_t count,
                                     const Eigen::Isometry3d& start,
                                     double pixel_stddev);
+
+/// An LED identified by its blink code.
+struct LabelledPoint {
+  std::string label;
+  Eigen::Vector3d position;    ///< World [m].
+  Eigen::Matrix3d covariance;  ///< [m^2], positive definite.
+};
+
+/// The pose of a body from labelled points. Nothing when fewer than three of its LEDs are among
+/// them, or they lie on a line or do not agree with the constellation.
+std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
+                                       const std::vector<LabelledPoint>& points);
 
 }  // namespace wiimote_tracker::body
 

@@ -25,7 +25,7 @@ constexpr double kLongestJump = 80.0;
 constexpr double kSamplePeriod = 0.05;
 
 /// Standard deviation of a camera's time offset that was not estimated, as in
-/// tracking/camera_clocks.cpp: assumed [s].
+/// tracking/clock_offsets.cpp: assumed [s].
 constexpr double kUnknownOffset = 0.005;
 
 /// Removes spots that no image can have: not finite, or outside of `width` x `height` [px].

@@ -122,7 +122,7 @@ bool isSeen(std::size_t body,
   const auto isItsSpot = [body](const BodySpot& spot) {
     return spot.body == body && !spot.is_further;
   };
-  const auto spots = std::count_if(image.taken.begin(), image.taken.end(), isItsSpot);
+  const std::size_t spots = image.countSpots(body);
   std::array<bool, kMaximumLeds> seen{};
   double misfit = 0.0;
   double coordinates = 0.0;

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
 
-#include "camera_clocks.h"
+#include "clock_offsets.h"
 #include "group_state.h"
 #include "track_initiation.h"
 #include "tracking/history.h"
@@ -45,8 +45,8 @@ class CameraGroup {
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
   bool isDoubtful() const;
 
-  CameraClocks& clocks() { return clocks_; }
-  const CameraClocks& clocks() const { return clocks_; }
+  ClockOffsets& clocks() { return clocks_; }
+  const ClockOffsets& clocks() const { return clocks_; }
 
   const std::vector<std::size_t>& members() const { return members_; }
   const std::vector<Track>& tracks() const { return state_.tracks; }
@@ -71,7 +71,7 @@ class CameraGroup {
   std::vector<CameraView>* views_;
   std::vector<std::size_t> members_;
   std::optional<TrackInitiation> initiation_;  // never empty
-  CameraClocks clocks_;
+  ClockOffsets clocks_;
   GroupState state_;
   History<StoredImage, GroupState> history_;
 };

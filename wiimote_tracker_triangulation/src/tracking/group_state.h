@@ -3,10 +3,10 @@
 
 #include "association/assign_spots.h"
 #include "camera_fit.h"
-#include "clock_regression.h"
 #include "crowd.h"
 #include "ids.h"
 #include "merged_pair.h"
+#include "offset_regression.h"
 #include "track.h"
 #include "tracker_camera.h"
 #include "tracking/timed_image.h"
@@ -56,7 +56,7 @@ struct UnassignedSpots {
 /// What a late image may change of one camera.
 struct CameraState {
   CameraFit fit;
-  ClockRegression clock_regression;  // since the last correction
+  OffsetRegression clock_regression;  // since the last correction
   UnassignedSpots unassigned;
   NewestImage newest;
 };

@@ -72,7 +72,6 @@ class History {
     next_ = states_.back().before;
   }
 
-  const NumberedQueue<Image>& images() const { return images_; }
   /// To change what is not their order.
   NumberedQueue<Image>& images() { return images_; }
 

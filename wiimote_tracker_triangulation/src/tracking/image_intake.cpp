@@ -9,21 +9,13 @@ namespace {
 // More images of one camera do not wait in a network: about half a minute.
 constexpr int kLongestBacklog = 3000;
 
-using Cameras = std::vector<geometry::RigCamera>;
-
-bool haveSameNames(const Cameras& a, const Cameras& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& one, const auto& other) {
-    return one.camera.name == other.camera.name;
-  });
-}
-
-bool haveSameTimes(const Cameras& a, const Cameras& b) {
+bool haveSameTimes(const geometry::Rig& a, const geometry::Rig& b) {
   constexpr double kOffsetJump = 0.05;  // images before and after it cannot be combined [s]
   const auto offsetOf = [](const geometry::RigCamera& camera) {
     return camera.time_offset_rule == geometry::TimeOffsetRule::kNone ? 0.0 : camera.time_offset;
   };
-  return std::all_of(a.begin(), a.end(), [&](const auto& one) {
-    return std::all_of(b.begin(), b.end(), [&](const auto& other) {
+  return std::all_of(a.cameras.begin(), a.cameras.end(), [&](const auto& one) {
+    return std::all_of(b.cameras.begin(), b.cameras.end(), [&](const auto& other) {
       return one.camera.name != other.camera.name ||
              std::abs(offsetOf(one) - offsetOf(other)) < kOffsetJump;
     });
@@ -33,15 +25,15 @@ bool haveSameTimes(const Cameras& a, const Cameras& b) {
 }  // namespace
 
 bool ImageIntake::setRig(const geometry::Rig& rig) {
-  const bool keeps_times = haveSameTimes(cameras_, rig.cameras);
-  const bool keeps_clocks = keeps_times && haveSameNames(cameras_, rig.cameras);
-  cameras_ = rig.cameras;
-  if (!keeps_clocks) {
-    agreement_ = ClockAgreement(cameras_.size());
-    progress_.assign(cameras_.size(), {newest_used_});
+  const std::size_t cameras = rig.cameras.size();
+  const bool keeps_times = haveSameTimes(rig_, rig);
+  if (!keeps_times || !geometry::haveSameCameras(rig_, rig)) {
+    clocks_ = ComputerClocks(cameras);
+    progress_.assign(cameras, {newest_used_});
     newest_camera_ = 0;
-    awaited_ = newest_used_ > kNever ? 2 * cameras_.size() : 0;
+    awaited_ = newest_used_ > kNever ? 2 * cameras : 0;
   }
+  rig_ = rig;
   return keeps_times;
 }
 
@@ -50,7 +42,7 @@ ImageIntake::Result ImageIntake::take(std::size_t camera,
                                       const ClockError& clock,
                                       TimedImage* timed) {
   disordered_ = false;
-  const double offset = cameras_.at(camera).timeOffsetIn(image.clock_epoch).value_or(0.0);
+  const double offset = rig_.cameras.at(camera).timeOffsetIn(image.clock_epoch).value_or(0.0);
   const double exposure = image.stamp + offset;
   const double arrival = image.arrival + offset;
   if (!std::isfinite(exposure) || !std::isfinite(arrival))
@@ -66,7 +58,7 @@ ImageIntake::Result ImageIntake::take(std::size_t camera,
 ImageIntake::Result ImageIntake::judge(std::size_t camera, double arrival) {
   if (awaited_ > 0)
     --awaited_;
-  if (!agreement_.add(camera, arrival))
+  if (!clocks_.add(camera, arrival))
     return Result::kWrongClock;
   const bool jumped_back = hasJumpedBack(camera);
   if (jumped_back)
@@ -95,13 +87,13 @@ void ImageIntake::Progress::add(double arrival, bool is_in_step) {
 bool ImageIntake::hasJumpedBack(std::size_t camera) const {
   if (awaited_ > 0)
     return false;
-  const bool is_trusted = agreement_.isTrusted(newest_camera_);
+  const bool is_trusted = clocks_.isTrusted(newest_camera_);
   if (is_trusted && isBacklog(camera))
     return false;
-  const double jump = is_trusted ? kJump : ClockAgreement::kTolerance;
+  const double jump = is_trusted ? kJump : ComputerClocks::kTolerance;
   for (std::size_t i = 0; i < progress_.size(); ++i) {
-    const bool counts = i == camera || (agreement_.isTrusted(i) && agreement_.areActive(camera, i));
-    if (counts && !(*agreement_.newestOf(i) < newest_used_ - jump))
+    const bool counts = i == camera || (clocks_.isTrusted(i) && clocks_.areActive(camera, i));
+    if (counts && !(*clocks_.newestOf(i) < newest_used_ - jump))
       return false;
   }
   return true;
@@ -111,7 +103,7 @@ bool ImageIntake::hasJumpedBack(std::size_t camera) const {
 bool ImageIntake::isBacklog(std::size_t camera) const {
   const Progress& progress = progress_[camera];
   return progress.in_step_until > kNever &&
-         *agreement_.newestOf(camera) >= progress.in_step_until - ClockAgreement::kTolerance &&
+         *clocks_.newestOf(camera) >= progress.in_step_until - ComputerClocks::kTolerance &&
          progress.images_behind <= kLongestBacklog;
 }
 

@@ -1,7 +1,7 @@
 #ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_INTAKE_H
 #define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_INTAKE_H
 
-#include "tracking/clock_agreement.h"
+#include "tracking/computer_clocks.h"
 #include "tracking/timed_image.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
@@ -15,7 +15,7 @@
 namespace wiimote_tracker::tracking {
 
 /// Takes in the images of a rig: gives each its time, judges each camera's clock by the others'
-/// (ClockAgreement), and detects that time jumped back for all, as when a bag is played in a loop.
+/// (ComputerClocks), and detects that time jumped back for all, as when a bag is played in a loop.
 class ImageIntake {
  public:
   static constexpr double kJump = 0.1;  ///< Least jump back [s].
@@ -42,8 +42,8 @@ class ImageIntake {
               const ClockError& clock,
               TimedImage* timed);
 
-  /// See ClockAgreement.
-  std::optional<double> ahead(std::size_t camera) const { return agreement_.ahead(camera); }
+  /// See ComputerClocks.
+  std::optional<double> ahead(std::size_t camera) const { return clocks_.ahead(camera); }
 
   /// Whether the last image arrived before an earlier used one.
   bool isDisordered() const { return disordered_; }
@@ -65,8 +65,8 @@ class ImageIntake {
   bool isBacklog(std::size_t camera) const;
 
   double stamp_stddev_;
-  std::vector<geometry::RigCamera> cameras_;
-  ClockAgreement agreement_{0};
+  geometry::Rig rig_;
+  ComputerClocks clocks_{0};
   std::vector<Progress> progress_;  // per camera
   double newest_used_ = kNever;     // arrival of the newest image that is used [s]
   std::size_t newest_camera_ = 0;   // whose it is

@@ -147,7 +147,7 @@ void Tracker::reset() {
 /// outside the image are left out.
 void Tracker::complete(const CameraImage& image, StoredImage* stored) {
   const std::size_t camera = stored->camera;
-  CameraClocks& clocks = inputs_[camera].group->clocks();
+  ClockOffsets& clocks = inputs_[camera].group->clocks();
   clocks.enterEpoch(camera, image.clock_epoch,
                     !rig_.cameras[camera].hasNewClock(image.clock_epoch));
   stored->clocks = clocks.version();

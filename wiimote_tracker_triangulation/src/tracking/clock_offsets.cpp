@@ -1,4 +1,4 @@
-#include "camera_clocks.h"
+#include "clock_offsets.h"
 
 #include <wiimote_tracker_msgs/median.h>
 
@@ -27,7 +27,7 @@ double squared(double x) {
 }  // namespace
 
 /// What is known of the clock in an epoch, which may be another one.
-CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t other_epoch, bool is_known_there) const {
+ClockOffsets::Clock ClockOffsets::Clock::in(std::uint32_t other_epoch, bool is_known_there) const {
   if (epoch == other_epoch && is_known == is_known_there)
     return *this;
   if (is_known && is_known_there)
@@ -37,7 +37,7 @@ CameraClocks::Clock CameraClocks::Clock::in(std::uint32_t other_epoch, bool is_k
 }
 
 /// Kalman update by the remainder, if there is one. @param common what all cameras have of it
-void CameraClocks::Clock::updateError(const ClockError& common) {
+void ClockOffsets::Clock::updateError(const ClockError& common) {
   if (!remainder)
     return;
   const double measured = correction().offset + remainder->offset - common.offset;
@@ -53,19 +53,19 @@ void CameraClocks::Clock::updateError(const ClockError& common) {
   error.variance = (1.0 - gain) * variance;
 }
 
-void CameraClocks::Clock::setOffset(double seconds) {
+void ClockOffsets::Clock::setOffset(double seconds) {
   error.offset = std::clamp(seconds, -kLargest, kLargest);
   const double least = is_corrected ? kStaysCorrected : kCorrected;
   is_corrected = !is_known || std::abs(error.offset) >= least;
 }
 
-CameraClocks::CameraClocks(const std::vector<std::size_t>& members) {
+ClockOffsets::ClockOffsets(const std::vector<std::size_t>& members) {
   for (const std::size_t member : members)
     clocks_[member];
   offsets_.reserve(members.size());
 }
 
-void CameraClocks::enterEpoch(std::size_t camera, std::uint32_t epoch, bool is_known) {
+void ClockOffsets::enterEpoch(std::size_t camera, std::uint32_t epoch, bool is_known) {
   Clock& clock = clocks_.at(camera);
   if (clock.epoch == epoch && clock.is_known == is_known)
     return;
@@ -73,7 +73,7 @@ void CameraClocks::enterEpoch(std::size_t camera, std::uint32_t epoch, bool is_k
   ++version_;
 }
 
-void CameraClocks::update(const CameraStates& cameras) {
+void ClockOffsets::update(const CameraStates& cameras) {
   const auto hasSeenMotion = [](const auto& camera) {
     return camera.second.clock_regression.count() >= kSpots;
   };
@@ -93,7 +93,7 @@ void CameraClocks::update(const CameraStates& cameras) {
 }
 
 /// By how much all cameras seem to be off, where the predictions lag behind the LEDs.
-ClockError CameraClocks::commonRemainder() {
+ClockError ClockOffsets::commonRemainder() {
   offsets_.clear();
   double variances = 0.0;
   for (const auto& [camera, clock] : clocks_) {
@@ -107,7 +107,7 @@ ClockError CameraClocks::commonRemainder() {
   return {medianOf(&offsets_), variances / squared(static_cast<double>(offsets_.size()))};
 }
 
-double CameraClocks::medianOffset() {
+double ClockOffsets::medianOffset() {
   offsets_.clear();
   for (const auto& [camera, clock] : clocks_) {
     if (isReference(clock))
@@ -117,7 +117,7 @@ double CameraClocks::medianOffset() {
 }
 
 /// Whether medians count it: a known one, or any if none is known.
-bool CameraClocks::isReference(const Clock& clock) const {
+bool ClockOffsets::isReference(const Clock& clock) const {
   return clock.is_known || std::none_of(clocks_.begin(), clocks_.end(),
                                         [](const auto& other) { return other.second.is_known; });
 }

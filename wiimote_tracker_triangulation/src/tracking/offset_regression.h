@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_REGRESSION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_REGRESSION_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_OFFSET_REGRESSION_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_OFFSET_REGRESSION_H
 
 #include <Eigen/Core>
 
@@ -12,7 +12,7 @@ namespace wiimote_tracker::tracking {
 /// cameras locate: a least-squares regression of the residuals on the velocities. Errors of the
 /// calibration, which shift, turn and stretch the image, are estimated beside it: before an LED on
 /// a circle a turned camera looks like a wrong time.
-class ClockRegression {
+class OffsetRegression {
  public:
   using Complex = std::complex<double>;  ///< A vector of the image.
 
@@ -52,4 +52,4 @@ class ClockRegression {
 
 }  // namespace wiimote_tracker::tracking
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_REGRESSION_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_OFFSET_REGRESSION_H

@@ -1,4 +1,4 @@
-#include "clock_agreement.h"
+#include "computer_clocks.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,12 +6,12 @@
 
 namespace wiimote_tracker::tracking {
 
-ClockAgreement::ClockAgreement(std::size_t cameras) : cameras_(cameras), pairs_(cameras * cameras) {
+ComputerClocks::ComputerClocks(std::size_t cameras) : cameras_(cameras), pairs_(cameras * cameras) {
   for (Camera& camera : cameras_)
     camera.unanswered.assign(cameras, 0);
 }
 
-bool ClockAgreement::add(std::size_t camera, double arrival) {
+bool ComputerClocks::add(std::size_t camera, double arrival) {
   if (comparePairs(camera, arrival))
     vote();
   const bool is_outlier = isOutlier(camera, arrival);
@@ -23,14 +23,14 @@ bool ClockAgreement::add(std::size_t camera, double arrival) {
 }
 
 /// One image that is older than those before does not set the camera back; two in a row do.
-void ClockAgreement::noteNewest(double arrival, Camera* camera) {
+void ComputerClocks::noteNewest(double arrival, Camera* camera) {
   const bool is_behind = camera->newest && arrival < *camera->newest - kTolerance;
   if (is_behind ? camera->was_behind : !camera->newest || arrival > *camera->newest)
     camera->newest = arrival;
   camera->was_behind = is_behind;
 }
 
-void ClockAgreement::Pair::add(double lead) {
+void ComputerClocks::Pair::add(double lead) {
   if (recent[0].count == kWindow) {
     recent[1] = recent[0];
     recent[0] = Leads();
@@ -43,12 +43,12 @@ void ClockAgreement::Pair::add(double lead) {
     agrees = 4 * (recent[0].near + recent[1].near) > total;
 }
 
-std::size_t ClockAgreement::indexOf(std::size_t a, std::size_t b) const {
+std::size_t ComputerClocks::indexOf(std::size_t a, std::size_t b) const {
   return std::min(a, b) * cameras_.size() + std::max(a, b);
 }
 
 /// Null while one of the two is silent, or if they are one.
-const ClockAgreement::Pair* ClockAgreement::activePair(std::size_t a, std::size_t b) const {
+const ComputerClocks::Pair* ComputerClocks::activePair(std::size_t a, std::size_t b) const {
   const Pair& pair = pairs_[indexOf(a, b)];
   return pair.recent[0].count > 0 && cameras_[a].unanswered[b] <= kSilence &&
                  cameras_[b].unanswered[a] <= kSilence
@@ -56,14 +56,14 @@ const ClockAgreement::Pair* ClockAgreement::activePair(std::size_t a, std::size_
              : nullptr;
 }
 
-bool ClockAgreement::doAgree(std::size_t a, std::size_t b) const {
+bool ComputerClocks::doAgree(std::size_t a, std::size_t b) const {
   const Pair* pair = activePair(a, b);
   return pair && pair->agrees;
 }
 
 /// Compares the camera's new image with the others' newest. @returns whether anything changed that
 /// matters for vote().
-bool ClockAgreement::comparePairs(std::size_t camera, double arrival) {
+bool ComputerClocks::comparePairs(std::size_t camera, double arrival) {
   bool changed = false;
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
     if (other == camera || !cameras_[other].newest)
@@ -87,7 +87,7 @@ bool ClockAgreement::comparePairs(std::size_t camera, double arrival) {
   return changed;
 }
 
-void ClockAgreement::vote() {
+void ComputerClocks::vote() {
   const std::size_t n = cameras_.size();
   for (std::size_t i = 0; i < n; ++i) {
     cameras_[i].votes = 1;
@@ -109,7 +109,7 @@ void ClockAgreement::vote() {
 
 /// Whether a camera agrees with both. Then these two are not of two groups: when a network becomes
 /// slow, its camera disagrees with one of the others first.
-bool ClockAgreement::someAgreesWith(std::size_t a, std::size_t b) const {
+bool ComputerClocks::someAgreesWith(std::size_t a, std::size_t b) const {
   for (std::size_t other = 0; other < cameras_.size(); ++other) {
     if (doAgree(a, other) && doAgree(b, other))
       return true;
@@ -119,7 +119,7 @@ bool ClockAgreement::someAgreesWith(std::size_t a, std::size_t b) const {
 
 /// Whether a camera's image is ahead of most others' and also of its own last one. (If only the
 /// others are delayed, it is not.)
-bool ClockAgreement::isOutlier(std::size_t camera, double arrival) const {
+bool ComputerClocks::isOutlier(std::size_t camera, double arrival) const {
   const std::optional<double>& used = cameras_[camera].used;
   if (used && arrival <= *used + kTolerance)
     return false;
@@ -135,7 +135,7 @@ bool ClockAgreement::isOutlier(std::size_t camera, double arrival) const {
   return 2 * ahead_of > compared;
 }
 
-std::optional<double> ClockAgreement::ahead(std::size_t camera) const {
+std::optional<double> ComputerClocks::ahead(std::size_t camera) const {
   if (cameras_[camera].trusted)
     return std::nullopt;
   double sum = 0.0;

@@ -1,5 +1,5 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_AGREEMENT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_AGREEMENT_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_COMPUTER_CLOCKS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_COMPUTER_CLOCKS_H
 
 #include <array>
 #include <cstddef>
@@ -16,11 +16,11 @@ namespace wiimote_tracker::tracking {
 /// comparisons are within kTolerance. Images of a camera that come together after a pause count as
 /// one. The largest group of cameras that agree is trusted; none if two groups are equally large.
 /// Two that disagree but both agree with a third are not yet of two groups.
-class ClockAgreement {
+class ComputerClocks {
  public:
   static constexpr double kTolerance = 0.04;  ///< Between clocks that agree [s].
 
-  explicit ClockAgreement(std::size_t cameras);
+  explicit ComputerClocks(std::size_t cameras);
 
   /// @param arrival of the camera's next image by its own clock, finite [s].
   /// @returns whether it can be used: the camera is trusted, and the image fits its time.
@@ -91,4 +91,4 @@ class ClockAgreement {
 
 }  // namespace wiimote_tracker::tracking
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_AGREEMENT_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_COMPUTER_CLOCKS_H

@@ -1,8 +1,8 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
+#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_OFFSETS_H
+#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_OFFSETS_H
 
-#include "clock_regression.h"
 #include "group_state.h"
+#include "offset_regression.h"
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 
 #include <boost/container/flat_map.hpp>
@@ -21,12 +21,12 @@ namespace wiimote_tracker::tracking {
 /// correction.
 ///
 /// Motion tells differences of clocks only: the median of the known ones is 0.
-class CameraClocks {
+class ClockOffsets {
  public:
   /// @param members the group's cameras
-  explicit CameraClocks(const std::vector<std::size_t>& members);
+  explicit ClockOffsets(const std::vector<std::size_t>& members);
 
-  /// @param turn_stddevs of each camera of the rig, see ClockRegression::estimate().
+  /// @param turn_stddevs of each camera of the rig, see OffsetRegression::estimate().
   void setTurnStddevs(std::vector<double> turn_stddevs) { turn_stddevs_ = std::move(turn_stddevs); }
 
   /// The camera's images are of this epoch of its clock from now on.
@@ -58,7 +58,7 @@ class CameraClocks {
     bool is_known = true;  // by the rig's time offset
     ClockError error;
     bool is_corrected = false;  // by the error: it is not known, or the error is large
-    std::optional<ClockRegression::Estimate> remainder = {};  // left with it at the last update()
+    std::optional<OffsetRegression::Estimate> remainder = {};  // left with it at the last update()
 
     ClockError correction() const { return is_corrected ? error : ClockError(); }
     Clock in(std::uint32_t other_epoch, bool is_known_there) const;
@@ -78,4 +78,4 @@ class CameraClocks {
 
 }  // namespace wiimote_tracker::tracking
 
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_CLOCKS_H
+#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_OFFSETS_H

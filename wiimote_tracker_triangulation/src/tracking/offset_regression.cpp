@@ -1,4 +1,4 @@
-#include "clock_regression.h"
+#include "offset_regression.h"
 
 #include <Eigen/LU>
 
@@ -7,7 +7,7 @@
 namespace wiimote_tracker::tracking {
 namespace {
 
-using Complex = ClockRegression::Complex;
+using Complex = OffsetRegression::Complex;
 
 Eigen::Vector2cd products(const Complex& pixel, const Complex& other) {
   return {std::conj(pixel) * other, pixel * other};
@@ -15,9 +15,9 @@ Eigen::Vector2cd products(const Complex& pixel, const Complex& other) {
 
 }  // namespace
 
-void ClockRegression::add(const Eigen::Vector2d& pixel,
-                          const Eigen::Vector2d& velocity,
-                          const Eigen::Vector2d& residual) {
+void OffsetRegression::add(const Eigen::Vector2d& pixel,
+                           const Eigen::Vector2d& velocity,
+                           const Eigen::Vector2d& residual) {
   const Complex p(pixel.x(), pixel.y());
   const Complex v(velocity.x(), velocity.y());
   const Complex r(residual.x(), residual.y());
@@ -33,7 +33,7 @@ void ClockRegression::add(const Eigen::Vector2d& pixel,
   squared_residual_ += residual.squaredNorm();
 }
 
-std::optional<ClockRegression::Estimate> ClockRegression::estimate(double turn_stddev) const {
+std::optional<OffsetRegression::Estimate> OffsetRegression::estimate(double turn_stddev) const {
   // The noise is as if so many further spots were off by 1 px per axis.
   constexpr double kAssumed = 10.0;
   // Share of a calibration's error that no linear map takes, since the image of a nearer LED moves

@@ -71,7 +71,7 @@ std::optional<Eigen::Vector2d> residualOf(const ImageAssignment& assignment,
 }
 
 /// Compares the image with the motion of LEDs that two other cameras see.
-void measureClock(const ImageAssignment& assignment, ClockRegression* clock) {
+void measureClock(const ImageAssignment& assignment, OffsetRegression* clock) {
   constexpr double kLeastSpeed = 0.1;  // of an LED that tells about time [m/s]
   for (const Candidate& candidate : assignment.candidates) {
     if (!candidate.in_view || !candidate.track->isConfirmed() || candidate.others.size() < 2)

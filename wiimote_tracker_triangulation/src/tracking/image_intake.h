@@ -25,8 +25,7 @@ class ImageIntake {
 
   /// The clocks are judged anew unless the cameras and, nearly, their time offsets are the same: a
   /// jump back is then recognised when each camera had time for two images.
-  /// @returns whether the images before and after it can be combined: no camera that both rigs have
-  /// got another time offset.
+  /// @returns whether images before and after it can be combined: no camera has a new time offset.
   bool setRig(const geometry::Rig& rig);
 
   enum class Result {

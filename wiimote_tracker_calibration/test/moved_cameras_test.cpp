@@ -157,9 +157,16 @@ TEST_F(MovedCameras, BringsBackAKnockedCamera) {
   EXPECT_TRUE(waitUntil([] { return health("camera_2").empty(); }));
   // Back, once.
   ASSERT_TRUE(call<std_srvs::Trigger>("calibration/continuous/revert").success);
+  const ros::Time reverted = ros::Time::now();
   EXPECT_TRUE(waitUntil([&] { return published.get()->id == rig.id(); }));
   EXPECT_SAYS(call<std_srvs::Trigger>("calibration/continuous/revert").message,
               "load an earlier rig of " + folder_ + "/: one of versions/");
+  // Proposed again from later images only, of which it takes ten seconds.
+  EXPECT_TRUE(
+      waitUntil([] { return health("camera_2").find("continuous/apply") != std::string::npos; }));
+  EXPECT_GT((ros::Time::now() - reverted).toSec(), 9.0);
+  load(trueRig());
+  EXPECT_TRUE(waitUntil([] { return health("camera_2").empty(); }));
 
   EXPECT_TRUE(waitUntil([&] { return applied.get()->id != other.id(); }));
   EXPECT_LT(

@@ -1,9 +1,10 @@
-// Cameras that are turned while one LED moves.
+// Cameras that are turned while one LED, or a body, moves.
 #include "benchmark_calibration_sections.h"
 #include "knock_trial.h"
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 
@@ -45,6 +46,10 @@ std::string named(double degrees) {
 void runKnocks(int runs, const RowCallback& row) {
   for (const double degrees : {0.5, 1.0, 2.0, 3.0})
     row(rowOf(named(degrees), {degrees * kKnockDegree}, runs));
+  for (const std::size_t leds : {2, 3, 4}) {
+    row(rowOf(named(2.0) + ", " + std::to_string(leds) + " LEDs of a body",
+              {2.0 * kKnockDegree, 1, 0.0, false, 4, leds, true}, runs));
+  }
 }
 
 void runTwoKnocks(int runs, const RowCallback& row) {
@@ -59,10 +64,11 @@ void runTwoKnocks(int runs, const RowCallback& row) {
 }  // namespace
 
 BenchmarkSection knockSection() {
-  return {"knock",
-          "a camera that is turned while one LED moves: proposals for it and for others, time "
-          "until then",
-          runKnocks};
+  return {
+      "knock",
+      "a camera that is turned while one LED, or a body, moves: proposals for it and for others, "
+      "time until then",
+      runKnocks};
 }
 
 BenchmarkSection twoKnocksSection() {

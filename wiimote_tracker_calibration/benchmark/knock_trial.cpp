@@ -90,7 +90,7 @@ KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed) {
     if (!knock.together)
       led.truth[second] = turned(led.truth[second], knock.turn, random);
   }
-  runUntil(last_knock + kAfter);
+  runUntil(last_knock + (knock.on_body ? 2.0 : 1.0) * kAfter);
   trial.error = wave::volumeError(led.truth, rig);
   return trial;
 }

@@ -26,7 +26,7 @@ struct KnockTrial {
 };
 
 /// Applies every proposal but those of drift, as by the policy `knocked`, for a minute after the
-/// last knock, or until all are found.
+/// last knock, with the LEDs of a body two, or until all are found.
 KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed);
 
 }  // namespace wiimote_tracker

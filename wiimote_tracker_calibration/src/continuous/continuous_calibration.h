@@ -18,10 +18,11 @@
 namespace wiimote_tracker::continuous {
 
 struct Options {
-  // {{limit [px], window [s]}, {samples to solve, samples to check}}; 20 samples a second. Noticed
-  // in 6 s; 7 s solve it, 3 s check it. Of several, four cameras see a sample, and up to 28 s solve
-  // them: two cameras that face each other locate few points.
-  SuspectOptions suspects = {{3.0, 6.0}, {140, 60}, {140, 60, 560, 4}};
+  // {{limit [px], window [s], samples}, {samples to solve, samples to check}}; 20 samples a second.
+  // Noticed in 6 s, with LEDs that hide each other in up to 24 s; 7 s solve it, 3 s check it. Of
+  // several, four cameras see a sample, and up to 28 s solve them: two cameras that face each other
+  // locate few points.
+  SuspectOptions suspects = {{3.0, 6.0, 80}, {140, 60}, {140, 60, 560, 4}};
   MotionOptions adjustment = {600, 200};  ///< Of all cameras: 30 s and 10 s.
   recalibrate::Options recalibrate;
 };

@@ -25,6 +25,8 @@ constexpr double kKnownOffset = 0.0005;  // [s]
 constexpr double kLargestShift = 0.5;    // [px]
 // Judgements per window.
 constexpr double kJudgements = 12.0;
+// The window grows to so many times its length while samples lack.
+constexpr double kLongest = 4.0;
 // Residuals of a camera that scatter by more are not those of a turn alone [px].
 constexpr double kMisplaced = 10.0;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
@@ -38,7 +40,7 @@ class Judgement {
   Drifts judge();
 
  private:
-  double worstRatio(const std::vector<bool>& active) const;
+  std::optional<double> worstRatio(const std::vector<bool>& active) const;
   void judgeAgainstOthers(std::vector<bool>* active);
   void judgePairs(const std::vector<bool>& active);
   void noteExchange(std::vector<bool>* active);
@@ -49,20 +51,21 @@ class Judgement {
   Drifts drifts_;
 };
 
-/// The largest ratio among these cameras.
-double Judgement::worstRatio(const std::vector<bool>& active) const {
-  double worst = 0.0;
+/// The largest ratio among these cameras; nothing: none can be judged.
+std::optional<double> Judgement::worstRatio(const std::vector<bool>& active) const {
+  std::optional<double> worst;
   for (std::size_t a = 0; a < active.size(); ++a) {
     if (!active[a])
       continue;
     if (const auto drift = driftOf(a, rig_, samples_, active, limit_)) {
-      worst = std::max(worst, drift->ratio);
+      worst = std::max(worst.value_or(0.0), drift->ratio);
       continue;
     }
     for (std::size_t b = 0; b < active.size(); ++b) {
       const auto pair =
           active[b] && b != a ? driftOfPair(a, b, rig_, samples_, limit_) : std::nullopt;
-      worst = pair ? std::max(worst, pair->ratio) : worst;
+      if (pair)
+        worst = std::max(worst.value_or(0.0), pair->ratio);
     }
   }
   return worst;
@@ -113,7 +116,8 @@ void Judgement::judgeAgainstOthers(std::vector<bool>* remaining) {
         continue;
       std::vector<bool> rest = active;
       rest[i] = false;
-      const double worst = worstRatio(rest);
+      // Cameras that share too little do not fit for that.
+      const double worst = worstRatio(rest).value_or(std::numeric_limits<double>::infinity());
       if (!culprit || worst < least) {
         least = worst;
         culprit = i;
@@ -254,8 +258,15 @@ void DriftWatch::sampleUntil(double time) {
     next_sample_ = time;
   for (; next_sample_ <= time; next_sample_ += capture::kSamplePeriod)
     sampleAt(next_sample_);
-  while (!samples_.empty() && samples_.front().time < time - options_.window)
+  while (!samples_.empty() && samples_.front().time < time - options_.window &&
+         (hasEnoughSamples() || samples_.front().time < time - kLongest * options_.window))
     samples_.pop_front();
+}
+
+bool DriftWatch::hasEnoughSamples() const {
+  const auto enough = std::count_if(samples_.begin(), samples_.end(),
+                                    [](const auto& sample) { return sample.sights.size() >= 3; });
+  return static_cast<std::size_t>(enough) > options_.samples;
 }
 
 void DriftWatch::sampleAt(double time) {

@@ -23,6 +23,9 @@ struct DriftOptions {
   double limit = 0.7;  ///< Largest median residual of a camera that did not move [px, > 0].
   /// Over which the median is taken; add() judges twelve times in it [s, > 0].
   double window = 60.0;
+  /// While not more than so many samples in it show the LED to three cameras, as of LEDs that hide
+  /// each other, the window is longer, up to four times.
+  std::size_t samples = 0;
 };
 
 /// Pixels of the LED in two cameras or more at one time, with the cameras' indices in the rig,
@@ -87,6 +90,7 @@ class DriftWatch {
     std::optional<Eigen::Vector2d> last_sample;  // [px]
   };
   void sampleUntil(double time);
+  bool hasEnoughSamples() const;
   void sampleAt(double time);
   void restart();
 

@@ -297,7 +297,7 @@ TEST(LedSelection, IsAFunctionOfTheImages) {
 }
 
 TEST(ExtensiveLedSelection, NamesTheCameraThatWasTurned) {
-  for (const Scene& scene : {Scene{2, false}, Scene{4, false}, Scene{2, true}}) {
+  for (const Scene& scene : kScenes) {
     for (std::size_t index = 0; index < 4; ++index) {
       Random random(20 + index);
       const geometry::Rig rig = paperRigWith(calibratedByWave());

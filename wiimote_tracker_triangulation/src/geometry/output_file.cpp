@@ -52,7 +52,9 @@ void failToWrite(const std::string& path, int error) {
 OutputFile::OutputFile(const std::string& path, bool keeps_part) : path_(path) {
   const std::string part = partOf(path);
   try {
-    fs::create_directories(fs::absolute(path).parent_path());
+    const fs::path folder = fs::absolute(path).parent_path();
+    if (!fs::is_directory(folder))  // libstdc++ 10 refuses to create one that is a link to a folder
+      fs::create_directories(folder);
     if (fs::is_directory(path))
       failToWrite(path, EISDIR);
     if (fs::exists(path) && !fs::is_regular_file(path))  // finish() would rename over it

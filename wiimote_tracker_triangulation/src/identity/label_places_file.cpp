@@ -28,7 +28,9 @@ std::error_code writePlaces(const std::string& file,
                             const LedLabels::Places& places) {
   const std::string fresh = file + ".new";
   std::error_code error;
-  fs::create_directories(fs::absolute(file).parent_path(), error);
+  const fs::path folder = fs::absolute(file).parent_path();
+  if (!fs::is_directory(folder, error))  // see geometry/output_file.cpp
+    fs::create_directories(folder, error);
   if (error)
     return error;
   errno = 0;

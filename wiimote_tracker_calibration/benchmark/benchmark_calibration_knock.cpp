@@ -46,7 +46,7 @@ std::string named(double degrees) {
 void runKnocks(int runs, const RowCallback& row) {
   for (const double degrees : {0.5, 1.0, 2.0, 3.0})
     row(rowOf(named(degrees), {degrees * kKnockDegree}, runs));
-  for (const std::size_t leds : {2, 3, 4}) {
+  for (const std::size_t leds : {2, 4}) {
     row(rowOf(named(2.0) + ", " + std::to_string(leds) + " LEDs of a body",
               {2.0 * kKnockDegree, 1, 0.0, false, 4, leds, true}, runs));
   }

@@ -88,7 +88,7 @@ void CameraGroup::update() {
 void CameraGroup::step(const StoredImage& image) {
   if (image.clocks != state_.clocks) {
     for (auto& [camera, state] : state_.cameras)
-      state.clock_regression = OffsetRegression();
+      state.offset_regression = OffsetRegression();
     state_.clocks = image.clocks;
   }
   const association::TrackOfSpot track_of_spot = updateTracks(setup_, image, &state_);

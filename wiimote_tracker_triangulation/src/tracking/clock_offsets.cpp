@@ -75,14 +75,14 @@ void ClockOffsets::enterEpoch(std::size_t camera, std::uint32_t epoch, bool is_k
 
 void ClockOffsets::update(const CameraStates& cameras) {
   const auto hasSeenMotion = [](const auto& camera) {
-    return camera.second.clock_regression.count() >= kSpots;
+    return camera.second.offset_regression.count() >= kSpots;
   };
   if (std::none_of(cameras.begin(), cameras.end(), hasSeenMotion))
     return;
   for (const auto& [camera, state] : cameras)
     clocks_.at(camera).remainder = state.fit.isMisfit()
                                        ? std::nullopt
-                                       : state.clock_regression.estimate(turn_stddevs_[camera]);
+                                       : state.offset_regression.estimate(turn_stddevs_[camera]);
   const ClockError common = commonRemainder();
   for (auto& [camera, clock] : clocks_)
     clock.updateError(common);

@@ -56,7 +56,7 @@ struct UnassignedSpots {
 /// What a late image may change of one camera.
 struct CameraState {
   CameraFit fit;
-  OffsetRegression clock_regression;  // since the last correction
+  OffsetRegression offset_regression;  // since the last correction
   UnassignedSpots unassigned;
   NewestImage newest;
 };

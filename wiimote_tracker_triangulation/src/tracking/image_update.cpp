@@ -115,7 +115,7 @@ association::TrackOfSpot updateTracks(const GroupSetup& setup,
   ImageAssignment assignment = assignImage(setup, image, &state->tracks);
   CameraState& camera_state = state->cameras.at(image.camera);
   measureFit(assignment, &state->cameras);
-  measureClock(assignment, &camera_state.clock_regression);
+  measureClock(assignment, &camera_state.offset_regression);
   if (camera_state.fit.isMisfit() && state->cameras.size() > 2)
     return result;
   updateMergedPairs(&state->pairs, &assignment);

@@ -218,6 +218,21 @@ TEST(ExtensiveDriftWatch, TwoCamerasAreNamedBoth) {
   EXPECT_NEAR(watch.drifts()[0]->bias.norm(), 3.0, 0.5);
 }
 
+TEST(ExtensiveDriftWatch, OfTwoCamerasUsesTheLatestMinute) {
+  Random random(25);
+  const geometry::Rig rig = paperRigWith(calibratedByWave(), 2);
+  WavedLed scene(drawTruth(rig, random), 401);
+  DriftWatch watch(rig, {});
+  const auto add = [&](const capture::Image& image) { watch.add(image); };
+  scene.runUntil(120.0, add);
+  ASSERT_TRUE(watch.drifts()[1]);
+  EXPECT_LT(watch.drifts()[1]->ratio, 1.0);
+  scene.truth[1].camera.intrinsics.cy += 3.0;
+  scene.runUntil(175.0, add);
+  ASSERT_TRUE(watch.drifts()[1]);
+  EXPECT_GE(watch.drifts()[1]->ratio, 1.0);
+}
+
 TEST(ExtensiveDriftWatch, UsesOnlyMotionAndKnownClocks) {
   Random random(25);
   const geometry::Rig rig = paperRigWith(calibratedByWave());

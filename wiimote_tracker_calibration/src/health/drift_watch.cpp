@@ -266,7 +266,7 @@ void DriftWatch::sampleUntil(double time) {
 bool DriftWatch::hasEnoughSamples() const {
   const auto enough = std::count_if(samples_.begin(), samples_.end(),
                                     [](const auto& sample) { return sample.sights.size() >= 3; });
-  return static_cast<std::size_t>(enough) > options_.samples;
+  return static_cast<std::size_t>(enough) >= options_.samples;
 }
 
 void DriftWatch::sampleAt(double time) {

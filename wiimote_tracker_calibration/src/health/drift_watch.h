@@ -23,8 +23,8 @@ struct DriftOptions {
   double limit = 0.7;  ///< Largest median residual of a camera that did not move [px, > 0].
   /// Over which the median is taken; add() judges twelve times in it [s, > 0].
   double window = 60.0;
-  /// While not more than so many samples in it show the LED to three cameras, as of LEDs that hide
-  /// each other, the window is longer, up to four times.
+  /// While fewer samples in it show the LED to three cameras, as of LEDs that hide each other, the
+  /// window is longer, up to four times.
   std::size_t samples = 0;
 };
 

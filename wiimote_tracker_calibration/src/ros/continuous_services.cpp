@@ -126,8 +126,11 @@ class ContinuousServices {
       continuous_.emplace(changes_.goal(*rig), options_);
   }
 
-  /// With what the next images show, also if the rig was changed and changed back before update().
-  void watchAnew() { watched_.clear(); }
+  /// With what later images show, also if the rig was changed and changed back before update().
+  void watchAnew(const Lock& lock) {
+    watched_.clear();
+    one_led_inputs_.take(lock);
+  }
 
   void stepTowardsGoal(const std::vector<Input>& inputs, const Lock& lock) {
     double newest = 0.0;  // [s]
@@ -208,7 +211,7 @@ class ContinuousServices {
     const continuous::Proposal proposal = *proposal_;
     forgetProposal(lock);
     const auto rig = changes_.apply(proposal, before);
-    watchAnew();
+    watchAnew(lock);
     if (rig) {
       context_.status(lock).setHealth({});  // of the poses before
       if (proposal.cause == Cause::kDrift)  // too little for what was measured to change
@@ -242,7 +245,7 @@ class ContinuousServices {
     if (!before)
       throw Refusal("no change of continuous calibration is left to undo; " +
                     describeEarlierRigs(context_.parameters(lock).rig_file));
-    watchAnew();
+    watchAnew(lock);
     const std::string message =
         "the rig before the last change is in use again; changes are only proposed from now on";
     context_.setRig(*before, message, lock);

@@ -6,7 +6,6 @@
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/error.h>
-#include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
 #include <utility>
@@ -81,11 +80,6 @@ square::Solution solveOrDiagnose(const wave::Recording& recording,
       found.warnings.push_back("most likely " + mistake->text);
       if (!mistake->corner)
         found.suspect.reset();
-    } else if (recording.hasFrames()) {  // of a square alone its solver warns
-      found.rig.verdict += format(
-          "; what was stated is off by %.1f times its stated errors, but no mistake explains it: "
-          "check the rig at a known place",
-          found.misfit);
     }
     return found;
   } catch (const square::SquareContradiction& error) {

@@ -21,6 +21,7 @@ class History {
   /// @param state after the steps of the images so far; not owned. @param length of the history
   /// [s].
   History(State* state, double length) : state_(*state), length_(length) {}
+  History(const History&) = delete;  // the copy's state would be the original's
 
   /// Inserts an image, instead of a mistimed one. Its step follows with catchUp(), as do those that
   /// it changes.

@@ -25,7 +25,8 @@ class ImageIntake {
 
   /// The clocks are judged anew unless the cameras and, nearly, their time offsets are the same: a
   /// jump back is then recognised when each camera had time for two images.
-  /// @returns whether images before and after it can be combined: no camera has a new time offset.
+  /// @returns whether images before and after it can be combined: each camera has nearly the same
+  /// time offset as before.
   bool setRig(const geometry::Rig& rig);
 
   enum class Result {

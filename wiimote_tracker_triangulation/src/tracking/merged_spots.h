@@ -24,7 +24,7 @@ void updateMerged(const ImageAssignment& assignment,
                   const Candidate& candidate,
                   const Candidate& other);
 
-/// Assigns a unassigned spot between two confirmed LEDs that have none to the nearer one.
+/// Assigns an unassigned spot between two confirmed LEDs that have none to the nearer one.
 void assignMergedSpots(ImageAssignment* assignment);
 
 /// Follows both hypotheses of merged LEDs from now on.

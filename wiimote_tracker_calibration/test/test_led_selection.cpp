@@ -339,7 +339,7 @@ TEST(ExtensiveLedSelection, AKnockedCameraIsBroughtBack) {
 TEST(ExtensiveLedSelection, AKnockedCameraIsBroughtBackByABody) {
   for (const std::size_t leds : {3, 4}) {
     for (const double turn : {1.0, 2.0, 3.0}) {
-      for (const std::uint64_t seed : {0, 1, 2, 3}) {
+      for (const std::uint64_t seed : {0, 1}) {
         Knock knock;
         knock.turn = turn * kDegrees;
         knock.leds = leds;

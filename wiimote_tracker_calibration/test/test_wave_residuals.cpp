@@ -61,6 +61,26 @@ TEST(ExtensiveWave, MisfitIsOneWhereTheErrorsAreStatedRightly) {
   }
 }
 
+TEST(ExtensiveWave, MisfitIsOneWherePrincipalPointsShareAnOffset) {
+  WaveScene scene = shortScene();
+  scene.quantized = false;
+  scene.wrong_share = 0.0;
+  scene.uncertainty = square::Uncertainty();
+  WaveOptions options = optionsFor(scene);
+  options.offset = scene.offset * std::sqrt(2.0 / 3.0);  // of differences of uniform offsets
+  const int kSeeds = 24;
+  double squared = 0.0;
+  int contradictions = 0;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
+    const square::Solution solution = solveWave(simulateWave(scene, seed).recording, options);
+    squared += std::pow(solution.misfit, 2);
+    contradictions += solution.contradicts ? 1 : 0;
+  }
+  // At least fifteen degrees of freedom: three standard deviations are allowed.
+  EXPECT_NEAR(squared / kSeeds, 1.0, 0.22);
+  EXPECT_EQ(contradictions, 0);
+}
+
 TEST(ExtensiveWave, ACornerThatMayLieAnywhereIsNoEvidence) {
   WaveScene scene = shortScene();
   scene.quantized = false;

@@ -15,8 +15,9 @@ void KnownTerms::addPixel(std::size_t camera, const Eigen::Vector2d& pixel, doub
       &problem_, adjust::PixelError(blocks, pixel, stated_.pixel).cost(), nullptr, place));
 }
 
-void KnownTerms::addLenses(const std::vector<CameraSightings>& sightings) {
-  double* const offset = shared_offset_.data();
+void KnownTerms::addLenses(const std::vector<CameraSightings>& sightings,
+                           Eigen::Vector2d* shared_offset) {
+  double* const offset = shared_offset->data();
   if (stated_.shared_principal_point > 0.0) {
     add(adjust::priorOf(Eigen::Vector2d::Zero(),
                         Eigen::Vector2d::Constant(stated_.shared_principal_point)),
@@ -53,7 +54,8 @@ void KnownTerms::addGravity(const std::vector<CameraSightings>& sightings,
 void KnownTerms::addSquare(const SquareLayout& layout,
                            bool z_up,
                            const std::vector<CameraSightings>& sightings,
-                           std::array<Eigen::Vector2d, 4>* corners) {
+                           std::array<Eigen::Vector2d, 4>* corners,
+                           std::vector<Eigen::Vector3d>* places) {
   const Corners nominal = layout.corners(z_up);
   for (std::size_t c = 0; c < nominal.size(); ++c) {
     double* const corner = (*corners)[c].data();
@@ -71,15 +73,15 @@ void KnownTerms::addSquare(const SquareLayout& layout,
   }
   if (stated_.unknown_corner)
     surplus_ += 2;  // its prior tells nothing
-  places_.resize(layout.places.size());
+  while (places->size() < layout.places.size())
+    places->push_back(layout.places[places->size()].position);
   for (std::size_t p = 0; p < layout.places.size(); ++p) {
     const KnownPlace& known = layout.places[p];
-    places_[p] = known.position;
-    add(adjust::priorOf(known.position, Eigen::Vector3d::Constant(known.stddev)),
-        places_[p].data());
+    double* const place = (*places)[p].data();
+    add(adjust::priorOf(known.position, Eigen::Vector3d::Constant(known.stddev)), place);
     for (std::size_t i = 0; i < sightings.size(); ++i) {
       if (p < sightings[i].places.size() && sightings[i].places[p])
-        addPixel(i, *sightings[i].places[p], places_[p].data());
+        addPixel(i, *sightings[i].places[p], place);
     }
   }
   for (const TapedLength& taped : layout.lengths)

@@ -14,7 +14,7 @@
 namespace wiimote_tracker::square {
 
 /// What is known of cameras besides a wave, as residuals: the square, the accelerometers, and
-/// priors. Parameter blocks of the problem are in it: solve and evaluate only while it lives.
+/// priors.
 class KnownTerms {
  public:
   /// @param stated, cameras, problem not owned.
@@ -22,7 +22,6 @@ class KnownTerms {
              std::vector<adjust::CameraBlocks>* cameras,
              ceres::Problem* problem)
       : stated_(stated), cameras_(*cameras), problem_(*problem) {}
-  KnownTerms(const KnownTerms&) = delete;  // the problem holds blocks of this one
 
   /// @param blocks of the residual. @param cost owned by the problem.
   template <typename... Blocks>
@@ -35,7 +34,8 @@ class KnownTerms {
 
   /// Priors of the lenses, and of the offset that their principal points share. Holds the higher
   /// distortion.
-  void addLenses(const std::vector<CameraSightings>& sightings);
+  /// @param shared_offset block [px].
+  void addLenses(const std::vector<CameraSightings>& sightings, Eigen::Vector2d* shared_offset);
 
   /// Not for a wave with a square, against which accelerometers are only checked (wave/checks).
   /// @param up in the world.
@@ -44,10 +44,12 @@ class KnownTerms {
   /// Where cameras saw the corners and the known places, how exactly the LED lay there, and the
   /// taped lengths.
   /// @param corners blocks: displacements from the layout [m].
+  /// @param places blocks: the known places [m]; those that are missing start where they should be.
   void addSquare(const SquareLayout& layout,
                  bool z_up,
                  const std::vector<CameraSightings>& sightings,
-                 std::array<Eigen::Vector2d, 4>* corners);
+                 std::array<Eigen::Vector2d, 4>* corners,
+                 std::vector<Eigen::Vector3d>* places);
 
   /// Sum of the squared residuals at the present values of the problem.
   double chiSquared() const;
@@ -59,8 +61,6 @@ class KnownTerms {
   const Uncertainty& stated_;
   std::vector<adjust::CameraBlocks>& cameras_;
   ceres::Problem& problem_;
-  std::array<double, 2> shared_offset_{};  // of the principal points [px]
-  std::vector<Eigen::Vector3d> places_;    // known places [m]
   std::vector<ceres::ResidualBlockId> residuals_;
   int surplus_ = 0;  // residuals that measure nothing
 };

@@ -31,8 +31,8 @@ class SquareModel::Problem {
       cameras.emplace_back(camera);
     for (std::size_t c = 0; c < 4; ++c)
       corners[c] = (state.corners[c] - model.nominal_corners_[c]).head<2>();
-    known.addSquare(model.layout_, model.z_up_, model.sightings_, &corners);
-    known.addLenses(model.sightings_);
+    known.addSquare(model.layout_, model.z_up_, model.sightings_, &corners, &places);
+    known.addLenses(model.sightings_, &shared_offset);
     known.addGravity(model.sightings_, model.up());
     for (adjust::CameraBlocks& camera : cameras) {
       problem.AddParameterBlock(camera.timeOffset(), adjust::kTimeOffsetSize);
@@ -42,7 +42,9 @@ class SquareModel::Problem {
 
   ceres::Problem problem;
   std::vector<adjust::CameraBlocks> cameras;
-  std::array<Eigen::Vector2d, 4> corners;  // displacements [m]
+  std::array<Eigen::Vector2d, 4> corners;   // displacements [m]
+  std::vector<Eigen::Vector3d> places;      // [m]
+  Eigen::Vector2d shared_offset{0.0, 0.0};  // of the principal points [px]
   KnownTerms known;
 };
 

@@ -76,13 +76,13 @@ class WaveProblem {
     addPath();
     if (recording_.wand)
       addWand(matches);
-    known_.addLenses(recording_.sightings());
+    known_.addLenses(recording_.sightings(), &state->shared_offset);
     // The first one's is held at 0: it cannot disagree.
     for (std::size_t i = 1; i < cameras_.size(); ++i)
       known_.add(adjust::priorOf(0.0, options_.offset), cameras_[i].timeOffset());
     if (recording_.square)
       known_.addSquare(*recording_.square, state->z_up, recording_.sightings(),
-                       &state->corner_offsets);
+                       &state->corner_offsets, &state->places);
     if (state->floor)
       addFloor();
     holdGauge();

@@ -42,6 +42,8 @@ struct State {
   Trajectory trajectory;
   bool z_up = true;                               ///< As in SquareLayout::corners(); not estimated.
   std::array<Eigen::Vector2d, 4> corner_offsets;  ///< Displacements from the layout [m].
+  std::vector<Eigen::Vector3d> places;            ///< That are known: world, as estimated [m].
+  Eigen::Vector2d shared_offset{0.0, 0.0};        ///< That all principal points have [px].
   double wand_length = 0.0;                       ///< [m]
   std::optional<WandOnFloor> floor;               ///< If it gives the world.
 };

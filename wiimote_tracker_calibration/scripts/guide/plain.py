@@ -162,8 +162,7 @@ class Plain:
         status = guide.status
         self._look_at_progress(status)
         missing = status.missing[0] if status.missing else ''
-        answer = guide.answers[-1][1] if guide.answers else ''
-        is_told = missing in answer or missing in status.message
+        is_told = missing in self._new_answer() or missing in status.message
         self._tell_new('missing', tuple(status.missing[:1]),
                        f'missing: {missing}' if missing and not is_told else '')
         if guide.trace is not None:
@@ -187,13 +186,19 @@ class Plain:
         if guide.running and (guide.is_waving() or not guide.is_busy()):
             return
         share = int(status.progress / PROGRESS_STEP) if status.progress >= 0.0 else -1  # NaN: -1
-        answer = guide.answers[-1][1] if guide.answers else ''
-        is_old = answer.startswith(status.message) or status.message == self._told.get('message')
+        is_old = (self._new_answer().startswith(status.message)
+                  or status.message == self._told.get('message'))
         self._told['message'] = status.message
         if not is_old or share != self._told.get('share'):
             self._told['share'] = share
             self._tell(f'{figure(100.0 * status.progress, 0, 3)} %' +
                        ('' if is_old else f'  {status.message}'))
+
+    def _new_answer(self) -> str:
+        """Empty when it is older than what the status says (see _wait)."""
+        guide = self._dialogue.guide
+        is_new = guide.answers and guide.statuses_since_answer <= 2
+        return guide.answers[-1][1] if is_new else ''
 
     def _tell_new(self, kind: Any, value: Any, text: str) -> None:
         if self._told.get(kind) != value:

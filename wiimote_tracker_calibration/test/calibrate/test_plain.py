@@ -92,6 +92,27 @@ def test_plain_tells_what_is_missing_once_though_the_answer_says_it_too():
     assert sum(todo in line for line in said if not line.startswith('waited')) == 1, said
 
 
+def test_plain_tells_what_is_missing_again_though_an_older_answer_said_it():
+    """Somebody else captures a corner, and drops it."""
+    todo = 'put the LED on corner 2 and capture it'
+    answer = f'captured; {todo}'
+    said, node = [], FakeNode({'undo': (True, answer)})
+    # Of those after an answer the first may be older than it.
+    later = {answer: 2 * [status(CalibrationStatus.READY, missing=['corner 3'])],
+             'missing: corner 3': [status(CalibrationStatus.READY, missing=[todo])],
+             f'missing: {todo}': [status(CalibrationStatus.COMPLETE)]}
+
+    def say(text):
+        said.append(text)
+        for each in later.get(text, []):
+            node.events.put(('status', each))
+
+    face = Plain(dialogue_with(node, status(CalibrationStatus.READY)), say,
+                 io.StringIO('undo\nwait 2\n'))
+    face.run()
+    assert face.failures == 0, said
+
+
 def test_plain_says_what_to_do_without_a_node():
     said, node = [], FakeNode()
     guide = Guide(time.monotonic() + 1e6)

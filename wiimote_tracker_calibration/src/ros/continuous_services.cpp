@@ -126,7 +126,8 @@ class ContinuousServices {
       continuous_.emplace(changes_.goal(*rig), options_);
   }
 
-  /// With what later images show, also if the rig was changed and changed back before update().
+  /// Lets update() begin anew, with later images only. By itself it would not notice a rig that was
+  /// changed and changed back since its last call.
   void watchAnew(const Lock& lock) {
     watched_.clear();
     one_led_inputs_.take(lock);

@@ -33,8 +33,8 @@ class OutputFile {
 
   /// Syncs the part to disk and renames it: for every reader, and after a crash, the file has its
   /// old content or all of the new. Keeps an existing file as path + ".bak". Where it throws, the
-  /// file is as it was, or only there as path + ".bak" (full disk without links), and the part
-  /// stays.
+  /// part stays, and the file is as it was. On a full disk whose file system has no links it may be
+  /// there as path + ".bak" only.
   void finish();
 
   void discard();  ///< Removes the part, if it is not finished. Throws nothing.

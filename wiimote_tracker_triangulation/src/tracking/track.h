@@ -55,7 +55,7 @@ class Track {
   /// @param time of its image [s] @param residual [px]
   void addInitialSpot(std::size_t camera, double time, double residual);
 
-  /// See CameraRecords.
+  /// The camera should have shown the LED and did not.
   void miss(std::size_t camera, double time);
 
   /// The track may have changed places with another one. @param probability that it did not [0..1]

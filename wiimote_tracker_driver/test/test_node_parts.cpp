@@ -311,6 +311,17 @@ TEST_F(DiagnosticsTest, RestorationsAreReportedOnce) {
   EXPECT_EQ("the camera was switched off", value("last restoration"));
 }
 
+TEST_F(DiagnosticsTest, WhatIsPutRightOnceIsNoWarning) {
+  state_.link.restorations = 1;
+  state_.link.last_restoration = "the images stopped";
+  const auto status = describe();
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::OK, status.level);
+  EXPECT_EQ("streaming", status.message);
+  EXPECT_EQ("the images stopped", value("last restoration"));
+  ++state_.link.restorations;
+  EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, describe().level);
+}
+
 TEST_F(DiagnosticsTest, TheKernelsDriverIsNoWarningUnlessItMayHaveDoneHarm) {
   state_.link.remote.kernel_driver = "wiimote";
   const auto level = [&] {

@@ -136,7 +136,8 @@ void LinkDiagnostics::summariseStream(const DriverState& state, DiagnosticStatus
                          state.stream.returns, state.replayed ? "" : kKeepLink);
   if (!state.shared_with.empty())
     status.mergeSummary(DiagnosticStatus::WARN, state.shared_with);
-  if (link.restorations != restorations_)
+  // Once is no warning, as in LinkLog.
+  if (link.restorations != restorations_ && link.restorations > 1)
     status.mergeSummary(DiagnosticStatus::WARN, "put right: " + link.last_restoration);
   restorations_ = link.restorations;
   gaps_ = state.stream.gaps;

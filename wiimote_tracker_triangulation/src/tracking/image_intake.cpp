@@ -9,24 +9,16 @@ namespace {
 // More images of one camera do not wait in a network: about half a minute.
 constexpr int kLongestBacklog = 3000;
 
-bool haveSameTimes(const geometry::Rig& a, const geometry::Rig& b) {
-  constexpr double kOffsetJump = 0.05;  // images before and after it cannot be combined [s]
-  const auto offsetOf = [](const geometry::RigCamera& camera) {
-    return camera.time_offset_rule == geometry::TimeOffsetRule::kNone ? 0.0 : camera.time_offset;
-  };
-  return std::all_of(a.cameras.begin(), a.cameras.end(), [&](const auto& one) {
-    return std::all_of(b.cameras.begin(), b.cameras.end(), [&](const auto& other) {
-      return one.camera.name != other.camera.name ||
-             std::abs(offsetOf(one) - offsetOf(other)) < kOffsetJump;
-    });
-  });
+/// What to add to the times of a camera's images [s].
+double offsetIn(std::uint32_t clock_epoch, const geometry::RigCamera& camera) {
+  return camera.timeOffsetIn(clock_epoch).value_or(0.0);
 }
 
 }  // namespace
 
 bool ImageIntake::setRig(const geometry::Rig& rig) {
   const std::size_t cameras = rig.cameras.size();
-  const bool keeps_times = haveSameTimes(rig_, rig);
+  const bool keeps_times = keepsTimes(rig);
   if (!keeps_times || !geometry::haveSameCameras(rig_, rig)) {
     clocks_ = ComputerClocks(cameras);
     progress_.assign(cameras, {newest_used_});
@@ -37,12 +29,26 @@ bool ImageIntake::setRig(const geometry::Rig& rig) {
   return keeps_times;
 }
 
+/// Whether each camera's next image, in the epoch of its last one, has nearly the same offset.
+bool ImageIntake::keepsTimes(const geometry::Rig& rig) const {
+  constexpr double kOffsetJump = 0.05;  // images before and after it cannot be combined [s]
+  for (std::size_t i = 0; i < progress_.size(); ++i) {
+    const geometry::RigCamera& before = rig_.cameras[i];
+    const geometry::RigCamera* const now = rig.find(before.camera.name);
+    const std::optional<std::uint32_t> epoch = progress_[i].clock_epoch;
+    if (now && epoch &&
+        !(std::abs(offsetIn(*epoch, *now) - offsetIn(*epoch, before)) < kOffsetJump))
+      return false;
+  }
+  return true;
+}
+
 ImageIntake::Result ImageIntake::take(std::size_t camera,
                                       const CameraImage& image,
                                       const ClockError& clock,
                                       TimedImage* timed) {
   disordered_ = false;
-  const double offset = rig_.cameras.at(camera).timeOffsetIn(image.clock_epoch).value_or(0.0);
+  const double offset = offsetIn(image.clock_epoch, rig_.cameras.at(camera));
   const double exposure = image.stamp + offset;
   const double arrival = image.arrival + offset;
   if (!std::isfinite(exposure) || !std::isfinite(arrival))
@@ -52,7 +58,9 @@ ImageIntake::Result ImageIntake::take(std::size_t camera,
   timed->time = exposure - clock.offset;
   timed->arrival = image.arrival;
   timed->stamp_stddev = std::hypot(stddev, std::sqrt(clock.variance));
-  return judge(camera, arrival);
+  const Result result = judge(camera, arrival);
+  progress_[camera].clock_epoch = image.clock_epoch;
+  return result;
 }
 
 ImageIntake::Result ImageIntake::judge(std::size_t camera, double arrival) {

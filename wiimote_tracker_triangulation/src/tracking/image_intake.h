@@ -8,6 +8,7 @@
 #include "wiimote_tracker_triangulation/tracking/estimator.h"
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -25,8 +26,8 @@ class ImageIntake {
 
   /// The clocks are judged anew unless the cameras and, nearly, their time offsets are the same: a
   /// jump back is then recognised when each camera had time for two images.
-  /// @returns whether images before and after it can be combined: each camera has nearly the same
-  /// time offset as before.
+  /// @returns whether images before and after it can be combined: in the present epoch of its clock
+  /// each camera has nearly the same time offset as before.
   bool setRig(const geometry::Rig& rig);
 
   enum class Result {
@@ -56,10 +57,12 @@ class ImageIntake {
   struct Progress {
     double in_step_until;   // arrival of its newest image in step since the last jump [s]
     int images_behind = 0;  // since that one
+    std::optional<std::uint32_t> clock_epoch = {};  // of its last image
 
     void add(double arrival, bool is_in_step);
   };
 
+  bool keepsTimes(const geometry::Rig& rig) const;
   Result judge(std::size_t camera, double arrival);
   bool hasJumpedBack(std::size_t camera) const;
   bool isBacklog(std::size_t camera) const;

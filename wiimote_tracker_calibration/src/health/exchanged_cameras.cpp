@@ -64,15 +64,17 @@ double largestOf(const std::vector<std::optional<double>>& scatters) {
 }  // namespace
 
 std::optional<CameraPair> exchangedCameras(const geometry::Rig& rig, const DriftSamples& samples) {
+  geometry::Rig exact = rig;
+  exact.covariance.resize(0, 0);  // a scatter needs neither it nor derivatives
   const std::size_t count = rig.cameras.size();
-  const auto as_is = scattersOf(rig, samples);
+  const auto as_is = scattersOf(exact, samples);
   const double worst = largestOf(as_is);
   std::vector<std::pair<double, CameraPair>> found;
   for (std::size_t a = 0; a < count; ++a) {
     for (std::size_t b = a + 1; b < count; ++b) {
       if (std::min(as_is[a], as_is[b]).value_or(0.0) < kSuspect * worst)
         continue;
-      const auto scatters = scattersOf(rig, exchanged(rig, a, b, samples));
+      const auto scatters = scattersOf(exact, exchanged(rig, a, b, samples));
       if (scatters[a] && scatters[b])
         found.emplace_back(largestOf(scatters), CameraPair(a, b));
     }

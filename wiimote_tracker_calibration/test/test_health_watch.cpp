@@ -62,12 +62,21 @@ TEST(HealthWatch, NoticesAnotherDevice) {
   EXPECT_TRUE(watch.takeNews().empty());
   addFrom("00:1e:35:ff:ff:ff");
   addFrom("00:1e:35:ff:ff:ff");
+  const auto isSilent = [](const auto&) { return true; };
+  EXPECT_TRUE(watch.takeNews(isSilent).empty());
   const auto news = watch.takeNews();
-  ASSERT_EQ(news.size(), 1u);
+  ASSERT_EQ(news.size(), 1u) << "what was not said stays news";
   EXPECT_EQ(news.front(), "camera_2");
+  EXPECT_TRUE(watch.takeNews().empty());
   EXPECT_SAYS(watch.healths().at("camera_2").text, "is another device (00:1e:35:ff:ff:ff)");
   addFrom("00:1e:35:00:00:02");
   EXPECT_EQ(watch.healths().at("camera_2").text, "");
+  // One that is well again does not stay so.
+  addFrom("00:1e:35:ff:ff:ff");
+  EXPECT_TRUE(watch.takeNews(isSilent).empty());
+  addFrom("00:1e:35:00:00:02");
+  EXPECT_EQ(watch.takeNews(isSilent).size(), 1u);
+  EXPECT_TRUE(watch.takeNews().empty());
   // Cameras that are not in the rig are nobody's concern.
   image.camera = "elsewhere";
   addFrom("x");

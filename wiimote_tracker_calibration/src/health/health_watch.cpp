@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 namespace wiimote_tracker::health {
 
@@ -158,8 +157,15 @@ void HealthWatch::addAcceleration(const std::string& name,
   describe(camera);
 }
 
-std::vector<std::string> HealthWatch::takeNews() {
-  return std::exchange(news_, {});
+std::vector<std::string> HealthWatch::takeNews(
+    const std::function<bool(const std::string&)>& isSilent) {
+  const auto first =
+      std::stable_partition(news_.begin(), news_.end(), [&](const std::string& camera) {
+        return !find(camera)->health.text.empty() && isSilent(camera);
+      });
+  std::vector<std::string> news(first, news_.end());
+  news_.erase(first, news_.end());
+  return news;
 }
 
 void HealthWatch::describe(Watched* camera) {

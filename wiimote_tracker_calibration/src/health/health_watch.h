@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -57,7 +58,9 @@ class HealthWatch {
   std::map<std::string, std::vector<std::string>> notJudged() const;
 
   /// Cameras that were well at the last call and are not now.
-  std::vector<std::string> takeNews();
+  /// @param isSilent whether nothing is said of a camera now: while it is not well, it stays news.
+  std::vector<std::string> takeNews(const std::function<bool(const std::string&)>& isSilent =
+                                        [](const auto&) { return false; });
 
  private:
   struct Watched {

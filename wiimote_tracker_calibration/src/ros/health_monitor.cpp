@@ -57,7 +57,11 @@ class HealthMonitor {
       status.setHealth({});
       if (watch_) {
         status.setHealth(watch_->healths());
-        for (const std::string& camera : watch_->takeNews()) {
+        // What is proposed may explain a camera. If that goes without a cure, the camera is named.
+        const auto isExplained = [&](const std::string& camera) {
+          return status.health(camera).empty();
+        };
+        for (const std::string& camera : watch_->takeNews(isExplained)) {
           const std::string text = status.health(camera);
           if (!text.empty())  // It may be well again.
             ROS_WARN_STREAM(camera << " " << text);

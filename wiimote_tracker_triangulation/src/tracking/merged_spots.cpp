@@ -58,6 +58,28 @@ std::optional<std::size_t> spotBetween(const ImageAssignment& assignment,
                                       0.5 * assignment.options.merging_distance);
 }
 
+/// Whether one spot may show two LEDs that have none: it is nearer than merging_distance to both.
+/// Spots of bright LEDs merge over more than that.
+bool mayShowBoth(const ImageAssignment& assignment,
+                 std::size_t spot,
+                 const Candidate& a,
+                 const Candidate& b) {
+  const auto isNear = [&](const Candidate& led) {
+    return !led.spot && (assignment.image.pixels[spot] - led.pixel()).norm() <
+                            assignment.options.merging_distance;
+  };
+  return isNear(a) && isNear(b);
+}
+
+/// Whether a spot that no confirmed LED takes may show two LEDs that have none.
+bool mayShareSpot(const ImageAssignment& assignment, const Candidate& a, const Candidate& b) {
+  for (std::size_t spot = 0; spot < assignment.image.spot_count; ++spot) {
+    if (!assignment.isOfConfirmed(spot) && mayShowBoth(assignment, spot, a, b))
+      return true;
+  }
+  return false;
+}
+
 /// The track of that id, unless it was reacquired later than this [s].
 Track* trackSince(double since, std::uint32_t id, std::vector<Track>* tracks) {
   const auto track = std::find_if(tracks->begin(), tracks->end(), [&](const Track& candidate) {
@@ -71,10 +93,25 @@ Track* trackSince(double since, std::uint32_t id, std::vector<Track>* tracks) {
 bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) {
   const auto& all = assignment.candidates;
   return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
-    return other.track != candidate.track && areClose(candidate, other, assignment.options) &&
-           (other.spot ||
-            (other.track->isConfirmed() && spotBetween(assignment, candidate, other)));
+    if (other.track == candidate.track)
+      return false;
+    return other.spot ? areClose(candidate, other, assignment.options)
+                      : other.track->isConfirmed() && mayShareSpot(assignment, candidate, other);
   });
+}
+
+const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate) {
+  const auto& all = assignment.candidates;
+  const auto isOther = [&](const Candidate& led) {
+    return led.track != candidate.track && led.others.size() >= 2;
+  };
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    for (auto b = a + 1; b != all.end(); ++b) {
+      if (isOther(*a) && isOther(*b) && mayShowBoth(assignment, *candidate.spot, *a, *b))
+        return &*a;
+    }
+  }
+  return nullptr;
 }
 
 const Candidate* mergedWith(const ImageAssignment& assignment, const Candidate& candidate) {

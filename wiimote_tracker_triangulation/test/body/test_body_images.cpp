@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -194,20 +193,10 @@ class AtRest : public testing::Test {
     tracking::CameraImage image;
     for (int i = 0; i < images; ++i, ++shown_) {
       const std::size_t camera = static_cast<std::size_t>(shown_) % 4;
-      image = exactImage(rig_.cameras[camera].camera, points_,
-                         1000.0 + 0.0025 * shown_ + (camera == 0 ? ahead_ : 0.0));
-      image.clock_epoch = clock_epoch_;
+      image = exactImage(rig_.cameras[camera].camera, points_, 1000.0 + 0.0025 * shown_);
       body_tracker_.take(camera, clock_error_, &image);
     }
     return image;
-  }
-
-  /// Sets a rig with this time offset of the first camera in one epoch [s].
-  void setRigWithOffset(double offset, std::uint32_t clock_epoch) {
-    rig_.cameras[0].time_offset = offset;
-    rig_.cameras[0].time_offset_rule = geometry::TimeOffsetRule::kOneEpoch;
-    rig_.cameras[0].time_offset_epoch = clock_epoch;
-    body_tracker_.setRig(rig_);
   }
 
   const Constellation three_{"three", {{0.1, 0.0, 0.0}, {-0.08, 0.02, 0.0}, {0.0, 0.07, 0.05}}};
@@ -215,8 +204,6 @@ class AtRest : public testing::Test {
   BodyTracker body_tracker_{BodyTrackerOptions()};
   std::vector<Vector3d> points_;
   tracking::ClockError clock_error_;  // of all cameras
-  std::uint32_t clock_epoch_ = 0;     // of all cameras
-  double ahead_ = 0.0;                // clock of the first camera [s]
   int shown_ = 0;
 };
 
@@ -276,30 +263,6 @@ TEST_F(AtRest, IsFoundAnewWhenANewRigSetsTimeBack) {
   ASSERT_TRUE(snapshot) << "its time is before that of the last one";
   EXPECT_LT(snapshot->time, 996.0);
   EXPECT_TRUE(snapshot->bodies[0]);
-}
-
-TEST_F(AtRest, IsSeenAtOnceByACameraWhoseNewClockANewRigKnows) {
-  clock_epoch_ = 1;
-  ahead_ = 0.25;
-  setRigWithOffset(-0.25, 0);
-  show(400);
-  EXPECT_EQ(show(1).spots.size(), 3u) << "its clock is wrong";
-  setRigWithOffset(-0.25, 1);
-  show(15);
-  EXPECT_TRUE(show(1).spots.empty());
-}
-
-TEST_F(AtRest, IsFollowedOnWhenTheOffsetOfAFormerClockGoes) {
-  clock_epoch_ = 1;
-  setRigWithOffset(-0.25, 0);
-  show(60);
-  const double first_seen = body_tracker_.next()->bodies[0]->first_seen;
-  setRigWithOffset(0.0, 1);
-  show(1);
-  const BodySnapshot* snapshot = body_tracker_.next();
-  ASSERT_TRUE(snapshot->bodies[0]);
-  EXPECT_EQ(countLost(*snapshot), 0);
-  EXPECT_EQ(snapshot->bodies[0]->first_seen, first_seen);
 }
 
 TEST_F(AtRest, IsLostInANewRigWhileItIsHidden) {

@@ -37,7 +37,6 @@ geometry::Intrinsics readIntrinsics(YamlMap section) {
     throw section.error("distortion",
                         std::string("must have the numbers ") + geometry::coefficientNames(*model));
   std::copy(distortion.begin(), distortion.end(), intrinsics.distortion.begin());
-  section.refuseUnknown();
   return intrinsics;
 }
 
@@ -48,7 +47,6 @@ virtual_wiimote::FrameTimesModel readTiming(YamlMap clock, YamlMap delay) {
   timing.period_tolerance = clock.bounded("tolerance", 0.0, 0.01, timing.period_tolerance);
   timing.phase = clock.bounded("phase", 0.0, 1.0);
   timing.wander = clock.bounded("wander", 0.0, 0.1, timing.wander);
-  clock.refuseUnknown();
   timing.delay = delay.bounded("constant", 0.0, 1.0);
   timing.jitter = delay.bounded("jitter", 0.0, 1.0);
   const auto shape = delay.get<std::string>("shape", "exponential");
@@ -60,7 +58,6 @@ virtual_wiimote::FrameTimesModel readTiming(YamlMap clock, YamlMap delay) {
   timing.burst = delay.bounded("burst", 0.0, 0.99, timing.burst);
   timing.stalls = delay.bounded("stalls", 0.0, 10.0, timing.stalls);
   timing.longest_stall = delay.bounded("longest_stall", 0.0, 10.0, timing.longest_stall);
-  delay.refuseUnknown();
   return timing;
 }
 
@@ -83,7 +80,6 @@ CameraDescription readCamera(const std::string& name, YamlMap section) {
     throw section.error("look_at", std::string("cannot be used: ") + error.what());
   }
   description.timing = readTiming(section.map("clock"), section.map("delay"));
-  section.refuseUnknown();
   return description;
 }
 
@@ -99,13 +95,11 @@ LedMotion readMotion(YamlMap* section) {
       throw wave.error("box", "must have sides of 0 or more, and one of more than 0");
     motion.wave(0.0, wave.vector("middle"), box, wave.bounded("speed", 0.001, 100.0),
                 wave.bounded<std::uint32_t>("path", 0, kLargestSeed));
-    wave.refuseUnknown();
   }
   if (section->has("circle")) {
     YamlMap circle = section->map("circle");
     const double radius = circle.bounded("radius", 0.001, 100.0);
     motion.circle(0.0, circle.vector("middle"), radius, circle.bounded("speed", 0.001, 100.0));
-    circle.refuseUnknown();
   }
   return motion;
 }
@@ -165,7 +159,6 @@ Blink readBlink(YamlMap section, const std::filesystem::path& folder) {
   blink.period = section.bounded("period", codes.shortest_period, codes.longest_period,
                                  0.5 * (codes.shortest_period + codes.longest_period));
   blink.begin = section.bounded("begin", -1e6, 1e6, blink.begin);
-  section.refuseUnknown();
   return blink;
 }
 
@@ -179,7 +172,6 @@ LedDescription readLed(const std::string& name,
     led.turns =
         TurnDescription{turns.get<std::string>("around"), turns.bounded("distance", 0.001, 10.0),
                         turns.bounded("rate", 0.0, 100.0)};
-    turns.refuseUnknown();
   } else {
     led.motion = readMotion(&section);
     led.carried_by = section.get<std::string>("carried_by", "");
@@ -187,7 +179,6 @@ LedDescription readLed(const std::string& name,
   readLight(&section, &led);
   if (section.has("blink"))
     led.blink = readBlink(section.map("blink"), folder);
-  section.refuseUnknown();
   return led;
 }
 
@@ -199,7 +190,6 @@ PersonDescription readPerson(const std::string& name, YamlMap section) {
   person.radius = section.bounded("radius", 0.001, 10.0, person.radius);
   person.height = section.bounded("height", 0.001, 10.0, person.height);
   person.present = section.get<bool>("present", person.present);
-  section.refuseUnknown();
   return person;
 }
 
@@ -214,29 +204,34 @@ RigidBodyDescription readBody(const std::string& name, YamlMap section) {
     if (!(turning.axis.norm() > 0.0))
       throw turn.error("axis", "must have a direction");
     turning.rate = turn.bounded("rate", -100.0, 100.0);
-    turn.refuseUnknown();
   }
   if (section.has("sway")) {
     YamlMap sway = section.map("sway");
     turning.sway = sway.bounded("angle", 0.0, 3.2);
     turning.sway_rate = sway.bounded("rate", 0.0, 100.0);
-    sway.refuseUnknown();
   }
   body.present = section.get<bool>("present", body.present);
-  section.refuseUnknown();
   return body;
 }
 
-ReflectionDescription readReflection(const std::string& name, YamlMap section) {
+bool hasCamera(const Description& description, const std::string& name) {
+  return std::any_of(description.cameras.begin(), description.cameras.end(),
+                     [&](const CameraDescription& camera) { return camera.camera.name == name; });
+}
+
+ReflectionDescription readReflection(const std::string& name,
+                                     YamlMap section,
+                                     const Description& description) {
   ReflectionDescription reflection;
   reflection.name = name;
   reflection.camera = section.get<std::string>("camera");
+  if (!hasCamera(description, reflection.camera))
+    throw section.error("camera", "must be the name of a camera");
   const auto pixel = section.get<std::vector<double>>("pixel");
   if (pixel.size() != 2 || !std::isfinite(pixel[0]) || !std::isfinite(pixel[1]))
     throw section.error("pixel", "must have two numbers: u, v");
   reflection.pixel = {pixel[0], pixel[1]};
   readLight(&section, &reflection);
-  section.refuseUnknown();
   return reflection;
 }
 
@@ -245,7 +240,6 @@ Drawing readDrawing(YamlMap section, const std::filesystem::path& folder) {
   const auto file = section.get<std::string>("file");
   const double size = section.bounded("size", 0.001, 100.0);
   const double rest = section.bounded("rest", 0.0, 60.0, 0.0);
-  section.refuseUnknown();
   try {
     return Drawing(gesture::readPath((folder / file).string()), size, rest);
   } catch (const Error& error) {
@@ -253,11 +247,6 @@ Drawing readDrawing(YamlMap section, const std::filesystem::path& folder) {
   } catch (const std::invalid_argument& error) {
     throw section.error("file", error.what());
   }
-}
-
-bool hasCamera(const Description& description, const std::string& name) {
-  return std::any_of(description.cameras.begin(), description.cameras.end(),
-                     [&](const CameraDescription& camera) { return camera.camera.name == name; });
 }
 
 /// The named entries of a group, at least one.
@@ -268,29 +257,34 @@ std::vector<std::pair<std::string, YamlMap>> entriesOf(YamlMap* file, const std:
   return entries;
 }
 
-/// Checks that an LED turns about an existing LED that does not turn, and that its carrier exists.
-void checkHolders(const std::string& name, const YamlMap& section, const Description& description) {
-  const LedDescription& led = *findNamed(description.leds, name);
-  if (led.turns) {
-    const LedDescription* around = findNamed(description.leds, led.turns->around);
-    if (!around || around->turns)
-      throw section.error("turns/around", "must be the name of an LED that does not turn itself");
+/// Reads a group. Names must be unique, because simulation/set_led identifies all things by name.
+template <typename Thing, typename Read>
+void readGroup(YamlMap* file,
+               const std::string& group,
+               std::set<std::string>* names,
+               std::vector<Thing>* things,
+               const Read& read) {
+  for (const auto& [name, section] : entriesOf(file, group)) {
+    if (!names->insert(name).second)
+      throw file->error(group + "/" + name,
+                        "is also the name of something else; rename one of them");
+    things->push_back(read(name, section));
   }
-  if (!led.carried_by.empty() && !findNamed(description.people, led.carried_by) &&
-      !findNamed(description.bodies, led.carried_by))
-    throw section.error("carried_by", "must be the name of one of the people or bodies");
 }
 
-/// Names must be unique, because simulation/set_led identifies all things by name.
-template <typename Things>
-void takeNames(const Things& things,
-               const std::string& group,
-               const YamlMap& file,
-               std::set<std::string>* names) {
-  for (const auto& thing : things) {
-    if (!names->insert(thing.name).second)
-      throw file.error(group + "/" + thing.name,
-                       "is also the name of something else; rename one of them");
+/// Checks that LEDs turn about existing LEDs that do not turn, and that carriers exist.
+void checkHolders(const Description& description, const YamlMap& file) {
+  for (const LedDescription& led : description.leds) {
+    const std::string key = "leds/" + led.name;
+    if (led.turns) {
+      const LedDescription* around = findNamed(description.leds, led.turns->around);
+      if (!around || around->turns)
+        throw file.error(key + "/turns/around",
+                         "must be the name of an LED that does not turn itself");
+    }
+    if (!led.carried_by.empty() && !findNamed(description.people, led.carried_by) &&
+        !findNamed(description.bodies, led.carried_by))
+      throw file.error(key + "/carried_by", "must be the name of one of the people or bodies");
   }
 }
 
@@ -302,7 +296,6 @@ BoardDescription readBoard(YamlMap section, const Description& description) {
   board.column_spacing = section.bounded("column_spacing", 0.001, 1.0, board.column_spacing);
   board.row_spacing = section.bounded("row_spacing", 0.001, 1.0, board.row_spacing);
   board.size = section.bounded("size", 0.0, 15.0, board.size);
-  section.refuseUnknown();
   return board;
 }
 
@@ -319,30 +312,18 @@ Description readDescription(const std::string& path) {
   for (const auto& [name, section] : entriesOf(&file, "cameras"))
     description.cameras.push_back(readCamera(name, section));
   std::set<std::string> names = {"board"};
-  const auto leds = entriesOf(&file, "leds");
-  for (const auto& [name, section] : leds)
-    description.leds.push_back(readLed(name, section, folder));
-  takeNames(description.leds, "leds", file, &names);
-  if (file.has("people")) {
-    for (const auto& [name, section] : entriesOf(&file, "people"))
-      description.people.push_back(readPerson(name, section));
-    takeNames(description.people, "people", file, &names);
-  }
-  if (file.has("bodies")) {
-    for (const auto& [name, section] : entriesOf(&file, "bodies"))
-      description.bodies.push_back(readBody(name, section));
-    takeNames(description.bodies, "bodies", file, &names);
-  }
-  for (const auto& [name, section] : leds)
-    checkHolders(name, section, description);
-  if (file.has("reflections")) {
-    for (const auto& [name, section] : entriesOf(&file, "reflections")) {
-      description.reflections.push_back(readReflection(name, section));
-      if (!hasCamera(description, description.reflections.back().camera))
-        throw section.error("camera", "must be the name of a camera");
-    }
-    takeNames(description.reflections, "reflections", file, &names);
-  }
+  readGroup(&file, "leds", &names, &description.leds,
+            [&](const auto& name, const auto& led) { return readLed(name, led, folder); });
+  if (file.has("people"))
+    readGroup(&file, "people", &names, &description.people, readPerson);
+  if (file.has("bodies"))
+    readGroup(&file, "bodies", &names, &description.bodies, readBody);
+  checkHolders(description, file);
+  if (file.has("reflections"))
+    readGroup(&file, "reflections", &names, &description.reflections,
+              [&](const auto& name, const auto& section) {
+                return readReflection(name, section, description);
+              });
   if (file.has("board"))
     description.board = readBoard(file.map("board"), description);
   if (file.has("drawings")) {

@@ -112,16 +112,12 @@ square::SquareLayout readSquare(YamlMap map) {
       const auto to = taped.bounded<std::size_t>("to", 1, 4) - 1;
       square.lengths.push_back(
           {from, to, taped.get<double>("length"), taped.get<double>("stddev")});
-      taped.refuseUnknown();
     }
   }
   if (map.has("places")) {
-    for (YamlMap& place : map.maps("places")) {
+    for (YamlMap& place : map.maps("places"))
       square.places.push_back({place.vector("position"), place.get<double>("stddev")});
-      place.refuseUnknown();
-    }
   }
-  map.refuseUnknown();
   return square;
 }
 
@@ -131,7 +127,6 @@ wave::Wand readWand(YamlMap map) {
   wand.stddev = map.get<double>("stddev");
   if (map.has("led_height"))
     wand.led_height = map.get<double>("led_height");
-  map.refuseUnknown();
   return wand;
 }
 
@@ -151,7 +146,6 @@ geometry::Intrinsics readLens(YamlMap map) {
   const std::vector<double> distortion =
       map.numbers("distortion", geometry::coefficientCount(*model));
   std::copy(distortion.begin(), distortion.end(), lens.distortion.begin());
-  map.refuseUnknown();
   return lens;
 }
 
@@ -193,11 +187,9 @@ void readCamera(YamlMap map, SamplesHead* head) {
   for (YamlMap& mask : map.maps("masks")) {
     const Eigen::Vector2d center = readVector(mask, "center", 2);
     camera.masks.push_back({center, mask.get<double>("radius")});
-    mask.refuseUnknown();
   }
   head->frames.push_back(
       map.bounded<std::size_t>("frames", 0, std::numeric_limits<std::int32_t>::max()));
-  map.refuseUnknown();
   head->samples.recording.cameras.push_back(camera);
 }
 

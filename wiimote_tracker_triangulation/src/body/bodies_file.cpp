@@ -33,7 +33,6 @@ ImuMount readImu(geometry::YamlMap map) {
     throw map.error("quaternion_xyzw", "has not the length 1");
   imu.body_from_imu.linear() = rotation.normalized().toRotationMatrix();
   imu.clock_offset = map.bounded("clock_offset", -1e9, 1e9, imu.clock_offset);
-  map.refuseUnknown();
   return imu;
 }
 
@@ -56,18 +55,14 @@ Constellation readBody(geometry::YamlMap map) {
   body.labels = map.get("labels", body.labels);
   if (map.has("imu"))
     body.imu = readImu(map.map("imu"));
-  map.refuseUnknown();
   return body;
 }
 
 Constellation readMarkerPositions(geometry::YamlMap map, const std::string& file) {
   Constellation body;
   body.name = std::filesystem::path(file).stem().string();
-  for (geometry::YamlMap& led : map.maps("marker_positions")) {
+  for (geometry::YamlMap& led : map.maps("marker_positions"))
     body.leds.emplace_back(led.get<double>("x"), led.get<double>("y"), led.get<double>("z"));
-    led.refuseUnknown();
-  }
-  map.refuseUnknown();
   return body;
 }
 
@@ -82,8 +77,8 @@ std::vector<Constellation> readBodies(const std::string& file) {
     map.checkFormat(kFormat, kFormatVersion);
     for (const geometry::YamlMap& body : map.maps("bodies"))
       bodies.push_back(readBody(body));
-    map.refuseUnknown();
   }
+  map.refuseUnknown();
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     bodies[i].check();
     for (std::size_t k = 0; k < i; ++k) {

@@ -28,7 +28,6 @@ Eigen::MatrixXd readMatrix(YamlMap map) {
   const int rows = map.bounded("rows", 0, kMaximumSize);
   const int cols = map.bounded("cols", 0, kMaximumSize);
   const std::vector<double> data = map.numbers("data");
-  map.refuseUnknown();
   if (data.size() != static_cast<std::size_t>(rows) * static_cast<std::size_t>(cols))
     throw map.error("data", "does not have rows * cols numbers");
   using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
@@ -78,9 +77,6 @@ Eigen::Isometry3d readTransform(YamlMap map) {
   // Not with <<: when a getter throws before the last coefficient, its assertion ends the program.
   transform.translation() = Eigen::Vector3d(
       translation.get<double>("x"), translation.get<double>("y"), translation.get<double>("z"));
-  translation.refuseUnknown();
-  rotation.refuseUnknown();
-  map.refuseUnknown();
   return transform;
 }
 
@@ -91,17 +87,13 @@ Eigen::Isometry3d readExtrinsics(YamlMap map, const std::string& camera, const s
   if (map.get<std::string>("child_frame_id") != opticalFrame(camera))
     throw map.error("child_frame_id", "is not '" + opticalFrame(camera) + "'");
   const Eigen::Isometry3d transform = readTransform(map.map("transform"));
-  header.refuseUnknown();
-  map.refuseUnknown();
   return transform;
 }
 
 std::vector<ImageMask> readMasks(YamlMap& map) {
   std::vector<ImageMask> masks;
-  for (YamlMap& mask : map.maps("masks")) {
+  for (YamlMap& mask : map.maps("masks"))
     masks.push_back({{mask.get<double>("x"), mask.get<double>("y")}, mask.get<double>("radius")});
-    mask.refuseUnknown();
-  }
   return masks;
 }
 
@@ -125,7 +117,6 @@ RigCamera readCamera(YamlMap map, const std::string& name, const std::string& wo
   camera.residual_m = map.get<double>("residual_m");
   camera.observations = map.bounded("observations", kNone, kMany);
   camera.inliers = map.bounded("inliers", kNone, kMany);
-  map.refuseUnknown();
   return camera;
 }
 
@@ -141,7 +132,6 @@ remap::Remap readRemap(YamlMap map) {
   remap.parameters = map.numbers("parameters");
   for (const std::vector<double>& point : map.rows("support", 3, "x, y, z"))
     remap.support.emplace_back(point[0], point[1], point[2]);
-  map.refuseUnknown();
   return remap;
 }
 
@@ -169,12 +159,9 @@ Rig readRigFile(const std::string& path) {
   YamlMap cameras = map.map("cameras");
   for (const std::string& name : map.get<std::vector<std::string>>("camera_order"))
     rig.cameras.push_back(readCamera(cameras.map(name), name, rig.world_frame));
-  cameras.refuseUnknown();
-  for (YamlMap& zone : map.maps("zones")) {
+  for (YamlMap& zone : map.maps("zones"))
     rig.zones.push_back(
         {zone.get<std::string>("name"), zone.vector("minimum"), zone.vector("maximum")});
-    zone.refuseUnknown();
-  }
   rig.covariance = readMatrix(map.map("covariance"));
   if (map.has("remap"))
     rig.remap = readRemap(map.map("remap"));

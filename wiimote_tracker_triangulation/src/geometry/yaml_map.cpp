@@ -5,6 +5,13 @@
 #include <algorithm>
 
 namespace wiimote_tracker::geometry {
+namespace {
+
+std::string joined(const std::string& path, const std::string& key) {
+  return path.empty() ? key : path + "/" + key;
+}
+
+}  // namespace
 
 YamlMap YamlMap::load(const std::string& file, const char* advice) {
   return parse(readFile(file), file, advice);
@@ -15,25 +22,22 @@ YamlMap YamlMap::parse(const std::string& text, const std::string& file, const c
     throw FileError(file + " is damaged: it has '" + kUnreadableText + "'; " + advice);
   try {
     // With a line's end, since yaml-cpp 0.6 fills the memory also at a ":" that ends the text.
-    return YamlMap(YAML::Load(text + '\n'), file, "", advice);
+    return YamlMap(YAML::Load(text + '\n'), "", std::make_shared<File>(File{file, advice, {}}));
   } catch (const YAML::Exception& e) {
     throw FileError(file + " is not YAML (" + e.what() + "); " + advice);
   }
 }
 
-YamlMap::YamlMap(const YAML::Node& node,
-                 const std::string& file,
-                 const std::string& path,
-                 const char* advice)
-    : node_(node), file_(file), path_(path), advice_(advice) {
+YamlMap::YamlMap(const YAML::Node& node, const std::string& path, const std::shared_ptr<File>& file)
+    : node_(node), path_(path), file_(file) {
   if (!node_.IsMap())
-    throw FileError(file_ + (path_.empty() ? "" : ": " + path_) +
-                    " is not a map of keys and values; " + advice_);
-  std::set<std::string> keys;
+    throw FileError(file_->name + (path_.empty() ? "" : ": " + path_) +
+                    " is not a map of keys and values; " + file_->advice);
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar())
-      throw FileError(file_ + ": " + path_ + " has a key that is not a string; " + advice_);
-    if (!keys.insert(entry.first.Scalar()).second)
+      throw FileError(file_->name + ": " + path_ + " has a key that is not a string; " +
+                      file_->advice);
+    if (!file_->unread.emplace(path_, entry.first.Scalar()).second)
       throw error(entry.first.Scalar(), "is there twice");
   }
 }
@@ -43,8 +47,8 @@ void YamlMap::checkFormat(const std::string& format, int version) {
     throw error("format", "is not " + format);
   const auto found = get<std::string>("version");
   if (found != std::to_string(version))
-    throw FileError(file_ + ": version is " + found + ", but only " + std::to_string(version) +
-                    " is understood; update this program");
+    throw FileError(file_->name + ": version is " + found + ", but only " +
+                    std::to_string(version) + " is understood; update this program");
 }
 
 std::vector<double> YamlMap::numbers(const std::string& key, std::size_t count) {
@@ -75,7 +79,7 @@ Eigen::Vector3d YamlMap::vector(const std::string& key) {
 }
 
 YamlMap YamlMap::map(const std::string& key) {
-  return YamlMap(value(key), file_, pathOf(key), advice_);
+  return YamlMap(value(key), joined(path_, key), file_);
 }
 
 std::vector<YamlMap> YamlMap::maps(const std::string& key) {
@@ -84,7 +88,7 @@ std::vector<YamlMap> YamlMap::maps(const std::string& key) {
     throw error(key, "is not a list");
   std::vector<YamlMap> result;
   for (std::size_t i = 0; i < list.size(); ++i)
-    result.push_back(YamlMap(list[i], file_, pathOf(key) + "[" + std::to_string(i) + "]", advice_));
+    result.push_back(YamlMap(list[i], joined(path_, key) + "[" + std::to_string(i) + "]", file_));
   return result;
 }
 
@@ -96,26 +100,23 @@ std::vector<std::pair<std::string, YamlMap>> YamlMap::entries() {
 }
 
 void YamlMap::refuseUnknown() const {
-  for (const auto& entry : node_) {
-    if (!asked_.count(entry.first.Scalar()))
-      throw error(entry.first.Scalar(), "is an unknown key, perhaps of a later version");
-  }
+  if (file_->unread.empty())
+    return;
+  const auto& [path, key] = *file_->unread.begin();
+  throw FileError(file_->name + ": " + joined(path, key) +
+                  " is an unknown key, perhaps of a later version; " + file_->advice);
 }
 
 FileError YamlMap::error(const std::string& key, const std::string& is_wrong) const {
-  return FileError(file_ + ": " + pathOf(key) + " " + is_wrong + "; " + advice_);
+  return FileError(file_->name + ": " + joined(path_, key) + " " + is_wrong + "; " + file_->advice);
 }
 
 YAML::Node YamlMap::value(const std::string& key) {
-  asked_.insert(key);
+  file_->unread.erase({path_, key});
   const YAML::Node found = node_[key];
   if (!found.IsDefined())
     throw error(key, "is missing");
   return found;
-}
-
-std::string YamlMap::pathOf(const std::string& key) const {
-  return path_.empty() ? key : path_ + "/" + key;
 }
 
 }  // namespace wiimote_tracker::geometry

@@ -15,10 +15,8 @@ BlinkCodes readDuty(geometry::YamlMap& map) {
   if (period.size() != 2)
     throw map.error("period", "is not [shortest, longest]");
   std::vector<DutyLed> leds;
-  for (geometry::YamlMap& led : map.maps("leds")) {
+  for (geometry::YamlMap& led : map.maps("leds"))
     leds.push_back({led.get<std::string>("label"), led.get<double>("share")});
-    led.refuseUnknown();
-  }
   map.refuseUnknown();
   return dutyCodes(leds, period[0], period[1]);
 }
@@ -27,10 +25,8 @@ BlinkCodes readCyclic(geometry::YamlMap& map) {
   const double chip = map.get<double>("chip");
   const double tolerance = map.get<double>("tolerance");
   std::vector<CyclicLed> leds;
-  for (geometry::YamlMap& led : map.maps("leds")) {
+  for (geometry::YamlMap& led : map.maps("leds"))
     leds.push_back({led.get<std::string>("label"), led.get<std::string>("word")});
-    led.refuseUnknown();
-  }
   map.refuseUnknown();
   return cyclicCodes(leds, chip, tolerance);
 }

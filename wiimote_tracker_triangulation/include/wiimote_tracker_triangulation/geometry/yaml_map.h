@@ -6,6 +6,7 @@
 #include <yaml-cpp/yaml.h>
 #include <Eigen/Core>
 
+#include <memory>
 #include <set>
 #include <sstream>
 #include <string>
@@ -87,27 +88,27 @@ class YamlMap {
   /// All keys of this map, with their values, which must be maps; in the order of the file.
   std::vector<std::pair<std::string, YamlMap>> entries();
 
-  /// Throws for a key that was never read.
+  /// Throws for a key that was never read, in any map of the file that was.
   void refuseUnknown() const;
 
   /// The error that a key `is wrong`, to be thrown.
   FileError error(const std::string& key, const std::string& is_wrong) const;
 
  private:
-  YamlMap(const YAML::Node& node,
-          const std::string& file,
-          const std::string& path,
-          const char* advice);
+  struct File {
+    std::string name;
+    const char* advice;
+    std::set<std::pair<std::string, std::string>> unread;  // paths of maps, with a key each
+  };
+
+  YamlMap(const YAML::Node& node, const std::string& path, const std::shared_ptr<File>& file);
 
   YAML::Node value(const std::string& key);
-  std::string pathOf(const std::string& key) const;
 
   // Const: the other operator[] of a node would insert the key.
   const YAML::Node node_;
-  std::string file_;
   std::string path_;  // of this map in the file
-  const char* advice_;
-  std::set<std::string> asked_;
+  std::shared_ptr<File> file_;
 };
 
 }  // namespace wiimote_tracker::geometry

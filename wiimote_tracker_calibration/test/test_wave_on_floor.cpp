@@ -4,7 +4,7 @@
 #include "refusal_of.h"
 #include "wave_scenes.h"
 
-#include "wave/wand_on_floor.h"
+#include "wave/steps.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/error.h>

@@ -1,6 +1,6 @@
 // What a wave is refused for, and the cause that the refusal names.
 #include "wave/error.h"
-#include "wave/start_poses.h"
+#include "wave/steps.h"
 
 #include "expect_says.h"
 #include "wave_scenes.h"

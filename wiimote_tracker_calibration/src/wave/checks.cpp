@@ -1,4 +1,4 @@
-#include "checks.h"
+#include "steps.h"
 
 #include "capture/moving_spots.h"
 #include "square/lens_priors.h"

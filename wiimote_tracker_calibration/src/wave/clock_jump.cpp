@@ -1,4 +1,4 @@
-#include "clock_jump.h"
+#include "steps.h"
 
 #include "adjustment.h"
 #include "wave/error.h"

@@ -1,4 +1,4 @@
-#include "matching.h"
+#include "steps.h"
 
 #include <algorithm>
 #include <array>

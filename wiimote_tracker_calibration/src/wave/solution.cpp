@@ -1,4 +1,4 @@
-#include "solution.h"
+#include "steps.h"
 
 #include "adjustment.h"
 

@@ -1,14 +1,7 @@
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
 #include "adjustment.h"
-#include "checks.h"
-#include "clock_jump.h"
-#include "matching.h"
-#include "solution.h"
-#include "start_path.h"
-#include "start_poses.h"
-#include "state.h"
-#include "wand_on_floor.h"
+#include "steps.h"
 
 #include "capture/moving_spots.h"
 #include "wave/error.h"

@@ -1,4 +1,4 @@
-#include "start_path.h"
+#include "steps.h"
 
 #include "capture/views.h"
 #include "wave/error.h"

@@ -1,9 +1,8 @@
-#include "start_poses.h"
+#include "steps.h"
 
 #include "bundle/start.h"
 #include "capture/views.h"
 #include "wave/error.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"

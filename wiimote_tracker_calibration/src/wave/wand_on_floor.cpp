@@ -1,6 +1,5 @@
-#include "wand_on_floor.h"
+#include "steps.h"
 
-#include "wand_rest.h"
 #include "wave/error.h"
 
 #include <wiimote_tracker_msgs/text.h>

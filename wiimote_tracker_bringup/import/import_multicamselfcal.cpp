@@ -1,7 +1,6 @@
 // Converts a folder in the layout of MultiCamSelfCal or flydra to a bag of this tracker.
 
 #include "solution.h"
-#include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/recording.h"
 
 #include "wiimote_tracker_triangulation/ros/conversions.h"

@@ -1,9 +1,8 @@
 #include "solution.h"
 
-#include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/pinhole.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"

@@ -1,4 +1,3 @@
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/import/comparison.h"
 #include "wiimote_tracker_calibration/import/recording.h"

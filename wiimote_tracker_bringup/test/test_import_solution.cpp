@@ -1,5 +1,4 @@
 #include "solution.h"
-#include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/pinhole.h"
 #include "wiimote_tracker_calibration/import/recording.h"
 

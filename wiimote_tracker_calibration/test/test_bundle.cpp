@@ -2,7 +2,6 @@
 #include "expect_says.h"
 #include "refusal_of.h"
 
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"

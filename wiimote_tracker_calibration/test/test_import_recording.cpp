@@ -1,6 +1,5 @@
 #include "import_folder.h"
 #include "refusal_of.h"
-#include "wiimote_tracker_calibration/import/number_table.h"
 #include "wiimote_tracker_calibration/import/recording.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,7 @@
 #include "expect_says.h"
 #include "refusal_of.h"
 
-#include "../src/bundle/birge_ratio.h"
-#include "../src/bundle/certainty.h"
+#include "../src/bundle/steps.h"
 
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"

@@ -4,7 +4,6 @@
 #include "adjust/pixel.h"
 #include "adjust/prior.h"
 #include "adjust/solver.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <ceres/loss_function.h>
 #include <ceres/normal_prior.h>

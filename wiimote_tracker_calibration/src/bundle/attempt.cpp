@@ -1,8 +1,6 @@
-#include "attempt.h"
+#include "steps.h"
 
 #include "start.h"
-
-#include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,4 @@
-#include "birge_ratio.h"
-
-#include "certainty.h"
+#include "steps.h"
 
 #include <Eigen/Eigenvalues>
 

@@ -1,4 +1,4 @@
-#include "certainty.h"
+#include "steps.h"
 
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"

@@ -1,9 +1,8 @@
-#include "checks.h"
+#include "steps.h"
 
 #include "start.h"
 
 #include "adjust/opencv.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
 
 #include "wiimote_tracker_triangulation/geometry/error.h"

@@ -1,12 +1,8 @@
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 
-#include "attempt.h"
-#include "birge_ratio.h"
-#include "certainty.h"
-#include "checks.h"
 #include "start.h"
+#include "steps.h"
 
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
 
 #include <algorithm>

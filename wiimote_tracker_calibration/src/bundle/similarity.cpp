@@ -1,7 +1,5 @@
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 
-#include "wiimote_tracker_calibration/bundle/error.h"
-
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
 

@@ -1,8 +1,7 @@
 #include "wiimote_tracker_calibration/bundle/solve.h"
 
-#include "checks.h"
 #include "start.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
+#include "steps.h"
 
 #include <wiimote_tracker_msgs/text.h>
 

@@ -1,7 +1,6 @@
 #include "start.h"
 
 #include "adjust/opencv.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <Eigen/Geometry>
 

@@ -1,7 +1,6 @@
 #include "wiimote_tracker_calibration/import/comparison.h"
 
 #include "remap/fit_model.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
 #include "wiimote_tracker_calibration/bundle/similarity.h"
 #include "wiimote_tracker_calibration/import/pinhole.h"
 

@@ -1,4 +1,4 @@
-#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
 #include <wiimote_tracker_msgs/text.h>
 

@@ -1,6 +1,6 @@
 #include "wiimote_tracker_calibration/import/pinhole.h"
 
-#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>

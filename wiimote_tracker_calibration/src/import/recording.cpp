@@ -1,7 +1,5 @@
 #include "wiimote_tracker_calibration/import/recording.h"
 
-#include "wiimote_tracker_calibration/import/number_table.h"
-
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <array>

@@ -6,7 +6,6 @@
 #include "adjust/solver.h"
 #include "bundle/start.h"
 #include "square/lens_priors.h"
-#include "wiimote_tracker_calibration/bundle/error.h"
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_msgs/text.h>

@@ -1,7 +1,7 @@
 #include "bag.h"
 
 #include "capture/image.h"
-#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
 #include <rosbag/bag.h>
 #include <rosbag/view.h>

@@ -7,7 +7,7 @@
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
 #include "wiimote_tracker_calibration/import/comparison.h"
-#include "wiimote_tracker_calibration/import/number_table.h"
+#include "wiimote_tracker_calibration/import/recording.h"
 
 #include <wiimote_tracker_msgs/argument_parser.h>
 #include <wiimote_tracker_msgs/text.h>
@@ -117,21 +117,6 @@ void takeIntrinsics(const std::string& path, Recording* recording) {
   }
 }
 
-/// Prints the progress to the standard error output, at most once a second.
-class ProgressLine {
- public:
-  void operator()(const std::string& step, double fraction) {
-    const auto now = std::chrono::steady_clock::now();
-    if (now - shown_ > std::chrono::seconds(1)) {
-      shown_ = now;
-      std::fprintf(stderr, "%3.0f %% %s\n", 100.0 * fraction, step.c_str());
-    }
-  }
-
- private:
-  std::chrono::steady_clock::time_point shown_ = std::chrono::steady_clock::now();
-};
-
 Report solve(const Arguments& arguments) {
   Recording recording = import::fileExists(arguments.source + "/Res.dat")
                             ? import::readRecording(arguments.source, false)
@@ -148,7 +133,15 @@ Report solve(const Arguments& arguments) {
   report.source = arguments.source;
   report.frames = used.frames.size();
   report.lenses_given = options.bundle.fixed_lenses;
-  report.solution = bundle::selfCalibrate(import::observedBy(used), options, ProgressLine());
+  // At most once a second.
+  using Clock = std::chrono::steady_clock;
+  const auto show = [shown = Clock::now()](const std::string& step, double fraction) mutable {
+    if (Clock::now() - shown <= std::chrono::seconds(1))
+      return;
+    shown = Clock::now();
+    std::fprintf(stderr, "%3.0f %% %s\n", 100.0 * fraction, step.c_str());
+  };
+  report.solution = bundle::selfCalibrate(import::observedBy(used), options, show);
   report.comparison = import::compare(recording, report.solution, options.bundle);
   return report;
 }

@@ -1,7 +1,8 @@
 #ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_RECONSTRUCTION_H
 #define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_RECONSTRUCTION_H
 
-#include "wiimote_tracker_triangulation/geometry/camera.h"
+#include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_triangulation/geometry/camera.h>
 
 #include <Eigen/Core>
 
@@ -10,6 +11,11 @@
 #include <vector>
 
 namespace wiimote_tracker::bundle {
+
+/// The observations do not determine the cameras. what() is one sentence that says what to do.
+struct BundleError : Error {
+  using Error::Error;
+};
 
 /// The pixel of one point in one camera.
 struct Observation {

@@ -6,7 +6,7 @@
 #include "pixel_distance.h"
 #include "waved_led.h"
 
-#include "continuous/adjust_rig.h"
+#include "continuous/adjustment.h"
 #include "continuous/continuous_calibration.h"
 #include "continuous/keyframes.h"
 #include "continuous/motion_window.h"

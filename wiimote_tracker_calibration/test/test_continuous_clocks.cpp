@@ -3,7 +3,7 @@
 #include "pixel_distance.h"
 #include "waved_led.h"
 
-#include "continuous/adjust_rig.h"
+#include "continuous/adjustment.h"
 #include "continuous/continuous_calibration.h"
 
 #include <wiimote_tracker_msgs/median.h>

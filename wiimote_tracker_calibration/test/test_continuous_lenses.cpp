@@ -1,7 +1,7 @@
 // Continuous calibration of a rig whose cameras have different lens models.
 #include "waved_led.h"
 
-#include "continuous/adjust_rig.h"
+#include "continuous/adjustment.h"
 
 #include <gtest/gtest.h>
 

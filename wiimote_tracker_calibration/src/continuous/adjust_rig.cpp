@@ -1,24 +1,19 @@
-#include "continuous/adjust_rig.h"
+#include "continuous/adjustment.h"
 
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
 #include "adjust/joint_prior.h"
 #include "adjust/moving_pixel.h"
 #include "adjust/solver.h"
-#include "continuous/drift.h"
-#include "continuous/keyframes.h"
-#include "continuous/rig_clocks.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 
 #include <ceres/problem.h>
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker::continuous {
@@ -72,58 +67,43 @@ bool areSpread(const std::vector<Keyframe>& keyframes) {
   return points.size() >= kLeastKeyframes && geometry::spreadOf(points).norm() > kLeastExtent;
 }
 
-/// The keyframes and the prior around the present values of the cameras' blocks.
-class RigProblem {
- public:
-  RigProblem(const geometry::Rig& prior,
-             std::vector<Keyframe> keyframes,
-             double pixel_stddev,
-             double loss_scale,
-             std::vector<CameraBlocks>* cameras)
-      : keyframes_(std::move(keyframes)), blocks_(adjust::blocksOf(cameras)) {
-    for (Keyframe& keyframe : keyframes_) {
-      for (const View& view : keyframe.views) {
-        CameraBlocks& camera = (*cameras)[view.camera];
-        const adjust::InterpolatedPixelError error{
-            adjust::PixelError(camera, view.pixel, pixel_stddev), view.velocity,
-            *camera.timeOffset()};
-        camera.addTo(&problem_, error.cost(), adjust::lossOf(loss_scale), camera.timeOffset(),
-                     keyframe.point.data());
-      }
+/// Adds the keyframes around the present values of the cameras' blocks. @returns their points.
+std::vector<double*> addKeyframes(double pixel_stddev,
+                                  double loss_scale,
+                                  std::vector<Keyframe>* keyframes,
+                                  std::vector<CameraBlocks>* cameras,
+                                  ceres::Problem* problem) {
+  std::vector<double*> points;
+  for (Keyframe& keyframe : *keyframes) {
+    points.push_back(keyframe.point.data());
+    for (const View& view : keyframe.views) {
+      CameraBlocks& camera = (*cameras)[view.camera];
+      const adjust::InterpolatedPixelError error{
+          adjust::PixelError(camera, view.pixel, pixel_stddev), view.velocity,
+          *camera.timeOffset()};
+      camera.addTo(problem, error.cost(), adjust::lossOf(loss_scale), camera.timeOffset(),
+                   points.back());
     }
-    addPrior(prior);
   }
+  return points;
+}
 
-  /// Changes the cameras' blocks. @returns whether it could.
-  bool solve() {
-    std::vector<double*> points;
-    for (Keyframe& keyframe : keyframes_)
-      points.push_back(keyframe.point.data());
-    return adjust::minimise(adjust::solverOptionsForPoints(problem_, points, kSteps), &problem_)
-        .IsSolutionUsable();
+/// @param blocks of all cameras, as in the rig's covariance.
+void addPrior(const geometry::Rig& prior,
+              const std::vector<double*>& blocks,
+              ceres::Problem* problem) {
+  std::vector<double> mean;
+  std::vector<std::int32_t> sizes;
+  for (const geometry::RigCamera& camera : prior.cameras) {
+    const CameraBlocks start(camera.camera, camera.time_offset);
+    mean.insert(mean.end(), start.values.begin(), start.values.end());
+    sizes.insert(sizes.end(), CameraBlocks::kSizes.begin(), CameraBlocks::kSizes.end());
   }
-
-  std::optional<Eigen::MatrixXd> covariance() { return adjust::covarianceOf(&problem_, blocks_); }
-
- private:
-  void addPrior(const geometry::Rig& prior) {
-    std::vector<double> mean;
-    std::vector<std::int32_t> sizes;
-    for (const geometry::RigCamera& camera : prior.cameras) {
-      const CameraBlocks start(camera.camera, camera.time_offset);
-      mean.insert(mean.end(), start.values.begin(), start.values.end());
-      sizes.insert(sizes.end(), CameraBlocks::kSizes.begin(), CameraBlocks::kSizes.end());
-    }
-    problem_.AddResidualBlock(
-        new adjust::JointPrior(Eigen::Map<Eigen::VectorXd>(mean.data(), prior.covariance.rows()),
-                               prior.covariance, sizes),
-        nullptr, blocks_);
-  }
-
-  std::vector<Keyframe> keyframes_;
-  std::vector<double*> blocks_;  // of all cameras, as in the rig's covariance
-  ceres::Problem problem_;
-};
+  problem->AddResidualBlock(
+      new adjust::JointPrior(Eigen::Map<Eigen::VectorXd>(mean.data(), prior.covariance.rows()),
+                             prior.covariance, sizes),
+      nullptr, blocks);
+}
 
 /// Alternates between keyframes and solutions.
 class Adjustment {
@@ -154,8 +134,13 @@ class Adjustment {
     std::vector<Keyframe> keyframes = source_.keyframes(rig_, gate);
     if (!areSpread(keyframes))
       return false;
-    RigProblem problem(prior_, std::move(keyframes), pixel_stddev, loss_scale, &cameras_);
-    if (!problem.solve())
+    ceres::Problem problem;
+    const std::vector<double*> blocks = adjust::blocksOf(&cameras_);
+    const std::vector<double*> points =
+        addKeyframes(pixel_stddev, loss_scale, &keyframes, &cameras_, &problem);
+    addPrior(prior_, blocks, &problem);
+    const ceres::Solver::Options options = adjust::solverOptionsForPoints(problem, points, kSteps);
+    if (!adjust::minimise(options, &problem).IsSolutionUsable())
       return false;
     for (std::size_t i = 0; i < cameras_.size(); ++i) {
       rig_.cameras[i].camera = cameras_[i].cameraLike(rig_.cameras[i].camera);
@@ -163,7 +148,7 @@ class Adjustment {
     }
     if (std::isfinite(loss_scale))
       return true;
-    const auto covariance = problem.covariance();
+    const auto covariance = adjust::covarianceOf(&problem, blocks);
     if (covariance)
       rig_.covariance = ofExistingCoefficients(rig_, *covariance);
     return covariance.has_value();

@@ -1,10 +1,7 @@
 #include "continuous/continuous_calibration.h"
 
-#include "continuous/adjust_rig.h"
-#include "continuous/drift.h"
+#include "continuous/adjustment.h"
 #include "continuous/knocked_cameras.h"
-#include "continuous/propose_adjustment.h"
-#include "continuous/rig_clocks.h"
 #include "health/drift_watch.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-#include "continuous/drift.h"
+#include "continuous/adjustment.h"
 
 #include "adjust/chi_squared.h"
 

@@ -1,6 +1,6 @@
 #include "continuous/knocked_cameras.h"
 
-#include "continuous/drift.h"
+#include "continuous/adjustment.h"
 #include "health/drift_watch.h"
 #include "health/tilt_watch.h"
 

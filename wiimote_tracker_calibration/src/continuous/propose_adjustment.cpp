@@ -1,8 +1,6 @@
-#include "continuous/propose_adjustment.h"
+#include "continuous/adjustment.h"
 
-#include "continuous/drift.h"
 #include "continuous/keyframes.h"
-#include "continuous/rig_clocks.h"
 #include "health/drift_watch.h"
 
 #include <wiimote_tracker_msgs/text.h>

@@ -1,4 +1,4 @@
-#include "continuous/rig_clocks.h"
+#include "continuous/adjustment.h"
 
 #include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>

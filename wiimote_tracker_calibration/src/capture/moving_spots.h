@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -62,10 +63,24 @@ void removeStillSpots(std::vector<Image>* images) {
 }
 
 /// What one camera saw, without spots that do not move.
-std::vector<Image> imagesOf(const std::string& camera, const std::vector<Image>& images);
+inline std::vector<Image> imagesOf(const std::string& camera, const std::vector<Image>& images) {
+  std::vector<Image> own;
+  std::copy_if(images.begin(), images.end(), std::back_inserter(own),
+               [&](const Image& image) { return image.camera == camera; });
+  removeStillSpots(&own);
+  return own;
+}
 
 /// The same since its clock runs as it does now: a time offset is that of one epoch.
-std::vector<Image> latestImagesOf(const std::string& camera, const std::vector<Image>& images);
+inline std::vector<Image> latestImagesOf(const std::string& camera,
+                                         const std::vector<Image>& images) {
+  std::vector<Image> own = imagesOf(camera, images);
+  const auto other = std::find_if(own.rbegin(), own.rend(), [&](const Image& image) {
+    return image.clock_epoch != own.back().clock_epoch;
+  });
+  own.erase(own.begin(), other.base());
+  return own;
+}
 
 }  // namespace wiimote_tracker::capture
 

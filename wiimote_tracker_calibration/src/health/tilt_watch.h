@@ -3,8 +3,10 @@
 
 #include "capture/rest_gravity.h"
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -28,7 +30,16 @@ struct Tilt {
 
 /// @param before, now specific force at rest, at calibration and lately, optical frame [m/s^2, not
 /// zero].
-Tilt tiltOf(const Eigen::Vector3d& before, const Eigen::Vector3d& now, const TiltOptions& options);
+inline Tilt tiltOf(const Eigen::Vector3d& before,
+                   const Eigen::Vector3d& now,
+                   const TiltOptions& options) {
+  Tilt tilt;
+  tilt.angle = std::atan2(before.cross(now).norm(), before.dot(now));
+  // Rounding, at calibration and now. Averaged noise is far smaller.
+  tilt.stddev = options.resolution / std::sqrt(12.0) * std::sqrt(2.0) / before.norm();
+  tilt.ratio = tilt.angle / std::max(options.limit, 3.0 * tilt.stddev);
+  return tilt;
+}
 
 /// Compares a camera's accelerometer at rest with its readings at calibration.
 class TiltWatch {
@@ -40,11 +51,23 @@ class TiltWatch {
   /// One reading, optical frame [m/s^2]. A time before the last one starts the window again.
   /// @returns a judgement at the end of each window; nothing when the camera was shaken
   /// or gave too few readings (RestGravity::mean()).
-  std::optional<Tilt> add(double time, const Eigen::Vector3d& specific_force);
+  std::optional<Tilt> add(double time, const Eigen::Vector3d& specific_force) {
+    std::optional<Tilt> tilt;
+    const bool is_over = time - start_ >= options_.window;
+    if (time >= last_ && is_over) {
+      if (const auto now = window_.mean())
+        tilt = tiltOf(gravity_, *now, options_);
+    }
+    if (time < last_ || is_over) {
+      start_ = time;
+      window_ = capture::RestGravity();
+    }
+    last_ = time;
+    window_.add(specific_force);
+    return tilt;
+  }
 
  private:
-  std::optional<Tilt> judge() const;
-
   Eigen::Vector3d gravity_;
   TiltOptions options_;
   double start_ = -std::numeric_limits<double>::infinity();  // Of the window [s].

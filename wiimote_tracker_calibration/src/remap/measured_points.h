@@ -3,6 +3,8 @@
 
 #include "wiimote_tracker_calibration/remap/fit.h"
 
+#include <wiimote_tracker_msgs/error.h>
+#include <wiimote_tracker_msgs/text.h>
 #include <Eigen/Core>
 
 #include <cstddef>
@@ -33,11 +35,27 @@ class MeasuredPoints {
   }
 
   /// @throws Error: a place with these coordinates is there already.
-  void requireNew(const Eigen::Vector3d& known) const;
+  void requireNew(const Eigen::Vector3d& known) const {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if ((known - points_[i].known).norm() < kSamePlace)
+        throw Error(format(
+            "place %zu has these coordinates already: correct them or, if that one is wrong, "
+            "drop the places from %zu on and measure them again",
+            i + 1, i + 1));
+    }
+  }
 
   /// A clause about an earlier place elsewhere that was measured where this one was, as when the
   /// LED was not carried on; empty: there is none.
-  std::string describeUnmoved(const KnownPoint& point) const;
+  std::string describeUnmoved(const KnownPoint& point) const {
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+      if ((point.measured - points_[i].measured).norm() < kUnmoved &&
+          (point.known - points_[i].known).norm() > kApart)
+        return format(
+            "; but the LED is where place %zu was measured: drop the wrong one of the two", i + 1);
+    }
+    return "";
+  }
 
   void add(const KnownPoint& point) { points_.push_back(point); }
 
@@ -54,6 +72,13 @@ class MeasuredPoints {
   const std::vector<KnownPoint>& points() const { return points_; }
 
  private:
+  // An LED that was not carried on is measured within this distance of where it was [m].
+  static constexpr double kUnmoved = 0.01;
+  // Known places nearer to each other are one [m].
+  static constexpr double kSamePlace = 0.001;
+  // No correction brings places farther apart than this so near to each other [m].
+  static constexpr double kApart = 0.1;
+
   std::string rig_id_;
   std::vector<KnownPoint> points_;
 };

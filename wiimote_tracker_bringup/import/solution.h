@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_IMPORT_SOLUTION_H
-#define WIIMOTE_TRACKER_BRINGUP_IMPORT_SOLUTION_H
+#pragma once
 
 #include "wiimote_tracker_calibration/import/recording.h"
 
@@ -39,5 +38,3 @@ struct Solution {
 Solution solve(const Recording& recording);
 
 }  // namespace wiimote_tracker::import
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_IMPORT_SOLUTION_H

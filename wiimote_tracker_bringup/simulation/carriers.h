@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_CARRIERS_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_CARRIERS_H
+#pragma once
 
 #include "description.h"
 
@@ -29,5 +28,3 @@ Eigen::Isometry3d worldFrom(const RigidBodyDescription& carrier, double time);
 Cylinder cylinderOf(const PersonDescription& person, double time);
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_CARRIERS_H

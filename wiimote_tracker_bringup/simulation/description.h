@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H
+#pragma once
 
 #include "drawing.h"
 #include "led_motion.h"
@@ -135,5 +134,3 @@ struct Description {
 Description readDescription(const std::string& path);
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_DESCRIPTION_H

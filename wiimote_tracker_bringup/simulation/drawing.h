@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_DRAWING_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_DRAWING_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
@@ -30,5 +29,3 @@ class Drawing {
 };
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_DRAWING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_BOARD_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_BOARD_H
+#pragma once
 
 #include "description.h"
 #include "virtual_camera.h"
@@ -37,5 +36,3 @@ class LedBoard {
 };
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_BOARD_H

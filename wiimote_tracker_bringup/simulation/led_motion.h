@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H
+#pragma once
 
 #include "drawing.h"
 
@@ -63,5 +62,3 @@ class LedMotion {
 };
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_LED_MOTION_H

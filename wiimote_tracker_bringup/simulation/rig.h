@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H
+#pragma once
 
 #include "description.h"
 #include "led_board.h"
@@ -99,5 +98,3 @@ class Rig {
 };
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_RIG_H

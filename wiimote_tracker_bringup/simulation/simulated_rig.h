@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_SIMULATED_RIG_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_SIMULATED_RIG_H
+#pragma once
 
 #include "description.h"
 #include "rig.h"
@@ -66,5 +65,3 @@ class SimulatedRig {
 };
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_SIMULATED_RIG_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H
-#define WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H
+#pragma once
 
 #include "carriers.h"
 
@@ -58,5 +57,3 @@ class VirtualCamera {
 };
 
 }  // namespace wiimote_tracker::simulation
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_SIMULATION_VIRTUAL_CAMERA_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_TEST_CONTRAST_H
-#define WIIMOTE_TRACKER_BRINGUP_TEST_CONTRAST_H
+#pragma once
 
 #include <QColor>
 #include <QImage>
@@ -28,5 +27,3 @@ inline double contrastOf(const QImage& image) {
 }
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_TEST_CONTRAST_H

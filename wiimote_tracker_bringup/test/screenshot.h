@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_TEST_SCREENSHOT_H
-#define WIIMOTE_TRACKER_BRINGUP_TEST_SCREENSHOT_H
+#pragma once
 
 #include <QApplication>
 #include <QPixmap>
@@ -20,5 +19,3 @@ inline void screenshot(const QString& name, QWidget* widget) {
 }
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_TEST_SCREENSHOT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H
+#pragma once
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 
@@ -31,5 +30,3 @@ BenchmarkSection restSection();
 BenchmarkSection monthSection();
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_BENCHMARK_CALIBRATION_SECTIONS_H

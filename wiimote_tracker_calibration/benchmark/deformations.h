@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_DEFORMATIONS_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_DEFORMATIONS_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -26,5 +25,3 @@ inline Eigen::Vector3d wavy(const Eigen::Vector3d& p) {
 }
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_DEFORMATIONS_H

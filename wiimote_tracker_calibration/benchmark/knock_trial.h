@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_KNOCK_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_KNOCK_TRIAL_H
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -30,5 +29,3 @@ struct KnockTrial {
 KnockTrial runKnockTrial(const Knock& knock, std::uint64_t seed);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_KNOCK_TRIAL_H

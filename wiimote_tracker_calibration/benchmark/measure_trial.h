@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H
+#pragma once
 
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
@@ -27,5 +26,3 @@ std::vector<MeasureStep> runMeasureTrial(const wave::WaveScene& scene,
                                          int measurements);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MEASURE_TRIAL_H

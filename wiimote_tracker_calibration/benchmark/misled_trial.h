@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -34,5 +33,3 @@ MisledTrial runMisledTrial(Misled by,
 int changesAtRest(bool with_led, int seconds, std::uint64_t seed);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MISLED_TRIAL_H

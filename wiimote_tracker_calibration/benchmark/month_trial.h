@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MONTH_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MONTH_TRIAL_H
+#pragma once
 
 #include "waved_led.h"
 
@@ -65,5 +64,3 @@ class Month {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_MONTH_TRIAL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_PAPER_PROCEDURE_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_PAPER_PROCEDURE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/principal_point/correction.h"
 
@@ -30,5 +29,3 @@ struct PaperResult {
 PaperResult runPaperSession(const PaperSession& session);
 
 }  // namespace wiimote_tracker::principal_point
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_PAPER_PROCEDURE_H

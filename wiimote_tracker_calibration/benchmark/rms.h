@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_RMS_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_RMS_H
+#pragma once
 
 #include <cmath>
 #include <functional>
@@ -22,5 +21,3 @@ double rms(const Items& items, const Value& value) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_RMS_H

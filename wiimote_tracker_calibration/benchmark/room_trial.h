@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_ROOM_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_ROOM_TRIAL_H
+#pragma once
 
 #include "rooms/join_rooms.h"
 
@@ -84,5 +83,3 @@ RoomErrors errorsOfRooms(int pairs,
                          double slope = rooms::JoinOptions().slope);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_ROOM_TRIAL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H
+#pragma once
 
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 #include "wiimote_tracker_calibration/simulation/wave_bound.h"
@@ -70,5 +69,3 @@ std::vector<geometry::Camera> inTrueWorld(const WaveScene& scene,
                                           const square::Solution& solution);
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BENCHMARK_WAVE_TRIAL_H

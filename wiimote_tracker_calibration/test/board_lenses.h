@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_BOARD_LENSES_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_BOARD_LENSES_H
+#pragma once
 
 #include "wiimote_tracker_calibration/simulation/simulated_board.h"
 
@@ -64,5 +63,3 @@ inline Samples fisheyeSamples(const geometry::Intrinsics& camera,
 }
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_BOARD_LENSES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_BOARD_TABLE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_BOARD_TABLE_H
+#pragma once
 
 #include <array>
 #include <cmath>
@@ -36,5 +35,3 @@ inline std::vector<int> litAt(double seconds) {
 }
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_BOARD_TABLE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_BUNDLE_SYNTHETIC_RIG_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_BUNDLE_SYNTHETIC_RIG_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
@@ -92,5 +91,3 @@ struct SyntheticRig {
 };
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_BUNDLE_SYNTHETIC_RIG_H

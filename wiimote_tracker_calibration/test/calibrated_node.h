@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_CALIBRATED_NODE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_CALIBRATED_NODE_H
+#pragma once
 
 #include "node_fixture.h"
 
@@ -86,5 +85,3 @@ class CalibratedNode : public Node {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_CALIBRATED_NODE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_CALL_SERVICE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_CALL_SERVICE_H
+#pragma once
 
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -28,5 +27,3 @@ typename Service::Response callService(const std::string& name,
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_CALL_SERVICE_H

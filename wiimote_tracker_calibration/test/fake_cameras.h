@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_FAKE_CAMERAS_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_FAKE_CAMERAS_H
+#pragma once
 
 #include "simulated_square.h"
 
@@ -263,5 +262,3 @@ class FakeCameras {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_FAKE_CAMERAS_H

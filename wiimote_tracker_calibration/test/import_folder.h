@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_IMPORT_FOLDER_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_IMPORT_FOLDER_H
+#pragma once
 
 #include <cstdlib>
 #include <fstream>
@@ -43,5 +42,3 @@ class Folder {
 };
 
 }  // namespace wiimote_tracker::import
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_IMPORT_FOLDER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H
+#pragma once
 
 #include "call_service.h"
 #include "expect_says.h"
@@ -269,5 +268,3 @@ class Process {
 
 }  // namespace
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_NODE_FIXTURE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_PIXEL_DISTANCE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_PIXEL_DISTANCE_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -27,5 +26,3 @@ inline double pixelDistance(const geometry::Camera& a, const geometry::Camera& b
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_PIXEL_DISTANCE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_POSE_TRIAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_POSE_TRIAL_H
+#pragma once
 
 #include "square/planar_pose.h"
 
@@ -68,5 +67,3 @@ struct PoseTally {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_POSE_TRIAL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_RUN_COMMAND_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_RUN_COMMAND_H
+#pragma once
 
 #include <sys/wait.h>
 
@@ -20,5 +19,3 @@ inline std::pair<int, std::string> runCommand(const std::string& command) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_RUN_COMMAND_H

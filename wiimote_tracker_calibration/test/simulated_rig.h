@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_RIG_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_RIG_H
+#pragma once
 
 #include "simulated_square.h"
 
@@ -145,5 +144,3 @@ inline std::vector<geometry::RigCamera> drawTruth(const geometry::Rig& rig,
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_RIG_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -175,5 +174,3 @@ inline double poseNees(const geometry::Rig& rig,
 }
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_SIMULATED_SQUARE_H

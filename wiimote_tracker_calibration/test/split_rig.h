@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_SPLIT_RIG_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_SPLIT_RIG_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -23,5 +22,3 @@ inline void linkByTheSecond(geometry::Rig* rig) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_SPLIT_RIG_H

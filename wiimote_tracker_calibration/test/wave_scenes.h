@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H
+#pragma once
 
 #include "refusal_of.h"
 #include "wave_trial.h"
@@ -52,5 +51,3 @@ inline std::string refusal(const Recording& recording, const WaveOptions& option
 }
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_WAVE_SCENES_H

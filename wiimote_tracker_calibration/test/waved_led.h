@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WAVED_LED_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_WAVED_LED_H
+#pragma once
 
 #include "simulated_rig.h"
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
@@ -161,5 +160,3 @@ class WavedLed {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_WAVED_LED_H

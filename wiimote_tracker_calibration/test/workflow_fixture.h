@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_TEST_WORKFLOW_FIXTURE_H
-#define WIIMOTE_TRACKER_CALIBRATION_TEST_WORKFLOW_FIXTURE_H
+#pragma once
 
 #include "samples/solve_samples.h"
 #include "workflow/calibration.h"
@@ -116,5 +115,3 @@ class Workflow : public ::testing::Test {
 };
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_TEST_WORKFLOW_FIXTURE_H

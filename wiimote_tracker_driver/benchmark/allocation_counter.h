@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_ALLOCATION_COUNTER_H
-#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_ALLOCATION_COUNTER_H
+#pragma once
 
 #include <cstdint>
 
@@ -14,5 +13,3 @@ struct Allocations {
 Allocations allocations();
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_ALLOCATION_COUNTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H
-#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H
+#pragma once
 
 #include "process.h"
 
@@ -21,5 +20,3 @@ class OwnMaster {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_OWN_MASTER_H

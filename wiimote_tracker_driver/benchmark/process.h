@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_PROCESS_H
-#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_PROCESS_H
+#pragma once
 
 #include <signal.h>
 #include <sys/prctl.h>
@@ -53,5 +52,3 @@ class Process {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_PROCESS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REFERENCE_CLOCKS_H
-#define WIIMOTE_TRACKER_DRIVER_REFERENCE_CLOCKS_H
+#pragma once
 
 #include "simulated_link.h"
 
@@ -20,5 +19,3 @@ double convexHull(const SimulatedSession& session);
 double oracle(const SimulatedSession& session, const LinkModel& link);
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REFERENCE_CLOCKS_H

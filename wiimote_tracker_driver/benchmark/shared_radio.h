@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_SHARED_RADIO_H
-#define WIIMOTE_TRACKER_DRIVER_SHARED_RADIO_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 
@@ -37,5 +36,3 @@ std::vector<std::vector<virtual_wiimote::FrameTime>> simulateRadio(const RadioMo
                                                                    std::uint64_t seed);
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_SHARED_RADIO_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_SIMULATED_LINK_H
-#define WIIMOTE_TRACKER_DRIVER_SIMULATED_LINK_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/frame_times.h"
 
@@ -38,5 +37,3 @@ inline SimulatedSession simulate(const LinkModel& link, double duration, std::ui
 }
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_SIMULATED_LINK_H

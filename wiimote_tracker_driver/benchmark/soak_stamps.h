@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_SOAK_STAMPS_H
-#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_SOAK_STAMPS_H
+#pragma once
 
 #include "ros/image_stamper.h"
 #include "trials.h"
@@ -63,5 +62,3 @@ class SoakStamps {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_SOAK_STAMPS_H

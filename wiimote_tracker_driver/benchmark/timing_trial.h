@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TIMING_TRIAL_H
-#define WIIMOTE_TRACKER_DRIVER_TIMING_TRIAL_H
+#pragma once
 
 #include "simulated_link.h"
 
@@ -33,5 +32,3 @@ TimingScore runTiming(const LinkModel& link,
                       std::uint64_t first_seed = 1);
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TIMING_TRIAL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_TRIALS_H
-#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_TRIALS_H
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -37,5 +36,3 @@ Results runCost(double duration);
 Results runSoak(std::uint64_t reports, double hour = 3600.0);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_TRIALS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H
-#define WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H
+#pragma once
 
 #include "process.h"
 
@@ -49,5 +48,3 @@ class VirtualRemotes {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_BENCHMARK_VIRTUAL_REMOTES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_FILE_DESCRIPTOR_H
-#define WIIMOTE_TRACKER_DRIVER_FILE_DESCRIPTOR_H
+#pragma once
 
 #include <unistd.h>
 
@@ -33,5 +32,3 @@ class FileDescriptor {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_FILE_DESCRIPTOR_H

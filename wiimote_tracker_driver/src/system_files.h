@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_SYSTEM_FILES_H
-#define WIIMOTE_TRACKER_DRIVER_SYSTEM_FILES_H
+#pragma once
 
 #include <algorithm>
 #include <filesystem>
@@ -31,5 +30,3 @@ inline std::vector<std::filesystem::path> entriesOf(const std::filesystem::path&
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_SYSTEM_FILES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_BIT_FIELD_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_BIT_FIELD_H
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -57,5 +56,3 @@ class BitField {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_BIT_FIELD_H

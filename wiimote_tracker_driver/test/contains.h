@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_CONTAINS_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_CONTAINS_H
+#pragma once
 
 #include <string>
 
@@ -10,5 +9,3 @@ inline bool contains(const std::string& text, const std::string& part) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_CONTAINS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_DRIVEN_DEVICE_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_DRIVEN_DEVICE_H
+#pragma once
 
 #include "virtual_wiimote/faulty_device.h"
 #include "wiimote/wiimote.h"
@@ -124,5 +123,3 @@ struct Driven {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_DRIVEN_DEVICE_H

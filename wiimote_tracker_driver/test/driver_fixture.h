@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H
+#pragma once
 
 #include "waiting.h"
 #include "wiimote_tracker_driver/virtual_wiimote/server.h"
@@ -104,5 +103,3 @@ struct Recorder {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_FIXTURE_H

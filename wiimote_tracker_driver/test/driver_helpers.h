@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_HELPERS_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_HELPERS_H
+#pragma once
 
 #include "driver_fixture.h"
 
@@ -47,5 +46,3 @@ inline std::map<std::string, std::string> values(const diagnostic_msgs::Diagnost
 }
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_DRIVER_HELPERS_H

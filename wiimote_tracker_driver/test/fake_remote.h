@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H
+#pragma once
 
 #include "transport/transport.h"
 
@@ -247,5 +246,3 @@ inline std::unique_ptr<transport::Transport> FakeRemote::open() {
 }
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_FAKE_REMOTE_H

@@ -1,6 +1,5 @@
 // Reports with random bytes.
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_NOISE_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_NOISE_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/report.h"
 
@@ -27,5 +26,3 @@ class Noise {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_NOISE_H

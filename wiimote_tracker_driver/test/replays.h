@@ -1,6 +1,5 @@
 // Recordings of a simulated remote, and their replays.
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_REPLAYS_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_REPLAYS_H
+#pragma once
 
 #include "recording/recorder.h"
 #include "recording/replay.h"
@@ -216,5 +215,3 @@ class Replays : public testing::Test {
 };
 
 }  // namespace wiimote_tracker::recording
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_REPLAYS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_TEMPORARY_FOLDER_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_TEMPORARY_FOLDER_H
+#pragma once
 
 #include <stdlib.h>
 
@@ -47,5 +46,3 @@ class TemporaryFolder {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_TEMPORARY_FOLDER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_VIRTUAL_REMOTE_BYTES_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_VIRTUAL_REMOTE_BYTES_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
@@ -45,5 +44,3 @@ inline Senses lights(std::vector<Light> lights) {
 }
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_VIRTUAL_REMOTE_BYTES_H

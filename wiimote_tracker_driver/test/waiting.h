@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_WAITING_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_WAITING_H
+#pragma once
 
 #include <chrono>
 #include <thread>
@@ -23,5 +22,3 @@ bool eventually(Condition condition) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_WAITING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_WIIMOTE_FIXTURE_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_WIIMOTE_FIXTURE_H
+#pragma once
 
 #include "fake_remote.h"
 #include "wiimote/wiimote.h"
@@ -85,5 +84,3 @@ class WiimoteTest : public testing::Test {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_WIIMOTE_FIXTURE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TEST_WIRE_LAYOUTS_H
-#define WIIMOTE_TRACKER_DRIVER_TEST_WIRE_LAYOUTS_H
+#pragma once
 
 #include "bit_field.h"
 
@@ -173,5 +172,3 @@ inline std::uint8_t checksum(const std::uint8_t* bytes, std::size_t count) {
 }
 
 }  // namespace wiimote_tracker::wire
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TEST_WIRE_LAYOUTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_ARDUINO_H
-#define WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_ARDUINO_H
+#pragma once
 
 #include <set>
 #include <stdexcept>
@@ -39,5 +38,3 @@ inline void digitalWrite(int pin, int level) {
 }
 
 }  // namespace arduino
-
-#endif  // WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_ARDUINO_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_DOCUMENTED_PARAMETERS_H
-#define WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_DOCUMENTED_PARAMETERS_H
+#pragma once
 
 #include <wiimote_tracker_msgs/parameter_reader.h>
 
@@ -16,5 +15,3 @@ namespace wiimote_tracker {
 void expectDocumented(const ParameterReader& reader, const std::string& path);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_DOCUMENTED_PARAMETERS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_EXPECT_SAYS_H
-#define WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_EXPECT_SAYS_H
+#pragma once
 
 #include <gtest/gtest.h>
 
@@ -7,5 +6,3 @@
 
 /// The text contains this part. A failure shows the whole text.
 #define EXPECT_SAYS(text, part) EXPECT_PRED_FORMAT2(testing::IsSubstring, part, text)
-
-#endif  // WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_EXPECT_SAYS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_GERMAN_LOCALE_H
-#define WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_GERMAN_LOCALE_H
+#pragma once
 
 #include <clocale>
 #include <cstdlib>
@@ -48,5 +47,3 @@ class GermanLocale {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_GERMAN_LOCALE_H

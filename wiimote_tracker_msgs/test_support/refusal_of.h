@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_REFUSAL_OF_H
-#define WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_REFUSAL_OF_H
+#pragma once
 
 #include <wiimote_tracker_msgs/error.h>
 
@@ -19,5 +18,3 @@ std::string refusalOf(const Action& action) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_TEST_SUPPORT_REFUSAL_OF_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H
+#pragma once
 
 #include <wiimote_tracker_msgs/benchmark_tables.h>
 
@@ -34,5 +33,3 @@ int runBenchmark(const std::string& program,
                  const std::function<void(ArgumentParser*, BenchmarkSettings*)>& add_options = {});
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_PROGRAM_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_SECTIONS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_SECTIONS_H
+#pragma once
 
 #include "benchmark_program.h"
 
@@ -21,5 +20,3 @@ BenchmarkSection cyclicSection();
 BenchmarkSection movingSection();
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_BENCHMARK_SECTIONS_H

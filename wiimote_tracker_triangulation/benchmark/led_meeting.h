@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_LED_MEETING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_LED_MEETING_H
+#pragma once
 
 #include "tracking/scene.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -43,5 +42,3 @@ struct OracleErrors {
 std::optional<OracleErrors> oracleErrors(const LedMeeting& meeting, const MeetingFilm& film);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_LED_MEETING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_SINGLE_MODEL_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_SINGLE_MODEL_FILTER_H
+#pragma once
 
 #include "motion/kinematic_state.h"
 #include "motion/transition.h"
@@ -31,5 +30,3 @@ motion::KinematicState stateAt(const Eigen::Vector3d& position,
                                double acceleration);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_SINGLE_MODEL_FILTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ALLOCATION_COUNTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ALLOCATION_COUNTER_H
+#pragma once
 
 // Counts the heap allocations of a test program and its libraries, also those of Eigen's matrices,
 // which do not use operator new. Include it in one source file only: it replaces malloc() and
@@ -46,5 +45,3 @@ extern "C" void* realloc(void* memory, std::size_t size) noexcept {
 [[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept {
   std::free(memory);
 }
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ALLOCATION_COUNTER_H

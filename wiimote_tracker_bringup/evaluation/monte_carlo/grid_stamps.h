@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_GRID_STAMPS_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_GRID_STAMPS_H
+#pragma once
 
 #include <vector>
 
@@ -24,5 +23,3 @@ struct GridStamps {
 GridStamps gridStamps(const std::vector<double>& arrivals);
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_GRID_STAMPS_H

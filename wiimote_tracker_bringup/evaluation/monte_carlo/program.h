@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PROGRAM_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PROGRAM_H
+#pragma once
 
 #include "description.h"
 
@@ -79,5 +78,3 @@ int runProgram(
     const std::function<void(const simulation::Description&, const Session&, Table*)>& measure);
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PROGRAM_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_REMOTE_CAMERA_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_REMOTE_CAMERA_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
@@ -29,5 +28,3 @@ class RemoteCamera {
 };
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_REMOTE_CAMERA_H

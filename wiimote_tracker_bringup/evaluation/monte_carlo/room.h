@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_ROOM_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_ROOM_H
+#pragma once
 
 #include "description.h"
 #include "remote_camera.h"
@@ -87,5 +86,3 @@ simulation::Description withCameras(const simulation::Description& description, 
 geometry::Rig trueRig(const simulation::Description& description);
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_ROOM_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_BIG_WORDS_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_BIG_WORDS_H
+#pragma once
 
 #include <QLabel>
 
@@ -15,5 +14,3 @@ class BigWords : public QLabel {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_BIG_WORDS_H

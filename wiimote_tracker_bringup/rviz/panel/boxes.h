@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_BOXES_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_BOXES_H
+#pragma once
 
 #include <QComboBox>
 #include <QDoubleSpinBox>
@@ -31,5 +30,3 @@ class NumberBox : public QDoubleSpinBox {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_BOXES_H

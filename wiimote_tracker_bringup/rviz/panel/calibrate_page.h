@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CALIBRATE_PAGE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CALIBRATE_PAGE_H
+#pragma once
 
 #include "guide.h"
 #include "requests.h"
@@ -76,5 +75,3 @@ class CalibratePage : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CALIBRATE_PAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_TILE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_TILE_H
+#pragma once
 
 #include "camera_view.h"
 
@@ -44,5 +43,3 @@ class CameraTile : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_TILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_VIEW_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_VIEW_H
+#pragma once
 
 #include <wiimote_tracker_msgs/CalibrationCameraStatus.h>
 #include <wiimote_tracker_msgs/CameraCalibration.h>
@@ -84,5 +83,3 @@ class CameraView {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERA_VIEW_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERAS_PAGE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERAS_PAGE_H
+#pragma once
 
 #include "tracker_view.h"
 
@@ -33,5 +32,3 @@ class CamerasPage : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_CAMERAS_PAGE_H

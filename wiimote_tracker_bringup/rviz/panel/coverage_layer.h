@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_COVERAGE_LAYER_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_COVERAGE_LAYER_H
+#pragma once
 
 #include <sensor_msgs/PointCloud2.h>
 
@@ -24,5 +23,3 @@ std::vector<std::array<float, 3>> placesOf(const sensor_msgs::PointCloud2& cells
 std::string numbersOf(const sensor_msgs::PointCloud2& cells, std::size_t cell);
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_COVERAGE_LAYER_H

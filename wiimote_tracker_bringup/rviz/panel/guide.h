@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_GUIDE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_GUIDE_H
+#pragma once
 
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
@@ -63,5 +62,3 @@ class Guide {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_GUIDE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_PAGE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_PAGE_H
+#pragma once
 
 #include "health_view.h"
 
@@ -22,5 +21,3 @@ class HealthPage : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_PAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_VIEW_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_VIEW_H
+#pragma once
 
 #include <diagnostic_msgs/DiagnosticArray.h>
 
@@ -33,5 +32,3 @@ class HealthView {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_HEALTH_VIEW_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H
+#pragma once
 
 #include <QDateTime>
 #include <QElapsedTimer>
@@ -36,5 +35,3 @@ class Recorder {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_RECORDER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_REQUESTS_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_REQUESTS_H
+#pragma once
 
 #include "guide.h"
 
@@ -94,5 +93,3 @@ std::string Requests::call(const std::string& name, const typename Service::Requ
 }
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_REQUESTS_H

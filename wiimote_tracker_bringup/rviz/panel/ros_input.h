@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H
+#pragma once
 
 #include "guide.h"
 #include "health_view.h"
@@ -73,5 +72,3 @@ class RosInput {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_ROS_INPUT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_SEEN_AT_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_SEEN_AT_H
+#pragma once
 
 #include <QPointF>
 
@@ -31,5 +30,3 @@ inline std::optional<Seen> seenAt(const Ogre::Vector3& place,
 }
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_SEEN_AT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_SQUARE_DRAWING_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_SQUARE_DRAWING_H
+#pragma once
 
 #include <wiimote_tracker_msgs/CalibrationStatus.h>
 
@@ -25,5 +24,3 @@ class SquareDrawing : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_SQUARE_DRAWING_H

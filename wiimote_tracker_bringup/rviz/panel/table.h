@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TABLE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TABLE_H
+#pragma once
 
 #include <QHeaderView>
 #include <QString>
@@ -41,5 +40,3 @@ class Table : public QTableWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TABLE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACK_PAGE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACK_PAGE_H
+#pragma once
 
 #include "recorder.h"
 #include "tracks_view.h"
@@ -36,5 +35,3 @@ class TrackPage : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACK_PAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_PANEL_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_PANEL_H
+#pragma once
 
 #include "requests.h"
 #include "ros_input.h"
@@ -40,5 +39,3 @@ class TrackerPanel : public rviz::Panel {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_PANEL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_VIEW_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_VIEW_H
+#pragma once
 
 #include "camera_view.h"
 
@@ -57,5 +56,3 @@ class TrackerView {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKER_VIEW_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKS_VIEW_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKS_VIEW_H
+#pragma once
 
 #include <wiimote_tracker_msgs/GestureEvent.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
@@ -58,5 +57,3 @@ class TracksView {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_TRACKS_VIEW_H

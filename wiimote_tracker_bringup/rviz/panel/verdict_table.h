@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_VERDICT_TABLE_H
-#define WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_VERDICT_TABLE_H
+#pragma once
 
 #include <wiimote_tracker_msgs/CalibrationVerdict.h>
 
@@ -28,5 +27,3 @@ class VerdictTable : public QWidget {
 };
 
 }  // namespace wiimote_tracker::panel
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_RVIZ_PANEL_VERDICT_TABLE_H

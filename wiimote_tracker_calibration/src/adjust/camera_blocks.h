@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 #include <wiimote_tracker_triangulation/geometry/camera_parameters.h>
@@ -76,5 +75,3 @@ inline std::vector<double*> blocksOf(std::vector<CameraBlocks>* cameras) {
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CAMERA_BLOCKS_H

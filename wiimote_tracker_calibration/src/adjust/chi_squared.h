@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CHI_SQUARED_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CHI_SQUARED_H
+#pragma once
 
 #include <cmath>
 
@@ -18,5 +17,3 @@ inline double chiSquaredQuantile(double degrees_of_freedom, double normal_quanti
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CHI_SQUARED_H

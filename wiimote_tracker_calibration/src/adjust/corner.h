@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CORNER_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CORNER_H
+#pragma once
 
 #include "adjust/pixel.h"
 
@@ -53,5 +52,3 @@ struct TapedLengthError {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CORNER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H
+#pragma once
 
 #include <ceres/problem.h>
 
@@ -40,5 +39,3 @@ double degreesOfFreedom(ceres::Problem* problem,
                         const std::vector<ceres::ResidualBlockId>& residuals);
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_COVARIANCE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CUBIC_SPLINE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CUBIC_SPLINE_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -24,5 +23,3 @@ inline Eigen::Vector4d splineRates(double u) {
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_CUBIC_SPLINE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_GRAVITY_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_GRAVITY_H
+#pragma once
 
 #include "adjust/pixel.h"
 
@@ -27,5 +26,3 @@ struct GravityError {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_GRAVITY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_JOINT_PRIOR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_JOINT_PRIOR_H
+#pragma once
 
 #include <ceres/cost_function.h>
 
@@ -50,5 +49,3 @@ class JointPrior : public ceres::CostFunction {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_JOINT_PRIOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H
+#pragma once
 
 #include "adjust/pixel.h"
 
@@ -64,5 +63,3 @@ struct SharedLensPrior {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_LENS_PRIOR_H

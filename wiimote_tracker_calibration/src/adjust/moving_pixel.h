@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_MOVING_PIXEL_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_MOVING_PIXEL_H
+#pragma once
 
 #include "adjust/pixel.h"
 
@@ -58,5 +57,3 @@ struct InterpolatedPixelError {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_MOVING_PIXEL_H

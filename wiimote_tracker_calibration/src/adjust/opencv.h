@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
@@ -37,5 +36,3 @@ inline bool fillAnArea(const std::vector<cv::Point2d>& points) {
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_OPENCV_H

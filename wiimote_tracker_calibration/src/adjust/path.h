@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PATH_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PATH_H
+#pragma once
 
 #include "adjust/cubic_spline.h"
 #include "adjust/pixel.h"
@@ -89,5 +88,3 @@ struct WandLengthError {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PATH_H

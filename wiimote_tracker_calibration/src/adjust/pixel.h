@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PIXEL_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PIXEL_H
+#pragma once
 
 #include "adjust/camera_blocks.h"
 
@@ -92,5 +91,3 @@ struct PixelError {
 };
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PIXEL_H

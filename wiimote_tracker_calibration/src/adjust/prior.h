@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PRIOR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PRIOR_H
+#pragma once
 
 #include <ceres/normal_prior.h>
 
@@ -17,5 +16,3 @@ inline ceres::CostFunction* priorOf(double mean, double stddev) {
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_PRIOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_SOLVER_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_SOLVER_H
+#pragma once
 
 #include <ceres/problem.h>
 #include <ceres/solver.h>
@@ -57,5 +56,3 @@ inline ceres::Solver::Summary minimise(const ceres::Solver::Options& options,
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_SOLVER_H

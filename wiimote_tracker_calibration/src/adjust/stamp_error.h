@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_STAMP_ERROR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_STAMP_ERROR_H
+#pragma once
 
 #include <algorithm>
 
@@ -14,5 +13,3 @@ inline double meanStampVariance(double wander, double duration) {
 }
 
 }  // namespace wiimote_tracker::adjust
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ADJUST_STAMP_ERROR_H

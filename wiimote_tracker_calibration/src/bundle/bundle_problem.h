@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_BUNDLE_PROBLEM_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_BUNDLE_PROBLEM_H
+#pragma once
 
 #include "adjust/camera_blocks.h"
 #include "adjust/covariance.h"
@@ -52,5 +51,3 @@ class BundleProblem {
 };
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_BUNDLE_PROBLEM_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_START_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_START_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/solve.h"
 
@@ -62,5 +61,3 @@ std::size_t nextToResect(const Options& options, const Reconstruction& reconstru
 std::size_t resect(const Options& options, std::size_t camera, Reconstruction* reconstruction);
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_START_H

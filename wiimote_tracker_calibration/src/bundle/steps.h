@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_STEPS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_STEPS_H
+#pragma once
 
 #include "bundle_problem.h"
 #include "start.h"
@@ -99,5 +98,3 @@ class Certainty {
 double birgeRatio(const Reconstruction& adjusted, const Options& options);
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_BUNDLE_STEPS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -61,5 +60,3 @@ inline constexpr char kSendsNoImages[] =
 std::string spotCountProblem(std::size_t blobs);
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CAMERA_MONITOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CORNER_CAPTURE_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CORNER_CAPTURE_H
+#pragma once
 
 #include "capture/camera_monitor.h"
 #include "capture/still_spot.h"
@@ -96,5 +95,3 @@ class CornerCapture {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_CORNER_CAPTURE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_HANDS_FREE_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_HANDS_FREE_H
+#pragma once
 
 #include "capture/corner_capture.h"
 #include "capture/image.h"
@@ -46,5 +45,3 @@ class HandsFree {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_HANDS_FREE_H

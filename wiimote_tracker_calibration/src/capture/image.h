@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -68,5 +67,3 @@ struct ImageCells : std::bitset<kCellColumns * kCellRows> {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_H

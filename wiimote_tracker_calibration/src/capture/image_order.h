@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_ORDER_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_ORDER_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -38,5 +37,3 @@ class ImageOrder {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_IMAGE_ORDER_H

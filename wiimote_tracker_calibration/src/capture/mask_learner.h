@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASK_LEARNER_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASK_LEARNER_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -56,5 +55,3 @@ class MaskLearner {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASK_LEARNER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASKS_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASKS_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -49,5 +48,3 @@ inline void applyMasks(const Masks& masks, Image* image) {
 }
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MASKS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MOVING_SPOTS_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MOVING_SPOTS_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -83,5 +82,3 @@ inline std::vector<Image> latestImagesOf(const std::string& camera,
 }
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_MOVING_SPOTS_H

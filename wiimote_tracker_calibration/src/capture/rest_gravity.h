@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_REST_GRAVITY_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_REST_GRAVITY_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -41,5 +40,3 @@ class RestGravity {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_REST_GRAVITY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_STILL_SPOT_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_STILL_SPOT_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -52,5 +51,3 @@ class StillSpot {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_STILL_SPOT_H

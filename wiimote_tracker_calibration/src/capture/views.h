@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_VIEWS_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_VIEWS_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -52,5 +51,3 @@ std::optional<Located> locate(const std::vector<geometry::Camera>& cameras,
                               std::size_t least);
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_VIEWS_H

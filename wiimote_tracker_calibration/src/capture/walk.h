@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CAPTURE_WALK_H
-#define WIIMOTE_TRACKER_CALIBRATION_CAPTURE_WALK_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -38,5 +37,3 @@ class Walk {
 };
 
 }  // namespace wiimote_tracker::capture
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CAPTURE_WALK_H

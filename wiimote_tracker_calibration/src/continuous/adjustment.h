@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_ADJUSTMENT_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_ADJUSTMENT_H
+#pragma once
 
 #include "continuous/keyframes.h"
 #include "continuous/proposal.h"
@@ -71,5 +70,3 @@ std::optional<Proposal> proposeAdjustment(const geometry::Rig& before,
 double turnOf(const geometry::RigCamera& a, const geometry::RigCamera& b);
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_ADJUSTMENT_H

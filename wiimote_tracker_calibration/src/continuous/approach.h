@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_APPROACH_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_APPROACH_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -56,5 +55,3 @@ class Approach {
 };
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_APPROACH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_CONTINUOUS_CALIBRATION_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_CONTINUOUS_CALIBRATION_H
+#pragma once
 
 #include "capture/image.h"
 #include "continuous/motion_window.h"
@@ -84,5 +83,3 @@ class ContinuousCalibration {
 };
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_CONTINUOUS_CALIBRATION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H
+#pragma once
 
 #include "capture/image.h"
 #include "capture/views.h"
@@ -68,5 +67,3 @@ struct Fit {
 std::optional<Fit> fitOf(const geometry::Rig& rig, const std::vector<capture::Image>& images);
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KEYFRAMES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KNOCKED_CAMERAS_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KNOCKED_CAMERAS_H
+#pragma once
 
 #include "continuous/suspect_watch.h"
 #include "recalibrate/recalibrate_camera.h"
@@ -44,5 +43,3 @@ std::vector<Cameras> pairsToSolve(const geometry::Rig& rig, const Evidence& evid
 std::string contradictionOf(const geometry::Rig& rig, const std::vector<Cameras>& pairs);
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_KNOCKED_CAMERAS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_MOTION_WINDOW_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_MOTION_WINDOW_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -59,5 +58,3 @@ class MotionWindow {
 };
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_MOTION_WINDOW_H

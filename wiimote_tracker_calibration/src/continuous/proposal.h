@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -30,5 +29,3 @@ struct Proposal {
 };
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_PROPOSAL_H

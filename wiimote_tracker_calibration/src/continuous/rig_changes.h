@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_RIG_CHANGES_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_RIG_CHANGES_H
+#pragma once
 
 #include "continuous/approach.h"
 #include "continuous/proposal.h"
@@ -68,5 +67,3 @@ class RigChanges {
 };
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_RIG_CHANGES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_SUSPECT_WATCH_H
-#define WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_SUSPECT_WATCH_H
+#pragma once
 
 #include "capture/image.h"
 #include "capture/rest_gravity.h"
@@ -73,5 +72,3 @@ class SuspectWatch {
 };
 
 }  // namespace wiimote_tracker::continuous
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_CONTINUOUS_SUSPECT_WATCH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_ALARM_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_ALARM_H
+#pragma once
 
 namespace wiimote_tracker::health {
 
@@ -28,5 +27,3 @@ class Alarm {
 };
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_ALARM_H

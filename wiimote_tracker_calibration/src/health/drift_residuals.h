@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_HEALTH_DRIFT_RESIDUALS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_HEALTH_DRIFT_RESIDUALS_H
+#pragma once
 
 #include "health/drift_watch.h"
 
@@ -29,5 +28,3 @@ std::optional<Drift> driftOfPair(std::size_t a,
                                  double limit);
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_HEALTH_DRIFT_RESIDUALS_H

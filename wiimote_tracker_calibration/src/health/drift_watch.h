@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H
+#pragma once
 
 #include "capture/image.h"
 #include "capture/views.h"
@@ -106,5 +105,3 @@ class DriftWatch {
 };
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_DRIFT_WATCH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_HEALTH_EXCHANGED_CAMERAS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_HEALTH_EXCHANGED_CAMERAS_H
+#pragma once
 
 #include "health/drift_watch.h"
 
@@ -20,5 +19,3 @@ std::optional<std::pair<std::size_t, std::size_t>> exchangedCameras(const geomet
                                                                     const DriftSamples& samples);
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_HEALTH_EXCHANGED_CAMERAS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_HEALTH_WATCH_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_HEALTH_WATCH_H
+#pragma once
 
 #include "health/alarm.h"
 #include "health/drift_watch.h"
@@ -87,5 +86,3 @@ class HealthWatch {
 };
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_HEALTH_WATCH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_LED_SELECTION_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_LED_SELECTION_H
+#pragma once
 
 #include "capture/image.h"
 #include "health/turned_camera.h"
@@ -83,5 +82,3 @@ class LedSelection {
 };
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_LED_SELECTION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_REMEDY_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_REMEDY_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -20,5 +19,3 @@ std::string calibrateAgain(const geometry::Rig& rig);
 std::string putBack(const geometry::Rig& rig, bool is_known);
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_REMEDY_H

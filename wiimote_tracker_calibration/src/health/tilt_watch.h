@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_TILT_WATCH_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_TILT_WATCH_H
+#pragma once
 
 #include "capture/rest_gravity.h"
 
@@ -76,5 +75,3 @@ class TiltWatch {
 };
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_TILT_WATCH_H

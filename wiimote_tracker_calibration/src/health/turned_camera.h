@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_HEALTH_TURNED_CAMERA_H
-#define WIIMOTE_TRACKER_CALIBRATION_HEALTH_TURNED_CAMERA_H
+#pragma once
 
 #include "capture/image.h"
 
@@ -85,5 +84,3 @@ class TurnedCamera {
 };
 
 }  // namespace wiimote_tracker::health
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_HEALTH_TURNED_CAMERA_H

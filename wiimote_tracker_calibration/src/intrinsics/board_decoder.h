@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_DECODER_H
-#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_DECODER_H
+#pragma once
 
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
@@ -50,5 +49,3 @@ class BoardDecoder {
 };
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_DECODER_H

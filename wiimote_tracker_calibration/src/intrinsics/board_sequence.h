@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_SEQUENCE_H
-#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_SEQUENCE_H
+#pragma once
 
 namespace wiimote_tracker::intrinsics {
 
@@ -21,5 +20,3 @@ constexpr int columnStep(int column) {
 }  // namespace sequence
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_SEQUENCE_H

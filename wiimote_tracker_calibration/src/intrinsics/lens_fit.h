@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_LENS_FIT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_LENS_FIT_H
+#pragma once
 
 #include "wiimote_tracker_calibration/intrinsics/solve_intrinsics.h"
 
@@ -57,5 +56,3 @@ struct ViewDerivative {
 ViewDerivative differentiate(const Fit& fit, const Points& points, std::size_t view);
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_LENS_FIT_H

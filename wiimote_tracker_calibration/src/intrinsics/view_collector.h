@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H
-#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H
+#pragma once
 
 #include "intrinsics/board_decoder.h"
 
@@ -59,5 +58,3 @@ class ViewCollector {
 };
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_VIEW_COLLECTOR_H

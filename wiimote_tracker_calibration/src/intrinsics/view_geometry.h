@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_VIEW_GEOMETRY_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_VIEW_GEOMETRY_H
+#pragma once
 
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
@@ -24,5 +23,3 @@ struct ViewGeometry {
 ViewGeometry viewGeometry(const Board& board, const BoardView& view, const std::string& name);
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_INTRINSICS_VIEW_GEOMETRY_H

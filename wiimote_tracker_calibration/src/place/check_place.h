@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_PLACE_CHECK_PLACE_H
-#define WIIMOTE_TRACKER_CALIBRATION_PLACE_CHECK_PLACE_H
+#pragma once
 
 #include "place/measure_place.h"
 
@@ -27,5 +26,3 @@ PlaceCheck checkPlace(const MeasuredPlace& measured,
                       double known_stddev);
 
 }  // namespace wiimote_tracker::place
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_PLACE_CHECK_PLACE_H

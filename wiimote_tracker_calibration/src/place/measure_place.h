@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_PLACE_MEASURE_PLACE_H
-#define WIIMOTE_TRACKER_CALIBRATION_PLACE_MEASURE_PLACE_H
+#pragma once
 
 #include "capture/corner_capture.h"
 
@@ -48,5 +47,3 @@ MeasuredPlace measurePlace(const geometry::Rig& rig,
 MeasuredPlace corrected(const geometry::Rig& rig, MeasuredPlace place);
 
 }  // namespace wiimote_tracker::place
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_PLACE_MEASURE_PLACE_H

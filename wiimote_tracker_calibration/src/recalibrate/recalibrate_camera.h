@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H
-#define WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H
+#pragma once
 
 #include "capture/image.h"
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
@@ -62,5 +61,3 @@ Recalibration recalibrateCamera(const geometry::Rig& before,
                                 const Options& options);
 
 }  // namespace wiimote_tracker::recalibrate
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_RECALIBRATE_RECALIBRATE_CAMERA_H

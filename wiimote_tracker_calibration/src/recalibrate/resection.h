@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RESECTION_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RESECTION_H
+#pragma once
 
 #include "recalibrate/recalibrate_camera.h"
 #include "seen_path.h"
@@ -70,5 +69,3 @@ Fit resect(const SeenPath& path,
 ParameterMatrix covarianceOf(const Fit& fit, const Prior& prior);
 
 }  // namespace wiimote_tracker::recalibrate
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RESECTION_H

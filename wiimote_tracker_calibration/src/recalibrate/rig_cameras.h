@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -25,5 +24,3 @@ std::string describeSplit(const geometry::Rig& rig, const std::string& name);
 std::string describeOldMasks(const geometry::Rig& before, const geometry::Rig& now);
 
 }  // namespace wiimote_tracker::recalibrate
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_RIG_CAMERAS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H
+#pragma once
 
 #include "capture/image.h"
 #include "capture/moving_spots.h"
@@ -60,5 +59,3 @@ class SeenPath {
 };
 
 }  // namespace wiimote_tracker::recalibrate
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_RECALIBRATE_SEEN_PATH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_MODEL_H
-#define WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_MODEL_H
+#pragma once
 
 #include "wiimote_tracker_calibration/remap/fit.h"
 
@@ -31,5 +30,3 @@ std::optional<FittedModel> fitModel(Model model, const std::vector<KnownPoint>& 
 double errorOf(const Remap& remap, const KnownPoint& point);
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_MODEL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_REMAP_MEASURED_POINTS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_REMAP_MEASURED_POINTS_H
+#pragma once
 
 #include "wiimote_tracker_calibration/remap/fit.h"
 
@@ -84,5 +83,3 @@ class MeasuredPoints {
 };
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_REMAP_MEASURED_POINTS_H

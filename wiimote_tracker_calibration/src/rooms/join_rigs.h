@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROOMS_JOIN_RIGS_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROOMS_JOIN_RIGS_H
+#pragma once
 
 #include "rooms/rig_motion.h"
 #include "wiimote_tracker_calibration/remap/fit.h"
@@ -33,5 +32,3 @@ JoinedRigs joinRigs(const geometry::Rig& first,
                     double stddev = 0.005);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROOMS_JOIN_RIGS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H
+#pragma once
 
 #include "rooms/walker.h"
 
@@ -54,5 +53,3 @@ JoinedRooms joinRooms(const geometry::Rig& first,
                       const JoinOptions& options);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOIN_ROOMS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOINED_RIG_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOINED_RIG_H
+#pragma once
 
 #include "rooms/rig_motion.h"
 
@@ -43,5 +42,3 @@ std::string joinedVerdict(const geometry::Rig& first,
                           const std::string& message);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_JOINED_RIG_H

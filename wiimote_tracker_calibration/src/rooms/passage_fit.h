@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H
+#pragma once
 
 #include "rooms/rig_motion.h"
 #include "rooms/shared_places.h"
@@ -69,5 +68,3 @@ struct PassageFit {
 PassageFit fitPassages(const PassageProblem& problem);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGE_FIT_H

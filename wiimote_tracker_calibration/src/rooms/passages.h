@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H
+#pragma once
 
 #include "rooms/walker.h"
 
@@ -36,5 +35,3 @@ Passages findPassages(const std::vector<Path>& first_tracks,
                       const std::vector<Path>& second_tracks);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_PASSAGES_H

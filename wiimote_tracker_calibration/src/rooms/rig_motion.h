@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_RIG_MOTION_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_RIG_MOTION_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -61,5 +60,3 @@ std::size_t oddOneOut(const geometry::Rig& first,
                       const Eigen::Isometry3d& start);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_RIG_MOTION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_ROOM_ACCURACY_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_ROOM_ACCURACY_H
+#pragma once
 
 #include "rooms/rig_motion.h"
 
@@ -34,5 +33,3 @@ Eigen::Vector3d middleOfSecond(const geometry::Rig& first, const geometry::Rig& 
 std::string describe(const RoomAccuracy& accuracy);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_ROOM_ACCURACY_H

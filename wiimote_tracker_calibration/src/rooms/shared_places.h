@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H
+#pragma once
 
 #include "rooms/passages.h"
 #include "rooms/rig_motion.h"
@@ -24,5 +23,3 @@ std::optional<SharedPlaces> sharedPlaces(const geometry::Rig& first,
                                          double slowing);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_SHARED_PLACES_H

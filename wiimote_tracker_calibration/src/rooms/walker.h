@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALKER_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALKER_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -44,5 +43,3 @@ struct HiddenPlace {
 std::array<HiddenPlace, 2> hiddenPlaces(const Path& before, const Path& after);
 
 }  // namespace wiimote_tracker::rooms
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_ROOMS_WALKER_H

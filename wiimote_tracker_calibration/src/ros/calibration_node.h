@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H
+#pragma once
 
 #include "node_parts.h"
 
@@ -29,5 +28,3 @@ class CalibrationNode {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_CALIBRATION_NODE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_INPUTS_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_INPUTS_H
+#pragma once
 
 #include "capture/camera_monitor.h"
 #include "capture/image.h"
@@ -146,5 +145,3 @@ class CameraInputs {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_CAMERA_INPUTS_H

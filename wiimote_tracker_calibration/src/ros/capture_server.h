@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H
+#pragma once
 
 #include <actionlib/server/action_server.h>
 #include <ros/callback_queue.h>
@@ -72,5 +71,3 @@ class CaptureServer {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_CAPTURE_SERVER_H

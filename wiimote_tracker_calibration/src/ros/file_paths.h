@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_FILE_PATHS_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_FILE_PATHS_H
+#pragma once
 
 #include "parameters.h"
 
@@ -31,5 +30,3 @@ inline constexpr char kSamplesFile[] = "samples.yaml";
 std::string samplesPath(const std::string& requested, const Parameters& parameters);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_FILE_PATHS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_INPUT_QUEUE_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_INPUT_QUEUE_H
+#pragma once
 
 #include "capture/image.h"
 #include "requests.h"
@@ -38,5 +37,3 @@ class InputQueue {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_INPUT_QUEUE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H
+#pragma once
 
 #include "remap/measured_points.h"
 #include "samples/verdict.h"
@@ -211,5 +210,3 @@ class NodeContext {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_CONTEXT_H

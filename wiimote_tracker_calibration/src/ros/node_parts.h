@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_PARTS_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_PARTS_H
+#pragma once
 
 #include "input_queue.h"
 #include "node_context.h"
@@ -48,5 +47,3 @@ NodePart continuousServices(NodeContext* context, InputQueue* one_led_inputs);
 NodePart healthMonitor(NodeContext* context, InputQueue* one_led_inputs);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_NODE_PARTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H
+#pragma once
 
 #include "capture/mask_learner.h"
 #include "health/health_watch.h"
@@ -62,5 +61,3 @@ inline Parameters readParameters(ParameterReader reader) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_PARAMETERS_H

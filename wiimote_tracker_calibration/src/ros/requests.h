@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_REQUESTS_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_REQUESTS_H
+#pragma once
 
 #include "workflow/reply.h"
 
@@ -39,5 +38,3 @@ AtEnd(Call) -> AtEnd<Call>;
 std::string appendix(const std::vector<std::string>& sentences);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_REQUESTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_RIG_STORAGE_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_RIG_STORAGE_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -58,5 +57,3 @@ std::vector<std::string> sendCameraInfo(const std::vector<geometry::Camera>& cam
                                         double timeout);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_RIG_STORAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_SQUARE_FRAME_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_SQUARE_FRAME_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
@@ -25,5 +24,3 @@ geometry_msgs::PolygonStamped squareOutline(const std::string& world_frame,
                                             const std::optional<square::SquareLayout>& square);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_SQUARE_FRAME_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_STATUS_PUBLISHER_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_STATUS_PUBLISHER_H
+#pragma once
 
 #include "capture/walk.h"
 #include "continuous/proposal.h"
@@ -89,5 +88,3 @@ class StatusPublisher {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_STATUS_PUBLISHER_H

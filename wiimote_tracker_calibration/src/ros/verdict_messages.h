@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
-#define WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H
+#pragma once
 
 #include "samples/verdict.h"
 #include "wiimote_tracker_calibration/principal_point/correction.h"
@@ -17,5 +16,3 @@ wiimote_tracker_msgs::PrincipalPointTrace toMessage(const principal_point::Trace
                                                     const geometry::Rig& rig);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_ROS_VERDICT_MESSAGES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_CLOCK_LAG_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_CLOCK_LAG_H
+#pragma once
 
 #include "wiimote_tracker_calibration/wave/recording.h"
 
@@ -14,5 +13,3 @@ namespace wiimote_tracker::samples {
 std::optional<double> clockLag(const wave::Recording& recording, std::size_t camera);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_CLOCK_LAG_H

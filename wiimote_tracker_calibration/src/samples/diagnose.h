@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_DIAGNOSE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_DIAGNOSE_H
+#pragma once
 
 #include "samples/solve_samples.h"
 
@@ -28,5 +27,3 @@ std::optional<Mistake> diagnose(const wave::Recording& recording,
                                 const wave::ProgressCallback& progress);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_DIAGNOSE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_GRADE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_GRADE_H
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -25,5 +24,3 @@ inline Grade gradeOf(const std::string& verdict) {
 }
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_GRADE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_HYPOTHESES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_HYPOTHESES_H
+#pragma once
 
 #include "wiimote_tracker_calibration/wave/solve_wave.h"
 
@@ -32,5 +31,3 @@ Hypotheses movedCameras(const Hypothesis& as_is);
 Hypotheses wrongCameras(const Hypothesis& as_is);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_HYPOTHESES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_JUDGE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_JUDGE_H
+#pragma once
 
 #include "samples/samples.h"
 #include "samples/verdict.h"
@@ -31,5 +30,3 @@ Verdict judge(const Samples& samples,
               double pixel = square::Uncertainty().pixel);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_JUDGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_NEXT_MEASUREMENT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_NEXT_MEASUREMENT_H
+#pragma once
 
 #include "samples/verdict.h"
 #include "wiimote_tracker_calibration/square/solve_square.h"
@@ -22,5 +21,3 @@ std::optional<NextMeasurement> nextMeasurement(const square::Solution& found,
                                                double pixel);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_NEXT_MEASUREMENT_H

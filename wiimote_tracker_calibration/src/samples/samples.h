@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SAMPLES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SAMPLES_H
+#pragma once
 
 #include "wiimote_tracker_calibration/wave/recording.h"
 
@@ -15,5 +14,3 @@ struct Samples {
 };
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SAMPLES_H

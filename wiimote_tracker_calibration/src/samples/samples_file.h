@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SAMPLES_FILE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SAMPLES_FILE_H
+#pragma once
 
 #include "samples/samples.h"
 
@@ -19,5 +18,3 @@ void writeSamplesFile(const Samples& samples, const std::string& path);
 Samples readSamplesFile(const std::string& path);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SAMPLES_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_SAMPLES_YAML_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_SAMPLES_YAML_H
+#pragma once
 
 #include "samples/samples.h"
 
@@ -22,5 +21,3 @@ std::string yamlFromSamples(const Samples& samples);
 SamplesHead headFromYaml(const std::string& text, const std::string& where);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SAMPLES_SAMPLES_YAML_H

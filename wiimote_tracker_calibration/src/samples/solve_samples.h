@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SOLVE_SAMPLES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SOLVE_SAMPLES_H
+#pragma once
 
 #include "samples/samples.h"
 #include "samples/verdict.h"
@@ -47,5 +46,3 @@ Solution solveSamples(const Samples& samples,
                       const wave::ProgressCallback& progress = nullptr);
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SAMPLES_SOLVE_SAMPLES_H

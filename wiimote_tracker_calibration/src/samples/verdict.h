@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SAMPLES_VERDICT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SAMPLES_VERDICT_H
+#pragma once
 
 #include "samples/grade.h"
 
@@ -59,5 +58,3 @@ struct Verdict {
 };
 
 }  // namespace wiimote_tracker::samples
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SAMPLES_VERDICT_H

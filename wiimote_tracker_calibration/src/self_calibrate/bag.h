@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_BAG_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_BAG_H
+#pragma once
 
 #include "wiimote_tracker_calibration/import/recording.h"
 
@@ -14,5 +13,3 @@ namespace wiimote_tracker::self_calibrate {
 import::Recording readBag(const std::string& path);
 
 }  // namespace wiimote_tracker::self_calibrate
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_BAG_H

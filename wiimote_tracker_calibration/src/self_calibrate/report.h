@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/import/comparison.h"
@@ -26,5 +25,3 @@ void print(const Report& report, bool points, std::FILE* file);
 std::string jsonText(const Report& report);
 
 }  // namespace wiimote_tracker::self_calibrate
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_SELF_CALIBRATE_REPORT_H

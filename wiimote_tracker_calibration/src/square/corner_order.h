@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_CORNER_ORDER_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_CORNER_ORDER_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -21,5 +20,3 @@ enum class CornerOrder {
 CornerOrder cornerOrder(const std::vector<Eigen::Vector2d>& pixels);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_CORNER_ORDER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_ERROR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_ERROR_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
@@ -16,5 +15,3 @@ struct SquareContradiction : SquareError {
 };
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_ERROR_H

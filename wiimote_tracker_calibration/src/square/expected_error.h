@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_EXPECTED_ERROR_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_EXPECTED_ERROR_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/rig.h>
 
@@ -27,5 +26,3 @@ double expectedShapeError(const geometry::Rig& rig, std::vector<Eigen::Vector3d>
 std::vector<Eigen::Vector3d> boxOver(const std::array<Eigen::Vector3d, 4>& corners, bool z_up);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_EXPECTED_ERROR_H

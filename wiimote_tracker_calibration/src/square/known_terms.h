@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_KNOWN_TERMS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_KNOWN_TERMS_H
+#pragma once
 
 #include "adjust/camera_blocks.h"
 #include "wiimote_tracker_calibration/square/sightings.h"
@@ -66,5 +65,3 @@ class KnownTerms {
 };
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_KNOWN_TERMS_H

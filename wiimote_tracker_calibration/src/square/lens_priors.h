@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H
+#pragma once
 
 #include "adjust/lens_prior.h"
 
@@ -25,5 +24,3 @@ inline adjust::LensPrior marginalLensPrior(const geometry::Intrinsics& start,
 }
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_LENS_PRIORS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_LIMITS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_LIMITS_H
+#pragma once
 
 namespace wiimote_tracker::square {
 
@@ -9,5 +8,3 @@ constexpr double kLensLimit = 5.0;     ///< Lens from its start [standard deviat
 constexpr double kGravityLimit = 5.0;  ///< Gravity from the normal of the floor, the same.
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_LIMITS_H

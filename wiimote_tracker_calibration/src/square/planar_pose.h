@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_PLANAR_POSE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_PLANAR_POSE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
@@ -39,5 +38,3 @@ PlanarPoses cornerPoses(const geometry::Intrinsics& intrinsics,
 bool isSamePose(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const Corners& corners);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_PLANAR_POSE_H

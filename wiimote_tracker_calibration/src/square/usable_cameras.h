@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_USABLE_CAMERAS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_USABLE_CAMERAS_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 
@@ -30,5 +29,3 @@ UsableCameras usableCameras(const std::vector<CameraSightings>& cameras);
 std::string listOf(const std::vector<std::string>& words);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_USABLE_CAMERAS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_ADJUSTMENT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_ADJUSTMENT_H
+#pragma once
 
 #include "state.h"
 
@@ -51,5 +50,3 @@ Agreement agreementOf(const Task& task, const std::vector<Match>& matches, State
 Eigen::MatrixXd covarianceOf(const Task& task, const std::vector<Match>& matches, State solution);
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_ADJUSTMENT_H

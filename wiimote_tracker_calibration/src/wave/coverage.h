@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H
-#define WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H
+#pragma once
 
 #include "capture/image.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
@@ -108,5 +107,3 @@ class Coverage {
 };
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_COVERAGE_H

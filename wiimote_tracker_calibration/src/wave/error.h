@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H
-#define WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/error.h>
 
@@ -22,5 +21,3 @@ struct WandMislaid : WaveError {
 };
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_ERROR_H

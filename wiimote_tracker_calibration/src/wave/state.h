@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STATE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STATE_H
+#pragma once
 
 #include "trajectory.h"
 #include "wand_rest.h"
@@ -76,5 +75,3 @@ inline void moveCameras(const Eigen::Isometry3d& to_from, std::vector<geometry::
 }
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STATE_H

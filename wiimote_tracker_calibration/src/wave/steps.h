@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STEPS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STEPS_H
+#pragma once
 
 #include "state.h"
 
@@ -106,5 +105,3 @@ void checkSolution(const Task& task, square::Solution* solution);
 std::string describe(const Recording& recording, const square::Solution& solution);
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_STEPS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_TRAJECTORY_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_TRAJECTORY_H
+#pragma once
 
 #include "adjust/cubic_spline.h"
 
@@ -74,5 +73,3 @@ class Trajectory {
 };
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_TRAJECTORY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_WAND_REST_H
-#define WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_WAND_REST_H
+#pragma once
 
 #include "wiimote_tracker_calibration/wave/recording.h"
 
@@ -79,5 +78,3 @@ class WandRest {
 };
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SRC_WAVE_WAND_REST_H

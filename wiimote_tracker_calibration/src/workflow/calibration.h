@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H
+#pragma once
 
 #include "capture/corner_capture.h"
 #include "capture/hands_free.h"
@@ -232,5 +231,3 @@ class Calibration {
 };
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CALIBRATION_H

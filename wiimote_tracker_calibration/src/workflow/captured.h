@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CAPTURED_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CAPTURED_H
+#pragma once
 
 #include "capture/corner_capture.h"
 #include "capture/masks.h"
@@ -73,5 +72,3 @@ Captured fromSamples(const samples::Samples& samples,
                      const wave::CoverageOptions& coverage);
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_CAPTURED_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H
+#pragma once
 
 #include "continuous/proposal.h"
 #include "samples/verdict.h"
@@ -36,5 +35,3 @@ NextStep nextStep(const Calibration& calibration,
                   const Findings& findings);
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_NEXT_STEP_H

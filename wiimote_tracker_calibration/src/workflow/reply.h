@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_REPLY_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_REPLY_H
+#pragma once
 
 #include <string>
 
@@ -17,5 +16,3 @@ inline Reply refusal(const std::string& message) {
 }
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_REPLY_H

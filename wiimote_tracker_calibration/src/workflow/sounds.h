@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_SOUNDS_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_SOUNDS_H
+#pragma once
 
 #include "workflow/calibration.h"
 
@@ -39,5 +38,3 @@ class Sounds {
 };
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_SOUNDS_H

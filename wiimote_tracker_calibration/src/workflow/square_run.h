@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_SQUARE_RUN_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_SQUARE_RUN_H
+#pragma once
 
 #include "capture/corner_capture.h"
 #include "capture/image.h"
@@ -69,5 +68,3 @@ class SquareRun {
 };
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_SQUARE_RUN_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_WAVE_RECORDER_H
-#define WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_WAVE_RECORDER_H
+#pragma once
 
 #include "capture/image.h"
 #include "wave/coverage.h"
@@ -63,5 +62,3 @@ class WaveRecorder {
 };
 
 }  // namespace wiimote_tracker::workflow
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WORKFLOW_WAVE_RECORDER_H

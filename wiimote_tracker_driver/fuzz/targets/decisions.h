@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_FUZZ_DECISIONS_H
-#define WIIMOTE_TRACKER_DRIVER_FUZZ_DECISIONS_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
@@ -45,5 +44,3 @@ class Decisions {
 };
 
 }  // namespace wiimote_tracker::fuzz
-
-#endif  // WIIMOTE_TRACKER_DRIVER_FUZZ_DECISIONS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_FUZZ_HONEST_REMOTE_H
-#define WIIMOTE_TRACKER_DRIVER_FUZZ_HONEST_REMOTE_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/report.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
@@ -36,5 +35,3 @@ struct HonestRemote {
 };
 
 }  // namespace wiimote_tracker::fuzz
-
-#endif  // WIIMOTE_TRACKER_DRIVER_FUZZ_HONEST_REMOTE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_FUZZ_INVARIANTS_H
-#define WIIMOTE_TRACKER_DRIVER_FUZZ_INVARIANTS_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/report.h"
@@ -29,5 +28,3 @@ void requireImage(const protocol::DataReport& image, protocol::IrFormat format);
 void requireWellFormed(const protocol::Report& output);
 
 }  // namespace wiimote_tracker::fuzz
-
-#endif  // WIIMOTE_TRACKER_DRIVER_FUZZ_INVARIANTS_H

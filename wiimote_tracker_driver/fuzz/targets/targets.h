@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_FUZZ_TARGETS_H
-#define WIIMOTE_TRACKER_DRIVER_FUZZ_TARGETS_H
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -24,5 +23,3 @@ void fuzzSession(const std::uint8_t* data, std::size_t size);
 void fuzzWiimote(const std::uint8_t* data, std::size_t size);
 
 }  // namespace wiimote_tracker::fuzz
-
-#endif  // WIIMOTE_TRACKER_DRIVER_FUZZ_TARGETS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_BLUEZ_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_BLUEZ_H
+#pragma once
 
 #include "process.h"
 
@@ -21,5 +20,3 @@ class Bluez {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_BLUEZ_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CHECKS_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CHECKS_H
+#pragma once
 
 #include "running_driver.h"
 
@@ -60,5 +59,3 @@ std::string seconds(double value);
 std::string count(std::size_t number, const std::string& things);
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CHECKS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CLOCK_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CLOCK_H
+#pragma once
 
 #include <chrono>
 #include <thread>
@@ -26,5 +25,3 @@ bool waitFor(Condition condition, double timeout) {
 }
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_CLOCK_H

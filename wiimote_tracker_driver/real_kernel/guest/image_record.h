@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_IMAGE_RECORD_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_IMAGE_RECORD_H
+#pragma once
 
 #include "scene.h"
 
@@ -44,5 +43,3 @@ class ImageRecord {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_IMAGE_RECORD_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_KERNEL_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_KERNEL_H
+#pragma once
 
 #include <string>
 #include <vector>
@@ -41,5 +40,3 @@ std::string readLine(const std::string& path);
 void writeText(const std::string& path, const std::string& text);
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_KERNEL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H
+#pragma once
 
 #include "scene.h"
 #include "virtual_wiimote/uhid.h"
@@ -59,5 +58,3 @@ class PluggedRemote {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PLUGGED_REMOTE_H

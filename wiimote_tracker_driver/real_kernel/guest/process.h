@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PROCESS_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PROCESS_H
+#pragma once
 
 #include <sys/types.h>
 
@@ -35,5 +34,3 @@ class Process {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_PROCESS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H
+#pragma once
 
 #include <cstddef>
 #include <vector>
@@ -21,5 +20,3 @@ double longestPause(const std::vector<double>& images, double begin, double end)
 std::size_t imagesBetween(const std::vector<double>& images, double begin, double end);
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RECOVERY_H

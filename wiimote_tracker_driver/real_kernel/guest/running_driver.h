@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H
+#pragma once
 
 #include "image_record.h"
 #include "wiimote/wiimote.h"
@@ -57,5 +56,3 @@ class RunningDriver {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_RUNNING_DRIVER_H

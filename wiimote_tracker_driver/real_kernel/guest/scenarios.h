@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_SCENARIOS_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_SCENARIOS_H
+#pragma once
 
 #include "checks.h"
 
@@ -46,5 +45,3 @@ void xwiimoteClient(Checks& checks);
 void cwiidClient(Checks& checks);
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_SCENARIOS_H

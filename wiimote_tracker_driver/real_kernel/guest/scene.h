@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_SCENE_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_SCENE_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
@@ -36,5 +35,3 @@ class Scene {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_SCENE_H

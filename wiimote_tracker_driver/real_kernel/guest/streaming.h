@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_STREAMING_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_STREAMING_H
+#pragma once
 
 #include "checks.h"
 #include "clock.h"
@@ -37,5 +36,3 @@ struct Streaming {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_STREAMING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_ESTIMATOR_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_ESTIMATOR_H
+#pragma once
 
 #include "exposure_clock/filter_bank.h"
 #include "exposure_clock/frame_counter.h"
@@ -61,5 +60,3 @@ class ClockEstimator {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_ESTIMATOR_H

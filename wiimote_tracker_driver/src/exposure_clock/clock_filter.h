@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H
+#pragma once
 
 #include "exposure_clock/exact_posterior.h"
 
@@ -103,5 +102,3 @@ class ClockFilter {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_CLOCK_FILTER_H

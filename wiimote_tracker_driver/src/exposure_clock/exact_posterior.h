@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXACT_POSTERIOR_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXACT_POSTERIOR_H
+#pragma once
 
 #include <boost/container/static_vector.hpp>
 
@@ -62,5 +61,3 @@ class ExactPosterior {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_EXACT_POSTERIOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FILTER_BANK_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FILTER_BANK_H
+#pragma once
 
 #include "exposure_clock/clock_filter.h"
 #include "exposure_clock/frame_counter.h"
@@ -55,5 +54,3 @@ class FilterBank {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FILTER_BANK_H

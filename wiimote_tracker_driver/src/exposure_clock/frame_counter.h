@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_COUNTER_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_COUNTER_H
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -43,5 +42,3 @@ class FrameCounter {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_COUNTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H
+#pragma once
 
 #include "exposure_clock/frame_counter.h"
 
@@ -50,5 +49,3 @@ class FrameHistory {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_FRAME_HISTORY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_POLL_WATCH_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_POLL_WATCH_H
+#pragma once
 
 #include <array>
 #include <complex>
@@ -31,5 +30,3 @@ class PollWatch {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_POLL_WATCH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STALL_MODEL_H
-#define WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STALL_MODEL_H
+#pragma once
 
 #include "exposure_clock/clock_filter.h"
 
@@ -41,5 +40,3 @@ class StallModel {
 };
 
 }  // namespace wiimote_tracker::exposure_clock
-
-#endif  // WIIMOTE_TRACKER_DRIVER_EXPOSURE_CLOCK_STALL_MODEL_H

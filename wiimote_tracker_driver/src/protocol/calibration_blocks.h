@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_CALIBRATION_BLOCKS_H
-#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_CALIBRATION_BLOCKS_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -48,5 +47,3 @@ std::optional<AccelerometerCalibration> decodeAccelerometerBlock(
     const std::array<std::uint8_t, kAccelerometerBlockSize>& block);
 
 }  // namespace wiimote_tracker::protocol
-
-#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_CALIBRATION_BLOCKS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_IR_POSITION_H
-#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_IR_POSITION_H
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -19,5 +18,3 @@ inline std::array<int, 2> secondOfPair(const std::uint8_t* in) {
 }
 
 }  // namespace wiimote_tracker::protocol
-
-#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_IR_POSITION_H

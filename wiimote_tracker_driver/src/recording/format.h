@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_FORMAT_H
-#define WIIMOTE_TRACKER_DRIVER_RECORDING_FORMAT_H
+#pragma once
 
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/report.h"
@@ -55,5 +54,3 @@ void append(const FileHeader& header, std::vector<std::uint8_t>& bytes);
 void append(const Record& record, std::vector<std::uint8_t>& bytes);
 
 }  // namespace wiimote_tracker::recording
-
-#endif  // WIIMOTE_TRACKER_DRIVER_RECORDING_FORMAT_H

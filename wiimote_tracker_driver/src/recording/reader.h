@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_READER_H
-#define WIIMOTE_TRACKER_DRIVER_RECORDING_READER_H
+#pragma once
 
 #include "recording/format.h"
 
@@ -41,5 +40,3 @@ class Reader {
 };
 
 }  // namespace wiimote_tracker::recording
-
-#endif  // WIIMOTE_TRACKER_DRIVER_RECORDING_READER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDED_REMOTE_H
-#define WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDED_REMOTE_H
+#pragma once
 
 #include "recording/format.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
@@ -65,5 +64,3 @@ class RecordedRemote {
 };
 
 }  // namespace wiimote_tracker::recording
-
-#endif  // WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDED_REMOTE_H

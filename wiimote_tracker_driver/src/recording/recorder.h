@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H
-#define WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H
+#pragma once
 
 #include "file_descriptor.h"
 #include "recording/format.h"
@@ -84,5 +83,3 @@ std::unique_ptr<transport::Transport> record(std::unique_ptr<transport::Transpor
                                              std::function<double()> clock);
 
 }  // namespace wiimote_tracker::recording
-
-#endif  // WIIMOTE_TRACKER_DRIVER_RECORDING_RECORDER_H

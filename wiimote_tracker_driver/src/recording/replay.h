@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_RECORDING_REPLAY_H
-#define WIIMOTE_TRACKER_DRIVER_RECORDING_REPLAY_H
+#pragma once
 
 #include "recording/reader.h"
 #include "recording/recorded_remote.h"
@@ -94,5 +93,3 @@ class Replay {
 };
 
 }  // namespace wiimote_tracker::recording
-
-#endif  // WIIMOTE_TRACKER_DRIVER_RECORDING_REPLAY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_BATTERY_PUBLISHER_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_BATTERY_PUBLISHER_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
@@ -33,5 +32,3 @@ class BatteryPublisher {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_BATTERY_PUBLISHER_H

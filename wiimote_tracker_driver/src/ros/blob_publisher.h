@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H
+#pragma once
 
 #include "image_stamper.h"
 #include "image_topic.h"
@@ -36,5 +35,3 @@ class BlobPublisher {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_BLOB_PUBLISHER_H

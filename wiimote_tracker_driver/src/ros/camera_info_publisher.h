@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H
+#pragma once
 
 #include "image_topic.h"
 #include "protocol/calibration_blocks.h"
@@ -47,5 +46,3 @@ class CameraInfoPublisher {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_CAMERA_INFO_PUBLISHER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_H
+#pragma once
 
 #include "battery_publisher.h"
 #include "blob_publisher.h"
@@ -90,5 +89,3 @@ class Driver {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_H

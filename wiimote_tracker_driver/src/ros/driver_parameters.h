@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_PARAMETERS_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_PARAMETERS_H
+#pragma once
 
 #include "image_stamper.h"
 #include "transport/transport.h"
@@ -56,5 +55,3 @@ protocol::IrSensitivity sensitivity(const std::string& name,
 std::uint8_t leds(int leds, const std::string& camera_name);
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_DRIVER_PARAMETERS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H
+#pragma once
 
 #include "wiimote_tracker_driver/exposure_clock/exposure_clock.h"
 
@@ -78,5 +77,3 @@ class ImageStamper {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_STAMPER_H

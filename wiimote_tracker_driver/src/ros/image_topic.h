@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_TOPIC_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_TOPIC_H
+#pragma once
 
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
@@ -45,5 +44,3 @@ class ImageTopic {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_IMAGE_TOPIC_H

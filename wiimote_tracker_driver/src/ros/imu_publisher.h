@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H
+#pragma once
 
 #include "image_topic.h"
 #include "protocol/calibration_blocks.h"
@@ -37,5 +36,3 @@ class ImuPublisher {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_IMU_PUBLISHER_H

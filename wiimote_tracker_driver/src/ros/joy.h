@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_JOY_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_JOY_H
+#pragma once
 
 #include "remote_control.h"
 
@@ -53,5 +52,3 @@ class JoyFeedback {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_JOY_H

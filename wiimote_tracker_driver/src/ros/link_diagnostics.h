@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_LINK_DIAGNOSTICS_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_LINK_DIAGNOSTICS_H
+#pragma once
 
 #include "image_stamper.h"
 #include "wiimote/stream_statistics.h"
@@ -48,5 +47,3 @@ class LinkDiagnostics {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_LINK_DIAGNOSTICS_H

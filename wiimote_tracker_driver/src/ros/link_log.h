@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H
+#pragma once
 
 #include "wiimote/wiimote.h"
 
@@ -51,5 +50,3 @@ class LinkLog {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_LINK_LOG_H

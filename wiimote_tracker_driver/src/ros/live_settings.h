@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_LIVE_SETTINGS_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_LIVE_SETTINGS_H
+#pragma once
 
 #include "driver_parameters.h"
 #include "remote_control.h"
@@ -38,5 +37,3 @@ class LiveSettings {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_LIVE_SETTINGS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H
+#pragma once
 
 #include "wiimote/wiimote.h"
 
@@ -40,5 +39,3 @@ class RemoteControl {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_CONTROL_H

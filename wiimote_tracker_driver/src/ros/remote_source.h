@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_SOURCE_H
-#define WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_SOURCE_H
+#pragma once
 
 #include "driver_parameters.h"
 #include "image_stamper.h"
@@ -57,5 +56,3 @@ class RemoteSource {
 };
 
 }  // namespace wiimote_tracker::driver
-
-#endif  // WIIMOTE_TRACKER_DRIVER_ROS_REMOTE_SOURCE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H
-#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H
+#pragma once
 
 #include "transport/kernel_remotes.h"
 #include "transport/transport.h"
@@ -25,5 +24,3 @@ void orderAfter(const std::string& last, bool delivered, std::vector<KernelRemot
 [[noreturn]] void throwOpenError(int error_number, const std::string& path);
 
 }  // namespace wiimote_tracker::transport
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_HIDRAW_TRANSPORT_H

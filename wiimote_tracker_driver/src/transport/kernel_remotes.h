@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_KERNEL_REMOTES_H
-#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_KERNEL_REMOTES_H
+#pragma once
 
 #include <string>
 #include <vector>
@@ -20,5 +19,3 @@ struct KernelRemote {
 std::vector<KernelRemote> kernelRemotes(const std::string& root = "");
 
 }  // namespace wiimote_tracker::transport
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_KERNEL_REMOTES_H

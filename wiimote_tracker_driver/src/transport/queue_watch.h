@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_QUEUE_WATCH_H
-#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_QUEUE_WATCH_H
+#pragma once
 
 namespace wiimote_tracker::transport {
 
@@ -33,5 +32,3 @@ class QueueWatch {
 };
 
 }  // namespace wiimote_tracker::transport
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_QUEUE_WATCH_H

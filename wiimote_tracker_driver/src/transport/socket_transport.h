@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_SOCKET_TRANSPORT_H
-#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_SOCKET_TRANSPORT_H
+#pragma once
 
 #include "transport/transport.h"
 
@@ -10,5 +9,3 @@ namespace wiimote_tracker::transport {
 std::unique_ptr<Transport> openSocket(const std::string& path);
 
 }  // namespace wiimote_tracker::transport
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_SOCKET_TRANSPORT_H

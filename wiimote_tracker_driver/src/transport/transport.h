@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
-#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H
+#pragma once
 
 #include "transport/kernel_remotes.h"
 #include "wiimote_tracker_driver/protocol/report.h"
@@ -89,5 +88,3 @@ Opener opener(
     std::function<std::vector<KernelRemote>()> list = [] { return kernelRemotes(); });
 
 }  // namespace wiimote_tracker::transport
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_TRANSPORT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TRANSPORT_USERS_H
-#define WIIMOTE_TRACKER_DRIVER_TRANSPORT_USERS_H
+#pragma once
 
 #include <sys/types.h>
 
@@ -29,5 +28,3 @@ void lockDevice(int fd, const std::string& remote);
 std::string sharedWith(const std::string& path);
 
 }  // namespace wiimote_tracker::transport
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TRANSPORT_USERS_H

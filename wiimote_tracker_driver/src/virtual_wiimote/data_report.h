@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_DATA_REPORT_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_DATA_REPORT_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
@@ -37,5 +36,3 @@ bool isDataReport(std::uint8_t id);
 Bytes dataReport(std::uint8_t id, const Sample& sample);
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_DATA_REPORT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EEPROM_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EEPROM_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
@@ -35,5 +34,3 @@ class Eeprom {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EEPROM_H

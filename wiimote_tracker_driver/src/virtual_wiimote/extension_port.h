@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EXTENSION_PORT_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EXTENSION_PORT_H
+#pragma once
 
 #include "data_report.h"
 
@@ -47,5 +46,3 @@ class ExtensionPort {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_EXTENSION_PORT_H

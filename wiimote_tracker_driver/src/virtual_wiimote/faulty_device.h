@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FAULTY_DEVICE_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FAULTY_DEVICE_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 #include "wiimote_tracker_driver/virtual_wiimote/faults.h"
@@ -75,5 +74,3 @@ class FaultyDevice {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FAULTY_DEVICE_H

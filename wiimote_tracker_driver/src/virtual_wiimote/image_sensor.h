@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IMAGE_SENSOR_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IMAGE_SENSOR_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
@@ -27,5 +26,3 @@ double brightnessThreshold(std::uint8_t gain_limit, std::uint8_t minimum_size);
 std::vector<Blob> findBlobs(const std::vector<Light>& lights, double threshold);
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IMAGE_SENSOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IR_CAMERA_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IR_CAMERA_H
+#pragma once
 
 #include "image_sensor.h"
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
@@ -68,5 +67,3 @@ class IrCamera {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_IR_CAMERA_H

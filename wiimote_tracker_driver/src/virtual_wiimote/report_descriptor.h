@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_REPORT_DESCRIPTOR_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_REPORT_DESCRIPTOR_H
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -40,5 +39,3 @@ constexpr std::array<std::uint8_t, 218> kReportDescriptor{
     0xc0, 0x00};
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_REPORT_DESCRIPTOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SECOND_MASTER_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SECOND_MASTER_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 
@@ -25,5 +24,3 @@ class SecondMaster {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SECOND_MASTER_H

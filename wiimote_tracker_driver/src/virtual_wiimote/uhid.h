@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/hosted_device.h"
 
@@ -50,5 +49,3 @@ class UhidDevice : public HostedDevice {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_UHID_H

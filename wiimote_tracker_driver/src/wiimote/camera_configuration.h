@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_CAMERA_CONFIGURATION_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_CAMERA_CONFIGURATION_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
@@ -34,5 +33,3 @@ class CameraConfiguration {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_CAMERA_CONFIGURATION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_FACTORY_CALIBRATION_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_FACTORY_CALIBRATION_H
+#pragma once
 
 #include "protocol/calibration_blocks.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
@@ -44,5 +43,3 @@ class FactoryCalibration {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_FACTORY_CALIBRATION_H

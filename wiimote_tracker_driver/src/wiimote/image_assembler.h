@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_ASSEMBLER_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_ASSEMBLER_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
@@ -49,5 +48,3 @@ class ImageAssembler {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_ASSEMBLER_H

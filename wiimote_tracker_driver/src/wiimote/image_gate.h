@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_GATE_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_GATE_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 
@@ -41,5 +40,3 @@ class ImageGate {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_IMAGE_GATE_H

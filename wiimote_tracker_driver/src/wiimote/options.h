@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_OPTIONS_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_OPTIONS_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/input_reports.h"
 #include "wiimote_tracker_driver/protocol/ir_camera.h"
@@ -20,5 +19,3 @@ struct Options {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_OPTIONS_H

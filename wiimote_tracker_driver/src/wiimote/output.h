@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_OUTPUT_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_OUTPUT_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/output_reports.h"
 #include "wiimote_tracker_driver/protocol/report.h"
@@ -51,5 +50,3 @@ class Output {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_OUTPUT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H
+#pragma once
 
 #include "wiimote/camera_configuration.h"
 #include "wiimote/factory_calibration.h"
@@ -173,5 +172,3 @@ class Session {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_SESSION_H

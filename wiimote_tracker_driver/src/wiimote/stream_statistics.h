@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_STATISTICS_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_STATISTICS_H
+#pragma once
 
 #include <algorithm>
 #include <cstdint>
@@ -87,5 +86,3 @@ class StreamStatistics {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_STATISTICS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_WATCH_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_WATCH_H
+#pragma once
 
 #include "wiimote/options.h"
 
@@ -106,5 +105,3 @@ class StreamWatch {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_STREAM_WATCH_H

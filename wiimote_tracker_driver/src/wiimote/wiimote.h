@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H
-#define WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H
+#pragma once
 
 #include "transport/queue_watch.h"
 #include "transport/transport.h"
@@ -111,5 +110,3 @@ class Wiimote {
 };
 
 }  // namespace wiimote_tracker::wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_WIIMOTE_WIIMOTE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_ARGUMENT_PARSER_H
-#define WIIMOTE_TRACKER_MSGS_ARGUMENT_PARSER_H
+#pragma once
 
 #include "wiimote_tracker_msgs/error.h"
 #include "wiimote_tracker_msgs/interruption.h"
@@ -196,5 +195,3 @@ class ArgumentParser {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_ARGUMENT_PARSER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_BENCHMARK_TABLES_H
-#define WIIMOTE_TRACKER_MSGS_BENCHMARK_TABLES_H
+#pragma once
 
 #include "wiimote_tracker_msgs/argument_parser.h"
 #include "wiimote_tracker_msgs/error.h"
@@ -171,5 +170,3 @@ class BenchmarkTables {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_BENCHMARK_TABLES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_CAMERA_TOPICS_H
-#define WIIMOTE_TRACKER_MSGS_CAMERA_TOPICS_H
+#pragma once
 
 #include <map>
 #include <optional>
@@ -40,5 +39,3 @@ inline std::set<std::string> camerasBelow(const std::string& name_space,
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_CAMERA_TOPICS_H

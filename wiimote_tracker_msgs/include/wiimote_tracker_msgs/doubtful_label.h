@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_DOUBTFUL_LABEL_H
-#define WIIMOTE_TRACKER_MSGS_DOUBTFUL_LABEL_H
+#pragma once
 
 #include <string>
 
@@ -14,5 +13,3 @@ inline std::string shownLabel(const std::string& label, double confidence) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_DOUBTFUL_LABEL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_ERROR_H
-#define WIIMOTE_TRACKER_MSGS_ERROR_H
+#pragma once
 
 #include <wiimote_tracker_msgs/text.h>
 
@@ -21,5 +20,3 @@ struct FileError : Error {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_ERROR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_INTERRUPTION_H
-#define WIIMOTE_TRACKER_MSGS_INTERRUPTION_H
+#pragma once
 
 #include <csignal>
 
@@ -34,5 +33,3 @@ inline void throwIfInterrupted() {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_INTERRUPTION_H

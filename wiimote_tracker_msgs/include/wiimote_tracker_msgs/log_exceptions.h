@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_LOG_EXCEPTIONS_H
-#define WIIMOTE_TRACKER_MSGS_LOG_EXCEPTIONS_H
+#pragma once
 
 #include <ros/console.h>
 
@@ -35,5 +34,3 @@ void logExceptions(const std::string& name, const Work& work) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_LOG_EXCEPTIONS_H

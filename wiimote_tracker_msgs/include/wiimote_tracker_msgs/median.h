@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_MEDIAN_H
-#define WIIMOTE_TRACKER_MSGS_MEDIAN_H
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
@@ -17,5 +16,3 @@ inline double medianOf(std::vector<double>* values) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_MEDIAN_H

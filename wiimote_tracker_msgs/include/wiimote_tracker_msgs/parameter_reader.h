@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
-#define WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H
+#pragma once
 
 #include "wiimote_tracker_msgs/error.h"
 #include "wiimote_tracker_msgs/parameter_tree.h"
@@ -170,5 +169,3 @@ class ParameterReader {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_PARAMETER_READER_H

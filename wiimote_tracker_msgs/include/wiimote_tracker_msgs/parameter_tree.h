@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H
-#define WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H
+#pragma once
 
 #include "wiimote_tracker_msgs/error.h"
 
@@ -143,5 +142,3 @@ class ParameterTree {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_PARAMETER_TREE_H

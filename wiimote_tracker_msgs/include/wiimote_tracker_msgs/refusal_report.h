@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_REFUSAL_REPORT_H
-#define WIIMOTE_TRACKER_MSGS_REFUSAL_REPORT_H
+#pragma once
 
 #include "wiimote_tracker_msgs/parameter_reader.h"
 
@@ -57,5 +56,3 @@ class RefusalReport {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_REFUSAL_REPORT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_ROS_HOME_H
-#define WIIMOTE_TRACKER_MSGS_ROS_HOME_H
+#pragma once
 
 #include <cstdlib>
 #include <string>
@@ -16,5 +15,3 @@ inline std::string rosHome() {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_ROS_HOME_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_RUN_NODE_H
-#define WIIMOTE_TRACKER_MSGS_RUN_NODE_H
+#pragma once
 
 #include "wiimote_tracker_msgs/argument_parser.h"
 #include "wiimote_tracker_msgs/error.h"
@@ -232,5 +231,3 @@ class OwnThread {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_RUN_NODE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_TEXT_H
-#define WIIMOTE_TRACKER_MSGS_TEXT_H
+#pragma once
 
 #include <boost/locale/utf.hpp>
 
@@ -116,5 +115,3 @@ std::string joined(const Words& words, const char* separator = ", ") {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_TEXT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
@@ -24,5 +23,3 @@ double pointCloudDistance(const Cloud& a, const Cloud& b);
 double timeWarpingDistance(const Cloud& a, const Cloud& b);
 
 }  // namespace wiimote_tracker::gesture_tool
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_BASELINES_H

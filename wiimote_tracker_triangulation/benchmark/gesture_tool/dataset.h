@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_DATASET_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_DATASET_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
@@ -24,5 +23,3 @@ struct Person {
 std::vector<Person> readPeople(const std::string& folder);
 
 }  // namespace wiimote_tracker::gesture_tool
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_DATASET_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_EVALUATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_EVALUATE_H
+#pragma once
 
 #include "dataset.h"
 #include "gesture/recognizer.h"
@@ -56,5 +55,3 @@ FalseAlarms countFalseAlarms(const std::vector<Person>& teachers,
                              const gesture::RecognizerOptions& options);
 
 }  // namespace wiimote_tracker::gesture_tool
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_EVALUATE_H

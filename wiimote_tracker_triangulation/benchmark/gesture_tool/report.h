@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H
+#pragma once
 
 #include "evaluate.h"
 
@@ -18,5 +17,3 @@ void writeJson(const std::string& file,
                const std::optional<FalseAlarms>& alarms);
 
 }  // namespace wiimote_tracker::gesture_tool
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BENCHMARK_GESTURE_TOOL_REPORT_H

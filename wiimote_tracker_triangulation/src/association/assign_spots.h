@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ASSOCIATION_ASSIGN_SPOTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ASSOCIATION_ASSIGN_SPOTS_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -33,5 +32,3 @@ using TrackOfSpot = std::array<int, kMaximumSpots>;
 TrackOfSpot assignSpots(const SpotCosts& costs);
 
 }  // namespace wiimote_tracker::association
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ASSOCIATION_ASSIGN_SPOTS_H

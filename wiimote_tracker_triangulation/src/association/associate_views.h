@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_ASSOCIATE_VIEWS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_ASSOCIATE_VIEWS_H
+#pragma once
 
 #include "association/point_search.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -95,5 +94,3 @@ class ViewAssociator {
 };
 
 }  // namespace wiimote_tracker::association
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_ASSOCIATE_VIEWS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
@@ -140,5 +139,3 @@ class PointSearch {
 };
 
 }  // namespace wiimote_tracker::association
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ASSOCIATION_POINT_SEARCH_H

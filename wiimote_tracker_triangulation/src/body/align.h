@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_ALIGN_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_ALIGN_H
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -25,5 +24,3 @@ struct Alignment {
 Alignment align(const PointPair* pairs, std::size_t count);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_ALIGN_H

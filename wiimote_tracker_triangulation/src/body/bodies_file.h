@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_BODIES_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_BODIES_FILE_H
+#pragma once
 
 #include "body/constellation.h"
 
@@ -20,5 +19,3 @@ std::vector<Constellation> readBodies(const std::string& file);
 void writeBodies(const std::string& file, const std::vector<Constellation>& bodies);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_BODIES_FILE_H

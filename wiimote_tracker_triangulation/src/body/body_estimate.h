@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_ESTIMATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_ESTIMATE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
@@ -58,5 +57,3 @@ void estimateBody(std::size_t body,
                   std::optional<BodyEstimate>* estimate);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_ESTIMATE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H
+#pragma once
 
 #include "body/inertial_filter.h"
 #include "wiimote_tracker_triangulation/body/pose_filter.h"
@@ -84,5 +83,3 @@ class BodyFilter {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FILTER_H

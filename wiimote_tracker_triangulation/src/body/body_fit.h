@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FIT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FIT_H
+#pragma once
 
 #include "association/assign_spots.h"
 #include "body/body_setup.h"
@@ -51,5 +50,3 @@ bool isSeen(std::size_t body,
             std::vector<geometry::Sight>* sights);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_FIT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SEARCH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SEARCH_H
+#pragma once
 
 #include "association/associate_views.h"
 #include "body/body_setup.h"
@@ -52,5 +51,3 @@ class BodySearch {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SEARCH_H

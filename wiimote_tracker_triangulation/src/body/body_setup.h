@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SETUP_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SETUP_H
+#pragma once
 
 #include "body/constellation.h"
 #include "body/inertial_filter.h"
@@ -52,5 +51,3 @@ struct BodySetup {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_SETUP_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_STATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_STATE_H
+#pragma once
 
 #include "body/body_filter.h"
 #include "body/body_setup.h"
@@ -86,5 +85,3 @@ struct BodyImage : tracking::TimedImage {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_STATE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_TRACKER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_TRACKER_H
+#pragma once
 
 #include "body/body_estimate.h"
 #include "body/body_search.h"
@@ -122,5 +121,3 @@ class BodyTracker {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_TRACKER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H
+#pragma once
 
 #include "body/body_fit.h"
 #include "body/body_setup.h"
@@ -70,5 +69,3 @@ class BodyUpdate {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_BODY_UPDATE_H

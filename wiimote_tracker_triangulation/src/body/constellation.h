@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_CONSTELLATION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_CONSTELLATION_H
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -81,5 +80,3 @@ constexpr double kMerging = 0.03;
 std::optional<std::string> describeMergingLeds(const Constellation& constellation);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_CONSTELLATION_H

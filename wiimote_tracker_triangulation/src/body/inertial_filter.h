@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_FILTER_H
+#pragma once
 
 #include "body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
@@ -70,5 +69,3 @@ class InertialFilter {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_FILTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_SAMPLES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_SAMPLES_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -94,5 +93,3 @@ class InertialSamples {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_INERTIAL_SAMPLES_H

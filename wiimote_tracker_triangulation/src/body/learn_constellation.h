@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_LEARN_CONSTELLATION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_LEARN_CONSTELLATION_H
+#pragma once
 
 #include "body/constellation.h"
 
@@ -44,5 +43,3 @@ LearnedConstellation learnConstellation(const std::string& name,
                                         const std::vector<LedsInstant>& instants);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_LEARN_CONSTELLATION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H
+#pragma once
 
 #include "body/constellation.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
@@ -62,5 +61,3 @@ class LedGroups {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_LED_GROUPS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H
+#pragma once
 
 #include "body/constellation.h"
 
@@ -43,5 +42,3 @@ bool isSamePose(const std::vector<Eigen::Vector3d>& leds,
                 const Eigen::Isometry3d& b);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_MATCH_POINTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/so3.h"
 
@@ -50,5 +49,3 @@ double updateByPixel(const Eigen::Matrix<double, 2, 6>& jacobian,
 }
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_PIXEL_UPDATE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_UNCERTAINTY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_UNCERTAINTY_H
+#pragma once
 
 #include "body/body_estimate.h"
 #include "body/constellation.h"
@@ -26,5 +25,3 @@ std::optional<PoseCovariance> calibrationCovariance(const geometry::Rig& rig,
                                                     const BodyEstimate& estimate);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_UNCERTAINTY_H

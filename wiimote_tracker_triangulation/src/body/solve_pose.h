@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H
+#pragma once
 
 #include "body/constellation.h"
 #include "wiimote_tracker_triangulation/body/pose_state.h"
@@ -54,5 +53,3 @@ std::optional<BodyPose> poseFromLabels(const Constellation& constellation,
                                        const std::vector<LabelledPoint>& points);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_BODY_SOLVE_POSE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_EVENTS_REFUSALS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_EVENTS_REFUSALS_H
+#pragma once
 
 #include "events/trigger.h"
 
@@ -62,5 +61,3 @@ class Refusals {
 };
 
 }  // namespace wiimote_tracker::events
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_EVENTS_REFUSALS_H

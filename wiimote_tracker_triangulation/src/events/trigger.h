@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_EVENTS_TRIGGER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_EVENTS_TRIGGER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -93,5 +92,3 @@ class Trigger {
 };
 
 }  // namespace wiimote_tracker::events
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_EVENTS_TRIGGER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_EVENTS_ZONE_WATCH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_EVENTS_ZONE_WATCH_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -76,5 +75,3 @@ class ZoneWatch {
 };
 
 }  // namespace wiimote_tracker::events
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_EVENTS_ZONE_WATCH_H

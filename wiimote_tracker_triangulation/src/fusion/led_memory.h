@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LED_MEMORY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LED_MEMORY_H
+#pragma once
 
 #include "locator.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
@@ -132,5 +131,3 @@ class LedMemory {
 };
 
 }  // namespace wiimote_tracker::fusion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LED_MEMORY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H
+#pragma once
 
 #include "association/associate_views.h"
 #include "synchronizer.h"
@@ -142,5 +141,3 @@ class Locator {
 };
 
 }  // namespace wiimote_tracker::fusion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_LOCATOR_H

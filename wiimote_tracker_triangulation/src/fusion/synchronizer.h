@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_SYNCHRONIZER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_SYNCHRONIZER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/fusion/frame_history.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
@@ -92,5 +91,3 @@ class Synchronizer {
 };
 
 }  // namespace wiimote_tracker::fusion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_FUSION_SYNCHRONIZER_H

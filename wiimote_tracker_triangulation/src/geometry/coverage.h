@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_COVERAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_COVERAGE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -57,5 +56,3 @@ struct CameraTurn {
 std::optional<CameraTurn> bestTurn(const Rig& rig, const CellGrid& grid);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_COVERAGE_H

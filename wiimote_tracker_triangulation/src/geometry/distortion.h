@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_DISTORTION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_DISTORTION_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -70,5 +69,3 @@ extern const LensFormulas kFormulas;
 }
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_DISTORTION_H

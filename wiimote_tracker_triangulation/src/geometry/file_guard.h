@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_FILE_GUARD_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_FILE_GUARD_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/atomic_file.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
@@ -38,5 +37,3 @@ class FileGuard {
 };
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_FILE_GUARD_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_OUTPUT_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_OUTPUT_FILE_H
+#pragma once
 
 #include <cstdio>
 #include <memory>
@@ -53,5 +52,3 @@ class OutputFile {
 };
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_OUTPUT_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_RIG_WORDS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_RIG_WORDS_H
+#pragma once
 
 #include <array>
 
@@ -14,5 +13,3 @@ constexpr std::array<const char*, 2> kRayModelWords = {"calibrated", "image_cent
 constexpr std::array<const char*, 3> kTimeOffsetRuleWords = {"none", "always", "one_epoch"};
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_GEOMETRY_RIG_WORDS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ROTATION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ROTATION_H
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -15,5 +14,3 @@ Eigen::Matrix3d matrixFromQuaternion(const Eigen::Quaterniond& quaternion);
 Eigen::Quaterniond canonicalQuaternion(const Eigen::Matrix3d& rotation);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ROTATION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GESTURE_EXAMPLES_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GESTURE_EXAMPLES_FILE_H
+#pragma once
 
 #include "gesture/recognizer.h"
 
@@ -18,5 +17,3 @@ std::vector<Example> readExamples(const std::string& file);
 void writeExamples(const std::string& file, const std::vector<Example>& examples);
 
 }  // namespace wiimote_tracker::gesture
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GESTURE_EXAMPLES_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GESTURE_RECOGNIZER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GESTURE_RECOGNIZER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
@@ -77,5 +76,3 @@ class Recognizer {
 };
 
 }  // namespace wiimote_tracker::gesture
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GESTURE_RECOGNIZER_H

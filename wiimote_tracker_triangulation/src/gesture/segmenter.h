@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SEGMENTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SEGMENTER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
@@ -69,5 +68,3 @@ class Segmenter {
 };
 
 }  // namespace wiimote_tracker::gesture
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SEGMENTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SPOTTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SPOTTER_H
+#pragma once
 
 #include "gesture/recognizer.h"
 
@@ -66,5 +65,3 @@ class Spotter {
 };
 
 }  // namespace wiimote_tracker::gesture
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SPOTTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LABEL_PLACES_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LABEL_PLACES_FILE_H
+#pragma once
 
 #include "identity/led_labels.h"
 
@@ -28,5 +27,3 @@ LedLabels::Places readPlaces(const std::string& file,
                              std::chrono::seconds oldest);
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LABEL_PLACES_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LED_LABELS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LED_LABELS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/identifier.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -141,5 +140,3 @@ class LedLabels {
 };
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_IDENTITY_LED_LABELS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATE_H
+#pragma once
 
 #include "motion/transition.h"
 
@@ -60,5 +59,3 @@ struct KinematicState {
 };
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_KINEMATIC_STATE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H
+#pragma once
 
 #include "motion/kinematic_state.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
@@ -51,5 +50,3 @@ void mixStops(const MotionOptions& options, double duration, Modes* modes);
 void mixChanges(const MotionOptions& options, double duration, Modes* modes);
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_MODES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H
+#pragma once
 
 #include "motion/modes.h"
 #include "motion/pixel_prediction.h"
@@ -84,5 +83,3 @@ class MotionFilter {
 };
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_FILTER_H

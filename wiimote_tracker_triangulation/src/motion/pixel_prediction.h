@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_PIXEL_PREDICTION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_PIXEL_PREDICTION_H
+#pragma once
 
 #include "motion/modes.h"
 
@@ -62,5 +61,3 @@ class PixelPrediction {
 };
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_PIXEL_PREDICTION_H

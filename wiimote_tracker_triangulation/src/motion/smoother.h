@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_SMOOTHER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_SMOOTHER_H
+#pragma once
 
 #include "motion/kinematic_state.h"
 #include "motion/pixel_prediction.h"
@@ -44,5 +43,3 @@ std::vector<KinematicState> smooth(const MotionOptions& options,
                                    const std::vector<Place>& places);
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_SMOOTHER_H

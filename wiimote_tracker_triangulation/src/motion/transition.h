@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_TRANSITION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_TRANSITION_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -23,5 +22,3 @@ Transition singer(double stddev, double time, double duration);
 Transition randomWalkOfVelocity(double density, double duration);
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_TRANSITION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CALLBACKS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CALLBACKS_H
+#pragma once
 
 #include <ros/message_event.h>
 #include <ros/node_handle.h>
@@ -28,5 +27,3 @@ ros::Subscriber subscribe(ros::NodeHandle nh,
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_CALLBACKS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_HOST_CLOCK_CHECK_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_HOST_CLOCK_CHECK_H
+#pragma once
 
 #include <algorithm>
 #include <cmath>
@@ -56,5 +55,3 @@ class HostClockCheck {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_HOST_CLOCK_CHECK_H

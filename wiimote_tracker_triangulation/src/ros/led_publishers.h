@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H
+#pragma once
 
 #include "tracker/parameters.h"
 #include "tracker/point_message.h"
@@ -109,5 +108,3 @@ class LedPublishers {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LED_PUBLISHERS_H

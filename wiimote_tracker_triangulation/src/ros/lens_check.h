@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LENS_CHECK_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LENS_CHECK_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -38,5 +37,3 @@ class LensCheck {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LENS_CHECK_H

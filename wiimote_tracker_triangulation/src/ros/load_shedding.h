@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LOAD_SHEDDING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LOAD_SHEDDING_H
+#pragma once
 
 #include <cstdint>
 #include <optional>
@@ -52,5 +51,3 @@ class LoadShedding {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_LOAD_SHEDDING_H

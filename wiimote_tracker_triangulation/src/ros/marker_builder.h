@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H
+#pragma once
 
 #include "marker_parts.h"
 #include "tracker/parameters.h"
@@ -78,5 +77,3 @@ class MarkerBuilder {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_BUILDER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
@@ -75,5 +74,3 @@ inline void add(visualization_msgs::Marker marker, visualization_msgs::MarkerArr
 }
 
 }  // namespace wiimote_tracker::markers
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MARKER_PARTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_RIG_SUBSCRIPTION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_RIG_SUBSCRIPTION_H
+#pragma once
 
 #include "callbacks.h"
 
@@ -68,5 +67,3 @@ class RigSubscription {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_RIG_SUBSCRIPTION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H
+#pragma once
 
 #include "host_clock_check.h"
 #include "lens_check.h"
@@ -58,5 +57,3 @@ class TrackingDiagnostics {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKING_DIAGNOSTICS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H
+#pragma once
 
 #include "bodies/body_diagnostics.h"
 #include "bodies/body_learning.h"
@@ -86,5 +85,3 @@ class Triangulation : private MessageSink {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRIANGULATION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
@@ -85,5 +84,3 @@ bool isByCalibration(const geometry::Rig& rig,
                      const Eigen::Matrix2d& covariance);
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_FIT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H
+#pragma once
 
 #include "clock_offsets.h"
 #include "group_state.h"
@@ -77,5 +76,3 @@ class CameraGroup {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_GROUP_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_RECORDS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_RECORDS_H
+#pragma once
 
 #include "ray_agreement.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -81,5 +80,3 @@ class CameraRecords {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CAMERA_RECORDS_H

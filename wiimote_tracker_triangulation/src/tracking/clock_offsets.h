@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_OFFSETS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_OFFSETS_H
+#pragma once
 
 #include "group_state.h"
 #include "offset_regression.h"
@@ -77,5 +76,3 @@ class ClockOffsets {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CLOCK_OFFSETS_H

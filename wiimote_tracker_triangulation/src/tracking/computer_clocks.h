@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_COMPUTER_CLOCKS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_COMPUTER_CLOCKS_H
+#pragma once
 
 #include <array>
 #include <cstddef>
@@ -90,5 +89,3 @@ class ComputerClocks {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_COMPUTER_CLOCKS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CROWD_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CROWD_H
+#pragma once
 
 #include "association/assign_spots.h"
 
@@ -65,5 +64,3 @@ Eigen::Matrix3d mergingCovariance(const TrackedLed& led,
                                   double merging_distance);
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_CROWD_H

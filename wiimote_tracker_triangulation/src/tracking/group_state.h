@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_STATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_STATE_H
+#pragma once
 
 #include "association/assign_spots.h"
 #include "camera_fit.h"
@@ -85,5 +84,3 @@ struct GroupState {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_GROUP_STATE_H

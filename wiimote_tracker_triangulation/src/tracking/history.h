@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
 
@@ -156,5 +155,3 @@ class History {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_HISTORY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_ASSIGNMENT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_ASSIGNMENT_H
+#pragma once
 
 #include "association/assign_spots.h"
 #include "group_state.h"
@@ -56,5 +55,3 @@ ImageAssignment assignImage(const GroupSetup& setup,
                             std::vector<Track>* tracks);
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_ASSIGNMENT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_INTAKE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_INTAKE_H
+#pragma once
 
 #include "tracking/computer_clocks.h"
 #include "tracking/timed_image.h"
@@ -78,5 +77,3 @@ class ImageIntake {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_INTAKE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H
+#pragma once
 
 #include "association/assign_spots.h"
 #include "group_state.h"
@@ -17,5 +16,3 @@ association::TrackOfSpot updateTracks(const GroupSetup& setup,
                                       GroupState* state);
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_IMAGE_UPDATE_H

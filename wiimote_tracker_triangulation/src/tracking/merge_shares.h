@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGE_SHARES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGE_SHARES_H
+#pragma once
 
 #include <algorithm>
 #include <cstddef>
@@ -49,5 +48,3 @@ class MergeShares {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGE_SHARES_H

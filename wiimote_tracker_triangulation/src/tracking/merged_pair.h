@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGED_PAIR_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGED_PAIR_H
+#pragma once
 
 #include "association/assign_spots.h"
 #include "motion/motion_filter.h"
@@ -90,5 +89,3 @@ class MergedPair {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGED_PAIR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGED_SPOTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGED_SPOTS_H
+#pragma once
 
 #include "group_state.h"
 #include "image_assignment.h"
@@ -46,5 +45,3 @@ void closeMergedPairs(double time, double doubt_time, GroupState* state);
 void doubtPartnerOf(std::uint32_t ended, GroupState* state);
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_MERGED_SPOTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_OFFSET_REGRESSION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_OFFSET_REGRESSION_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -51,5 +50,3 @@ class OffsetRegression {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_OFFSET_REGRESSION_H

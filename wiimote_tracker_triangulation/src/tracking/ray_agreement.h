@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_RAY_AGREEMENT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_RAY_AGREEMENT_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -45,5 +44,3 @@ class RayAgreement {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_RAY_AGREEMENT_H

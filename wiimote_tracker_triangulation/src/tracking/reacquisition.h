@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_REACQUISITION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_REACQUISITION_H
+#pragma once
 
 #include "group_state.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
@@ -11,5 +10,3 @@ namespace wiimote_tracker::tracking {
 Track* reacquiredBy(const Track& track, const TrackerOptions& options, GroupState* state);
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_REACQUISITION_H

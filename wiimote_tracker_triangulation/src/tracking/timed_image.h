@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TIMED_IMAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TIMED_IMAGE_H
+#pragma once
 
 #include <cstddef>
 
@@ -19,5 +18,3 @@ struct TimedImage {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TIMED_IMAGE_H

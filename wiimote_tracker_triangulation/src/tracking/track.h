@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_H
+#pragma once
 
 #include "camera_records.h"
 #include "crowd.h"
@@ -110,5 +109,3 @@ class Track {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_H

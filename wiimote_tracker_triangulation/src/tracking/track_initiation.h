@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H
+#pragma once
 
 #include "association/associate_views.h"
 #include "group_state.h"
@@ -50,5 +49,3 @@ class TrackInitiation {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACK_INITIATION_H

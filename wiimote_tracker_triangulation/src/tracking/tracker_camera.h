@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACKER_CAMERA_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACKER_CAMERA_H
+#pragma once
 
 #include "motion/pixel_prediction.h"
 #include "ray_agreement.h"
@@ -89,5 +88,3 @@ class TrackerCamera {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TRACKING_TRACKER_CAMERA_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
@@ -106,5 +105,3 @@ inline Eigen::Vector3d circle(double t) {
 }
 
 }  // namespace wiimote_tracker::fusion::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_FUSION_FILM_H

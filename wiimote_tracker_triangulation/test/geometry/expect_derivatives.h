@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_EXPECT_DERIVATIVES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_EXPECT_DERIVATIVES_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
@@ -34,5 +33,3 @@ inline void expectDerivatives(const Camera& camera, const Eigen::Vector3d& point
 }
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_EXPECT_DERIVATIVES_H

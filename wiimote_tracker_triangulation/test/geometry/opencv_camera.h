@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_OPENCV_CAMERA_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_OPENCV_CAMERA_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -39,5 +38,3 @@ struct OpenCvCamera {
 };
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_OPENCV_CAMERA_H

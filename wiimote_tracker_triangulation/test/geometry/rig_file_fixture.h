@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_RIG_FILE_FIXTURE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_RIG_FILE_FIXTURE_H
+#pragma once
 
 #include "geometry/full_rig.h"
 #include "refusal_of.h"
@@ -61,5 +60,3 @@ class RigFile : public testing::Test {
 };
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_RIG_FILE_FIXTURE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_UNCERTAIN_RIGS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_UNCERTAIN_RIGS_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
@@ -95,5 +94,3 @@ inline double whitenedDifference(const Eigen::MatrixXd& spread, const Eigen::Mat
 }
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_GEOMETRY_UNCERTAIN_RIGS_H

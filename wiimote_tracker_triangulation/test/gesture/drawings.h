@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_GESTURE_DRAWINGS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_GESTURE_DRAWINGS_H
+#pragma once
 
 #include "gesture/recognizer.h"
 #include "wiimote_tracker_triangulation/gesture/shape.h"
@@ -61,5 +60,3 @@ inline Recognizer threeGestures(const RecognizerOptions& options = {}) {
 }
 
 }  // namespace wiimote_tracker::gesture::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_GESTURE_DRAWINGS_H

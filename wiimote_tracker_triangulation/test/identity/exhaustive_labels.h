@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_EXHAUSTIVE_LABELS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_EXHAUSTIVE_LABELS_H
+#pragma once
 
 #include "identity/blinking.h"
 #include "wiimote_tracker_triangulation/identity/hypotheses.h"
@@ -148,5 +147,3 @@ struct ExhaustiveLabels {
 };
 
 }  // namespace wiimote_tracker::identity::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_IDENTITY_EXHAUSTIVE_LABELS_H

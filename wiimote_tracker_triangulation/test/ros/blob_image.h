@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_BLOB_IMAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_BLOB_IMAGE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -36,5 +35,3 @@ inline wiimote_tracker_msgs::IrBlobArray blobImage(const geometry::Camera& camer
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_BLOB_IMAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_CAMERA_INFO_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_CAMERA_INFO_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -24,5 +23,3 @@ inline sensor_msgs::CameraInfo infoOf(const geometry::Intrinsics& lens) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_CAMERA_INFO_H

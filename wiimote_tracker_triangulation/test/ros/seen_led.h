@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_SEEN_LED_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_SEEN_LED_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "ros/tracker/point_message.h"
@@ -59,5 +58,3 @@ inline wiimote_tracker_msgs::TrackedPointArray messageOf(const tracking::Snapsho
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_SEEN_LED_H

@@ -1,6 +1,5 @@
 // A message tracker with simulated cameras: messages in, messages out.
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_STUDIO_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_STUDIO_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "ros/blob_image.h"
@@ -143,5 +142,3 @@ class Studio {
 };
 
 }  // namespace wiimote_tracker::studio
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_STUDIO_H

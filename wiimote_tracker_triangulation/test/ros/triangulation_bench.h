@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_TRIANGULATION_BENCH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_TRIANGULATION_BENCH_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "ros/blob_image.h"
@@ -172,5 +171,3 @@ class Bench {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_ROS_TRIANGULATION_BENCH_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H
+#pragma once
 
 #include "tracking/identity_check.h"
 #include "tracking/scene.h"
@@ -30,5 +29,3 @@ void expectSameLeds(Snapshot a, Snapshot b);
 std::set<std::uint32_t> idsIn(const Snapshot& snapshot, TrackState state);
 
 }  // namespace wiimote_tracker::tracking::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_TRACKING_TRACKER_RUNS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H
+#pragma once
 
 #include "association/associate_views.h"
 #include "association/simulated_views.h"
@@ -42,5 +41,3 @@ Division bestPermutation(const geometry::Rig& rig,
 Division divisionOf(const Association& association, std::size_t cameras);
 
 }  // namespace wiimote_tracker::association::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_EXHAUSTIVE_H

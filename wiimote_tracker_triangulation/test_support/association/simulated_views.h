@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_SIMULATED_VIEWS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_SIMULATED_VIEWS_H
+#pragma once
 
 #include "association/associate_views.h"
 #include "geometry/random_rigs.h"
@@ -99,5 +98,3 @@ inline SimulatedViews simulateViews(Random& random,
 }
 
 }  // namespace wiimote_tracker::association::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_ASSOCIATION_SIMULATED_VIEWS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_BODY_BODY_SCENE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_BODY_BODY_SCENE_H
+#pragma once
 
 #include "body/body_tracker.h"
 #include "geometry/random_rigs.h"
@@ -130,5 +129,3 @@ class BodyScore {
 };
 
 }  // namespace wiimote_tracker::body::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_BODY_BODY_SCENE_H

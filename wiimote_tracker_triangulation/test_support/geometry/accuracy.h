@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_ACCURACY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_ACCURACY_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
@@ -29,5 +28,3 @@ struct Accuracy {
 };
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_ACCURACY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_FULL_RIG_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_FULL_RIG_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -57,5 +56,3 @@ inline Rig correctedRig(int cameras = 2) {
 }
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_FULL_RIG_H

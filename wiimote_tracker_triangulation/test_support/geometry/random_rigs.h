@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_RANDOM_RIGS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_RANDOM_RIGS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -90,5 +89,3 @@ inline Rig randomRig(Random& random, int cameras) {
 }
 
 }  // namespace wiimote_tracker::geometry::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_GEOMETRY_RANDOM_RIGS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_IDENTITY_BLINKING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_IDENTITY_BLINKING_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
@@ -102,5 +101,3 @@ inline std::vector<LedSighting> simulateBlinking(const BlinkingOptions& options,
 }
 
 }  // namespace wiimote_tracker::identity::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_IDENTITY_BLINKING_H

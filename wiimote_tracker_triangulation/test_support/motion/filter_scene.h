@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_FILTER_SCENE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_FILTER_SCENE_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "motion/motion_filter.h"
@@ -63,5 +62,3 @@ inline Eigen::Vector3d variedPath(double time) {
 }
 
 }  // namespace wiimote_tracker::motion::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_FILTER_SCENE_H

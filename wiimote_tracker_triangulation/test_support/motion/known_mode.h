@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_KNOWN_MODE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_KNOWN_MODE_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "motion/textbook_imm.h"
@@ -58,5 +57,3 @@ class KnownModeBound {
 };
 
 }  // namespace wiimote_tracker::motion::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_KNOWN_MODE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_TEXTBOOK_IMM_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_TEXTBOOK_IMM_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
@@ -71,5 +70,3 @@ class TextbookImm {
 };
 
 }  // namespace wiimote_tracker::motion::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_MOTION_TEXTBOOK_IMM_H

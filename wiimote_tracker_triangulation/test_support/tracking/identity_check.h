@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_IDENTITY_CHECK_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_IDENTITY_CHECK_H
+#pragma once
 
 #include "tracking/paths.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -46,5 +45,3 @@ class IdentityCheck {
 };
 
 }  // namespace wiimote_tracker::tracking::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_IDENTITY_CHECK_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_PATHS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_PATHS_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 
@@ -49,5 +48,3 @@ Path sampled(const std::vector<Eigen::Vector3d>& samples, double interval);
 std::vector<Eigen::Vector3d> readMotion(const std::string& file, int column);
 
 }  // namespace wiimote_tracker::tracking::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_PATHS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_SCENE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_SCENE_H
+#pragma once
 
 #include "geometry/random_rigs.h"
 #include "tracking/paths.h"
@@ -109,5 +108,3 @@ class Scene {
 };
 
 }  // namespace wiimote_tracker::tracking::test
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TEST_SUPPORT_TRACKING_SCENE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_CALIBRATIONS_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_CALIBRATIONS_H
+#pragma once
 
 #include "session.h"
 
@@ -39,5 +38,3 @@ std::optional<geometry::TriangulatedPoint> measure(const PaperSession& session,
                                                    const geometry::TriangulationOptions& options);
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_CALIBRATIONS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_EXPERIMENT_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_EXPERIMENT_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -33,5 +32,3 @@ Eigen::Vector3d onCircle(std::size_t circle, double angle);
 Eigen::Vector3d placed(const Eigen::Vector3d& point, std::mt19937_64& random);
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_EXPERIMENT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_SESSION_H
-#define WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_SESSION_H
+#pragma once
 
 #include "description.h"
 
@@ -49,5 +48,3 @@ PaperSession drawPaperSession(const simulation::Description& description,
                               std::uint32_t seed);
 
 }  // namespace wiimote_tracker::monte_carlo
-
-#endif  // WIIMOTE_TRACKER_BRINGUP_EVALUATION_MONTE_CARLO_PAPER_SESSION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_RECONSTRUCTION_H
-#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_RECONSTRUCTION_H
+#pragma once
 
 #include <wiimote_tracker_msgs/error.h>
 #include <wiimote_tracker_triangulation/geometry/camera.h>
@@ -50,5 +49,3 @@ void triangulatePoints(Reconstruction* reconstruction,
                        const std::vector<bool>& usable = {});
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_RECONSTRUCTION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SELF_CALIBRATE_H
-#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SELF_CALIBRATE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 #include "wiimote_tracker_calibration/bundle/solve.h"
@@ -64,5 +63,3 @@ SelfCalibration selfCalibrate(Reconstruction observed,
                               const ProgressCallback& progress = nullptr);
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SELF_CALIBRATE_H

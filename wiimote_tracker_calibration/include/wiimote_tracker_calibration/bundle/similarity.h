@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SIMILARITY_H
-#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SIMILARITY_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
@@ -24,5 +23,3 @@ Eigen::MatrixXd similarityMotions(const std::vector<Eigen::Vector3d>& points);
 void transform(const Eigen::Affine3d& similarity, Reconstruction* reconstruction);
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SIMILARITY_H

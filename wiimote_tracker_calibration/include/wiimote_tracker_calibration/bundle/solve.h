@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SOLVE_H
-#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SOLVE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
@@ -49,5 +48,3 @@ Reconstruction solve(Reconstruction observed, const Options& options);
 void adjust(Reconstruction* reconstruction, const Options& options);
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_SOLVE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_BUNDLE_STATISTICS_H
-#define WIIMOTE_TRACKER_CALIBRATION_BUNDLE_STATISTICS_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
@@ -40,5 +39,3 @@ std::vector<Statistics> statisticsOfCameras(const Reconstruction& reconstruction
 geometry::Rig rigOf(const Reconstruction& reconstruction, double factor = 1.0);
 
 }  // namespace wiimote_tracker::bundle
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_BUNDLE_STATISTICS_H

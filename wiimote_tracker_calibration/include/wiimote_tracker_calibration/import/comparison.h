@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H
-#define WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/self_calibrate.h"
 #include "wiimote_tracker_calibration/bundle/statistics.h"
@@ -40,5 +39,3 @@ std::optional<Comparison> compare(const Recording& recording,
                                   const bundle::Options& options);
 
 }  // namespace wiimote_tracker::import
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_IMPORT_COMPARISON_H

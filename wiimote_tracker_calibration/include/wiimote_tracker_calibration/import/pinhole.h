@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_PINHOLE_H
-#define WIIMOTE_TRACKER_CALIBRATION_IMPORT_PINHOLE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/solve.h"
 #include "wiimote_tracker_calibration/import/recording.h"
@@ -63,5 +62,3 @@ struct ShippedCameras {
 ShippedCameras shippedCameras(const Recording& recording, const bundle::Options& options);
 
 }  // namespace wiimote_tracker::import
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_IMPORT_PINHOLE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H
-#define WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H
+#pragma once
 
 #include "wiimote_tracker_calibration/bundle/reconstruction.h"
 
@@ -64,5 +63,3 @@ Recording readRecording(const std::string& folder, bool intrinsics_required = tr
 bundle::Reconstruction observedBy(const Recording& recording);
 
 }  // namespace wiimote_tracker::import
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_IMPORT_RECORDING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_H
-#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -48,5 +47,3 @@ struct Samples {
 };
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_BOARD_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_SOLVE_INTRINSICS_H
-#define WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_SOLVE_INTRINSICS_H
+#pragma once
 
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
@@ -64,5 +63,3 @@ struct IntrinsicsSolution {
 IntrinsicsSolution solveIntrinsics(const Samples& samples, const SolverOptions& options);
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_INTRINSICS_SOLVE_INTRINSICS_H

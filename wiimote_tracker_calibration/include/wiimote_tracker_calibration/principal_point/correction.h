@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
-#define WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -94,5 +93,3 @@ CorrectionResult correctPrincipalPoints(const square::SquareLayout& layout,
                                         const RoundCallback& progress = {});
 
 }  // namespace wiimote_tracker::principal_point
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_PRINCIPAL_POINT_CORRECTION_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H
-#define WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/remap/remap.h>
 
@@ -55,5 +54,3 @@ FitResult fitRemap(const std::vector<KnownPoint>& points,
 std::string table(const FitResult& result);
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_REMAP_FIT_H

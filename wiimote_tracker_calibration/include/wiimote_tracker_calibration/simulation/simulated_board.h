@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_BOARD_H
-#define WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_BOARD_H
+#pragma once
 
 #include "wiimote_tracker_calibration/intrinsics/board.h"
 
@@ -75,5 +74,3 @@ inline Samples simulatedSamples(const geometry::Intrinsics& camera,
 }
 
 }  // namespace wiimote_tracker::intrinsics
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_BOARD_H

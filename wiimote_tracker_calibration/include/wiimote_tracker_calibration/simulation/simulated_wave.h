@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/square_model.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
@@ -98,5 +97,3 @@ SimulatedWave simulateWave(const WaveScene& scene,
 SimulatedWave waveAgain(const WaveScene& scene, const SimulatedWave& before, std::uint64_t seed);
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SIMULATION_SIMULATED_WAVE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SIMULATION_WAVE_BOUND_H
-#define WIIMOTE_TRACKER_CALIBRATION_SIMULATION_WAVE_BOUND_H
+#pragma once
 
 #include "wiimote_tracker_calibration/simulation/simulated_wave.h"
 
@@ -50,5 +49,3 @@ std::optional<Eigen::Matrix3d> pointBound(const std::vector<geometry::Camera>& c
                                           double pixel);
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SIMULATION_WAVE_BOUND_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_BRANCHES_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_BRANCHES_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/square_model.h"
 
@@ -43,5 +42,3 @@ BranchChoice chooseBranches(const SquareModel& model,
                             double odds);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_BRANCHES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SIGHTINGS_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SIGHTINGS_H
+#pragma once
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
 
@@ -48,5 +47,3 @@ struct CameraSightings {
 };
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SIGHTINGS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -75,5 +74,3 @@ Solution solveSquare(const SquareLayout& layout,
                      const SolveOptions& options);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SOLVE_SQUARE_H

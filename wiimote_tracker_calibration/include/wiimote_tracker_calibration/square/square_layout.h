@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_LAYOUT_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_LAYOUT_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -77,5 +76,3 @@ struct SquareLayout {
 };
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_LAYOUT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_MODEL_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_MODEL_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -106,5 +105,3 @@ class SquareModel {
 };
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SQUARE_MODEL_H

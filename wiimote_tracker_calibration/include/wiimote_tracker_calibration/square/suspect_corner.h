@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_SQUARE_SUSPECT_CORNER_H
-#define WIIMOTE_TRACKER_CALIBRATION_SQUARE_SUSPECT_CORNER_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/square_layout.h"
 
@@ -36,5 +35,3 @@ std::optional<SuspectCorner> suspectCorner(const Corners& offsets,
 bool isDisplaced(const SuspectCorner& suspect);
 
 }  // namespace wiimote_tracker::square
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_SQUARE_SUSPECT_CORNER_H

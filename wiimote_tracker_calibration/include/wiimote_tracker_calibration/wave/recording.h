@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_RECORDING_H
-#define WIIMOTE_TRACKER_CALIBRATION_WAVE_RECORDING_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/sightings.h"
 #include "wiimote_tracker_calibration/square/square_layout.h"
@@ -85,5 +84,3 @@ struct Recording {
 };
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_RECORDING_H

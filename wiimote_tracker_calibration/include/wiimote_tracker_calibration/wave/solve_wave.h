@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
-#define WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H
+#pragma once
 
 #include "wiimote_tracker_calibration/square/solve_square.h"
 #include "wiimote_tracker_calibration/wave/recording.h"
@@ -50,5 +49,3 @@ square::Solution solveWave(const Recording& recording,
                            const ProgressCallback& progress = nullptr);
 
 }  // namespace wiimote_tracker::wave
-
-#endif  // WIIMOTE_TRACKER_CALIBRATION_WAVE_SOLVE_WAVE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_INPUT_REPORTS_H
-#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_INPUT_REPORTS_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/report.h"
 
@@ -111,5 +110,3 @@ constexpr std::uint8_t kSecondHalfId = 0x3f;
 std::optional<DataReport> decodeInterleaved(const Report& first, const Report& second);
 
 }  // namespace wiimote_tracker::protocol
-
-#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_INPUT_REPORTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_IR_CAMERA_H
-#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_IR_CAMERA_H
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -44,5 +43,3 @@ std::vector<std::string> irSensitivityNames();
 IrSensitivity parseIrSensitivity(const std::string& text);
 
 }  // namespace wiimote_tracker::protocol
-
-#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_IR_CAMERA_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_OUTPUT_REPORTS_H
-#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_OUTPUT_REPORTS_H
+#pragma once
 
 #include "wiimote_tracker_driver/protocol/report.h"
 
@@ -53,5 +52,3 @@ Report writeRegisters(std::uint32_t address, const std::array<std::uint8_t, N>& 
 }
 
 }  // namespace wiimote_tracker::protocol
-
-#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_OUTPUT_REPORTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_PROTOCOL_REPORT_H
-#define WIIMOTE_TRACKER_DRIVER_PROTOCOL_REPORT_H
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -35,5 +34,3 @@ struct Report {
 };
 
 }  // namespace wiimote_tracker::protocol
-
-#endif  // WIIMOTE_TRACKER_DRIVER_PROTOCOL_REPORT_H

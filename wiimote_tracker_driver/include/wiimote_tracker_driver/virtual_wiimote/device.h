@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_DEVICE_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_DEVICE_H
+#pragma once
 
 #include <array>
 #include <cstdint>
@@ -94,5 +93,3 @@ class Device {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_DEVICE_H

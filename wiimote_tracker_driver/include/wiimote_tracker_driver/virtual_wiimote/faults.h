@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FAULTS_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FAULTS_H
+#pragma once
 
 #include <cstdint>
 #include <string>
@@ -38,5 +37,3 @@ struct Faults {
 void setFault(Faults& faults, const std::string& text);
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FAULTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FRAME_TIMES_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FRAME_TIMES_H
+#pragma once
 
 #include <cstdint>
 #include <random>
@@ -66,5 +65,3 @@ class FrameTimes {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_FRAME_TIMES_H

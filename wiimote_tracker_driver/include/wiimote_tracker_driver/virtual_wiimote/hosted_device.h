@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_HOSTED_DEVICE_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_HOSTED_DEVICE_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/device.h"
 #include "wiimote_tracker_driver/virtual_wiimote/faults.h"
@@ -60,5 +59,3 @@ class HostedDevice {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_HOSTED_DEVICE_H

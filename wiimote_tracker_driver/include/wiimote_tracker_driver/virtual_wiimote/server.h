@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SERVER_H
-#define WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SERVER_H
+#pragma once
 
 #include "wiimote_tracker_driver/virtual_wiimote/hosted_device.h"
 
@@ -34,5 +33,3 @@ class Server : public HostedDevice {
 };
 
 }  // namespace wiimote_tracker::virtual_wiimote
-
-#endif  // WIIMOTE_TRACKER_DRIVER_VIRTUAL_WIIMOTE_SERVER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_ADAPTER_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_ADAPTER_H
+#pragma once
 
 #include "bytes.h"
 #include "file_descriptor.h"
@@ -67,5 +66,3 @@ class Adapter {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_ADAPTER_H

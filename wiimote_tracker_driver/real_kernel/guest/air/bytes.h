@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_BYTES_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_BYTES_H
+#pragma once
 
 #include <algorithm>
 #include <array>
@@ -63,5 +62,3 @@ Bytes join(const Parts&... parts) {
 }
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_BYTES_H

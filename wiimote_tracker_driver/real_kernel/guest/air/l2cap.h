@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_L2CAP_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_L2CAP_H
+#pragma once
 
 #include "bytes.h"
 
@@ -62,5 +61,3 @@ class L2cap {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_L2CAP_H

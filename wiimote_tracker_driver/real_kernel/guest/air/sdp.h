@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_SDP_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_SDP_H
+#pragma once
 
 #include "bytes.h"
 
@@ -13,5 +12,3 @@ namespace wiimote_tracker::real_kernel {
 Bytes answerSdp(const Bytes& request, const std::string& name, unsigned product);
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_SDP_H

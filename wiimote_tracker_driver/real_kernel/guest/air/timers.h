@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_TIMERS_H
-#define WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_TIMERS_H
+#pragma once
 
 #include "clock.h"
 
@@ -39,5 +38,3 @@ class Timers {
 };
 
 }  // namespace wiimote_tracker::real_kernel
-
-#endif  // WIIMOTE_TRACKER_DRIVER_REAL_KERNEL_GUEST_AIR_TIMERS_H

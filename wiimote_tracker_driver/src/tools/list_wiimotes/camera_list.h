@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_CAMERA_LIST_H
-#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_CAMERA_LIST_H
+#pragma once
 
 #include <wiimote_tracker_msgs/error.h>
 
@@ -70,5 +69,3 @@ void requireFile(const std::string& path);
 void writeCameraList(const CameraList& list, const std::string& path);
 
 }  // namespace wiimote_tracker::list_wiimotes
-
-#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_CAMERA_LIST_H

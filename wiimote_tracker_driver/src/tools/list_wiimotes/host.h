@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_HOST_H
-#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_HOST_H
+#pragma once
 
 #include "transport/kernel_remotes.h"
 
@@ -38,5 +37,3 @@ std::vector<std::string> notes(const transport::KernelRemote& remote);
 std::string modelOf(const transport::KernelRemote& remote);
 
 }  // namespace wiimote_tracker::list_wiimotes
-
-#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_HOST_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_LISTING_H
-#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_LISTING_H
+#pragma once
 
 #include "camera_list.h"
 #include "remote_check.h"
@@ -51,5 +50,3 @@ void printRest(const Listing& listing);
 std::string json(const Listing& listing);
 
 }  // namespace wiimote_tracker::list_wiimotes
-
-#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_LISTING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H
-#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H
+#pragma once
 
 #include "transport/transport.h"
 #include "wiimote_tracker_driver/protocol/input_reports.h"
@@ -39,5 +38,3 @@ void flash(transport::Transport& remote,
            const std::function<void(double)>& wait);
 
 }  // namespace wiimote_tracker::list_wiimotes
-
-#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REMOTE_CHECK_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REPLACEMENT_H
-#define WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REPLACEMENT_H
+#pragma once
 
 #include <string>
 
@@ -22,5 +21,3 @@ struct Replacement {
 std::string replaceRemote(const Replacement& replacement);
 
 }  // namespace wiimote_tracker::list_wiimotes
-
-#endif  // WIIMOTE_TRACKER_DRIVER_LIST_WIIMOTES_REPLACEMENT_H

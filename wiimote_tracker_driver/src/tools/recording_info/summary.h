@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H
-#define WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H
+#pragma once
 
 #include "recording/reader.h"
 
@@ -36,5 +35,3 @@ Summary summarize(recording::Reader& reader);
 std::string describe(const Summary& summary);
 
 }  // namespace wiimote_tracker::recording_info
-
-#endif  // WIIMOTE_TRACKER_DRIVER_TOOLS_RECORDING_INFO_SUMMARY_H

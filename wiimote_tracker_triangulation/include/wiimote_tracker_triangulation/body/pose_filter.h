@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/body/pose_state.h"
 
@@ -71,5 +70,3 @@ class PoseFilter {
 };
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_FILTER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -55,5 +54,3 @@ std::optional<LedPrediction> predictLed(const PoseState& state,
                                         const geometry::PixelNoise& noise);
 
 }  // namespace wiimote_tracker::body
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_BODY_POSE_STATE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ESTIMATORS_MAKE_ESTIMATOR_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ESTIMATORS_MAKE_ESTIMATOR_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/fusion/instant_fuser.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -31,5 +30,3 @@ inline std::unique_ptr<tracking::Estimator> makeEstimator(const geometry::Rig& r
 }
 
 }  // namespace wiimote_tracker::estimators
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ESTIMATORS_MAKE_ESTIMATOR_H

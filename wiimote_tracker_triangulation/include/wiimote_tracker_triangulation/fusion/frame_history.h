@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/tracking/numbered_queue.h"
 
@@ -95,5 +94,3 @@ class FrameHistory {
 };
 
 }  // namespace wiimote_tracker::fusion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_FUSION_FRAME_HISTORY_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_FUSION_INSTANT_FUSER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_FUSION_INSTANT_FUSER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
@@ -84,5 +83,3 @@ class InstantFuser : public tracking::Estimator {
 };
 
 }  // namespace wiimote_tracker::fusion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_FUSION_INSTANT_FUSER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ATOMIC_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ATOMIC_FILE_H
+#pragma once
 
 #include <cstddef>
 #include <string>
@@ -19,5 +18,3 @@ constexpr std::size_t kLargestReadable = 32000000;  ///< File [bytes].
 std::string readFile(const std::string& path, std::size_t largest = kLargestReadable);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ATOMIC_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CALIBRATION_UNCERTAINTY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CALIBRATION_UNCERTAINTY_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -54,5 +53,3 @@ class CalibrationUncertainty {
 };
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CALIBRATION_UNCERTAINTY_H

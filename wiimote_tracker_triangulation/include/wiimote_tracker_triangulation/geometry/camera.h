@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_H
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -109,5 +108,3 @@ Eigen::Isometry3d lookAt(const Eigen::Vector3d& position,
                          const Eigen::Vector3d& up);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_PARAMETERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_PARAMETERS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -72,5 +71,3 @@ Eigen::Matrix<double, kRows, kRows> propagatedErrors(
 }
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_CAMERA_PARAMETERS_H

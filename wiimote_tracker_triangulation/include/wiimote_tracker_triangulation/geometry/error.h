@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ERROR_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ERROR_H
+#pragma once
 
 #include <wiimote_tracker_msgs/error.h>
 
@@ -14,5 +13,3 @@ struct InvalidRigError : Error {
 };
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_ERROR_H

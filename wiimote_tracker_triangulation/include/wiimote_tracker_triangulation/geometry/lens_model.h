@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LENS_MODEL_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LENS_MODEL_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -75,5 +74,3 @@ Eigen::Matrix<T, 2, 1> pixelFromNormalized(DistortionModel model,
 }
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LENS_MODEL_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LINEAR_ALGEBRA_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LINEAR_ALGEBRA_H
+#pragma once
 
 #include <Eigen/Geometry>
 
@@ -49,5 +48,3 @@ Eigen::Isometry3d rigidAlignment(const std::vector<Eigen::Vector3d>& in_a,
                                  const std::vector<Eigen::Vector3d>& in_b);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_LINEAR_ALGEBRA_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_POINT_SENSITIVITY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_POINT_SENSITIVITY_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -56,5 +55,3 @@ std::optional<Eigen::MatrixXd> pointByParameters(
 std::vector<std::size_t> camerasSeeing(const Rig& rig, const Eigen::Vector3d& point);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_POINT_SENSITIVITY_H

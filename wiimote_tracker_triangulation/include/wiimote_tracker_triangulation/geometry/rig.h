@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/remap/remap.h"
@@ -146,5 +145,3 @@ std::string withoutSlashes(const std::string& camera_name);
 std::string nameClash(const std::vector<std::string>& camera_names);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_H

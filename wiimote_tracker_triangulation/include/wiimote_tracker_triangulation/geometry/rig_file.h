@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_FILE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -24,5 +23,3 @@ void writeRigFile(const Rig& rig, const std::string& path);
 void writeCameraInfoFile(const Camera& camera, const std::string& path);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_RIG_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SHARED_VIEWS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SHARED_VIEWS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -18,5 +17,3 @@ std::vector<std::vector<std::size_t>> groupsOf(
     const std::vector<std::vector<std::size_t>>& partners);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SHARED_VIEWS_H

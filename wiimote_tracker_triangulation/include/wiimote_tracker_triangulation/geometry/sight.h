@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SIGHT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SIGHT_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 
@@ -37,5 +36,3 @@ struct Sight {
 std::optional<Sight> sightFromPixel(const Camera& camera, const Eigen::Vector2d& pixel);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SIGHT_H

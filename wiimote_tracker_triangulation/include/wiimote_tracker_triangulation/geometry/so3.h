@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SO3_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SO3_H
+#pragma once
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -32,5 +31,3 @@ inline double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
 }
 
 }  // namespace wiimote_tracker::geometry::so3
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_SO3_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/geometry/sight.h"
@@ -54,5 +53,3 @@ std::optional<TriangulatedPoint> triangulate(const Sight* sights,
                                              const TriangulationOptions& options);
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_TRIANGULATE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_YAML_MAP_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_YAML_MAP_H
+#pragma once
 
 #include <wiimote_tracker_msgs/error.h>
 
@@ -112,5 +111,3 @@ class YamlMap {
 };
 
 }  // namespace wiimote_tracker::geometry
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GEOMETRY_YAML_MAP_H

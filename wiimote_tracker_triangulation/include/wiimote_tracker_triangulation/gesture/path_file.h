@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GESTURE_PATH_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GESTURE_PATH_FILE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/gesture/shape.h"
 
@@ -18,5 +17,3 @@ Path readPath(const std::string& file);
 std::vector<std::vector<double>> readRows(const std::string& file, std::size_t columns);
 
 }  // namespace wiimote_tracker::gesture
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GESTURE_PATH_FILE_H

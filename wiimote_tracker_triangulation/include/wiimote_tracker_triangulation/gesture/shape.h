@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SHAPE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SHAPE_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -56,5 +55,3 @@ double distance(const Shape& a,
 constexpr int kBand = 8;
 
 }  // namespace wiimote_tracker::gesture
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_GESTURE_SHAPE_H

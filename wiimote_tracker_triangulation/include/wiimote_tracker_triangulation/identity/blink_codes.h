@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_BLINK_CODES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_BLINK_CODES_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/waveform.h"
 #include "wiimote_tracker_triangulation/tracking/tracker_options.h"
@@ -42,5 +41,3 @@ struct BlinkCodes {
 tracking::TrackerOptions forBlinking(const BlinkCodes& codes, tracking::TrackerOptions options);
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_BLINK_CODES_H

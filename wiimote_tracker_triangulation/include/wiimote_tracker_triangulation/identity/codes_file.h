@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_CODES_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_CODES_FILE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 
@@ -14,5 +13,3 @@ namespace wiimote_tracker::identity {
 BlinkCodes readBlinkCodes(const std::string& file);
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_CODES_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_EVIDENCE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_EVIDENCE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/hypotheses.h"
 
@@ -57,5 +56,3 @@ class Evidence {
 };
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_EVIDENCE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_HYPOTHESES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_HYPOTHESES_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 
@@ -66,5 +65,3 @@ class Hypotheses {
 };
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_HYPOTHESES_H

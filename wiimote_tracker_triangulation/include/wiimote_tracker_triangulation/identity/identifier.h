@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_IDENTIFIER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_IDENTIFIER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/label_posterior.h"
 
@@ -86,5 +85,3 @@ class Identifier {
 };
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_IDENTIFIER_H

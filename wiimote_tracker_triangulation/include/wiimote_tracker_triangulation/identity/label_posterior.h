@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_LABEL_POSTERIOR_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_LABEL_POSTERIOR_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/evidence.h"
 
@@ -42,5 +41,3 @@ class LabelPosterior {
 };
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_LABEL_POSTERIOR_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SCHEMES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SCHEMES_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 
@@ -50,5 +49,3 @@ std::vector<std::string> chooseWords(std::size_t count, const WordRules& rules);
 std::vector<std::string> chooseWords(std::size_t count);
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SCHEMES_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SNAPSHOT_SIGHTINGS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SNAPSHOT_SIGHTINGS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/identity/identifier.h"
@@ -54,5 +53,3 @@ class SnapshotSightings {
 };
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_SNAPSHOT_SIGHTINGS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_WAVEFORM_H
-#define WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_WAVEFORM_H
+#pragma once
 
 #include <vector>
 
@@ -33,5 +32,3 @@ double difference(const Waveform& one, const Waveform& other, double shift);
 double differenceInAnyRotation(const Waveform& one, const Waveform& other);
 
 }  // namespace wiimote_tracker::identity
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_IDENTITY_WAVEFORM_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_OPTIONS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_OPTIONS_H
+#pragma once
 
 #include <array>
 
@@ -48,5 +47,3 @@ struct MotionOptions {
 };
 
 }  // namespace wiimote_tracker::motion
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_MOTION_MOTION_OPTIONS_H

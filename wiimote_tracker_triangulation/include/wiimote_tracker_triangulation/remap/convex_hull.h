@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_CONVEX_HULL_H
-#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_CONVEX_HULL_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -44,5 +43,3 @@ class ConvexHull {
 };
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_CONVEX_HULL_H

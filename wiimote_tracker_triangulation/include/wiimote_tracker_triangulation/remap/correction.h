@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_CORRECTION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_CORRECTION_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/remap/convex_hull.h"
 #include "wiimote_tracker_triangulation/remap/model_math.h"
@@ -45,5 +44,3 @@ class Correction {
 };
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_CORRECTION_H

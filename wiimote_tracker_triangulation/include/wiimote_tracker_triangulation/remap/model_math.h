@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_MODEL_MATH_H
-#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_MODEL_MATH_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/remap/remap.h"
 
@@ -41,5 +40,3 @@ constexpr int kTrilinearTerms = 8;
 Eigen::Matrix<double, kTrilinearTerms, 1> polynomial(const Eigen::Vector3d& q);
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_MODEL_MATH_H

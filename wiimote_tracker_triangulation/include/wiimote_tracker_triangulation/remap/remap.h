@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H
-#define WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -48,5 +47,3 @@ struct Remap {
 bool operator==(const Remap& a, const Remap& b);
 
 }  // namespace wiimote_tracker::remap
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_REMAP_REMAP_H

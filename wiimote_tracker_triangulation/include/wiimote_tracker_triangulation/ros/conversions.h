@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ROS_CONVERSIONS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ROS_CONVERSIONS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
@@ -31,5 +30,3 @@ sensor_msgs::CameraInfo cameraInfo(const geometry::Camera& camera);
 std::vector<geometry_msgs::TransformStamped> staticTransforms(const geometry::Rig& rig);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ROS_CONVERSIONS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ROS_MESSAGE_FIELDS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ROS_MESSAGE_FIELDS_H
+#pragma once
 
 #include <geometry_msgs/Point.h>
 #include <geometry_msgs/Quaternion.h>
@@ -71,5 +70,3 @@ Eigen::Matrix<double, kSize, kSize> matrixOf(const Array& row_major) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ROS_MESSAGE_FIELDS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ROS_PARAMETER_FILE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ROS_PARAMETER_FILE_H
+#pragma once
 
 #include <wiimote_tracker_msgs/parameter_tree.h>
 
@@ -15,5 +14,3 @@ namespace wiimote_tracker {
 ParameterTree readParameterTree(const std::string& path, const std::string& node_name);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ROS_PARAMETER_FILE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_ROS_STEADY_UPDATER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_ROS_STEADY_UPDATER_H
+#pragma once
 
 #include <diagnostic_updater/diagnostic_updater.h>
 #include <ros/time.h>
@@ -35,5 +34,3 @@ class SteadyUpdater : public diagnostic_updater::Updater {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_ROS_STEADY_UPDATER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_CAMERA_IMAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_CAMERA_IMAGE_H
+#pragma once
 
 #include <Eigen/Core>
 
@@ -35,5 +34,3 @@ struct CameraImage {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_CAMERA_IMAGE_H

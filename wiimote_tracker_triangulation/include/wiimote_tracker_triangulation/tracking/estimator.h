@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ESTIMATOR_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ESTIMATOR_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
@@ -83,5 +82,3 @@ class Estimator {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_ESTIMATOR_H

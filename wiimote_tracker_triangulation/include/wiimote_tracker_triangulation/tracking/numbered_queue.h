@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_NUMBERED_QUEUE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_NUMBERED_QUEUE_H
+#pragma once
 
 #include <cstddef>
 #include <cstdint>
@@ -56,5 +55,3 @@ class NumberedQueue {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_NUMBERED_QUEUE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H
+#pragma once
 
 #include <Eigen/Core>
 #include <boost/container/static_vector.hpp>
@@ -70,5 +69,3 @@ struct Snapshot {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_SNAPSHOT_H

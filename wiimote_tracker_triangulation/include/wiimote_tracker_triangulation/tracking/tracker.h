@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/calibration_uncertainty.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -91,5 +90,3 @@ class Tracker : public Estimator {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_OPTIONS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_OPTIONS_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/motion/motion_options.h"
 
@@ -50,5 +49,3 @@ struct TrackerOptions : ImageOptions {
 };
 
 }  // namespace wiimote_tracker::tracking
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TRACKING_TRACKER_OPTIONS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H
+#pragma once
 
 #include "../tracker/body_parameters.h"
 #include "body/constellation.h"
@@ -134,5 +133,3 @@ class BodyDiagnostics {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_DIAGNOSTICS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_LEARNING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_LEARNING_H
+#pragma once
 
 #include "body/constellation.h"
 #include "body/learn_constellation.h"
@@ -89,5 +88,3 @@ class BodyLearning {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_LEARNING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MARKERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MARKERS_H
+#pragma once
 
 #include "../marker_parts.h"
 #include "body/constellation.h"
@@ -124,5 +123,3 @@ class BodyMarkers {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_MARKERS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H
+#pragma once
 
 #include "../tracker/body_message.h"
 #include "../tracker/parameters.h"
@@ -81,5 +80,3 @@ class BodyPublishers {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_BODIES_BODY_PUBLISHERS_H

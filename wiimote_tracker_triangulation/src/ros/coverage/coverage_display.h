@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H
+#pragma once
 
 #include "../rig_subscription.h"
 #include "walked_cells.h"
@@ -65,5 +64,3 @@ class CoverageDisplay {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_DISPLAY_H

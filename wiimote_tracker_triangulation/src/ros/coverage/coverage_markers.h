@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_MARKERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_MARKERS_H
+#pragma once
 
 #include "geometry/coverage.h"
 
@@ -43,5 +42,3 @@ visualization_msgs::MarkerArray walkMarkers(const std::string& world_frame,
                                             const std::string& sentence);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_COVERAGE_MARKERS_H

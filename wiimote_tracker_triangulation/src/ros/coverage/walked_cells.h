@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_WALKED_CELLS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_WALKED_CELLS_H
+#pragma once
 
 #include "geometry/coverage.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
@@ -71,5 +70,3 @@ class WalkedCells {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_COVERAGE_WALKED_CELLS_H

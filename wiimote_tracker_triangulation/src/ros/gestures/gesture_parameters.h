@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H
+#pragma once
 
 #include "gesture/recognizer.h"
 #include "gesture/segmenter.h"
@@ -70,5 +69,3 @@ struct GestureParameters {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURE_PARAMETERS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H
+#pragma once
 
 #include "../rig_subscription.h"
 #include "geometry/file_guard.h"
@@ -95,5 +94,3 @@ class Gestures {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_GESTURES_GESTURES_H

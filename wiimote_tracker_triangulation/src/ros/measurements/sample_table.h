@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H
+#pragma once
 
 #include "geometry/output_file.h"
 #include "ros/measurements/writer.h"
@@ -82,5 +81,3 @@ class SampledWriter : public Writer {
 };
 
 }  // namespace wiimote_tracker::measurements
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_SAMPLE_TABLE_H

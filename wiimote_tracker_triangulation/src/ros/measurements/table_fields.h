@@ -1,6 +1,5 @@
 // The columns of the tables: CSV and MATLAB files have the same.
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_TABLE_FIELDS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_TABLE_FIELDS_H
+#pragma once
 
 #include "ros/measurements/writer.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
@@ -104,5 +103,3 @@ void addFields(Table<Pose>* table) {
 }
 
 }  // namespace wiimote_tracker::measurements
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_TABLE_FIELDS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H
+#pragma once
 
 #include "geometry/output_file.h"
 
@@ -163,5 +162,3 @@ inline std::vector<std::unique_ptr<Writer>> makeWriters(const OutputNames& names
 }
 
 }  // namespace wiimote_tracker::measurements
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_MEASUREMENTS_WRITER_H

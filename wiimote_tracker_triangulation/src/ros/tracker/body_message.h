@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H
+#pragma once
 
 #include "body/body_tracker.h"
 #include "body/constellation.h"
@@ -49,5 +48,3 @@ std::optional<body::InertialSample> inertialSample(const sensor_msgs::Imu& messa
                                                    const body::ImuMount& mount);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_MESSAGE_H

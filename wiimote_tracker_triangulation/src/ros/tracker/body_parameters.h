@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H
+#pragma once
 
 #include "body/body_tracker.h"
 #include "body/constellation.h"
@@ -40,5 +39,3 @@ std::vector<std::string> labelWarnings(const std::vector<body::Constellation>& b
                                        const std::vector<std::string>& codes);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_BODY_PARAMETERS_H

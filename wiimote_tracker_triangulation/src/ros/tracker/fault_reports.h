@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_FAULT_REPORTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_FAULT_REPORTS_H
+#pragma once
 
 #include "image_message.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -56,5 +55,3 @@ class FaultReports {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_FAULT_REPORTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMAGE_MESSAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMAGE_MESSAGE_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/camera.h"
 #include "wiimote_tracker_triangulation/tracking/camera_image.h"
@@ -42,5 +41,3 @@ std::string describe(ImageFault fault,
 std::string describe(const tracking::CameraFault& fault, const std::string& camera);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMAGE_MESSAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMU_REPORTS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMU_REPORTS_H
+#pragma once
 
 #include "body/body_estimate.h"
 #include "body/constellation.h"
@@ -95,5 +94,3 @@ class ImuReports {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_IMU_REPORTS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_SINK_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_SINK_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
@@ -51,5 +50,3 @@ class SnapshotFilter {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_SINK_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H
+#pragma once
 
 #include "body/body_tracker.h"
 #include "fault_reports.h"
@@ -106,5 +105,3 @@ class MessageTracker {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_MESSAGE_TRACKER_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_PARAMETERS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_PARAMETERS_H
+#pragma once
 
 #include "body_parameters.h"
 #include "events/trigger.h"
@@ -73,5 +72,3 @@ std::string describeLoneCamera(const geometry::Rig& rig,
 std::string methodWord(const estimators::EstimatorOptions& options);
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_PARAMETERS_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_POINT_MESSAGE_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_POINT_MESSAGE_H
+#pragma once
 
 #include "identity/led_labels.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -41,5 +40,3 @@ nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedPointArray& array
 constexpr double kUnknownVariance = 1e6;
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_POINT_MESSAGE_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_POINT_OUTPUT_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_POINT_OUTPUT_H
+#pragma once
 
 #include "events/refusals.h"
 #include "events/trigger.h"
@@ -82,5 +81,3 @@ class PointOutput {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_POINT_OUTPUT_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_STATISTICS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_STATISTICS_H
+#pragma once
 
 #include "image_message.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -81,5 +80,3 @@ class Statistics {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_STATISTICS_H

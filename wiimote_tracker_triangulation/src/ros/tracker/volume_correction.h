@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_VOLUME_CORRECTION_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_VOLUME_CORRECTION_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
@@ -71,5 +70,3 @@ class VolumeCorrection {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_ROS_TRACKER_VOLUME_CORRECTION_H

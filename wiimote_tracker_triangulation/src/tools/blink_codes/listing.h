@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_TOOLS_BLINK_CODES_LISTING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_TOOLS_BLINK_CODES_LISTING_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
 
@@ -22,5 +21,3 @@ std::string remarks(const identity::BlinkCodes& codes);
 std::string cyclicFile(const std::vector<std::string>& labels, double chip, double tolerance);
 
 }  // namespace wiimote_tracker::blink_codes_tool
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_TOOLS_BLINK_CODES_LISTING_H

@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H
+#pragma once
 
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
@@ -103,5 +102,3 @@ class Recording {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_RECORDING_H

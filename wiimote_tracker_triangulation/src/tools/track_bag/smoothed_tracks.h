@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H
-#define WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H
+#pragma once
 
 #include "motion/smoother.h"
 #include "ros/tracker/message_sink.h"
@@ -149,5 +148,3 @@ class SmoothedTracks : public SnapshotFilter {
 };
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_TRIANGULATION_SRC_TOOLS_TRACK_BAG_SMOOTHED_TRACKS_H

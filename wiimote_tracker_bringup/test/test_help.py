@@ -13,6 +13,7 @@ from wiimote_tracker_bringup import nodes
 PACKAGE = os.path.join(os.path.dirname(os.path.realpath(__file__)), '..')
 NODES = ('launch/drivers', 'launch/master_watch', 'launch/record_watch',
          'simulation/simulated_hand', 'rig_planning/place_cameras', 'body_motion/probe')
+CHECKS = ('launch/check_body', '../wiimote_tracker_msgs/python/check_arguments')
 NOWHERE = 'http://localhost:1'
 
 
@@ -48,12 +49,13 @@ def test_without_a_master_it_ends_with_what_to_do(program):
                            'start roscore or use roslaunch\n')
 
 
-@pytest.mark.parametrize('program', NODES[:-1])
+@pytest.mark.parametrize('program', NODES[:-1] + CHECKS)
 def test_one_that_is_ended_while_it_starts_says_nothing(program, tmp_path):
     """As by roslaunch, when another node ends that is required."""
-    (tmp_path / 'rospy.py').write_text('import os, signal, time\n'
-                                       'os.kill(os.getpid(), signal.SIGINT)\n'
-                                       'time.sleep(60.0)\n')
+    for module in ('rospy', 'rosgraph', 'rospkg'):
+        (tmp_path / f'{module}.py').write_text('import signal, time\n'
+                                               'signal.raise_signal(signal.SIGINT)\n'
+                                               'time.sleep(60.0)\n')
     path = os.pathsep.join([str(tmp_path), os.environ.get('PYTHONPATH', '')])
     done = subprocess.run([sys.executable, os.path.join(PACKAGE, program)], timeout=60,
                           capture_output=True, text=True, env=dict(os.environ, PYTHONPATH=path))

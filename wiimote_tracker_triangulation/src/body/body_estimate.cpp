@@ -4,6 +4,7 @@
 #include "body/body_state.h"
 #include "pose_uncertainty.h"
 
+#include <array>
 #include <limits>
 
 namespace wiimote_tracker::body {
@@ -16,6 +17,8 @@ void estimateLeds(const BodySetup& setup,
                   double time,
                   BodyEstimate* estimate) {
   const Constellation& constellation = setup.bodies[body].constellation;
+  std::array<double, kMaximumLeds> newest;  // time of the spot that the residual is of [s]
+  newest.fill(-std::numeric_limits<double>::infinity());
   estimate->leds.resize(constellation.leds.size());
   for (std::size_t i = 0; i < constellation.leds.size(); ++i) {
     LedEstimate& led = estimate->leds[i];
@@ -35,10 +38,11 @@ void estimateLeds(const BodySetup& setup,
       if (image.time > led.last_observed)
         continue;
       led.cameras.push_back(c);
-      if (image.time == led.last_observed) {
-        led.residual = spot.residual;
-        led.deviation = spot.deviation;
-      }
+      if (image.time < newest[spot.led])
+        continue;
+      newest[spot.led] = image.time;
+      led.residual = spot.residual;
+      led.deviation = spot.deviation;
     }
   }
 }

@@ -362,6 +362,30 @@ TEST_F(AtRest, TheErrorOfAClockIsTakenFromItsStamps) {
   EXPECT_EQ(body_tracker_.next()->time, 1000.0 + 0.0025 * 8 - 0.003);
 }
 
+TEST_F(AtRest, EveryLedThatIsSeenHasAResidual) {
+  body_tracker_.setRig(rig_);
+  show(40);
+  // The camera that saw an LED last misses it, or an image of another one comes without any.
+  for (const std::size_t missed : {1, 3}) {
+    std::vector<Vector3d> seen = points_;
+    seen.resize(points_.size() - missed);
+    for (int i = 0; i < 4; ++i, ++shown_) {
+      const std::size_t camera = static_cast<std::size_t>(shown_ + 3) % 4;
+      tracking::CameraImage image =
+          exactImage(rig_.cameras[camera].camera, seen, 1000.0 + 0.0025 * shown_);
+      body_tracker_.take(camera, {}, &image);
+      const BodySnapshot* snapshot = body_tracker_.next();
+      ASSERT_TRUE(snapshot);
+      ASSERT_TRUE(snapshot->bodies[0]);
+      for (const LedEstimate& led : snapshot->bodies[0]->leds) {
+        EXPECT_EQ(led.cameras.empty(), std::isnan(led.residual)) << missed << " " << i;
+        EXPECT_EQ(led.cameras.empty(), std::isnan(led.deviation)) << missed << " " << i;
+      }
+    }
+    show(40);
+  }
+}
+
 TEST_F(AtRest, TheLatestArrivalIsThatOfAllImages) {
   body_tracker_.setRig(rig_);
   show(8);

@@ -99,6 +99,9 @@ TEST_F(Workflow, ABadStartKeepsTheRun) {
   EXPECT_SAYS(calibration_.start(2.5, std::nan(""), names_).message, "greater than 0");
   EXPECT_SAYS(calibration_.start(250.0, 250.0, names_).message, "in metres");
   EXPECT_SAYS(calibration_.start(2.5, 2.5, {"a", "a"}).message, "at least two cameras");
+  EXPECT_SAYS(calibration_.start(2.5, 2.5, {"a", "a"}).message,
+              "only a: connect another one, and name at least two, or none for all");
+  EXPECT_SAYS(calibration_.start(2.5, 2.5, {}).message, "there is none: connect");
   EXPECT_EQ(calibration_.square().corners().size(), 1U);
   EXPECT_EQ(calibration_.layout().value().side_y, 2.0);
   ASSERT_TRUE(calibration_.start(1.0, 1.0, names_).success);

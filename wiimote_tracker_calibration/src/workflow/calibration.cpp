@@ -39,8 +39,11 @@ Reply Calibration::startWith(Captured captured) {
     return refusal(occupied());
   const std::size_t count = captured.cameras.size();
   if (count < 2)
-    return refusal("a calibration needs at least two cameras, but there are " +
-                   std::to_string(count) + ": connect the cameras and start again");
+    return refusal("a calibration needs at least two cameras, but there is " +
+                   (count == 0
+                        ? "none: connect the cameras and start again"
+                        : "only " + captured.cameras[0] +
+                              ": connect another one, and name at least two, or none for all"));
   if (const std::string clash = geometry::nameClash(captured.cameras); !clash.empty())
     return refusal(clash);
   captured_ = std::move(captured);

@@ -3,6 +3,7 @@
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
+#include <wiimote_tracker_msgs/free_name.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -162,6 +163,8 @@ void Rig::check() const {
     remap->check();
   std::set<std::string> zone_names;
   for (const Zone& zone : zones) {
+    require(isFreeName(zone.name), "the name of zone " + std::to_string(zone_names.size() + 1) +
+                                       " must have " + kFreeName + ": correct it");
     require(zone_names.insert(zone.name).second,
             "zone '" + zone.name + "' is there twice: give each a name of its own");
     require(zone.minimum.allFinite() && zone.maximum.allFinite() &&

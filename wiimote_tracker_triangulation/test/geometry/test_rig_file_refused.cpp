@@ -28,6 +28,13 @@ TEST_F(RigFile, ListThatEndsWithAColonIsRefused) {
   EXPECT_NE(std::string::npos, complaint.find("':]'")) << complaint;
 }
 
+TEST_F(RigFile, KeyWithoutAValueIsNotTheWordNull) {
+  write(fullRig());
+  const std::string complaint =
+      complaintAbout(with("name: \"" + fullRig().zones[0].name + "\"", "name:"));
+  EXPECT_NE(std::string::npos, complaint.find("zones[0]/name has no value")) << complaint;
+}
+
 TEST_F(RigFile, ThatCouldNotBeReadIsNotWritten) {
   write(fullRig());
   const auto refusal = [&](const Rig& rig) { return refusalOf([&] { writeRigFile(rig, path_); }); };

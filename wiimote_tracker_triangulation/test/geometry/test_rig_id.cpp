@@ -207,6 +207,13 @@ TEST(Rig, CheckNamesTheCameraAndTheFault) {
         r.zones.assign(2, {"hall", {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
       },
       "twice"));
+  for (const std::string& name : {std::string(), std::string("a\nb"), std::string(101, 'a')}) {
+    const auto rename = [&](Rig& r) {
+      r.zones.push_back({"hall", {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+      r.zones.push_back({name, {0.0, 0.0, 0.0}, {1.0, 1.0, 1.0}});
+    };
+    EXPECT_TRUE(names(rename, "name of zone 2")) << name;
+  }
 }
 
 TEST(Rig, VirtualModelLooksThroughTheImageCentre) {

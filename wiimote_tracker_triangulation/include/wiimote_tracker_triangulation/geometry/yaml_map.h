@@ -37,8 +37,11 @@ class YamlMap {
 
   template <typename T>
   T get(const std::string& key) {
+    const YAML::Node found = value(key);
+    if (std::is_same_v<T, std::string> && found.IsNull())  // it would be "null"
+      throw error(key, "has no value");
     try {
-      return value(key).template as<T>();
+      return found.template as<T>();
     } catch (const YAML::Exception&) {
       throw error(key, "has the wrong type");
     }

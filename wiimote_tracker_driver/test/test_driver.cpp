@@ -18,7 +18,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <memory>
 #include <random>
@@ -248,6 +250,18 @@ TEST_F(DriverTest, StaticTransformFromOpticalToImu) {
   EXPECT_NEAR(-1.0, 2 * (q.y * q.z - q.x * q.w), 1e-12);      // up: -y
 }
 
+sensor_msgs::CameraInfo calibration() {
+  sensor_msgs::CameraInfo info;
+  info.width = 1024;
+  info.height = 768;
+  info.distortion_model = "plumb_bob";
+  info.D = {0.01, -0.02, 0, 0, 0};
+  info.K = {{1330, 0, 512, 0, 1331, 384, 0, 0, 1}};
+  info.R = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
+  info.P = {{1330, 0, 512, 0, 0, 1331, 384, 0, 0, 0, 1, 0}};
+  return info;
+}
+
 TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   Recorder<IrBlobArray> blobs("/wiimote_1/ir_blobs");
   Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/camera_info");
@@ -270,13 +284,7 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   })) << "same stamp as an image";
 
   sensor_msgs::SetCameraInfo set;
-  set.request.camera_info.width = 1024;
-  set.request.camera_info.height = 768;
-  set.request.camera_info.distortion_model = "plumb_bob";
-  set.request.camera_info.D = {0.01, -0.02, 0, 0, 0};
-  set.request.camera_info.K = {{1330, 0, 512, 0, 1331, 384, 0, 0, 1}};
-  set.request.camera_info.R = {{1, 0, 0, 0, 1, 0, 0, 0, 1}};
-  set.request.camera_info.P = {{1330, 0, 512, 0, 0, 1331, 384, 0, 0, 0, 1, 0}};
+  set.request.camera_info = calibration();
   ASSERT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
   EXPECT_TRUE(set.response.success) << set.response.status_message;
   ASSERT_TRUE(spinUntil([&] { return infos.messages.back().K[4] == 1331; }));
@@ -293,6 +301,44 @@ TEST_F(DriverTest, CameraInfoComesWithEachImageAndCanBeSet) {
   EXPECT_TRUE(spinUntil(is_told_empty));
   ASSERT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
   EXPECT_TRUE(spinUntil([&] { return !is_told_empty(); }));
+}
+
+TEST_F(DriverTest, NonsenseAsCalibrationIsToldAndNotPublished) {
+  Recorder<sensor_msgs::CameraInfo> infos("/wiimote_1/camera_info");
+  Recorder<diagnostic_msgs::DiagnosticArray> diagnostics("/diagnostics");
+  const auto is_told = [&](const std::string& words) {
+    return driverStatus(diagnostics).message.find(words) != std::string::npos;
+  };
+  const sensor_msgs::CameraInfo good = calibration();
+  const auto isToldOf = [&](const std::function<void(sensor_msgs::CameraInfo&)>& spoil) {
+    sensor_msgs::SetCameraInfo set;
+    set.request.camera_info = good;
+    spoil(set.request.camera_info);
+    EXPECT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
+    return spinUntil([&] { return is_told("_1.yaml is unusable: "); });
+  };
+  const auto isGood = [&] {
+    sensor_msgs::SetCameraInfo set;
+    set.request.camera_info = good;
+    EXPECT_TRUE(ros::service::call("/wiimote_1/set_camera_info", set));
+    return spinUntil([&] { return !is_told("unusable") && infos.last().K == good.K; });
+  };
+  static constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_TRUE(isToldOf([](auto& info) { info.K.fill(kNaN); }));
+  EXPECT_TRUE(is_told("focal length")) << driverStatus(diagnostics).message;
+  infos.messages.clear();
+  ASSERT_TRUE(spinUntil([&] { return infos.messages.size() >= 10; }));
+  EXPECT_EQ(0.0, infos.last().K[0]) << "not calibrated";
+  EXPECT_EQ(1024u, infos.last().width);
+  EXPECT_TRUE(isGood());
+  EXPECT_TRUE(isToldOf([](auto& info) { info.height = 0; }));
+  EXPECT_TRUE(is_told("1024 x 0 pixels")) << driverStatus(diagnostics).message;
+  EXPECT_TRUE(isGood());
+  EXPECT_TRUE(isToldOf([](auto& info) { info.distortion_model = "rubber"; }));
+  EXPECT_TRUE(is_told("'rubber'")) << driverStatus(diagnostics).message;
+  EXPECT_TRUE(isGood());
+  EXPECT_TRUE(isToldOf([](auto& info) { info.D[1] = kNaN; }));
+  EXPECT_TRUE(isGood());
 }
 
 TEST_F(DriverTest, FactoryCalibrationIsPublished) {

@@ -13,6 +13,15 @@ import yaml
 
 COMMAND = ["rosrun", "wiimote_tracker_driver", "driver_node"]
 DEADLINE = 30.0
+NONSENSE = """image_width: 1024
+image_height: 768
+camera_name: lens
+camera_matrix: {rows: 3, cols: 3, data: [.nan, 0, 512, 0, 1331, 384, 0, 0, 1]}
+distortion_model: plumb_bob
+distortion_coefficients: {rows: 1, cols: 5, data: [0, 0, 0, 0, 0]}
+rectification_matrix: {rows: 3, cols: 3, data: [1, 0, 0, 0, 1, 0, 0, 0, 1]}
+projection_matrix: {rows: 3, cols: 4, data: [1330, 0, 512, 0, 0, 1331, 384, 0, 0, 0, 1, 0]}
+"""
 
 
 def run(*arguments, **environment):
@@ -102,6 +111,19 @@ class DriverConfiguration(unittest.TestCase):
         text = self.wait_and_stop(home.name, "__name:=driver_r", "_camera_info_url:=file://" + path)
         self.assertIn(path + " is empty, so the driver does not know the lens", text)
         self.assertEqual(1, text.count("lens.yaml"), text)
+
+    def test_a_calibration_that_holds_nonsense_is_named_once(self):
+        home = tempfile.TemporaryDirectory()
+        self.addCleanup(home.cleanup)
+        path = os.path.join(home.name, "lens.yaml")
+        for content, words in ((NONSENSE, "focal length"), ("no calibration", "none can be read")):
+            with open(path, "w") as file:
+                file.write(content)
+            text = self.wait_and_stop(home.name, "__name:=driver_n",
+                                      "_camera_info_url:=file://" + path)
+            self.assertIn(path + " is unusable: ", text)
+            self.assertIn(words, text)
+            self.assertEqual(1, text.count("is unusable"), text)
 
     def wait_and_stop(self, home, *arguments):
         """What a driver prints that waits for its remote and is interrupted."""

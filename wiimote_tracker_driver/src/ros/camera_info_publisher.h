@@ -25,9 +25,10 @@ class CameraInfoPublisher {
                       const std::string& url,
                       const std::string& url_parameter);
 
-  /// What is wrong with the saved calibration, empty if nothing is: on a full disk
-  /// camera_info_manager leaves an empty file and answers `set_camera_info` with success.
-  std::string problem() const;
+  /// What is wrong with the calibration, empty if nothing is; logged when it is new.
+  /// camera_info_manager answers `set_camera_info` with success also when it saves nonsense or, on
+  /// a full disk, an empty file.
+  std::string problem();
 
   void publish(const ros::Time& stamp);
 
@@ -37,9 +38,12 @@ class CameraInfoPublisher {
                       const ros::Time& stamp);
 
  private:
+  std::string findProblem();
+
   ros::NodeHandle nh_;
   const std::string frame_id_;
-  std::string path_;  // of the calibration; empty: it belongs to a package
+  std::string path_;     // of the calibration; empty: it belongs to a package
+  std::string problem_;  // as logged
   camera_info_manager::CameraInfoManager manager_;
   ImageTopic<sensor_msgs::CameraInfo> topic_;
   ros::Publisher factory_;

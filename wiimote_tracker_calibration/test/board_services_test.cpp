@@ -17,6 +17,7 @@
 #include <wiimote_tracker_msgs/SolveBoard.h>
 #include <wiimote_tracker_msgs/StartBoard.h>
 #include <wiimote_tracker_msgs/StartCalibration.h>
+#include <wiimote_tracker_msgs/StartWave.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -266,8 +267,16 @@ TEST(Board, TheNextCalibrationStartsWithTheCommittedLens) {
       Bench::call<wiimote_tracker_msgs::StartCalibration>("calibration/start", request);
   ASSERT_TRUE(started.success) << started.message;
   // What was captured is saved with the lenses that a solver starts from.
-  const auto saved = Bench::call<wiimote_tracker_msgs::SaveSamples>("calibration/save_samples");
-  ASSERT_TRUE(saved.success) << saved.message;
+  using wiimote_tracker_msgs::SaveSamples;
+  ASSERT_TRUE(Bench::call<wiimote_tracker_msgs::StartWave>("calibration/start_wave").success);
+  g_bench->stamp_ = ros::Time::now().toSec();  // an earlier image is none of the wave
+  SaveSamples::Response saved;
+  const auto isSaved = [&] {
+    saved = Bench::call<SaveSamples>("calibration/save_samples");
+    return saved.success != 0;
+  };
+  const Eigen::Isometry3d ahead(Eigen::Translation3d(0.0, 0.0, 1.0));
+  ASSERT_TRUE(Bench::repeatUntil(isSaved, [&] { g_bench->hold(ahead); })) << saved.message;
   const auto cameras = samples::readSamplesFile(saved.path).recording.cameras;
   std::filesystem::remove_all(std::filesystem::path(saved.path).parent_path());
   ASSERT_EQ(cameras.size(), 2U);

@@ -69,6 +69,8 @@ TEST_F(Samples, NothingToSaveIsRefusedAndAFailedLoadChangesNothing) {
   EXPECT_SAYS(save("").message, "nothing was captured");
   EXPECT_SAYS(load("", "").message, folder_ + "/samples.yaml");
   ASSERT_TRUE(start(2.5).success);
+  EXPECT_SAYS(save("").message, "nothing was captured");
+  EXPECT_FALSE(std::ifstream(folder_ + "/samples.yaml")) << "nor was a file replaced";
   putLed(kCorners[0]);
   ASSERT_TRUE(capture().success);
   EXPECT_EQ(std::system(("mkdir -p '" + folder_ + "'").c_str()), 0);

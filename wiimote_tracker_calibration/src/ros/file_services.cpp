@@ -14,6 +14,7 @@
 #include <wiimote_tracker_msgs/SaveSamples.h>
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,6 +38,14 @@ std::string nextStart(const std::string& path, const Parameters& parameters) {
 void useMasks(const geometry::Rig& rig, CameraInputs* inputs) {
   for (const geometry::RigCamera& camera : rig.cameras)
     inputs->setMasks(camera.camera.name, camera.masks);
+}
+
+/// Whether nothing was captured; known places and lengths need corners.
+bool isEmpty(const wave::Recording& recording) {
+  return !recording.hasFrames() && std::none_of(recording.cameras.begin(), recording.cameras.end(),
+                                                [](const wave::CameraRecording& camera) {
+                                                  return camera.sightings.cornersSeen() > 0;
+                                                });
 }
 
 class FileServices {
@@ -101,8 +110,10 @@ class FileServices {
     const std::string path = call.response.path =
         samplesPath(call.request.path, context_.parameters(lock));
     const samples::Samples samples = context_.samples(lock);
-    if (samples.recording.cameras.empty())
-      throw Refusal("nothing was captured that could be saved: start a calibration first");
+    if (isEmpty(samples.recording))
+      throw Refusal(
+          "nothing was captured that could be saved: start a calibration, and capture a corner or "
+          "a wave first");
     context_.compute(&lock, [&] { samples::writeSamplesFile(samples, path); });
     return {true, "what was captured is saved to " + path};
   }

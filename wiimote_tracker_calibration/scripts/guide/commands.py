@@ -3,8 +3,8 @@
 Knows the names of services and their fields, but does not use ROS.
 """
 
-from dataclasses import dataclass
-from typing import Any, Callable, Dict, List, Optional
+from dataclasses import dataclass, replace
+from typing import Any, Callable, Dict, List, Optional, Sequence
 
 LENS_MODELS = ['automatic', 'no_distortion', 'k1', 'k1_k2', 'plumb_bob', 'equidistant']
 
@@ -52,6 +52,14 @@ def optional_number(arguments: List[str], place: int, what: str) -> float:
     return number(arguments[place], what) if len(arguments) > place else 0.0
 
 
+def side(arguments: List[str], place: int, what: str) -> float:
+    """As optional_number(), but 0 is refused: it would be the default."""
+    value = optional_number(arguments, place, what)
+    if len(arguments) > place and value <= 0.0:
+        raise UsageError(f'{what} must be above 0, not "{arguments[place]}": give it in metres')
+    return value
+
+
 def at_most(arguments: List[str], count: int, usage: str) -> None:
     if len(arguments) > count:
         raise UsageError(f'too many words: give {usage}')
@@ -95,8 +103,8 @@ def start(status, arguments):
                        wand_stddev=optional_number(arguments, 2, 'its standard deviation'))
     at_most(arguments, 2, usage)
     return request('start', 'StartCalibration',
-                   side_x=optional_number(arguments, 0, 'the side of the square'),
-                   side_y=optional_number(arguments, 1, 'the second side'))
+                   side_x=side(arguments, 0, 'the side of the square'),
+                   side_y=side(arguments, 1, 'the second side'))
 
 
 def capture(status, arguments):
@@ -235,6 +243,21 @@ RIG = [
     Command('cancel', 'x', 'stop what goes on, or drop all', trigger('cancel'), '',
             'Drop all that was captured? Enter: yes, Escape: no'),
 ]
+
+
+def rig_commands(given: Sequence[str]) -> List[Command]:
+    """RIG, in which `start` without arguments takes the given ones, if there are any."""
+    if not given:
+        return RIG
+    usual = find(RIG, 'start')
+    begin = replace(usual, build=lambda status, arguments: start(status, arguments or list(given)),
+                    ask=usual.ask.replace('parameter', in_words(given)))
+    return [begin if command is usual else command for command in RIG]
+
+
+def in_words(given: Sequence[str]) -> str:
+    """Arguments of `start`: "2.5 x 1 m", "wand of 0.5 m"."""
+    return (' of ' if given[0] == 'wand' else ' x ').join(given) + ' m'
 
 
 def board_commands(camera: str) -> List[Command]:

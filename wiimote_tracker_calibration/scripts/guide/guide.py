@@ -6,6 +6,8 @@ Takes messages, answers and the time; uses neither ROS nor a terminal.
 from dataclasses import dataclass, field
 from typing import Dict, List, Optional, Sequence
 
+from .commands import in_words
+
 SILENT_AFTER = 3.0  # [s] The node publishes its status twice a second.
 FOUND_WITHIN = 3.0  # [s] Longest search for a node that runs.
 KEPT = 20  # Statuses during which an answer stays whatever happens: 10 s.
@@ -153,8 +155,7 @@ class Guide:
                           f'{self.asking["next"]}: start with it.', 'start', self._start)
         if word == 'start':
             arguments = self._start
-            label += (f' with the {" of ".join(arguments)} m' if wand else
-                      f' with {" x ".join(arguments)} m' if arguments else
+            label += (f' with {"the " if wand else ""}{in_words(arguments)}' if arguments else
                       f'; {self.asking["side"]}')
         return Advice(f'{status.next_sentence} {self.asking["next"]}: {label}.'
                       f'{self._other_way(status)}', word, arguments)

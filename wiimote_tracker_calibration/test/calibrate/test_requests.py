@@ -65,6 +65,25 @@ def test_words_that_make_no_sense_are_refused_with_what_would(line):
     assert len(str(refusal.value)) > 15
 
 
+@pytest.mark.parametrize('given, fields, question', [
+    (['3'], {'side_x': 3.0, 'side_y': 0.0}, 'Enter: 3 m'),
+    (['3', '2'], {'side_x': 3.0, 'side_y': 2.0}, 'Enter: 3 x 2 m'),
+    (['wand', '0.5'], {'without_square': True, 'wand_length': 0.5, 'wand_stddev': 0.0},
+     'Enter: wand of 0.5 m'),
+    ([], {'side_x': 0.0, 'side_y': 0.0}, 'Enter: parameter')])
+def test_a_start_without_words_takes_those_of_the_program(given, fields, question):
+    start = commands.find(commands.rig_commands(given), 'n')
+    assert start.build(None, []).fields == fields
+    assert start.build(None, ['1']).fields['side_x'] == 1.0
+    assert start.ask.endswith(question) and len(start.ask) < 80
+
+
+@pytest.mark.parametrize('words', [['0'], ['2.5', '0'], ['-1']])
+def test_a_side_of_0_is_not_the_side_of_the_parameter(words):
+    with pytest.raises(commands.UsageError, match='must be above 0'):
+        commands.find(commands.RIG, 'start').build(None, words)
+
+
 def test_a_decimal_comma_is_refused_with_a_number_as_it_must_be():
     with pytest.raises(commands.UsageError, match='a number such as 2.5, not "2,5"'):
         commands.find(commands.RIG, 'start').build(None, ['2,5'])

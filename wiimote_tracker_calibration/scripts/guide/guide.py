@@ -163,6 +163,13 @@ class Guide:
     def is_waving(self) -> bool:
         return self.status is not None and self.status.step == self.status.WAVING
 
+    def is_started(self) -> bool:
+        """Whether a calibration is, also one that was saved."""
+        status = self.status
+        return status is not None and (
+            status.step not in (status.IDLE, status.SAVED)
+            or bool(status.square_sides) or status.corners_needed == 0)
+
     def is_busy(self) -> bool:
         """Whether the node does something that `cancel` would end."""
         status = self.status

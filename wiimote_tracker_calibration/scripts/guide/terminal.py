@@ -113,10 +113,11 @@ class Terminal:
         return True
 
     def _is_direct(self, command: Command) -> bool:
-        """Whether it is sent without a question: it ends a wave, or stops what goes on."""
+        """Whether it is sent without a question: it ends a wave, stops what goes on, or will be
+        refused."""
         guide = self._dialogue.guide
         if command.word == 'wave':
-            return guide.is_waving()
+            return guide.is_waving() or not guide.is_started()
         return command.word == 'cancel' and bool(guide.running or guide.is_busy())
 
     def _type(self, key: Union[str, int]) -> None:

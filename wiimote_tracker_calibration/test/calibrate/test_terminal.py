@@ -105,6 +105,14 @@ def test_space_does_not_do_what_was_not_read_yet(monkeypatch):
         assert node.sent[1].name == late
 
 
+@pytest.mark.parametrize('step', [CalibrationStatus.IDLE, CalibrationStatus.SAVED])
+def test_a_wave_that_will_be_refused_asks_for_no_length(step):
+    sent, drawn = pressed('w', status(step))
+    assert [name for name, _ in sent] == ['start_wave'] and drawn[-1][2] is None
+    started = status(step, square_sides=[2.5, 2.5])  # saved, and its wave is recorded again
+    assert pressed('w' + ESCAPE, started)[1][1][2] is not None
+
+
 def test_what_is_typed_is_sent_with_enter():
     complete = status(CalibrationStatus.COMPLETE)
     sent, drawn = pressed('w0.56' + BACKSPACE + ENTER, complete)

@@ -181,6 +181,11 @@ class Guide:
         status = self.status
         return status is not None and status.step in (status.READY, status.COMPLETE)
 
+    def _is_changed_since_save(self) -> bool:
+        # The first status after an answer may be older than that.
+        return (self._saved_at is not None and self.statuses_since_answer > 1
+                and self.status.step == self.status.SOLVED)
+
     def has_done(self, word: str, since: str = 'start') -> bool:
         """Whether a command succeeded after `start` and another one last did."""
         return self._done.get(word, 0) > max(self._done.get(other, 0) for other in ('start', since))
@@ -191,8 +196,11 @@ class Guide:
         return (now if self._saved_at is None else self._saved_at) - begin
 
     def took(self, now: float) -> str:
-        """The last sentences: how long it took, and what goes on without us."""
+        """The last sentences: how long it took, what is not saved, and what goes on without us."""
         return self._took(now) + (
+            ' The change since is not saved: start calibrate again. '
+            f'{self.asking["save"]} saves it.'
+            if self._is_changed_since_save() else '') + (
             f' The node goes on with {self.running[-1]}: calibrate shows it, and '
             f'{self.asking["cancel"]} stops it there.'
             if self.running and 'cancel' not in self.running else '')

@@ -135,6 +135,21 @@ def test_a_recalibrated_camera_that_was_saved_is_told():
     assert guide.took(60.0).startswith('The rig was saved; this took ')
 
 
+def test_at_the_end_it_says_that_a_change_since_is_not_saved():
+    guide = guide_at(status(CalibrationStatus.SOLVED))
+    guide.on_answer('start', True, '', 10.0)
+    guide.on_answer('save', True, '', 20.0)
+    guide.on_status(status(CalibrationStatus.SOLVED), 20.1)  # was on its way
+    assert 'not saved' not in guide.took(30.0)
+    guide.on_status(status(CalibrationStatus.SAVED), 21.0)
+    assert 'not saved' not in guide.took(30.0)
+    guide.on_answer('remove', True, '', 25.0)
+    for at in (25.5, 26.0):
+        guide.on_status(status(CalibrationStatus.SOLVED), at)
+    assert guide.took(30.0) == ('Calibrated and saved in 10 s. The change since is not saved: '
+                                'start calibrate again. v saves it.')
+
+
 def test_at_the_end_it_says_what_the_node_goes_on_with():
     guide = guide_at(status(CalibrationStatus.MEASURING))
     guide.on_request('recalibrate')

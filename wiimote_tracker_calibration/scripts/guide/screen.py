@@ -35,7 +35,8 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     lines = [title(guide, now, columns)]
     lines += padded(wrapped(guide.silent(now) or guide.advice().sentence, columns, 2), 2)
     room = rows - len(lines) - len(KEYS)
-    said = saying(guide, columns, guide.verdict.text if view == 'verdict' and guide.verdict else '')
+    shown = guide.verdict.text if view == 'verdict' and guide.verdict else ''
+    said = saying(guide, columns, 3 + (rows - ROWS) // 2, shown)
     if view == 'keys':
         lines += padded(key_lines(command_list, room), room)
     elif view == 'verdict':
@@ -88,16 +89,16 @@ def title(guide: Guide, now: float, columns: int) -> str:
     return left + right.rjust(columns - len(left))
 
 
-def saying(guide: Guide, columns: int, shown: str = '') -> List[str]:
-    """The node's answer or message unless it is shown already, or how far it is; at most three
+def saying(guide: Guide, columns: int, most: int, shown: str) -> List[str]:
+    """The node's answer or message unless it is shown already, or how far it is; at most so many
     lines."""
     if guide.running:
         text = guide.feedback or guide.running[-1] + ' ...'
         if guide.progress > 0.0:
             text = f'{bar(guide.progress, 20)} {text}'
-        return wrapped(text, columns, 3)
+        return wrapped(text, columns, most)
     text = guide.said()
-    return wrapped(text, columns, 3) if text != shown else []
+    return wrapped(text, columns, most) if text != shown else []
 
 
 # --- Cameras

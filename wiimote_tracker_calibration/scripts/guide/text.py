@@ -1,6 +1,7 @@
 """Text that fits: wrapping, bars, numbers. ASCII only, so that it works in every terminal."""
 
 import math
+import re
 import textwrap
 from typing import List, Sequence
 
@@ -12,8 +13,16 @@ def wrapped(text: str, width: int, lines: int) -> List[str]:
         rows += textwrap.wrap(part, width) or ['']
     if len(rows) > lines:
         rows = rows[:lines]
-        rows[-1] = rows[-1][:width - 3].rstrip() + '...'
+        rows[-1] = shortened(rows[-1], width - 3) + '...'
     return rows
+
+
+def shortened(line: str, width: int) -> str:
+    """Whole words, if there is more than one, that fit; the last one is not a number, whose unit
+    would be missing."""
+    if len(line) > width:
+        line = line[:width + 1].rpartition(' ')[0] or line[:width]
+    return re.sub(r'( [-+(]?[\d.]+)+$', '', line).rstrip()
 
 
 def bar(share: float, width: int) -> str:

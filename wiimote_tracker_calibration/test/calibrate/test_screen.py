@@ -367,6 +367,22 @@ def test_bars_and_wrapping():
     assert text.wrapped('', 9, 2) == []
 
 
+def test_what_does_not_fit_ends_before_a_number_and_after_a_word():
+    assert text.wrapped('known to 2.6 mm at 2.5 m', 15, 1) == ['known to...']
+    assert text.wrapped('known to within 2.6 mm', 20, 1) == ['known to within...']
+    assert text.wrapped('known to (0.5 mm', 16, 1) == ['known to (0.5 mm']
+    assert text.wrapped('unbreakable_as_names_are', 12, 1) == ['unbreakab...']
+
+
+def test_a_high_window_shows_a_long_answer_in_full():
+    answer = 'Good; points are known to 2.6 mm at the worst corner; ' * 8 + 'warning: z is down'
+    guide = guide_at(status(CalibrationStatus.SOLVED, message=answer))
+    for rows, is_whole in ((24, False), (40, True)):
+        lines = screen.render(guide, 1.0, rows=rows, columns=100)
+        assert len(lines) == rows
+        assert ('warning: z is down' in ' '.join(lines)) == is_whole
+
+
 def test_the_walk_is_shown():
     guide = guide_at(status(CalibrationStatus.IDLE, walk='the LED was seen: a 17 %'))
     assert '- the LED was seen: a 17 %' in screen.render(guide, 0.0)

@@ -89,6 +89,32 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   EXPECT_EQ(next().sentence, "The rig is in use, but " + findings_.silent + ".");
 }
 
+TEST_F(NextStepTest, ARefusedCornerIsCapturedAgain) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  for (std::size_t c = 0; c < kCorners.size(); ++c)
+    ASSERT_TRUE(capture(kCorners[c] + (c == 2 ? 0.3 : 0.0) * Eigen::Vector3d::UnitX()).success);
+  EXPECT_SAYS(solve(1.0).message, "capture corner 3 again and solve");
+  EXPECT_EQ(next().request, "capture_corner");
+  EXPECT_EQ(next().title, "Corner 3");
+  EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
+  ASSERT_TRUE(capture(kCorners[2], 2).success);
+  EXPECT_EQ(next().request, "start_wave");
+  EXPECT_TRUE(solve(2.0).success);
+}
+
+TEST_F(NextStepTest, WhatCannotBeSolvedIsNotWavedOn) {
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  for (const std::size_t c : {0, 1, 3, 2})
+    ASSERT_TRUE(capture(kCorners[c]).success);
+  EXPECT_SAYS(solve(1.0).message, "out of order");
+  EXPECT_EQ(next().title, "Again");
+  EXPECT_TRUE(next().request.empty());
+  ASSERT_TRUE(calibration_.undo().success);
+  EXPECT_EQ(next().title, "Corner 4");
+  ASSERT_TRUE(capture(kCorners[2]).success);
+  EXPECT_EQ(next().title, "Wave") << "something was captured since";
+}
+
 TEST_F(NextStepTest, ACameraThatWasMovedIsToBeCorrected) {
   geometry::Rig rig;
   rig.cameras.resize(3);

@@ -67,8 +67,13 @@ class Workflow : public ::testing::Test {
       const Reply reply = calibration_.takeSolution(solution.rig);
       calibration_.end();
       return reply;
+    } catch (const samples::WrongCorner& error) {
+      calibration_.end();
+      calibration_.refuseSolution({error.corner});
+      return refusal(error.what());
     } catch (const Error& error) {
       calibration_.end();
+      calibration_.refuseSolution({});
       return refusal(error.what());
     }
   }

@@ -27,28 +27,40 @@ class SolveServices {
   workflow::Reply solve(SolveCalibration& call, Lock& lock) {
     const Job job = {Step::kSolving, "solving", "what was captured stays"};
     return context_.run(job, &lock, [&] {
-      const samples::Samples samples = context_.samples(lock);
-      const samples::SolveOptions options = context_.parameters(lock).solve;
-      samples::Solution solution = context_.compute(&lock, [&] {
-        return samples::solveSamples(samples, options, [this](const std::string&, double fraction) {
-          const Lock inner(context_.mutex());
-          context_.setProgress(fraction, inner);
-          if (context_.isCancelled(inner) || !ros::ok())
-            throw Refusal("the calibration was cancelled: nothing was changed");
-        });
-      });
-      context_.requireNotCancelled(lock);
-      solution.rig.solved_at = NodeContext::now();
-      const workflow::Reply reply = context_.calibration(lock).takeSolution(solution.rig);
-      const geometry::Rig& rig = *context_.rig(lock);
-      call.response.rig = toMessage(rig);
-      call.response.verdict = toMessage(solution.verdict, rig);
-      context_.publishRig(solution.verdict, lock);
-      if (solution.trace)
-        trace_.publish(toMessage(*solution.trace, rig));
-      ROS_INFO_STREAM(reply.message);
-      return reply;
+      try {
+        return solveCaptured(&call, &lock);
+      } catch (const samples::WrongCorner& error) {
+        context_.calibration(lock).refuseSolution({error.corner});
+        throw;
+      } catch (const geometry::Error&) {
+        context_.calibration(lock).refuseSolution({});
+        throw;
+      }
     });
+  }
+
+  workflow::Reply solveCaptured(SolveCalibration* call, Lock* lock) {
+    const samples::Samples samples = context_.samples(*lock);
+    const samples::SolveOptions options = context_.parameters(*lock).solve;
+    samples::Solution solution = context_.compute(lock, [&] {
+      return samples::solveSamples(samples, options, [this](const std::string&, double fraction) {
+        const Lock inner(context_.mutex());
+        context_.setProgress(fraction, inner);
+        if (context_.isCancelled(inner) || !ros::ok())
+          throw Refusal("the calibration was cancelled: nothing was changed");
+      });
+    });
+    context_.requireNotCancelled(*lock);
+    solution.rig.solved_at = NodeContext::now();
+    const workflow::Reply reply = context_.calibration(*lock).takeSolution(solution.rig);
+    const geometry::Rig& rig = *context_.rig(*lock);
+    call->response.rig = toMessage(rig);
+    call->response.verdict = toMessage(solution.verdict, rig);
+    context_.publishRig(solution.verdict, *lock);
+    if (solution.trace)
+      trace_.publish(toMessage(*solution.trace, rig));
+    ROS_INFO_STREAM(reply.message);
+    return reply;
   }
 
   NodeContext& context_;

@@ -70,6 +70,8 @@ square::Solution solveOrDiagnose(const wave::Recording& recording,
                                  std::optional<principal_point::Trace>* trace) {
   const auto words = [&](const geometry::Error& error, bool contradicts) {
     const auto mistake = diagnose(recording, options, contradicts, progress);
+    if (mistake && mistake->corner)
+      throw WrongCorner(mistake->text, *mistake->corner);
     return mistake ? mistake->text : error.what();
   };
   try {

@@ -103,6 +103,7 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
     return refusal(error.what());
   }
   captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
+  captured_.refused.reset();
   busy_ = Step::kWaving;
   just_solved_ = false;
   if (captured_.wave->needsFloor())
@@ -167,6 +168,7 @@ void Calibration::finishCapture() {
   if (captured_.square.outcome()->success) {
     captured_.dropLengthsTo(captured_.square.currentCorner());
     captured_.latest_lengths = 0;
+    captured_.refused.reset();
     ++captures_;
   }
   shown(*captured_.square.outcome());
@@ -259,6 +261,7 @@ Reply Calibration::takeSolution(const geometry::Rig& rig) {
         "lay";
   }
   captured_.solved_to = rig_->id();
+  captured_.refused.reset();
   step_ = Step::kSolved;
   return reply;
 }
@@ -378,8 +381,10 @@ std::string Calibration::occupied() const {
 }
 
 Reply Calibration::changed(const Reply& reply) {
-  if (reply.success)
+  if (reply.success) {
+    captured_.refused.reset();
     updateStep();
+  }
   return reply;
 }
 

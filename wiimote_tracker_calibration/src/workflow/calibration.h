@@ -142,6 +142,10 @@ class Calibration {
   /// same name. @returns its verdict.
   Reply takeSolution(const geometry::Rig& rig);
 
+  /// Notes that the solver refused what was captured, until something else is captured or dropped.
+  void refuseSolution(const RefusedSolution& refused) { captured_.refused = refused; }
+  const std::optional<RefusedSolution>& refusedSolution() const { return captured_.refused; }
+
   /// All that was captured so far. @param facts, masks for every camera of the run that is known;
   /// after restore() the facts are those of the samples file.
   samples::Samples samples(const CameraFacts& facts, const capture::Masks& masks) const {

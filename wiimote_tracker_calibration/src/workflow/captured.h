@@ -19,6 +19,11 @@ namespace wiimote_tracker::workflow {
 /// Facts about cameras besides where they saw the LED, by name.
 using CameraFacts = std::map<std::string, square::CameraSightings>;
 
+/// That the solver refused what was captured.
+struct RefusedSolution {
+  std::optional<std::size_t> corner;  ///< Captured in a wrong place, 0..3; nothing: none is known.
+};
+
 /// What one run of the calibration has captured: the live form of samples::Samples (toSamples(),
 /// fromSamples()).
 struct Captured {
@@ -29,7 +34,8 @@ struct Captured {
   std::vector<capture::CapturedCorner> places;  ///< Of layout->places.
   std::optional<WaveRecorder> wave;             ///< The wave that is being recorded, or was.
   std::string world_frame;
-  std::string solved_to;  ///< The rig's id; empty: not solved yet.
+  std::string solved_to;                   ///< The rig's id; empty: not solved yet.
+  std::optional<RefusedSolution> refused;  ///< Since then nothing was captured or dropped.
   /// The device that took the data of a camera, and another one that took some, too.
   std::map<std::string, std::string> devices;
   std::map<std::string, std::string> other_devices;

@@ -74,7 +74,23 @@ NextStep waving(const Calibration& calibration) {
   return {"Enough", enough, "stop_wave", "end the wave"};
 }
 
+NextStep captureAgain(std::size_t corner, const std::string& otherwise) {
+  const std::string name = SquareRun::nameOf(corner);
+  return {cornerTitle(corner), "Put the LED on " + name + " again" + otherwise + ".",
+          "capture_corner", "capture " + name + " again", corner};
+}
+
+NextStep afterRefusal(const RefusedSolution& refused) {
+  if (refused.corner)
+    return captureAgain(*refused.corner, ": it was captured in another place");
+  return {"Again",
+          "What was captured cannot be solved: do again what the answer says, or start "
+          "again."};
+}
+
 NextStep complete(const Calibration& calibration) {
+  if (const auto& refused = calibration.refusedSolution())
+    return afterRefusal(*refused);
   if (calibration.wave() && calibration.wave()->report().seconds > 0.0)
     return {"Solve", "All is captured.", "solve", "solve"};
   if (calibration.square().isClockwise())
@@ -135,10 +151,7 @@ NextStep solved(const samples::Verdict& verdict) {
             "Read the verdict, then save.", "save", "save"};
   if (!verdict.redo_corner)
     return {"Again", "Do again what the verdict says, or save all the same."};
-  const std::string name = SquareRun::nameOf(*verdict.redo_corner);
-  return {cornerTitle(*verdict.redo_corner),
-          "Put the LED on " + name + " again, or save all the same.", "capture_corner",
-          "capture " + name + " again", verdict.redo_corner};
+  return captureAgain(*verdict.redo_corner, ", or save all the same");
 }
 
 }  // namespace

@@ -182,6 +182,13 @@ TEST(CornerCapture, TooFewSamplesUntilTheTimeIsUpAreRefusedWithTheReason) {
   EXPECT_SAYS(capture.message(), "c sends no images");
 }
 
+TEST(CornerCapture, CamerasWithTheSameProblemAreNamedTogether) {
+  CornerCapture capture(kThree, CornerCaptureOptions(), 0.0);
+  feed(&capture, {{"a", blind()}, {"b", still(500, 300, 2)}, {"c", blind()}}, 0.0, 2.0);
+  EXPECT_SAYS(capture.message(), "waits for: each of a, c sees no spot: turn the camera");
+  EXPECT_EQ(listOfProblems({{"a", "x"}, {"b", "y"}, {"c", "x"}}), "each of a, c x; b y");
+}
+
 TEST(CornerCapture, ACameraThatSeesTheLedNowAndThenDelaysTheOthersOnlyUntilTheTimeIsUp) {
   CornerCaptureOptions options;
   options.timeout = 2.0;

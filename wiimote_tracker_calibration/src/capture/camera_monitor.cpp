@@ -34,6 +34,20 @@ std::string stampProblem(double stamp, double delay) {
   return "";
 }
 
+std::string listOfProblems(const std::vector<std::pair<std::string, std::string>>& problems) {
+  std::vector<std::string> different;
+  for (const auto& [first, problem] : problems) {
+    std::vector<std::string> names;
+    for (const auto& [name, same] : problems) {
+      if (same == problem)
+        names.push_back(name);
+    }
+    if (names.front() == first)
+      different.push_back((names.size() > 1 ? "each of " : "") + joined(names) + " " + problem);
+  }
+  return joined(different, "; ");
+}
+
 void CameraMonitor::add(double time, const Blobs& blobs, double arrival) {
   arrival_ = arrival;
   if (!images_.empty() && time < images_.back().time - kLongestDelay)

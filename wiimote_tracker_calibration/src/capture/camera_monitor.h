@@ -7,6 +7,8 @@
 #include <deque>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace wiimote_tracker::capture {
 
@@ -20,6 +22,10 @@ struct CameraSummary {
       Eigen::Vector2d::Constant(std::numeric_limits<double>::quiet_NaN());  ///< Of that spot.
   std::string problem;  ///< One sentence that says what to do; empty when all is well.
 };
+
+/// The problems of cameras, each a name and what follows it, as CameraSummary::problem; those that
+/// have the same one are named together.
+std::string listOfProblems(const std::vector<std::pair<std::string, std::string>>& problems);
 
 /// Summarises the images of one camera. Times [s] are to be of one clock; when it is set back,
 /// earlier images are forgotten.

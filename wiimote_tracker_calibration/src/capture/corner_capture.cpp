@@ -172,12 +172,12 @@ std::string CornerCapture::clockProblem(double stamp) const {
 }
 
 std::string CornerCapture::leftOut() const {
-  std::string list;
+  std::vector<std::pair<std::string, std::string>> problems;
   for (const auto& entry : cameras_) {
     if (!isComplete(entry.second))
-      list += (list.empty() ? "" : "; ") + entry.first + " " + problem(entry.first);
+      problems.emplace_back(entry.first, problem(entry.first));
   }
-  return list;
+  return listOfProblems(problems);
 }
 
 void CornerCapture::refuse(const std::string& message) {

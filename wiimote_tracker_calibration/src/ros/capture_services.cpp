@@ -1,5 +1,6 @@
 #include "node_parts.h"
 
+#include "capture/camera_monitor.h"
 #include "capture_server.h"
 
 #include <sensor_msgs/Joy.h>
@@ -17,6 +18,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -128,14 +130,14 @@ class CaptureServices {
     call.response.cameras = context_.status(lock).cameras(duration);
     if (call.response.cameras.empty())
       throw Refusal("no camera is there: start the drivers");
-    std::vector<std::string> problems;
+    std::vector<std::pair<std::string, std::string>> problems;
     for (const auto& [name, input] : context_.inputs().cameras()) {
       const std::string problem = input.monitor.summary(NodeContext::now(), duration).problem;
       if (!problem.empty())
-        problems.emplace_back(name).append(" ").append(problem);
+        problems.emplace_back(name, problem);
     }
     if (!problems.empty())
-      throw Refusal(joined(problems, "; "));
+      throw Refusal(capture::listOfProblems(problems));
     context_.calibration(lock).preparation().connection_checked = true;
     return {true, "all " + std::to_string(call.response.cameras.size()) +
                       " cameras see exactly one spot"};

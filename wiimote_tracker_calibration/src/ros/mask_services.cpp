@@ -1,5 +1,6 @@
 #include "node_parts.h"
 
+#include "capture/camera_monitor.h"
 #include "capture/mask_learner.h"
 
 #include <std_srvs/Trigger.h>
@@ -8,6 +9,7 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -66,13 +68,13 @@ class MaskServices {
     if (learned.empty())
       throw Refusal("no camera is there: start the drivers; the masks are as they were");
     capture::Masks masks = context_.inputs().masks();
-    std::vector<std::string> problems;
+    std::vector<std::pair<std::string, std::string>> problems;
     std::vector<std::string> counts;
     std::vector<std::string> warnings;
     bool one_each = learned.size() > 1;
     for (const auto& [name, camera] : learned) {
       if (!camera.problem.empty()) {
-        problems.push_back(name + " " + camera.problem);
+        problems.emplace_back(name, camera.problem);
         continue;
       }
       const std::size_t count = camera.masks.size();
@@ -88,7 +90,7 @@ class MaskServices {
             " lights at most, and lamps may leave none for the LED: cover or switch off some");
     }
     if (!problems.empty())
-      throw Refusal(joined(problems, "; ") + "; the masks are as they were");
+      throw Refusal(capture::listOfProblems(problems) + "; the masks are as they were");
     if (one_each)
       warnings.emplace_back(
           "every camera sees exactly one light: if that is the LED, switch it off and learn again");

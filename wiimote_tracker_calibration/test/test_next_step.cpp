@@ -79,6 +79,11 @@ TEST_F(NextStepTest, TheVerdictDecidesWhatFollowsTheSolver) {
   verdict_.redo_corner = 2;
   EXPECT_EQ(next().request, "capture_corner");
   EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
+  verdict_.grade = samples::Grade::kUsable;
+  verdict_.doubts_scale = true;
+  EXPECT_TRUE(next().request.empty());
+  EXPECT_SAYS(next().sentence, "start again with them in metres, or save all the same");
+  verdict_.doubts_scale = false;
   verdict_.grade = samples::Grade::kGood;
   EXPECT_EQ(next().request, "save");
   calibration_.saved(*calibration_.rig());

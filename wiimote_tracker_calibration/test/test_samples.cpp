@@ -361,6 +361,7 @@ TEST(Verdict, QuestionsAnImplausibleScale) {
     options.square.uncertainty.placement *= side / 2.5;
     const Verdict verdict = solveSamples(samples, options).verdict;
     EXPECT_NE(verdict.grade, Grade::kGood) << side;
+    EXPECT_TRUE(verdict.doubts_scale) << side;
     EXPECT_SAYS(verdict.text, "from the LED, but a Wii Remote sees one at 0.3 to 12 m") << side;
   }
 }

@@ -173,13 +173,13 @@ bool concernsQuality(const std::string& warning) {
   return warning != square::kZDown;
 }
 
-/// Why the rig is not good, or empty.
+/// Why the rig is not good, or empty. @param question scaleQuestion().
 std::vector<std::string> shortcomings(const Samples& samples,
+                                      const std::string& question,
                                       const Accuracy& accuracy,
                                       const square::Solution& found,
                                       const Verdict& verdict) {
   std::vector<std::string> reasons;
-  const std::string question = scaleQuestion(samples.recording, found.rig, found.path);
   if (!question.empty())
     reasons.push_back(question);
   if (!(accuracy.share <= kGoodShare))
@@ -243,7 +243,9 @@ Verdict judge(const Samples& samples, const square::Solution& found, double pixe
   if (samples.recording.square)
     predict(*samples.recording.square, found, pixel, &verdict);
   const Accuracy accuracy = accuracyOf(samples, found, verdict);
-  const std::vector<std::string> reasons = shortcomings(samples, accuracy, found, verdict);
+  const std::string question = scaleQuestion(samples.recording, found.rig, found.path);
+  verdict.doubts_scale = !question.empty();
+  const auto reasons = shortcomings(samples, question, accuracy, found, verdict);
   std::string reason;
   if (found.suspect && square::isDisplaced(*found.suspect)) {
     verdict.grade = Grade::kRedo;

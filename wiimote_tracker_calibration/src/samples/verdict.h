@@ -44,6 +44,7 @@ struct Verdict {
   Grade grade = Grade::kRedo;
   std::string text;                        ///< Grade, reason, what to do.
   std::optional<std::size_t> redo_corner;  ///< To be captured again, 0..3.
+  bool doubts_scale = false;               ///< The text asks whether lengths are in metres.
   std::vector<CameraVerdict> cameras;      ///< In the order of the rig.
   /// The corners of the square, then the places 2.5 m above them, world [m]; empty without square.
   std::vector<Eigen::Vector3d> predicted_at;

@@ -146,6 +146,9 @@ std::optional<NextStep> inUse(const Calibration& calibration, const Findings& fi
 }
 
 NextStep solved(const samples::Verdict& verdict) {
+  if (verdict.grade != samples::Grade::kRedo && verdict.doubts_scale)
+    return {"Again",
+            "Measure the lengths and start again with them in metres, or save all the same."};
   if (verdict.grade != samples::Grade::kRedo)
     return {verdict.grade == samples::Grade::kGood ? "Good" : "Usable",
             "Read the verdict, then save.", "save", "save"};

@@ -104,6 +104,7 @@ TEST_F(SquareMistake, CameraMovedBetweenTheCorners) {
     for (std::size_t c = 1; c < 4; ++c)
       *seenBy(1).corners[c] += moved;
     EXPECT_SAYS(outcome(), "camera_2 alone contradicts") << moved.transpose();
+    EXPECT_SAYS(outcome(), "then capture all again");
     recording_ = good;
   }
 }

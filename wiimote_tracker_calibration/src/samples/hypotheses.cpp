@@ -202,7 +202,7 @@ Hypotheses wrongCameras(const Hypothesis& as_is) {
     Hypothesis& without = add(as_is, &all, [name = nameOf(as_is, i)](const square::Solution&) {
       return name +
              " alone contradicts the others: check that it did not move and that its spot "
-             "was the LED, and its starting intrinsics";
+             "was the LED, and its starting intrinsics; then capture all again";
     });
     without.factor = kWithoutCamera;
     without.recording.cameras.erase(without.recording.cameras.begin() +

@@ -335,6 +335,7 @@ TEST_F(Node, FourCornersAreSolvedSavedAndLoaded) {
   ASSERT_TRUE(placed.success) << placed.message;
   EXPECT_SAYS(placed.message, "place 1 at (1.000, 0.800, 1.500) m is captured by 4 cameras");
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  EXPECT_SAYS(call<SaveRig>("calibration/save").message, "calibration under way is not in it");
   const auto again = call<SolveCalibration>("calibration/solve");
   ASSERT_TRUE(again.success) << again.message;
   EXPECT_SAYS(solved.verdict.next_measurement, "put the LED on a place you know");

@@ -86,6 +86,9 @@ class FileServices {
     const std::string message =
         "saved to " + path +
         (goal ? ": the corrected rig, which the one in use still approaches" : "") +
+        (context_.calibration(lock).isUnsolved()
+             ? "; the calibration under way is not in it: solve that first"
+             : "") +
         nextStart(path, context_.parameters(lock)) + appendix(warnings);
     if (!warnings.empty())
       ROS_WARN_STREAM(message);

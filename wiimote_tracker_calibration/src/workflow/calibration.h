@@ -158,6 +158,9 @@ class Calibration {
   /// Whether the data come from a samples file, which has its own facts.
   bool isRestored() const { return !captured_.restored_facts.empty(); }
 
+  /// Whether something was captured since the rig in use was solved, or for another rig.
+  bool isUnsolved() const { return step_ == Step::kReady || step_ == Step::kComplete; }
+
   /// Uses a rig that was read from a file. Refused while a step is running.
   Reply load(const geometry::Rig& rig);
 

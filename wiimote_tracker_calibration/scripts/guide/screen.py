@@ -1,7 +1,7 @@
 """The screen of the rig's calibration: from a Guide to lines of text."""
 
 import math
-from typing import List, Optional, Sequence, Tuple
+from typing import Dict, List, Optional, Sequence, Tuple
 
 from .guide import Guide
 from .text import bar, duration, figure, fitted, in_columns, padded, wrapped
@@ -200,8 +200,10 @@ def remarks(status, columns: int, room: int) -> List[str]:
     is_calibrated = (status.step == status.SAVED or
                      status.step == status.IDLE and status.rig_id)
     for kind in ('health',) if is_calibrated else ('problem', 'health'):
-        sentences += [f'{camera.name}: {getattr(camera, kind)}' for camera in status.cameras
-                      if getattr(camera, kind)]
+        named: Dict[str, List[str]] = {}  # the cameras of each text
+        for camera in status.cameras:
+            named.setdefault(getattr(camera, kind), []).append(camera.name)
+        sentences += [f'{", ".join(names)}: {text}' for text, names in named.items() if text]
     lines: List[str] = []
     for number, sentence in enumerate(sentences):
         more = [('  ' if i else '- ') + line

@@ -367,6 +367,12 @@ def test_bars_and_wrapping():
     assert text.wrapped('', 9, 2) == []
 
 
+def test_cameras_with_the_same_problem_are_named_together():
+    cameras = [camera(f'wiimote_{i}', problem=problem) for i, problem in enumerate('xyx', 1)]
+    assert screen.remarks(status(CalibrationStatus.READY, cameras=cameras), 80, 9) == [
+        '- wiimote_1, wiimote_3: x', '- wiimote_2: y']
+
+
 def test_what_does_not_fit_ends_before_a_number_and_after_a_word():
     assert text.wrapped('known to 2.6 mm at 2.5 m', 15, 1) == ['known to...']
     assert text.wrapped('known to within 2.6 mm', 20, 1) == ['known to within...']

@@ -237,7 +237,7 @@ def verdict_lines(guide: Guide, columns: int) -> List[str]:
     if verdict.predicted_at:
         lines.append('A point will be right to within (standard deviation), at x, y, z in metres:')
         lines += in_columns([
-            f'({at.x:.2f}, {at.y:.2f}, {at.z:.2f}) {figure(1e3 * sigma, 1)} mm'
+            f'({figure(at.x, 2)}, {figure(at.y, 2)}, {figure(at.z, 2)}) {figure(1e3 * sigma, 1)} mm'
             for at, sigma in zip(verdict.predicted_at, verdict.predicted_stddev)], 3)
     return lines
 

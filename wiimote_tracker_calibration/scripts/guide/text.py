@@ -34,8 +34,8 @@ def bar(share: float, width: int) -> str:
 
 
 def figure(value: float, decimals: int, width: int = 0) -> str:
-    """A number, or a dash when it is not known."""
-    text = f'{value:.{decimals}f}' if math.isfinite(value) else '-'
+    """A number, never -0, or a dash when it is not known."""
+    text = f'{round(value, decimals) + 0.0:.{decimals}f}' if math.isfinite(value) else '-'
     return text.rjust(width)
 
 

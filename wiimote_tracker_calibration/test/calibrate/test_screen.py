@@ -365,6 +365,8 @@ def test_bars_and_wrapping():
     assert text.bar(NAN, 4) == text.bar(-1.0, 4) == '[----]'
     assert text.wrapped('one two three four', 9, 2) == ['one two', 'three...']
     assert text.wrapped('', 9, 2) == []
+    assert [text.figure(value, 2) for value in (-0.001, 0.0, -0.01, NAN)] == [
+        '0.00', '0.00', '-0.01', '-']
 
 
 def test_cameras_with_the_same_problem_are_named_together():

@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <string>
+#include <system_error>
 
 namespace wiimote_tracker::geometry {
 namespace {
@@ -138,9 +141,15 @@ remap::Remap readRemap(YamlMap map) {
 }  // namespace
 
 Rig readRigFile(const std::string& path) {
-  YamlMap map =
-      YamlMap::load(path, "correct the file, restore it from its backup, or calibrate again");
+  const std::string backup = path + ".bak";
+  std::error_code ignored;
+  const std::string advice = "correct the file, restore it from " +
+                             (std::filesystem::exists(backup, ignored) ? backup : "its backup") +
+                             ", or calibrate again";
+  YamlMap map = YamlMap::load(path, advice.c_str());
   map.checkFormat(kRigFormat, kRigFormatVersion);
+  if (!map.has("complete"))
+    throw map.error("complete", "is missing: the file ends too early");
   if (map.get<std::string>("complete") != "true")
     throw map.error("complete", "is not true: the file was cut off");
   Rig rig;

@@ -135,6 +135,16 @@ TEST_F(RigFile, FaultsAreNamedByKey) {
   names("        w: ", "        w: 7", "rotation");
 }
 
+TEST_F(RigFile, AFileThatWasCutOffIsToBeRestoredFromItsBackup) {
+  write(fullRig());
+  const std::string cut = written_.substr(0, written_.find("  camera_1:"));
+  EXPECT_NE(std::string::npos, complaintAbout(cut).find("ends too early")) << complaintAbout(cut);
+  EXPECT_NE(std::string::npos, complaintAbout(cut).find("restore it from its backup"));
+  std::ofstream(path_ + ".bak") << written_;
+  EXPECT_NE(std::string::npos, complaintAbout(cut).find("restore it from " + path_ + ".bak"));
+  fs::remove(path_ + ".bak");
+}
+
 TEST_F(RigFile, ValuesThatAreNoNumbersAreRefused) {
   Rig rig = fullRig();
   rig.cameras[0].camera.intrinsics.fx = 1234.5;

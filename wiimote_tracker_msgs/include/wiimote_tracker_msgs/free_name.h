@@ -1,5 +1,4 @@
-#ifndef WIIMOTE_TRACKER_MSGS_FREE_NAME_H
-#define WIIMOTE_TRACKER_MSGS_FREE_NAME_H
+#pragma once
 
 #include <algorithm>
 #include <cctype>
@@ -18,5 +17,3 @@ inline bool isFreeName(const std::string& text) {
 }
 
 }  // namespace wiimote_tracker
-
-#endif  // WIIMOTE_TRACKER_MSGS_FREE_NAME_H

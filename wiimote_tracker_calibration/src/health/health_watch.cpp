@@ -81,7 +81,7 @@ bool HealthWatch::follow(const geometry::Rig& rig) {
     any = true;
   }
   for (std::size_t i = 0; i < cameras_.size() && any; ++i) {
-    if (cameras_[i].health.or_others)  // these were the others
+    if (cameras_[i].health.by_images)  // judged against the others' old poses
       cameras_[i] = Watched(rig.cameras[i], options_.tilt);
   }
   rig_ = rig;

@@ -108,7 +108,7 @@ def test_plain_tells_what_is_missing_again_though_an_older_answer_said_it():
             node.events.put(('status', each))
 
     face = Plain(dialogue_with(node, status(CalibrationStatus.READY)), say,
-                 io.StringIO('undo\nwait 2\n'))
+                 io.StringIO('undo\nwait 30\n'))
     face.run()
     assert face.failures == 0, said
 

@@ -7,7 +7,7 @@
 namespace wiimote_tracker::geometry {
 namespace {
 
-std::string joined(const std::string& path, const std::string& key) {
+std::string pathOf(const std::string& path, const std::string& key) {
   return path.empty() ? key : path + "/" + key;
 }
 
@@ -33,12 +33,14 @@ YamlMap::YamlMap(const YAML::Node& node, const std::string& path, const std::sha
   if (!node_.IsMap())
     throw FileError(file_->name + (path_.empty() ? "" : ": " + path_) +
                     " is not a map of keys and values; " + file_->advice);
+  std::set<std::string> keys;
   for (const auto& entry : node_) {
     if (!entry.first.IsScalar())
       throw FileError(file_->name + ": " + path_ + " has a key that is not a string; " +
                       file_->advice);
-    if (!file_->unread.emplace(path_, entry.first.Scalar()).second)
+    if (!keys.insert(entry.first.Scalar()).second)
       throw error(entry.first.Scalar(), "is there twice");
+    file_->unread.emplace(path_, entry.first.Scalar());
   }
 }
 
@@ -79,7 +81,7 @@ Eigen::Vector3d YamlMap::vector(const std::string& key) {
 }
 
 YamlMap YamlMap::map(const std::string& key) {
-  return YamlMap(value(key), joined(path_, key), file_);
+  return YamlMap(value(key), pathOf(path_, key), file_);
 }
 
 std::vector<YamlMap> YamlMap::maps(const std::string& key) {
@@ -88,7 +90,7 @@ std::vector<YamlMap> YamlMap::maps(const std::string& key) {
     throw error(key, "is not a list");
   std::vector<YamlMap> result;
   for (std::size_t i = 0; i < list.size(); ++i)
-    result.push_back(YamlMap(list[i], joined(path_, key) + "[" + std::to_string(i) + "]", file_));
+    result.push_back(YamlMap(list[i], pathOf(path_, key) + "[" + std::to_string(i) + "]", file_));
   return result;
 }
 
@@ -103,12 +105,12 @@ void YamlMap::refuseUnknown() const {
   if (file_->unread.empty())
     return;
   const auto& [path, key] = *file_->unread.begin();
-  throw FileError(file_->name + ": " + joined(path, key) +
+  throw FileError(file_->name + ": " + pathOf(path, key) +
                   " is an unknown key, perhaps of a later version; " + file_->advice);
 }
 
 FileError YamlMap::error(const std::string& key, const std::string& is_wrong) const {
-  return FileError(file_->name + ": " + joined(path_, key) + " " + is_wrong + "; " + file_->advice);
+  return FileError(file_->name + ": " + pathOf(path_, key) + " " + is_wrong + "; " + file_->advice);
 }
 
 YAML::Node YamlMap::value(const std::string& key) {

@@ -47,7 +47,7 @@ bool areClose(const Candidate& a, const Candidate& b, const TrackerOptions& opti
   return (a.pixel() - b.pixel()).norm() < options.merging_distance;
 }
 
-/// A unassigned spot between two LEDs that have none is the merged spot of both, if they are close
+/// An unassigned spot between two LEDs that have none is the merged spot of both, if they are close
 /// enough. It may be outside the gates of both.
 std::optional<std::size_t> spotBetween(const ImageAssignment& assignment,
                                        const Candidate& a,
@@ -58,23 +58,28 @@ std::optional<std::size_t> spotBetween(const ImageAssignment& assignment,
                                       0.5 * assignment.options.merging_distance);
 }
 
-/// Whether one spot may show two LEDs that have none: it is nearer than merging_distance to both.
-/// Spots of bright LEDs merge over more than that.
+/// Whether one spot may show two LEDs that have none: it lies on the line between them, nearer than
+/// merging_distance to each. Bright spots merge over more than that.
 bool mayShowBoth(const ImageAssignment& assignment,
                  std::size_t spot,
                  const Candidate& a,
                  const Candidate& b) {
-  const auto isNear = [&](const Candidate& led) {
-    return !led.spot && (assignment.image.pixels[spot] - led.pixel()).norm() <
-                            assignment.options.merging_distance;
-  };
-  return isNear(a) && isNear(b);
+  if (a.spot || b.spot)
+    return false;
+  const TrackerOptions& options = assignment.options;
+  const Eigen::Vector2d from_a = assignment.image.pixels[spot] - a.pixel();
+  const Eigen::Vector2d between = b.pixel() - a.pixel();
+  if (std::max(from_a.norm(), (from_a - between).norm()) >= options.merging_distance)
+    return false;
+  const double squared = between.squaredNorm();
+  const double share = squared > 0.0 ? std::clamp(from_a.dot(between) / squared, 0.0, 1.0) : 0.0;
+  return (from_a - share * between).norm() <= options.birth_pixel_stddev;
 }
 
 /// Whether a spot that no confirmed LED takes may show two LEDs that have none.
 bool mayShareSpot(const ImageAssignment& assignment, const Candidate& a, const Candidate& b) {
   for (std::size_t spot = 0; spot < assignment.image.spot_count; ++spot) {
-    if (!assignment.isOfConfirmed(spot) && mayShowBoth(assignment, spot, a, b))
+    if (mayShowBoth(assignment, spot, a, b) && !assignment.isOfConfirmed(spot))
       return true;
   }
   return false;
@@ -103,7 +108,7 @@ bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) 
 const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate) {
   const auto& all = assignment.candidates;
   const auto isOther = [&](const Candidate& led) {
-    return led.track != candidate.track && led.others.size() >= 2;
+    return led.track != candidate.track && led.expected && led.others.size() >= 2;
   };
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = a + 1; b != all.end(); ++b) {

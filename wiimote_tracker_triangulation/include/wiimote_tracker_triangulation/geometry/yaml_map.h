@@ -90,7 +90,7 @@ class YamlMap {
   /// All keys of this map, with their values, which must be maps; in the order of the file.
   std::vector<std::pair<std::string, YamlMap>> entries();
 
-  /// Throws for a key that was never read, in any map of the file that was.
+  /// Throws for a key that was never read, of any map of the file that was read.
   void refuseUnknown() const;
 
   /// The error that a key `is wrong`, to be thrown.

@@ -65,7 +65,8 @@ class Recording {
   const rosbag::MessageInstance& operator[](std::size_t i) const { return messages_[order_[i]]; }
 
   std::size_t images() const { return images_; }
-  bool holdsRig() const { return !rig_topics_.empty(); }
+  /// Topics of the trackers whose rigs the bag holds.
+  const std::set<std::string>& rigTopics() const { return rig_topics_; }
 
   /// A sentence if a camera's clock was set back, so that images of two times are mixed; else
   /// empty.

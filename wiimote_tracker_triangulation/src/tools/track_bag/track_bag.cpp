@@ -74,7 +74,7 @@ class Player {
       before(message);
       play(message);
     }
-    finish();
+    finish(recording);
   }
 
   const tracking::Counters& counters() const { return tracker_.counters(); }
@@ -127,11 +127,12 @@ class Player {
     }
   }
 
-  void finish() {
+  void finish(const Recording& recording) {
     if (!tracker_.hasRig())
       throw BagError(refusal_.empty()
-                         ? "no rig is on " + topics_("calibration/rig") +
-                               ": say where with --namespace"
+                         ? "no rig is on " + topics_("calibration/rig") + ", but on " +
+                               joined(recording.rigTopics()) +
+                               ": name the namespace before /calibration with --namespace"
                          : "no rig can be used, name another one with --rig: " + refusal_);
     if (images_ == 0 && before_rig_ > 0)
       throw BagError("the rig comes after all images of its cameras: name a rig with --rig");
@@ -268,7 +269,7 @@ void run(const Arguments& arguments) {
   const Topics topics =
       arguments.name_space.empty() ? recording.topics() : Topics(arguments.name_space);
   const bool has_own_rig = !arguments.rig.empty();
-  if (!has_own_rig && !recording.holdsRig())
+  if (!has_own_rig && recording.rigTopics().empty())
     throw BagError(arguments.input + " holds no rig: name a saved one with --rig");
 
   std::optional<RigCalibration> own_rig;

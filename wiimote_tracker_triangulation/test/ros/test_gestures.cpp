@@ -265,6 +265,8 @@ TEST_F(GesturesTest, ZonesHaveTheirOwn) {
   ASSERT_TRUE(Bench::waitFor([&] { return bench_->record("lights", "kitchen").empty(); }));
   EXPECT_NE(bench_->record("lights", "cellar"), "");
   EXPECT_NE(bench_->record("smile:]"), "") << "the file could not be read again";
+  for (const std::string& name : {std::string("two\nlines"), std::string(300, 'a')})
+    EXPECT_NE(bench_->record(name).find("a gesture's name must"), std::string::npos) << name;
   bench_->draw(circle, {2.0, 0.0, 1.0});
   EXPECT_EQ(bench_->nextEvent().event, GestureEvent::RECORDED);
   bench_->draw(circle, {12.0, 0.0, 1.0});

@@ -9,6 +9,7 @@
 
 #include <visualization_msgs/MarkerArray.h>
 #include <wiimote_tracker_msgs/GestureEvent.h>
+#include <wiimote_tracker_msgs/free_name.h>
 #include <wiimote_tracker_msgs/text.h>
 
 #include <Eigen/Geometry>
@@ -283,6 +284,8 @@ std::string Gestures::refusal(const wiimote_tracker_msgs::RecordGesture::Request
   if (request.gesture.find(geometry::kUnreadableText) != std::string::npos)
     return "the file of examples cannot have a name with '" +
            std::string(geometry::kUnreadableText) + "'; choose another one";
+  if (!isFreeName(request.gesture))
+    return "a gesture's name must have " + std::string(kFreeName) + "; choose another one";
   const bool known_zone = request.zone.empty() ||
                           std::any_of(zones_.begin(), zones_.end(),
                                       [&](const auto& zone) { return zone.name == request.zone; });

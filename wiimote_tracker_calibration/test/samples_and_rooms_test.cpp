@@ -168,6 +168,7 @@ TEST_F(Samples, ACancelledSolverStopsAndNothingIsLost) {
   EXPECT_SAYS(response.message, "cancelled; what was captured stays");
   EXPECT_TRUE(response.rig.cameras.empty());
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
+  EXPECT_EQ(status_->get()->next_request, "solve");
   EXPECT_EQ(status_->get()->corners_captured, 4U);
   EXPECT_GT(status_->get()->wave_seconds, 2.0);
 

@@ -29,6 +29,8 @@ class SolveServices {
     return context_.run(job, &lock, [&] {
       try {
         return solveCaptured(&call, &lock);
+      } catch (const Refusal&) {  // cancelled, or not possible now: nothing against the data
+        throw;
       } catch (const samples::WrongCorner& error) {
         context_.calibration(lock).refuseSolution({error.corner});
         throw;

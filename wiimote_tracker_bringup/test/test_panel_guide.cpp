@@ -68,7 +68,7 @@ TEST_F(NextStep, ButtonsAreNamedInPlaceOfServices) {
   status_.cameras[0].name = "wiimote_2";
   status_.cameras[0].health = health;
   at(CalibrationStatus::SAVED);
-  EXPECT_EQ(guide_.remarks().back(), "wiimote_2: moved; the button for what is next uses that");
+  EXPECT_EQ(guide_.remarks().back(), "wiimote_2: moved; the button Correct it uses that");
   guide_.onAnswer("continuous/apply",
                   "in use; rosservice call /second/calibration/continuous/revert  goes back");
   EXPECT_EQ(guide_.answer(), "in use; the button Revert goes back");

@@ -36,6 +36,15 @@ TEST_F(Workflow, CancelStopsWhatGoesOnAndASecondOneDropsTheRun) {
   EXPECT_FALSE(calibration_.beginCapture(std::nullopt, now_).success);
 }
 
+TEST_F(Workflow, ACaptureThatFailsLeavesARigSolved) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  ASSERT_TRUE(calibration_.beginCapture(2, now_).success);
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.step(), Step::kSolved);
+  EXPECT_FALSE(calibration_.isUnsolved());
+}
+
 TEST_F(Workflow, AnAbandonedWaveKeepsWhatWasRecorded) {
   captureAll();
   const std::string before = calibration_.message();

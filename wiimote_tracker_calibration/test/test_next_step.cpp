@@ -102,6 +102,9 @@ TEST_F(NextStepTest, ARefusedCornerIsCapturedAgain) {
   EXPECT_EQ(next().request, "capture_corner");
   EXPECT_EQ(next().title, "Corner 3");
   EXPECT_EQ(next().corner, std::optional<std::size_t>(2));
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  ASSERT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(next().request, "capture_corner") << "nothing was recorded";
   ASSERT_TRUE(capture(kCorners[2], 2).success);
   EXPECT_EQ(next().request, "start_wave");
   EXPECT_TRUE(solve(2.0).success);

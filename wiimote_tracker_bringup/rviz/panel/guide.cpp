@@ -24,8 +24,8 @@ constexpr const char* kLost =
 std::string withButtons(const std::string& text) {
   static const std::regex kApply("rosservice call \\S*calibration/continuous/apply ?");
   static const std::regex kRevert("rosservice call \\S*calibration/continuous/revert ?");
-  return std::regex_replace(std::regex_replace(text, kApply, "the button for what is next"),
-                            kRevert, "the button Revert");
+  return std::regex_replace(std::regex_replace(text, kApply, "the button Correct it"), kRevert,
+                            "the button Revert");
 }
 
 // --- What comes in

@@ -174,8 +174,7 @@ class Guide:
         """Whether a calibration is, also one that was saved."""
         status = self.status
         return status is not None and (
-            status.step not in (status.IDLE, status.SAVED)
-            or bool(status.square_sides) or status.corners_needed == 0)
+            bool(status.square_sides) or status.corners_needed == 0)
 
     def is_busy(self) -> bool:
         """Whether the node does something that `cancel` would end."""
@@ -189,9 +188,10 @@ class Guide:
         return status is not None and status.step in (status.READY, status.COMPLETE)
 
     def _is_changed_since_save(self) -> bool:
-        # The first status after an answer may be older than that.
+        # The first status after an answer may be older than that. A corrected rig that is still
+        # approached ("Wait") was saved.
         return (self._saved_at is not None and self.statuses_since_answer > 1
-                and self.status.step == self.status.SOLVED)
+                and self.status.step == self.status.SOLVED and self.status.next_title != 'Wait')
 
     def has_done(self, word: str, since: str = 'start') -> bool:
         """Whether a command succeeded after `start` and another one last did."""

@@ -32,13 +32,19 @@ class SolveServices {
       } catch (const Refusal&) {  // cancelled, or not possible now: nothing against the data
         throw;
       } catch (const samples::WrongCorner& error) {
-        context_.calibration(lock).refuseSolution({error.corner});
+        refuse({error.corner}, lock);
         throw;
-      } catch (const geometry::Error&) {
-        context_.calibration(lock).refuseSolution({});
+      } catch (const Error&) {
+        refuse({}, lock);
         throw;
       }
     });
+  }
+
+  /// Whoever cancelled meanwhile is told that, not what is wrong with the data.
+  void refuse(const workflow::RefusedSolution& refused, const Lock& lock) {
+    if (!context_.isCancelled(lock))
+      context_.calibration(lock).refuseSolution(refused);
   }
 
   workflow::Reply solveCaptured(SolveCalibration* call, Lock* lock) {

@@ -103,7 +103,6 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
     return refusal(error.what());
   }
   captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
-  captured_.refused.reset();
   busy_ = Step::kWaving;
   just_solved_ = false;
   if (captured_.wave->needsFloor())
@@ -117,6 +116,7 @@ Reply Calibration::endWave() {
     return refusal("no wave is being recorded: start one first");
   busy_.reset();
   captured_.latest_lengths = 0;
+  captured_.refused.reset();
   updateStep();
   const wave::CoverageReport report = captured_.wave->report();
   std::string message =
@@ -164,8 +164,8 @@ void Calibration::finishCapture() {
   if (!isBusyWith(Step::kCapturing) || captured_.square.capture())
     return;
   busy_.reset();
-  updateStep();
   if (captured_.square.outcome()->success) {
+    updateStep();
     captured_.dropLengthsTo(captured_.square.currentCorner());
     captured_.latest_lengths = 0;
     captured_.refused.reset();

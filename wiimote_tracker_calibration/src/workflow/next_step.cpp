@@ -82,7 +82,7 @@ NextStep captureAgain(std::size_t corner, const std::string& otherwise) {
 
 NextStep afterRefusal(const RefusedSolution& refused) {
   if (refused.corner)
-    return captureAgain(*refused.corner, ": it was captured in another place");
+    return captureAgain(*refused.corner, ", as the answer says");
   return {"Again",
           "What was captured cannot be solved: do again what the answer says, or start "
           "again."};
@@ -137,7 +137,7 @@ std::optional<NextStep> inUse(const Calibration& calibration, const Findings& fi
     return correct(findings.correctable, findings.cause);
   // Until the corrected rig is reached, the health still finds what it corrects.
   if (calibration.goal())
-    return NextStep{"Wait",
+    return NextStep{"Wait",  // scripts/guide/guide.py looks for this title
                     "The corrected rig is approached in small steps, so that points do not jump: "
                     "go on. A save keeps the corrected rig already now."};
   if (!findings.changed.empty())

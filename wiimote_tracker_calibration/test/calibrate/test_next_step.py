@@ -155,6 +155,9 @@ def test_at_the_end_it_says_that_a_change_since_is_not_saved():
     assert 'not saved' not in guide.took(30.0)
     guide.on_status(status(CalibrationStatus.SAVED), 21.0)
     assert 'not saved' not in guide.took(30.0)
+    for at in (22.0, 23.0):  # a corrected rig that is still approached
+        guide.on_status(status(CalibrationStatus.SOLVED, next_title='Wait'), at)
+    assert 'not saved' not in guide.took(30.0)
     guide.on_answer('remove', True, '', 25.0)
     for at in (25.5, 26.0):
         guide.on_status(status(CalibrationStatus.SOLVED), at)

@@ -105,7 +105,8 @@ def test_space_does_not_do_what_was_not_read_yet(monkeypatch):
         assert node.sent[1].name == late
 
 
-@pytest.mark.parametrize('step', [CalibrationStatus.IDLE, CalibrationStatus.SAVED])
+@pytest.mark.parametrize('step', [CalibrationStatus.IDLE, CalibrationStatus.SAVED,
+                                  CalibrationStatus.SOLVED])  # a loaded rig that was changed
 def test_a_wave_that_will_be_refused_asks_for_no_length(step):
     sent, drawn = pressed('w', status(step))
     assert [name for name, _ in sent] == ['start_wave'] and drawn[-1][2] is None
@@ -114,7 +115,7 @@ def test_a_wave_that_will_be_refused_asks_for_no_length(step):
 
 
 def test_what_is_typed_is_sent_with_enter():
-    complete = status(CalibrationStatus.COMPLETE)
+    complete = status(CalibrationStatus.COMPLETE, square_sides=[2.5, 2.5])
     sent, drawn = pressed('w0.56' + BACKSPACE + ENTER, complete)
     assert sent == [('start_wave', {'wand_length': 0.5, 'wand_stddev': 0.0})]
     assert drawn[5][2][1] == '0.56' and drawn[6][2][1] == '0.5' and drawn[7][2] is None

@@ -22,7 +22,7 @@ YamlMap YamlMap::parse(const std::string& text, const std::string& file, const c
     throw FileError(file + " is damaged: it has '" + kUnreadableText + "'; " + advice);
   try {
     // With a line's end, since yaml-cpp 0.6 fills the memory also at a ":" that ends the text.
-    return YamlMap(YAML::Load(text + '\n'), "", std::make_shared<File>(File{file, advice, {}}));
+    return YamlMap(YAML::Load(text + '\n'), "", std::make_shared<File>(File{file, advice, {}, {}}));
   } catch (const YAML::Exception& e) {
     throw FileError(file + " is not YAML (" + e.what() + "); " + advice);
   }
@@ -40,8 +40,11 @@ YamlMap::YamlMap(const YAML::Node& node, const std::string& path, const std::sha
                       file_->advice);
     if (!keys.insert(entry.first.Scalar()).second)
       throw error(entry.first.Scalar(), "is there twice");
-    file_->unread.emplace(path_, entry.first.Scalar());
   }
+  if (!file_->maps.insert(path_).second)
+    return;
+  for (const std::string& key : keys)
+    file_->unread.emplace(path_, key);
 }
 
 void YamlMap::checkFormat(const std::string& format, int version) {

@@ -100,7 +100,8 @@ class YamlMap {
   struct File {
     std::string name;
     const char* advice;
-    std::set<std::pair<std::string, std::string>> unread;  // paths of maps, with a key each
+    std::set<std::string> maps;                            // paths of those that were read
+    std::set<std::pair<std::string, std::string>> unread;  // the same, with a key each
   };
 
   YamlMap(const YAML::Node& node, const std::string& path, const std::shared_ptr<File>& file);

@@ -121,19 +121,6 @@ TEST(TrackerPhantoms, TwoLedsThatTwoCamerasShowAsOneSpotMakeNoThird) {
   }
 }
 
-TEST(TrackerPhantoms, AnLedBesideTwoOthersThatItsCamerasDoNotSeeIsConfirmed) {
-  // On the back of a body.
-  const std::vector<Path> leds = {still({1.2, 1.2, 1.2}), still({1.3, 1.2, 1.2}),
-                                  still({1.25, 1.25, 1.16})};
-  SceneOptions options;
-  options.hidden = [](std::size_t camera, std::size_t led, double) {
-    return (camera < 2) == (led == 2);
-  };
-  const PhantomRows rows = rowsOf(paperRig(), leds, leds, options, 4000, 1);
-  EXPECT_GE(rows.tracked, 3u * 4000 * 90 / 100);
-  EXPECT_EQ(0u, rows.wrong);
-}
-
 TEST(TrackerPhantoms, AnLedThatComesToShareASpotIsNoFaultOfTheCamera) {
   const Eigen::Vector3d from(1.0, 1.4, 1.2), to(1.5, 1.5, 1.2);
   const auto moving = [=](double t) {  // 0.5 m/s after a second

@@ -59,7 +59,8 @@ std::optional<std::size_t> spotBetween(const ImageAssignment& assignment,
 }
 
 /// Whether one spot may show two LEDs that have none: it lies on the line between them, nearer than
-/// merging_distance to each. Bright spots merge over more than that.
+/// merging_distance to each (bright spots merge over more), and no other spot is near either. A
+/// camera that was turned shows two. Spots of confirmed LEDs do not count.
 bool mayShowBoth(const ImageAssignment& assignment,
                  std::size_t spot,
                  const Candidate& a,
@@ -67,10 +68,20 @@ bool mayShowBoth(const ImageAssignment& assignment,
   if (a.spot || b.spot)
     return false;
   const TrackerOptions& options = assignment.options;
-  const Eigen::Vector2d from_a = assignment.image.pixels[spot] - a.pixel();
-  const Eigen::Vector2d between = b.pixel() - a.pixel();
-  if (std::max(from_a.norm(), (from_a - between).norm()) >= options.merging_distance)
+  const auto& pixels = assignment.image.pixels;
+  const auto distanceTo = [&](std::size_t other, const Candidate& led) {
+    return (pixels[other] - led.pixel()).norm();
+  };
+  if (std::max(distanceTo(spot, a), distanceTo(spot, b)) >= options.merging_distance)
     return false;
+  for (std::size_t other = 0; other < assignment.image.spot_count; ++other) {
+    if (other != spot &&
+        std::min(distanceTo(other, a), distanceTo(other, b)) < options.merging_distance &&
+        !assignment.isOfConfirmed(other))
+      return false;
+  }
+  const Eigen::Vector2d from_a = pixels[spot] - a.pixel();
+  const Eigen::Vector2d between = b.pixel() - a.pixel();
   const double squared = between.squaredNorm();
   const double share = squared > 0.0 ? std::clamp(from_a.dot(between) / squared, 0.0, 1.0) : 0.0;
   return (from_a - share * between).norm() <= options.birth_pixel_stddev;

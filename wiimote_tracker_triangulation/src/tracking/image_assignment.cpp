@@ -67,12 +67,6 @@ bool ImageAssignment::isUnassigned(std::size_t spot) const {
                       [&](const Candidate& candidate) { return candidate.spot == spot; });
 }
 
-bool ImageAssignment::isOfConfirmed(std::size_t spot) const {
-  return std::any_of(candidates.begin(), candidates.end(), [&](const Candidate& candidate) {
-    return candidate.spot == spot && candidate.track->isConfirmed();
-  });
-}
-
 std::optional<std::size_t> ImageAssignment::nearestUnassigned(const Eigen::Vector2d& pixel,
                                                               double distance) const {
   std::optional<std::size_t> nearest;

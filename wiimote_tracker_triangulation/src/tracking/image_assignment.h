@@ -39,9 +39,6 @@ struct ImageAssignment {
   /// Whether no track takes the spot.
   bool isUnassigned(std::size_t spot) const;
 
-  /// Whether a confirmed track takes the spot.
-  bool isOfConfirmed(std::size_t spot) const;
-
   /// The unassigned spot that is nearest to a pixel, and nearer than this distance [px].
   std::optional<std::size_t> nearestUnassigned(const Eigen::Vector2d& pixel, double distance) const;
 

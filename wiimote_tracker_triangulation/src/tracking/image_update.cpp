@@ -85,10 +85,8 @@ void measureClock(const ImageAssignment& assignment, OffsetRegression* clock) {
 void updateTrack(const ImageAssignment& assignment, const Candidate& candidate) {
   const StoredImage& image = assignment.image;
   const TrackerCamera& camera = assignment.camera;
-  Track& track = *candidate.track;
   const Candidate* other = mergedWith(assignment, candidate);
-  if (!other && candidate.spot && !track.isConfirmed())
-    other = shownByItsSpot(assignment, candidate);
+  Track& track = *candidate.track;
   // A merged spot is the other's if only this camera sees this LED.
   const bool is_merged = other && track.isConfirmed();
   if (is_merged && !candidate.others.empty()) {

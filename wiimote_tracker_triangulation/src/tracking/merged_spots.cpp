@@ -58,44 +58,6 @@ std::optional<std::size_t> spotBetween(const ImageAssignment& assignment,
                                       0.5 * assignment.options.merging_distance);
 }
 
-/// Whether one spot may show two LEDs that have none: it lies on the line between them, nearer than
-/// merging_distance to each (bright spots merge over more), and no other spot is near either. A
-/// camera that was turned shows two. Spots of confirmed LEDs do not count.
-bool mayShowBoth(const ImageAssignment& assignment,
-                 std::size_t spot,
-                 const Candidate& a,
-                 const Candidate& b) {
-  if (a.spot || b.spot)
-    return false;
-  const TrackerOptions& options = assignment.options;
-  const auto& pixels = assignment.image.pixels;
-  const auto distanceTo = [&](std::size_t other, const Candidate& led) {
-    return (pixels[other] - led.pixel()).norm();
-  };
-  if (std::max(distanceTo(spot, a), distanceTo(spot, b)) >= options.merging_distance)
-    return false;
-  for (std::size_t other = 0; other < assignment.image.spot_count; ++other) {
-    if (other != spot &&
-        std::min(distanceTo(other, a), distanceTo(other, b)) < options.merging_distance &&
-        !assignment.isOfConfirmed(other))
-      return false;
-  }
-  const Eigen::Vector2d from_a = pixels[spot] - a.pixel();
-  const Eigen::Vector2d between = b.pixel() - a.pixel();
-  const double squared = between.squaredNorm();
-  const double share = squared > 0.0 ? std::clamp(from_a.dot(between) / squared, 0.0, 1.0) : 0.0;
-  return (from_a - share * between).norm() <= options.birth_pixel_stddev;
-}
-
-/// Whether a spot that no confirmed LED takes may show two LEDs that have none.
-bool mayShareSpot(const ImageAssignment& assignment, const Candidate& a, const Candidate& b) {
-  for (std::size_t spot = 0; spot < assignment.image.spot_count; ++spot) {
-    if (mayShowBoth(assignment, spot, a, b) && !assignment.isOfConfirmed(spot))
-      return true;
-  }
-  return false;
-}
-
 /// The track of that id, unless it was reacquired later than this [s].
 Track* trackSince(double since, std::uint32_t id, std::vector<Track>* tracks) {
   const auto track = std::find_if(tracks->begin(), tracks->end(), [&](const Track& candidate) {
@@ -109,25 +71,10 @@ Track* trackSince(double since, std::uint32_t id, std::vector<Track>* tracks) {
 bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) {
   const auto& all = assignment.candidates;
   return std::any_of(all.begin(), all.end(), [&](const Candidate& other) {
-    if (other.track == candidate.track)
-      return false;
-    return other.spot ? areClose(candidate, other, assignment.options)
-                      : other.track->isConfirmed() && mayShareSpot(assignment, candidate, other);
+    return other.track != candidate.track && areClose(candidate, other, assignment.options) &&
+           (other.spot ||
+            (other.track->isConfirmed() && spotBetween(assignment, candidate, other)));
   });
-}
-
-const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate) {
-  const auto& all = assignment.candidates;
-  const auto isOther = [&](const Candidate& led) {
-    return led.track != candidate.track && led.expected && led.others.size() >= 2;
-  };
-  for (auto a = all.begin(); a != all.end(); ++a) {
-    for (auto b = a + 1; b != all.end(); ++b) {
-      if (isOther(*a) && isOther(*b) && mayShowBoth(assignment, *candidate.spot, *a, *b))
-        return &*a;
-    }
-  }
-  return nullptr;
 }
 
 const Candidate* mergedWith(const ImageAssignment& assignment, const Candidate& candidate) {

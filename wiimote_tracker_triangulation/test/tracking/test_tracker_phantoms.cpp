@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -87,62 +86,6 @@ TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
     rig.cameras[i].masks.push_back({*rig.cameras[i].camera.project(place), 30.0});
   const PhantomRows rows = rowsOf(rig, {still(place)}, {still(place)}, SceneOptions(), 4000, 1);
   EXPECT_GE(rows.tracked, 4000u * 99 / 100);
-}
-
-// In a vertical plane through two cameras that face each other: each sees one spot of both LEDs,
-// and its rays meet between them.
-TEST(TrackerPhantoms, TwoLedsThatTwoCamerasShowAsOneSpotMakeNoThird) {
-  struct Trial {
-    Eigen::Vector3d first, second;
-    double merging_distance;
-  };
-  for (const Trial& trial : {Trial{{1.0, 1.0, 1.0}, {1.6, 1.6, 1.0}, 24.0},
-                             Trial{{1.0, 1.0, 1.0}, {1.6, 1.6, 1.0}, 32.0},
-                             Trial{{1.0, 1.0, 1.1}, {1.6, 1.65, 1.1}, 32.0},
-                             Trial{{1.5, 1.0, 1.2}, {0.9, 1.6, 1.2}, 32.0},
-                             Trial{{0.6, 0.6, 1.2}, {1.5, 1.5, 1.2}, 40.0}}) {
-    const std::vector<Path> leds = {still(trial.first), still(trial.second)};
-    for (const unsigned seed : {1u, 2u, 3u}) {
-      SceneOptions options;
-      options.merging_distance = trial.merging_distance;
-      options.integer_pixels = true;
-      const auto images = imagesOf(paperRig(), leds, options, 4000, seed);
-      Tracker tracker(paperRig(), exactOptions());
-      IdentityCheck check(leds);
-      for (const SceneImage& image : images) {
-        tracker.add(image.camera, image.image);
-        while (const Snapshot* snapshot = tracker.next())
-          check.add(*snapshot);
-        ASSERT_FALSE(tracker.cameraFault(image.camera)) << trial.second.transpose();
-      }
-      EXPECT_EQ(0u, check.false_tracks) << trial.second.transpose() << ", seed " << seed;
-      EXPECT_GT(check.near, 7400u) << trial.second.transpose() << ", seed " << seed;
-    }
-  }
-}
-
-TEST(TrackerPhantoms, AnLedThatComesToShareASpotIsNoFaultOfTheCamera) {
-  const Eigen::Vector3d from(1.0, 1.4, 1.2), to(1.5, 1.5, 1.2);
-  const auto moving = [=](double t) {  // 0.5 m/s after a second
-    const double share = std::clamp(0.5 * (t - 1001.0) / (to - from).norm(), 0.0, 1.0);
-    return Eigen::Vector3d(from + share * (to - from));
-  };
-  const std::vector<Path> leds = {moving, still({0.6, 0.6, 1.2})};
-  for (const double merging_distance : {24.0, 32.0, 40.0}) {
-    SceneOptions options;
-    options.merging_distance = merging_distance;
-    options.integer_pixels = true;
-    Tracker tracker(paperRig(), exactOptions());
-    IdentityCheck check(leds);
-    for (const SceneImage& image : imagesOf(paperRig(), leds, options, 8000)) {
-      tracker.add(image.camera, image.image);
-      while (const Snapshot* snapshot = tracker.next())
-        check.add(*snapshot);
-      ASSERT_FALSE(tracker.cameraFault(image.camera)) << merging_distance;
-    }
-    EXPECT_EQ(0u, check.false_tracks) << merging_distance;
-    EXPECT_EQ(0u, check.renamed + check.switches) << merging_distance;
-  }
 }
 
 // Each camera shows four of twelve: none contradicts where rays of two LEDs meet by chance. It is

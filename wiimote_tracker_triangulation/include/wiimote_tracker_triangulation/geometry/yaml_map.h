@@ -100,8 +100,8 @@ class YamlMap {
   struct File {
     std::string name;
     const char* advice;
-    std::set<std::string> maps;                            // paths of those that were read
-    std::set<std::pair<std::string, std::string>> unread;  // the same, with a key each
+    std::set<std::string> maps;                            // paths of the maps that were read
+    std::set<std::pair<std::string, std::string>> unread;  // path of such a map, and a key
   };
 
   YamlMap(const YAML::Node& node, const std::string& path, const std::shared_ptr<File>& file);

@@ -85,8 +85,11 @@ void measureClock(const ImageAssignment& assignment, OffsetRegression* clock) {
 void updateTrack(const ImageAssignment& assignment, const Candidate& candidate) {
   const StoredImage& image = assignment.image;
   const TrackerCamera& camera = assignment.camera;
-  const Candidate* other = mergedWith(assignment, candidate);
   Track& track = *candidate.track;
+  const Candidate* other = mergedWith(assignment, candidate);
+  // Rays of two merged spots may meet where no LED is.
+  if (!other && candidate.spot && !track.isConfirmed() && candidate.others.size() == 1)
+    other = shownByItsSpot(assignment, candidate);
   // A merged spot is the other's if only this camera sees this LED.
   const bool is_merged = other && track.isConfirmed();
   if (is_merged && !candidate.others.empty()) {

@@ -58,6 +58,23 @@ std::optional<std::size_t> spotBetween(const ImageAssignment& assignment,
                                       0.5 * assignment.options.merging_distance);
 }
 
+/// Whether one spot may show two LEDs that have none: it lies on the line between them, nearer than
+/// merging_distance to each. Bright spots merge over more.
+bool mayShowBoth(const ImageAssignment& assignment,
+                 std::size_t spot,
+                 const Candidate& a,
+                 const Candidate& b) {
+  const TrackerOptions& options = assignment.options;
+  const Eigen::Vector2d from_a = assignment.image.pixels[spot] - a.pixel();
+  const Eigen::Vector2d between = b.pixel() - a.pixel();
+  if (a.spot || b.spot || from_a.norm() >= options.merging_distance ||
+      (from_a - between).norm() >= options.merging_distance)
+    return false;
+  const double squared = between.squaredNorm();
+  const double share = squared > 0.0 ? std::clamp(from_a.dot(between) / squared, 0.0, 1.0) : 0.0;
+  return (from_a - share * between).norm() <= options.birth_pixel_stddev;
+}
+
 /// The track of that id, unless it was reacquired later than this [s].
 Track* trackSince(double since, std::uint32_t id, std::vector<Track>* tracks) {
   const auto track = std::find_if(tracks->begin(), tracks->end(), [&](const Track& candidate) {
@@ -75,6 +92,20 @@ bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) 
            (other.spot ||
             (other.track->isConfirmed() && spotBetween(assignment, candidate, other)));
   });
+}
+
+const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate) {
+  const auto& all = assignment.candidates;
+  const auto isOther = [&](const Candidate& led) {
+    return led.track != candidate.track && led.expected && led.others.size() >= 2;
+  };
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    for (auto b = a + 1; b != all.end(); ++b) {
+      if (isOther(*a) && isOther(*b) && mayShowBoth(assignment, *candidate.spot, *a, *b))
+        return &*a;
+    }
+  }
+  return nullptr;
 }
 
 const Candidate* mergedWith(const ImageAssignment& assignment, const Candidate& candidate) {

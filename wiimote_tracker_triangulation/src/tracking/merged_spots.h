@@ -14,6 +14,10 @@ namespace wiimote_tracker::tracking {
 /// A tentative track without one may be of the LED itself.
 bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate);
 
+/// One of two LEDs, each seen by two other cameras, that the candidate's spot may show together;
+/// null: there are none.
+const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate);
+
 /// The LED that a candidate is most probably merged with in one spot, of which one of the two has
 /// none; null: it is not merged.
 const Candidate* mergedWith(const ImageAssignment& assignment, const Candidate& candidate);

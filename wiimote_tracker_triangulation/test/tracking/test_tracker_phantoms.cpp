@@ -88,6 +88,38 @@ TEST(TrackerPhantoms, AnLedThatTheOtherCamerasCannotSeeIsConfirmedAtOnce) {
   EXPECT_GE(rows.tracked, 4000u * 99 / 100);
 }
 
+// In a vertical plane through two cameras that face each other: each sees one spot of both LEDs,
+// and its rays meet between them.
+TEST(TrackerPhantoms, TwoLedsThatTwoCamerasShowAsOneSpotMakeNoThird) {
+  struct Trial {
+    Eigen::Vector3d first, second;
+    double merging_distance;
+  };
+  for (const Trial& trial : {Trial{{1.0, 1.0, 1.0}, {1.6, 1.6, 1.0}, 24.0},
+                             Trial{{1.0, 1.0, 1.0}, {1.6, 1.6, 1.0}, 32.0},
+                             Trial{{1.0, 1.0, 1.1}, {1.6, 1.65, 1.1}, 32.0},
+                             Trial{{1.5, 1.0, 1.2}, {0.9, 1.6, 1.2}, 32.0},
+                             Trial{{0.6, 0.6, 1.2}, {1.5, 1.5, 1.2}, 40.0}}) {
+    const std::vector<Path> leds = {still(trial.first), still(trial.second)};
+    for (const unsigned seed : {1u, 2u, 3u}) {
+      SceneOptions options;
+      options.merging_distance = trial.merging_distance;
+      options.integer_pixels = true;
+      const auto images = imagesOf(paperRig(), leds, options, 4000, seed);
+      Tracker tracker(paperRig(), exactOptions());
+      IdentityCheck check(leds);
+      for (const SceneImage& image : images) {
+        tracker.add(image.camera, image.image);
+        while (const Snapshot* snapshot = tracker.next())
+          check.add(*snapshot);
+        ASSERT_FALSE(tracker.cameraFault(image.camera)) << trial.second.transpose();
+      }
+      EXPECT_EQ(0u, check.false_tracks) << trial.second.transpose() << ", seed " << seed;
+      EXPECT_GT(check.near, 7400u) << trial.second.transpose() << ", seed " << seed;
+    }
+  }
+}
+
 // Each camera shows four of twelve: none contradicts where rays of two LEDs meet by chance. It is
 // 10 % where full cameras count as if they did not look there.
 TEST(ExtensiveTrackerPhantoms, LedsThatCrowdEachOtherOutMakeFew) {

@@ -93,6 +93,9 @@ class WaveProblem {
     Reporting callback(report);
     ceres::Solver::Options options =
         adjust::solverOptions(ceres::SPARSE_NORMAL_CHOLESKY, 60, {tolerance, 1e-14, 1e-12});
+    // The start is close. Ceres' own radius, 1e4, takes five more steps to what pixels hardly
+    // determine.
+    options.initial_trust_region_radius = 1e8;
     options.max_num_consecutive_invalid_steps = 20;  // the trust region shrinks before
     options.callbacks = {&callback};
     const bool is_solved = adjust::minimise(options, &problem_).IsSolutionUsable();

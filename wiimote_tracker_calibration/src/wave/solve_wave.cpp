@@ -26,8 +26,9 @@ constexpr double kWideLosses[] = {8.0, 3.0};
 // Gate of the last rounds, without robust loss [standard deviations].
 constexpr double kGate = 5.0;
 constexpr int kFinalRounds = 8;
-// The estimated noise has converged when a round changes it by less.
+// The last rounds end when one changes the estimated noise and the number of spots by less [share].
 constexpr double kNoiseSettled = 0.01;
+constexpr double kSpotsSettled = 0.001;
 // Starts that are tried where no square gives one.
 constexpr int kAttempts = 5;
 // Shares of the work.
@@ -56,15 +57,7 @@ void useFirstCameraAsWorld(const Recording& recording, std::vector<geometry::Cam
   moveCameras(world_from_first * cameras->front().world_from_camera.inverse(), cameras);
 }
 
-bool sameSpots(const std::vector<Match>& a, const std::vector<Match>& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                    [](const Match& one, const Match& other) {
-                      return one.camera == other.camera && one.led == other.led &&
-                             one.stamp == other.stamp && one.pixel == other.pixel;
-                    });
-}
-
-/// Alternates matching and adjusting until neither changes.
+/// Alternates matching and adjusting until neither changes noticeably.
 square::Solution fit(const Task& task, State state, const ProgressCallback& progress) {
   const WaveOptions& options = task.options;
   const char* const kStep = "adjusting cameras, clocks and path";
@@ -90,9 +83,10 @@ square::Solution fit(const Task& task, State state, const ProgressCallback& prog
                    kWideLosses[round] / options.pixel);
   double pixel_stddev = options.pixel;
   for (int round = 0; round < kFinalRounds; ++round) {
-    const std::vector<Match> before = std::move(matching.matches);
+    const auto before = static_cast<double>(matching.matches.size());
     const double ratio = matchAndRefine({pixel_stddev, stamp, kGate}, kInfinity);
-    if (round > 0 && sameSpots(matching.matches, before) && std::abs(ratio - 1.0) < kNoiseSettled)
+    const double change = static_cast<double>(matching.matches.size()) / before - 1.0;
+    if (round > 0 && std::abs(change) < kSpotsSettled && std::abs(ratio - 1.0) < kNoiseSettled)
       break;
     pixel_stddev *= ratio;
   }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Counts the tests of catkin build folders and lists failures.
 
-    count_tests.py BUILD [--sanitized BUILD]
+    count_tests.py BUILD [--sanitized BUILD] [--release]
 
 Reads the JUnit files in BUILD/test_results. A test of the build folder's makefiles without a result
 counts as failed. The last line is "N passed, N failed, N skipped"; the exit status is 0 only if
@@ -20,6 +20,7 @@ from typing import List, Optional, Set, Tuple
 # A rostest also writes a "rosunit-" file for each of its test programs. Its own "rostest-" file
 # repeats those as one case each, and matters only if the rostest itself failed.
 LEAF_KINDS = ('gtest-', 'rosunit-', 'pytest-', 'roslaunch-')
+RELEASE_KIND = 'release-'  # of tests that run at a release only
 WRAPPER_KINDS = ('rostest-', 'MISSING-')
 
 PASSED, FAILED, SKIPPED = 'passed', 'failed', 'skipped'
@@ -77,21 +78,21 @@ def expected_results(build: Path, kinds: Tuple[str, ...]) -> Set[str]:
     return expected
 
 
-def count(build: Path, kinds: Tuple[str, ...] = LEAF_KINDS + WRAPPER_KINDS) -> List[Case]:
-    """All cases of one build folder, including missing results."""
+def count(build: Path, expected: Tuple[str, ...]) -> List[Case]:
+    """All cases of one build folder, including missing results of the expected kinds."""
     results = build / 'test_results'
     cases = []
     found = set()
     for path in sorted(results.rglob('*.xml')):
         package = path.parent.relative_to(results)
         found.add(f'{package}/{path.name}')
-        if path.name.startswith(LEAF_KINDS):
+        if path.name.startswith(LEAF_KINDS + (RELEASE_KIND,)):
             cases += read_cases(path, package)
         elif path.name.startswith(WRAPPER_KINDS):
             cases += [case for case in read_cases(path, package) if case.verdict == FAILED]
     # A "MISSING-" file stands for the result of the same name and is reported above.
     found |= set(f.replace('/MISSING-', '/') for f in found)
-    for missing in sorted(expected_results(build, kinds) - found):
+    for missing in sorted(expected_results(build, expected) - found):
         cases.append(Case(missing, FAILED, 'left no result'))
     return cases
 
@@ -102,9 +103,12 @@ def main(arguments: Optional[List[str]] = None) -> int:
     parser.add_argument('build', type=Path, help='build folder whose tests all ran')
     parser.add_argument('--sanitized', metavar='BUILD', type=Path,
                         help='build folder whose gtests ran under sanitizers')
+    parser.add_argument('--release', action='store_true',
+                        help='the tests that run at a release only ran, too')
     options = parser.parse_args(arguments)
 
-    cases = count(options.build)
+    cases = count(options.build, LEAF_KINDS + WRAPPER_KINDS
+                  + ((RELEASE_KIND,) if options.release else ()))
     if options.sanitized:
         for case in count(options.sanitized, ('gtest-',)):
             cases.append(Case('with sanitizers: ' + case.name, case.verdict, case.text))

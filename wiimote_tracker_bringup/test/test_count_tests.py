@@ -56,6 +56,16 @@ def test_an_error_is_a_failure(tmp_path, capsys):
     assert any('crashed' in line for line in lines)
 
 
+def test_only_at_a_release_its_own_tests_must_have_run(tmp_path, capsys):
+    write(tmp_path, 'gtest-a.xml', GOOD)
+    expect(tmp_path, 'release-b.xml')
+    assert run(capsys, tmp_path)[0] == 0
+    status, lines = run(capsys, tmp_path, '--release')
+    assert (status, lines[-1]) == (1, '2 passed, 1 failed, 0 skipped')
+    write(tmp_path, 'release-b.xml', GOOD)
+    assert run(capsys, tmp_path, '--release')[1][-1] == '4 passed, 0 failed, 0 skipped'
+
+
 def test_nothing_ran_is_a_failure(tmp_path, capsys):
     status, lines = run(capsys, tmp_path)
     assert (status, lines[-1]) == (1, '0 passed, 0 failed, 0 skipped')

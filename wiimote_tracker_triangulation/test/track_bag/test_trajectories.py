@@ -191,3 +191,11 @@ def test_tum_without_bodies_says_that_it_writes_nothing(files, tmp_path):
     assert done.returncode == 0
     assert '--tum writes nothing without bodies: name their file with --bodies' in done.stderr
     assert not (tmp_path / 'tum').exists()
+
+
+def test_tum_says_that_no_body_was_tracked(files, wand):
+    said = subprocess.check_output([PROGRAM, str(files / 'in.bag'), 'out.bag', '--tum', 'poses',
+                                    '--bodies', 'bodies.yaml'],
+                                   cwd=str(wand), universal_newlines=True)
+    assert 'poses: no files, since no body was tracked: check' in said
+    assert not (wand / 'poses').exists()

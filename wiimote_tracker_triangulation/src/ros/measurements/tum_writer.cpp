@@ -31,6 +31,15 @@ class TumWriter : public Writer {
     }
   }
 
+  std::string finish() override {
+    Writer::finish();
+    if (!files_.empty())
+      return "";
+    return folder_ +
+           ": no files, since no body was tracked: check the LEDs' places in the file of bodies, "
+           "and that the cameras saw the bodies";
+  }
+
  private:
   std::string folder_;
   std::map<std::string, OutputFile*> files_;  // by body

@@ -256,9 +256,11 @@ void run(const Arguments& arguments) {
   const std::string missing_bodies = describeMissingFile(parameters.bodies.file);
   if (!missing_bodies.empty())
     std::fprintf(stderr, "%s.\n", missing_bodies.c_str());
-  const measurements::OutputNames& names = arguments.measurements;
-  if (!names.tum.empty() && parameters.bodies.known.empty())
+  measurements::OutputNames names = arguments.measurements;
+  if (!names.tum.empty() && parameters.bodies.known.empty()) {
     std::fprintf(stderr, "--tum writes nothing without bodies: name their file with --bodies.\n");
+    names.tum.clear();
+  }
   if (names.rate != measurements::OutputNames().rate && names.c3d.empty() && names.trc.empty())
     std::fprintf(stderr, "--rate changes nothing without --c3d or --trc.\n");
   const Recording recording(arguments.input);

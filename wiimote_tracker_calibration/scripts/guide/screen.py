@@ -35,8 +35,9 @@ def render(guide: Guide, now: float, view: str = 'cameras', page: int = 0, rows:
     lines = [title(guide, now, columns)]
     lines += padded(wrapped(guide.silent(now) or guide.advice().sentence, columns, 2), 2)
     room = rows - len(lines) - len(KEYS)
-    shown = guide.verdict.text if view == 'verdict' and guide.verdict else ''
-    said = saying(guide, columns, 3 + (rows - ROWS) // 2, shown)
+    shown = guide.verdict.text if guide.verdict else ''
+    said = (saying(guide, columns, room // 2, '...', shown) if view == 'verdict' else
+            saying(guide, columns, 3 + (rows - ROWS) // 2, '... (i: more)'))
     if view == 'keys':
         lines += padded(key_lines(command_list, room), room)
     elif view == 'verdict':
@@ -89,16 +90,16 @@ def title(guide: Guide, now: float, columns: int) -> str:
     return left + right.rjust(columns - len(left))
 
 
-def saying(guide: Guide, columns: int, most: int, shown: str) -> List[str]:
+def saying(guide: Guide, columns: int, most: int, cut: str, shown: str = '') -> List[str]:
     """The node's answer or message unless it is shown already, or how far it is; at most so many
-    lines."""
+    lines, at the end of which `cut` stands for more."""
     if guide.running:
         text = guide.feedback or guide.running[-1] + ' ...'
         if guide.progress > 0.0:
             text = f'{bar(guide.progress, 20)} {text}'
         return wrapped(text, columns, most)
     text = guide.said()
-    return wrapped(text, columns, most) if text != shown else []
+    return wrapped(text, columns, most, cut) if text != shown else []
 
 
 # --- Cameras
@@ -223,7 +224,7 @@ def verdict_lines(guide: Guide, columns: int) -> List[str]:
         return ['There is no verdict yet: solve first.']
     grade = {verdict.GOOD: 'GOOD', verdict.USABLE: 'USABLE', verdict.REDO: 'DO IT AGAIN'}.get(
         verdict.grade, '?')
-    lines = [f'{grade}   (rig {verdict.rig_id[:8]})', *wrapped(verdict.text, columns, 5),
+    lines = [f'{grade}   (rig {verdict.rig_id[:8]})', *wrapped(verdict.text, columns, ROWS),
              *measurement_lines(guide, columns), '',
              '                 residual   fits   known to within (standard deviation)',
              VERDICT_ROW.format('camera', 'px', 'mm', '%', 'mm', 'deg', 'f px', 'c px', 'k1', 'ms')]

@@ -6,14 +6,14 @@ import textwrap
 from typing import List, Sequence
 
 
-def wrapped(text: str, width: int, lines: int) -> List[str]:
-    """The text in at most so many lines; what does not fit ends in '...'."""
+def wrapped(text: str, width: int, lines: int, cut: str = '...') -> List[str]:
+    """The text in at most so many lines; what does not fit ends in `cut`."""
     rows = []
     for part in text.splitlines():  # a message may have line breaks
         rows += textwrap.wrap(part, width) or ['']
     if len(rows) > lines:
         rows = rows[:lines]
-        rows[-1] = shortened(rows[-1], width - 3) + '...'
+        rows[-1] = shortened(rows[-1], width - len(cut)) + cut
     return rows
 
 

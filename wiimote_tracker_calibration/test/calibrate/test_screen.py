@@ -188,10 +188,10 @@ def test_a_verdict_that_does_not_fit_is_on_pages():
         cameras=[CameraVerdict(f'wiimote_{i}', *[0.1] * 9) for i in range(9)],
         predicted_at=[Point(0, 0, z) for z in range(9)], predicted_stddev=[0.01] * 9)
     first = screen.render(guide, 1.0, 'verdict')
-    assert 'lines 1 to 18 of 25; TAB shows others' in first
+    assert 'lines 1 to 18 of 26; TAB shows others' in first
     assert not any('8.00) 10.0 mm' in line for line in first)
     second = screen.render(guide, 1.0, 'verdict', page=1)
-    assert 'lines 19 to 25 of 25; TAB shows others' in second
+    assert 'lines 19 to 26 of 26; TAB shows others' in second
     assert any('8.00) 10.0 mm' in line for line in second)
     assert screen.render(guide, 1.0, 'verdict', page=2) == first
     assert any('8.00) 10.0 mm' in line for line in screen.render(guide, 1.0, 'verdict', rows=40))
@@ -389,6 +389,15 @@ def test_a_high_window_shows_a_long_answer_in_full():
         lines = screen.render(guide, 1.0, rows=rows, columns=100)
         assert len(lines) == rows
         assert ('warning: z is down' in ' '.join(lines)) == is_whole
+
+
+def test_an_answer_that_is_cut_names_the_key_that_shows_more():
+    for shown, is_verdict in (('saved; ', False), ('Good; ', True)):
+        answer = shown + 'a camera did not accept its lens; ' * 12 + 'warning: z is down'
+        guide = guide_at(status(CalibrationStatus.SOLVED, message=answer))
+        guide.verdict = CalibrationVerdict(text=answer if is_verdict else 'Good.')
+        assert screen.render(guide, 1.0)[21].endswith('... (i: more)')
+        assert ' '.join(screen.render(guide, 1.0, 'verdict')).count('warning: z is down') == 1
 
 
 def test_the_walk_is_shown():

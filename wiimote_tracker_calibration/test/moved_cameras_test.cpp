@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <atomic>
 #include <filesystem>
+#include <memory>
 #include <string>
 #include <system_error>
 
@@ -227,12 +228,26 @@ TEST_F(MovedCameras, DoesNotApplyWhatPairsOfCamerasContradict) {
     Eigen::Isometry3d& pose = rig.cameras[i].camera.world_from_camera;
     pose = turn * pose;
   }
+  const auto isRefused = [](const std::string& why) {
+    return waitUntil([&] {
+      const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
+      return !reply.success && reply.message.find(why) != std::string::npos;
+    });
+  };
   load(rig);
   cameras_->waveLed(true);
+  EXPECT_TRUE(isRefused("contradict the others"));
+  // Nothing is said of a rig that was replaced, though no image judges the new one.
+  const geometry::Rig other = trueRig();
+  cameras_.reset();
   EXPECT_TRUE(waitUntil([] {
-    const auto reply = call<std_srvs::Trigger>("calibration/continuous/apply");
-    return !reply.success && reply.message.find("contradict the others") != std::string::npos;
+    const auto& cameras = status_->get()->cameras;
+    return std::none_of(cameras.begin(), cameras.end(),
+                        [](const auto& camera) { return camera.connected; });
   }));
+  load(other);
+  EXPECT_TRUE(isRefused("nothing is proposed: a camera that no longer fits"));
+  cameras_ = std::make_unique<FakeCameras>();
 }
 
 TEST_F(MovedCameras, FindsANewClockAndApproachesTheAdjustedPoses) {

@@ -121,6 +121,7 @@ class ContinuousServices {
     watched_ = idToWatch(lock);
     continuous_.reset();
     new_clocks_.clear();
+    contradiction_.clear();
     forgetProposal(lock);
     if (rig)
       continuous_.emplace(changes_.goal(*rig), options_);
@@ -268,7 +269,7 @@ class ContinuousServices {
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
   std::vector<std::string> new_clocks_;                          // Of the rig that is watched.
   std::optional<continuous::Proposal> proposal_;                 // The same.
-  std::string contradiction_;                                    // That was logged.
+  std::string contradiction_;                                    // The same, that was logged.
   ros::WallTimer timer_;
 };
 

@@ -62,18 +62,6 @@ TEST_F(NextStep, OffersWhatContinuousCalibrationProposes) {
   EXPECT_EQ(guide_.advice(now_).request, "continuous/apply");
 }
 
-TEST_F(NextStep, ButtonsAreNamedInPlaceOfServices) {
-  const std::string health = "moved; rosservice call /calibration/continuous/apply  uses that";
-  status_.cameras.resize(1);
-  status_.cameras[0].name = "wiimote_2";
-  status_.cameras[0].health = health;
-  at(CalibrationStatus::SAVED);
-  EXPECT_EQ(guide_.remarks().back(), "wiimote_2: moved; the button Correct it uses that");
-  guide_.onAnswer("continuous/apply",
-                  "in use; rosservice call /second/calibration/continuous/revert  goes back");
-  EXPECT_EQ(guide_.answer(), "in use; the button Revert goes back");
-}
-
 TEST_F(NextStep, HasNoButtonWhereThereIsNothingToRequest) {
   for (const char* request : {"", "of_a_newer_node"}) {
     status_.next_request = request;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <regex>
 #include <set>
 
 namespace wiimote_tracker::panel {
@@ -21,25 +20,15 @@ constexpr const char* kLost =
 
 }  // namespace
 
-std::string withButtons(const std::string& text) {
-  static const std::regex kApply("rosservice call \\S*calibration/continuous/apply ?");
-  static const std::regex kRevert("rosservice call \\S*calibration/continuous/revert ?");
-  return std::regex_replace(std::regex_replace(text, kApply, "the button Correct it"), kRevert,
-                            "the button Revert");
-}
-
 // --- What comes in
 
 void Guide::onStatus(const Status& status, double now) {
-  if (status_ && withButtons(status.message) != status_->message)
+  if (status_ && status.message != status_->message)
     answer_.clear();  // the node's message is newer
   if (status_ && status.header.seq < status_->header.seq && status_->step >= Status::READY &&
       status_->step <= Status::SOLVED)
     is_lost_ = true;  // Another publisher counts anew.
   status_ = status;
-  status_->message = withButtons(status.message);
-  for (auto& camera : status_->cameras)
-    camera.health = withButtons(camera.health);
   status_at_ = now;
   is_effect_known_ = true;
 }
@@ -62,7 +51,7 @@ void Guide::onAnswer(const std::string& service, const std::string& text) {
   if (service != "cancel")
     running_.clear();
   is_effect_known_ = false;
-  answer_ = withButtons(text);
+  answer_ = text;
 }
 
 // --- What it means

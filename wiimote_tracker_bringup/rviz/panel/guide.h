@@ -9,9 +9,6 @@
 
 namespace wiimote_tracker::panel {
 
-/// Names buttons in place of the services that the node's texts name, for its log, too.
-std::string withButtons(const std::string& text);
-
 /// The one thing to do next.
 struct Advice {
   std::string title;     ///< In one or two words, to be read from afar.

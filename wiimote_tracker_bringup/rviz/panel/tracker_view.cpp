@@ -1,7 +1,5 @@
 #include "tracker_view.h"
 
-#include "guide.h"
-
 #include <wiimote_tracker_msgs/text.h>
 
 #include <algorithm>
@@ -72,10 +70,8 @@ void TrackerView::onBattery(const std::string& name, double charge, double now) 
 void TrackerView::onStatus(const wiimote_tracker_msgs::CalibrationStatus& message, double now) {
   for (CameraView& camera : cameras_)
     camera.status = {};
-  for (const auto& status : message.cameras) {
+  for (const auto& status : message.cameras)
     camera(status.name, now).status = status;
-    camera(status.name, now).status.health = withButtons(status.health);
-  }
 }
 
 void TrackerView::onRig(const wiimote_tracker_msgs::RigCalibration& message, double now) {

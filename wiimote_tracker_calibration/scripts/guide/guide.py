@@ -3,7 +3,6 @@
 Takes messages, answers and the time; uses neither ROS nor a terminal.
 """
 
-import re
 from dataclasses import dataclass, field
 from typing import Dict, List, Optional, Sequence
 
@@ -20,14 +19,11 @@ WORDS = {'learn_masks': 'masks', 'check_connection': 'connection', 'start': 'sta
          'save': 'save', 'continuous/apply': 'apply'}
 # What a person uses to ask for something: keys on the screen, words line by line.
 KEYS = {'next': 'SPACE', 'connection': 'k', 'solve': 's', 'save': 'v', 'check': 'c', 'quit': 'q',
-        'cancel': 'x', 'apply': 'A', 'revert': 'b', 'side': 'n asks for the side',
-        'length': 'w asks for the length'}
+        'cancel': 'x', 'side': 'n asks for the side', 'length': 'w asks for the length'}
 PLAIN_WORDS = {'next': 'The word next', 'connection': 'The word connection',
                'solve': 'The word solve', 'save': 'The word save', 'check': 'check X Y Z',
-               'quit': 'The word quit', 'cancel': 'the word cancel', 'apply': 'the word apply',
-               'revert': 'the word revert',
-               'side': 'start METRES gives the side',
-               'length': 'wave METRES begins'}
+               'quit': 'The word quit', 'cancel': 'the word cancel',
+               'side': 'start METRES gives the side', 'length': 'wave METRES begins'}
 
 
 @dataclass
@@ -72,9 +68,6 @@ class Guide:
     def on_status(self, status, now: float) -> None:
         before = self.status
         self.status = status
-        status.message = self._with_keys(status.message)
-        for camera in status.cameras:
-            camera.health = self._with_keys(camera.health)
         if before is not None and status.message != before.message:
             self.answer = ''  # the node's message is newer
         if self.statuses_since_answer < 2:  # the first may have been on its way
@@ -104,7 +97,6 @@ class Guide:
     def on_answer(self, word: str, good: bool, text: str, now: float) -> None:
         if word in self.running:
             self.running.remove(word)
-        text = self._with_keys(text)
         self.answer = text
         self.statuses_since_answer = 0
         self.answers.append((good, text))
@@ -227,11 +219,6 @@ class Guide:
         if self._square_at is not None:
             text += f', {spoken(self._square_at - self._started_at)} of it for the square'
         return text + '.'
-
-    def _with_keys(self, text: str) -> str:
-        """Names keys in place of the services that the node's texts name, for its log, too."""
-        return re.sub(r'rosservice call \S*calibration/continuous/(apply|revert) ?',
-                      lambda found: self.asking[found[1]], text)
 
     def _other_way(self, status) -> str:
         """What asks for another way on, of which the sentence speaks too."""

@@ -77,7 +77,7 @@ class ContinuousServices {
     }
     const bool is_news = !proposal_ || proposal_->cameras != proposal->cameras;
     proposal_ = proposal;
-    const std::string text = proposal->message + "; " + command("apply") + "  uses that";
+    const std::string text = proposal->message + "; A in calibrate corrects it";
     context_.status(lock).setProposal(*proposal, text);
     if (applies) {
       const Reply applied = applyProposal(lock);
@@ -85,11 +85,6 @@ class ContinuousServices {
     } else if (is_news) {
       ROS_WARN_STREAM(text);
     }
-  }
-
-  /// What a person types for one of the services.
-  std::string command(const std::string& service) const {
-    return "rosservice call " + context_.nh().resolveName("calibration/continuous/" + service);
   }
 
   /// Once for each.
@@ -225,8 +220,8 @@ class ContinuousServices {
     const geometry::Rig goal = changes_.goal(*context_.rig(lock));
     return {true, (rig ? "in use: " : "approached " + kSteps + ": ") + proposal.message +
                       recalibrate::describeOldMasks(before, goal) + "; " +
-                      keepVersion(goal, &lock) + "; " + command("revert") +
-                      "  goes back, and save keeps it"};
+                      keepVersion(goal, &lock) +
+                      "; revert (b in calibrate) goes back, and save keeps it"};
   }
 
   /// Writes a rig beside the rig file. @returns where, or why not.

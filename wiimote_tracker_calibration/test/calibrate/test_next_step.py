@@ -6,7 +6,7 @@ from wiimote_tracker_msgs.msg import CalibrationStatus
 from fakes import FakeNode, camera, dialogue_with, guide_at, status
 from guide import commands
 from guide.board_screen import advice as board_advice
-from guide.guide import KEYS, PLAIN_WORDS, Guide
+from guide.guide import PLAIN_WORDS, Guide
 
 
 @pytest.mark.parametrize('wanted, word', [
@@ -45,18 +45,6 @@ def test_a_change_of_continuous_calibration_is_used_and_undone_by_keys():
     assert [(each.name, each.type) for each in node.sent] == [
         ('continuous/apply', 'Trigger'), ('continuous/apply', 'Trigger'),
         ('continuous/revert', 'Trigger')]
-
-
-@pytest.mark.parametrize('asking, key', [(KEYS, 'A'), (PLAIN_WORDS, 'the word apply')])
-def test_keys_are_named_in_place_of_services(asking, key):
-    proposal = 'moved by 2 mm; rosservice call /second/calibration/continuous/apply  uses that'
-    guide = guide_at(status(CalibrationStatus.SAVED, message=proposal,
-                            cameras=[camera(health=proposal)]), asking=asking)
-    assert guide.said() == guide.status.cameras[0].health == f'moved by 2 mm; {key} uses that'
-    guide.on_answer('apply', True, 'in use; rosservice call /calibration/continuous/revert  goes '
-                    'back, and save keeps it', 1.0)
-    assert guide.answers[-1][1] == guide.said() == (
-        f'in use; {asking["revert"]} goes back, and save keeps it')
 
 
 def test_space_starts_with_the_side_that_was_given():

@@ -159,5 +159,66 @@ TEST_F(Workflow, MasksGoIntoTheRigAndVoidNoCorrection) {
   EXPECT_EQ(calibration_.rig()->id(), corrected.id());
 }
 
+TEST_F(Workflow, CancelStopsALongTaskFirst) {
+  captureAll();
+  ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);
+  EXPECT_EQ(calibration_.step(), Step::kSolving);
+  EXPECT_SAYS(calibration_.undo().message, "the solver runs");
+  EXPECT_SAYS(calibration_.begin(Step::kMasking, "").message, "the solver runs");
+  EXPECT_THROW(calibration_.requireIdle(), Error);
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_FALSE(calibration_.isBusyWith(Step::kSolving));
+  // It takes its time to stop; nothing else begins meanwhile, and nothing is dropped.
+  EXPECT_SAYS(calibration_.begin(Step::kMeasuring, "").message, "not stopped yet");
+  EXPECT_SAYS(calibration_.begin(Step::kSolving, "solving").message, "not stopped yet");
+  EXPECT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  calibration_.end();
+  EXPECT_NO_THROW(calibration_.requireIdle());
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+  // So was this cancel, which came after the solver had stopped.
+  EXPECT_SAYS(calibration_.cancel().message, "nothing was dropped");
+  EXPECT_EQ(calibration_.square().corners().size(), 4U);
+  ASSERT_TRUE(calibration_.begin(Step::kMeasuring, "measuring").success);
+  EXPECT_TRUE(calibration_.isBusyWith(Step::kMeasuring));
+  calibration_.setProgress(0.5);
+  EXPECT_EQ(calibration_.progress(), 0.5);
+  calibration_.end();
+  EXPECT_EQ(calibration_.step(), Step::kComplete);
+}
+
+TEST_F(Workflow, SamplesThatAreRestoredAreTheSameSamples) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(2.0);
+  calibration_.endWave();
+  const capture::Masks masks = {{names_[1], {{{3.0, 4.0}, 5.0}}}};
+  const samples::Samples samples = calibration_.samples(facts_, masks);
+  CalibrationOptions other;
+  other.layout.led_height = 0.5;  // what was captured has its own
+  other.world_frame = "elsewhere";
+  Calibration fresh{other};
+  ASSERT_TRUE(fresh.restore(samples).success);
+  EXPECT_TRUE(fresh.isRestored());
+  EXPECT_EQ(fresh.step(), Step::kComplete);
+  const samples::Samples again = fresh.samples({}, masks);
+  EXPECT_EQ(again.world_frame, "world");
+  EXPECT_EQ(again.recording.square->led_height, 0.0);
+  ASSERT_EQ(again.recording.cameras.size(), 4U);
+  for (std::size_t i = 0; i < 4; ++i) {
+    const wave::CameraRecording& a = samples.recording.cameras[i];
+    const wave::CameraRecording& b = again.recording.cameras[i];
+    EXPECT_EQ(a.sightings.name, b.sightings.name);
+    EXPECT_EQ(a.sightings.identity, b.sightings.identity);
+    EXPECT_EQ(a.sightings.corners, b.sightings.corners);
+    ASSERT_EQ(a.frames.size(), b.frames.size());
+    for (std::size_t k = 0; k < a.frames.size(); ++k) {
+      EXPECT_EQ(a.frames[k].stamp, b.frames[k].stamp);
+      EXPECT_EQ(a.frames[k].spots, b.frames[k].spots);
+    }
+  }
+  EXPECT_EQ(again.recording.cameras[1].masks.size(), 1U);
+}
+
 }  // namespace
 }  // namespace wiimote_tracker::workflow

@@ -9,7 +9,7 @@ from wiimote_tracker_evaluation import sessions
 from wiimote_tracker_evaluation.live import circles as with_a_person
 
 TITLE = 'Circles'
-SECONDS = 12, 50
+SECONDS = 19, 150
 live = with_a_person.live
 
 PROGRAM = 'evaluate_circles'

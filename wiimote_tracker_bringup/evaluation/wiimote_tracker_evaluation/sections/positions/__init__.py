@@ -14,7 +14,7 @@ from wiimote_tracker_evaluation.sections.positions.results import (
 from wiimote_tracker_evaluation.sessions import keep, parts_of
 
 TITLE = 'Positions'
-SECONDS = 20, 210
+SECONDS = 55, 620
 live = with_a_person.live
 
 QUICK, FULL = 10, 120  # sessions each with two and with four cameras

@@ -88,7 +88,7 @@ void updateTrack(const ImageAssignment& assignment, const Candidate& candidate) 
   Track& track = *candidate.track;
   const Candidate* other = mergedWith(assignment, candidate);
   // Rays of two merged spots may meet where no LED is.
-  if (!other && candidate.spot && !track.isConfirmed() && candidate.others.size() == 1)
+  if (!other && candidate.spot && !track.isConfirmed() && candidate.others.size() < 2)
     other = shownByItsSpot(assignment, candidate);
   // A merged spot is the other's if only this camera sees this LED.
   const bool is_merged = other && track.isConfirmed();

@@ -96,8 +96,11 @@ bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) 
 
 const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate) {
   const auto& all = assignment.candidates;
+  // Longer than birth_window, in which radio may lose all images of a camera.
+  const double since = assignment.image.time - assignment.options.tracked_time;
   const auto isOther = [&](const Candidate& led) {
-    return led.track != candidate.track && led.expected && led.others.size() >= 2;
+    return led.track != candidate.track && led.expected &&
+           led.track->cameras().detecting(since, assignment.image.camera).size() >= 2;
   };
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = a + 1; b != all.end(); ++b) {

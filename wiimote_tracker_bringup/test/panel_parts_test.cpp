@@ -25,7 +25,7 @@ namespace {
 const char kLongHealth[] =
     "drifted: its images are 20.3 px (+- 0.3 px) on average off what the other cameras see; "
     "wiimote_2 was turned by 1.0 degrees and moved by 2 mm, and its images then fit to 0.3 px; "
-    "A in calibrate corrects it";
+    "apply (A in calibrate) uses that";
 
 TEST(CalibratePage, HidesTheRemarksOfANodeThatIsGone) {
   CalibratePage page(nullptr, [](const Request&) {});

@@ -30,7 +30,7 @@ class MovedCameras : public CalibratedNode {
  protected:
   /// Whether the camera's health is what continuous calibration proposes, and how to apply it.
   static bool isProposed(const std::string& camera) {
-    return health(camera).find("; A in calibrate corrects it") != std::string::npos;
+    return health(camera).find("; apply (A in calibrate) uses that") != std::string::npos;
   }
 };
 

@@ -77,7 +77,7 @@ class ContinuousServices {
     }
     const bool is_news = !proposal_ || proposal_->cameras != proposal->cameras;
     proposal_ = proposal;
-    const std::string text = proposal->message + "; A in calibrate corrects it";
+    const std::string text = proposal->message + "; apply (A in calibrate) uses that";
     context_.status(lock).setProposal(*proposal, text);
     if (applies) {
       const Reply applied = applyProposal(lock);

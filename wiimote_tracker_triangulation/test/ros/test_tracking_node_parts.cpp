@@ -54,7 +54,7 @@ IrBlobArray goodImage(const geometry::Camera& camera) {
 TEST(ImageMessage, IsReadUnchanged) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
   tracking::CameraImage image;
-  EXPECT_EQ(ImageFault::kNone, readImage(goodImage(camera), camera, &image));
+  EXPECT_FALSE(readImage(goodImage(camera), camera, &image));
   EXPECT_EQ(100.25, image.stamp);
   EXPECT_EQ(100.26, image.arrival);
   EXPECT_EQ(0.001, image.stamp_stddev);
@@ -74,7 +74,7 @@ TEST(ImageMessage, UnknownValuesStayUnknown) {
   tracking::CameraImage image;
   for (const double stddev : {-1.0, kInfinity, kNaN}) {
     message.stamp_stddev = stddev;
-    EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image));
+    EXPECT_FALSE(readImage(message, camera, &image));
     EXPECT_TRUE(std::isnan(image.stamp_stddev)) << stddev;
   }
   EXPECT_EQ(image.stamp, image.arrival);
@@ -97,55 +97,57 @@ TEST(ImageMessage, ImpossibleSpotsAreOmitted) {
     message.blobs[0].x = x;
     message.blobs[0].y = y;
     tracking::CameraImage image;
-    const ImageFault fault = readImage(message, camera, &image);
-    EXPECT_EQ(ImageFault::kImpossibleSpots, fault) << x << " " << y;
-    EXPECT_TRUE(isUsable(fault));
+    const auto fault = readImage(message, camera, &image);
+    ASSERT_TRUE(fault) << x << " " << y;
+    EXPECT_EQ(ImageFault::Kind::kImpossibleSpots, fault->kind);
+    EXPECT_TRUE(fault->isUsable());
     ASSERT_EQ(1u, image.spots.size());
     EXPECT_EQ(11.0, image.spots[0].pixel.x());
-    EXPECT_NE(std::string::npos, describe(fault, message, camera).find(camera.name));
+    EXPECT_NE(std::string::npos, fault->sentence.find(camera.name));
   }
   IrBlobArray message = goodImage(camera);
   message.blobs[0].x = width - 1.0;
   message.blobs[1].y = 0.0;
   tracking::CameraImage image;
-  EXPECT_EQ(ImageFault::kNone, readImage(message, camera, &image)) << "the border is inside";
+  EXPECT_FALSE(readImage(message, camera, &image)) << "the border is inside";
 }
 
 TEST(ImageMessage, UnusableImagesAreNamed) {
   const geometry::Camera camera = someRig(1).cameras[0].camera;
-  const auto says = [&](const IrBlobArray& message, ImageFault expected, const std::string& words) {
+  using Kind = ImageFault::Kind;
+  const auto says = [&](const IrBlobArray& message, Kind expected, const std::string& words) {
     tracking::CameraImage image;
-    const ImageFault fault = readImage(message, camera, &image);
-    EXPECT_EQ(expected, fault);
-    EXPECT_FALSE(isUsable(fault));
-    EXPECT_NE(std::string::npos, describe(fault, message, camera).find(words))
-        << describe(fault, message, camera);
+    const auto fault = readImage(message, camera, &image);
+    ASSERT_TRUE(fault) << words;
+    EXPECT_EQ(expected, fault->kind);
+    EXPECT_FALSE(fault->isUsable());
+    EXPECT_NE(std::string::npos, fault->sentence.find(words)) << fault->sentence;
   };
   IrBlobArray message = goodImage(camera);
   message.header.stamp = ros::Time();
-  says(message, ImageFault::kNoTime, "carry no time");
+  says(message, Kind::kNoTime, "carry no time");
   message = goodImage(camera);
   message.header.stamp = message.arrival - ros::Duration(11.0);
-  says(message, ImageFault::kImpossibleTime, "before their arrival");
+  says(message, Kind::kImpossibleTime, "before their arrival");
   message.header.stamp = message.arrival + ros::Duration(0.05);
-  says(message, ImageFault::kAfterArrival, "0.05 s after their arrival");
+  says(message, Kind::kAfterArrival, "0.05 s after their arrival");
   // Their difference is no ros::Duration.
   message.header.stamp = ros::TIME_MAX;
-  says(message, ImageFault::kAfterArrival, "after their arrival");
+  says(message, Kind::kAfterArrival, "after their arrival");
   std::swap(message.header.stamp, message.arrival);
-  says(message, ImageFault::kImpossibleTime, "before their arrival");
+  says(message, Kind::kImpossibleTime, "before their arrival");
   message = goodImage(camera);
   message.camera = "stranger";
-  says(message, ImageFault::kOtherCamera, "are from stranger");
+  says(message, Kind::kOtherCamera, "are from stranger");
   message = goodImage(camera);
   message.identity = "00:00:00:00:00:99";
-  says(message, ImageFault::kOtherDevice, "is device 00:00:00:00:00:99");
+  says(message, Kind::kOtherDevice, "is device 00:00:00:00:00:99");
   message = goodImage(camera);
   message.width += 1;
-  says(message, ImageFault::kOtherSize, "calibrate again");
+  says(message, Kind::kOtherSize, "calibrate again");
   message = goodImage(camera);
   message.height = 4294967295u;
-  says(message, ImageFault::kOtherSize, "4294967295");
+  says(message, Kind::kOtherSize, "4294967295");
 }
 
 TEST(HostClockCheck, FindsNothingWhereClocksAgree) {

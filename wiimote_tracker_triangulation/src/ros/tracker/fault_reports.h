@@ -17,7 +17,7 @@ namespace wiimote_tracker {
 /// continuous calibration makes a new rig every half minute.
 class FaultReports {
  public:
-  bool isNew(std::size_t camera, ImageFault fault) {
+  bool isNew(std::size_t camera, ImageFault::Kind fault) {
     return of_images_.emplace(camera, fault).second;
   }
   bool isNew(std::size_t camera, tracking::CameraFault::Kind fault) {
@@ -50,7 +50,7 @@ class FaultReports {
            lens.width == other.width && lens.height == other.height;
   }
 
-  std::set<std::pair<std::size_t, ImageFault>> of_images_;
+  std::set<std::pair<std::size_t, ImageFault::Kind>> of_images_;
   std::set<std::pair<std::size_t, tracking::CameraFault::Kind>> of_cameras_;
 };
 

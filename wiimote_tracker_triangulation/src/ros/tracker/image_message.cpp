@@ -19,35 +19,54 @@ std::string sizeOf(std::int64_t width, std::int64_t height) {
   return std::to_string(width) + " x " + std::to_string(height) + " pixels";
 }
 
-/// From exposure to arrival [s]. (ros::Duration throws beyond 68 years.)
-double delayOf(const IrBlobArray& message) {
-  return message.arrival.isZero() ? 0.0 : message.arrival.toSec() - message.header.stamp.toSec();
-}
-
-ImageFault faultOf(const IrBlobArray& message, const geometry::Camera& calibrated) {
+std::optional<ImageFault> faultOf(const IrBlobArray& message, const geometry::Camera& calibrated) {
+  using Kind = ImageFault::Kind;
+  const std::string& name = calibrated.name;
+  const geometry::Intrinsics& lens = calibrated.intrinsics;
+  // From exposure to arrival [s]. (ros::Duration throws beyond 68 years.)
+  const double delay =
+      message.arrival.isZero() ? 0.0 : message.arrival.toSec() - message.header.stamp.toSec();
   if (message.header.stamp.isZero())
-    return ImageFault::kNoTime;
-  if (delayOf(message) > kLongestDelay)
-    return ImageFault::kImpossibleTime;
-  if (delayOf(message) < -kStampError)
-    return ImageFault::kAfterArrival;
-  if (!message.camera.empty() && message.camera != calibrated.name)
-    return ImageFault::kOtherCamera;
+    return {
+        {Kind::kNoTime,
+         "images of " + name +
+             " carry no time and are ignored: repair their driver, or, when no bag is played, run "
+             " rosparam set /use_sim_time false  and start all nodes again"}};
+  if (delay > kLongestDelay)
+    return {
+        {Kind::kImpossibleTime,
+         format("images of %s are stamped more than %.0f s before their arrival and are ignored: "
+                "let their driver take both from one clock",
+                name.c_str(), kLongestDelay)}};
+  if (delay < -kStampError)
+    return {{Kind::kAfterArrival,
+             format("images of %s are stamped %.3g s after their arrival and are ignored: "
+                    "let their driver take both from one clock",
+                    name.c_str(), -delay)}};
+  if (!message.camera.empty() && message.camera != name)
+    return {{Kind::kOtherCamera,
+             "images on the topic of " + name + " are from " + message.camera +
+                 " and are ignored: let each driver publish under its own camera's name"}};
   if (calibrated.isOtherDevice(message.identity))
-    return ImageFault::kOtherDevice;
-  if (static_cast<std::int64_t>(message.width) != calibrated.intrinsics.width ||
-      static_cast<std::int64_t>(message.height) != calibrated.intrinsics.height)
-    return ImageFault::kOtherSize;
-  return ImageFault::kNone;
+    return {{Kind::kOtherDevice,
+             name + " is device " + message.identity + ", but was calibrated as " +
+                 calibrated.identity +
+                 ", and is ignored: exchange them, or do what calibrate says of it"}};
+  if (static_cast<std::int64_t>(message.width) != lens.width ||
+      static_cast<std::int64_t>(message.height) != lens.height)
+    return {
+        {Kind::kOtherSize, "images of " + name + " have " + sizeOf(message.width, message.height) +
+                               ", but it was calibrated with " + sizeOf(lens.width, lens.height) +
+                               ", and are ignored: calibrate again"}};
+  return std::nullopt;
 }
 
 }  // namespace
 
-ImageFault readImage(const IrBlobArray& message,
-                     const geometry::Camera& calibrated,
-                     tracking::CameraImage* image) {
-  ImageFault fault = faultOf(message, calibrated);
-  if (!isUsable(fault))
+std::optional<ImageFault> readImage(const IrBlobArray& message,
+                                    const geometry::Camera& calibrated,
+                                    tracking::CameraImage* image) {
+  if (const auto fault = faultOf(message, calibrated))
     return fault;
   image->stamp = message.header.stamp.toSec();
   image->arrival = (message.arrival.isZero() ? message.header.stamp : message.arrival).toSec();
@@ -58,52 +77,16 @@ ImageFault readImage(const IrBlobArray& message,
   image->maximum_spots =
       message.max_blobs > 0 ? message.max_blobs : std::numeric_limits<std::size_t>::max();
   image->spots.clear();
-  for (const IrBlob& blob : message.blobs) {
-    if (!calibrated.intrinsics.isInImage({blob.x, blob.y}, 0.5)) {  // or NaN
-      fault = ImageFault::kImpossibleSpots;
-      continue;
-    }
-    image->spots.push_back({{blob.x, blob.y}, blob.slot});
-  }
-  return fault;
-}
-
-std::string describe(ImageFault fault,
-                     const IrBlobArray& message,
-                     const geometry::Camera& calibrated) {
   const geometry::Intrinsics& lens = calibrated.intrinsics;
-  switch (fault) {
-    case ImageFault::kNone:
-      break;
-    case ImageFault::kImpossibleSpots:
-      return calibrated.name + " reports spots outside its image of " +
-             sizeOf(lens.width, lens.height) + ", which are ignored: repair its driver";
-    case ImageFault::kNoTime:
-      return "images of " + calibrated.name +
-             " carry no time and are ignored: repair their driver, or, when no bag is played, run "
-             " rosparam set /use_sim_time false  and start all nodes again";
-    case ImageFault::kImpossibleTime:
-      return "images of " + calibrated.name + " are stamped more than " +
-             std::to_string(static_cast<int>(kLongestDelay)) +
-             " s before their arrival and are ignored: let their driver take both from one clock";
-    case ImageFault::kAfterArrival:
-      return format(
-          "images of %s are stamped %.3g s after their arrival and are ignored: let their "
-          "driver take both from one clock",
-          calibrated.name.c_str(), -delayOf(message));
-    case ImageFault::kOtherCamera:
-      return "images on the topic of " + calibrated.name + " are from " + message.camera +
-             " and are ignored: let each driver publish under its own camera's name";
-    case ImageFault::kOtherDevice:
-      return calibrated.name + " is device " + message.identity + ", but was calibrated as " +
-             calibrated.identity +
-             ", and is ignored: exchange them, or do what calibrate says of it";
-    case ImageFault::kOtherSize:
-      return "images of " + calibrated.name + " have " + sizeOf(message.width, message.height) +
-             ", but it was calibrated with " + sizeOf(lens.width, lens.height) +
-             ", and are ignored: calibrate again";
+  for (const IrBlob& blob : message.blobs) {
+    if (lens.isInImage({blob.x, blob.y}, 0.5))  // false for NaN
+      image->spots.push_back({{blob.x, blob.y}, blob.slot});
   }
-  return "";
+  if (image->spots.size() < message.blobs.size())
+    return {{ImageFault::Kind::kImpossibleSpots,
+             calibrated.name + " reports spots outside its image of " +
+                 sizeOf(lens.width, lens.height) + ", which are ignored: repair its driver"}};
+  return std::nullopt;
 }
 
 std::string describe(const tracking::CameraFault& fault, const std::string& camera) {

@@ -111,12 +111,11 @@ bool MessageTracker::takeImage(const std::string& camera,
   if (!found)
     return false;
   const std::size_t index = found - rig_.cameras.data();
-  const ImageFault fault = readImage(message, found->camera, &image_);
-  if (fault != ImageFault::kNone)
-    reportProblem(index, describe(fault, message, found->camera),
-                  reported_faults_.isNew(index, fault));
-  if (!isUsable(fault))
-    return false;
+  if (const auto fault = readImage(message, found->camera, &image_)) {
+    reportProblem(index, fault->sentence, reported_faults_.isNew(index, fault->kind));
+    if (!fault->isUsable())
+      return false;
+  }
   statistics_.addImage(index, image_, message.frame);
 
   const tracking::ClockError clock = estimator_->clockError(index, image_.clock_epoch);

@@ -5,6 +5,7 @@
 #include <wiimote_tracker_msgs/log_exceptions.h>
 
 #include <cstdint>
+#include <exception>
 #include <string>
 
 namespace wiimote_tracker {
@@ -24,6 +25,19 @@ ros::Subscriber subscribe(ros::NodeHandle nh,
         logExceptions("message on " + topic, [&] { callback(event); });
       },
       ros::VoidConstPtr(), ros::TransportHints().tcpNoDelay());
+}
+
+/// Answers a request with the sentence that `work` returns, or, as a refusal, with what it throws.
+template <typename Response, typename Work>
+bool answer(Response* response, const Work& work) {
+  try {
+    response->message = work();
+    response->success = true;
+  } catch (const std::exception& e) {
+    response->message = e.what();
+    response->success = false;
+  }
+  return true;
 }
 
 }  // namespace wiimote_tracker

@@ -1,5 +1,6 @@
 #include "body_learning.h"
 
+#include "../callbacks.h"
 #include "../tracker/body_parameters.h"
 #include "body/bodies_file.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
@@ -10,7 +11,6 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
-#include <exception>
 #include <utility>
 
 namespace wiimote_tracker {
@@ -154,44 +154,39 @@ std::optional<std::vector<Constellation>> BodyLearning::change() {
 }
 
 bool BodyLearning::onRequest(LearnBody::Request& request, LearnBody::Response& response) {
-  response.message = refusal(request);
-  if (!response.message.empty())
-    return true;
-  track(without(request.name, bodies_));
-  try {
-    learn(request, collect(request), &response);
-  } catch (const std::exception& e) {  // of any kind: the bodies are tracked again in the end
-    response.message = e.what();
-  }
-  track(bodies_);
-  return true;
+  return answer(&response, [&] {
+    check(request);
+    track(without(request.name, bodies_));
+    try {
+      return learn(request, collect(request), &response);
+    } catch (...) {
+      track(bodies_);
+      throw;
+    }
+  });
 }
 
-std::string BodyLearning::refusal(const LearnBody::Request& request) {
+/// @throws Error: it is refused.
+void BodyLearning::check(const LearnBody::Request& request) {
   if (file_.empty())
-    return "there is no file for bodies; set the parameter bodies/file";
+    throw Error("there is no file for bodies; set the parameter bodies/file");
   if (request.duration != 0.0 && !(request.duration >= kShortest && request.duration <= kLongest))
-    return "duration must be 0, or from 0.5 to 60 s";
+    throw Error("duration must be 0, or from 0.5 to 60 s");
   if (std::find(names_.begin(), names_.end(), request.name) != names_.end())
-    return "'" + request.name + "' is the name of an LED; choose another one";
+    throw Error("'" + request.name + "' is the name of an LED; choose another one");
   std::set<std::string> labels;
   for (const std::string& label : request.labels) {
     if (!labels.insert(label).second)
-      return "labels has '" + label + "' twice; name each LED once";
+      throw Error("labels has '" + label + "' twice; name each LED once");
   }
   {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (std::find(frames_.begin(), frames_.end(), request.name) != frames_.end())
-      return "'" + request.name + "' is the name of a frame of the rig; choose another one";
+      throw Error("'" + request.name + "' is the name of a frame of the rig; choose another one");
   }
-  try {
-    guard_.check();
-    // Checks only the name.
-    Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+  guard_.check();
+  // Checks only the name.
+  Constellation{request.name, {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}.check();
 }
 
 BodyLearning::Collected BodyLearning::collect(const LearnBody::Request& request) {
@@ -227,9 +222,10 @@ BodyLearning::Collected BodyLearning::collect(const LearnBody::Request& request)
   return result;
 }
 
-void BodyLearning::learn(const LearnBody::Request& request,
-                         const Collected& collected,
-                         LearnBody::Response* response) {
+/// @returns the answer.
+std::string BodyLearning::learn(const LearnBody::Request& request,
+                                const Collected& collected,
+                                LearnBody::Response* response) {
   const std::string unseen = describeUnseen(request.labels, collected.seen_labels);
   body::LearnedConstellation learned = learnFrom(request.name, collected.instants, unseen);
   learned.constellation.labels = labelsOf(learned.ids, collected.blinks);
@@ -256,16 +252,17 @@ void BodyLearning::learn(const LearnBody::Request& request,
   body::writeBodies(file_, bodies);
   guard_.update();
   bodies_ = bodies;
-  response->success = true;
-  response->message = "body '" + request.name + "' with " +
-                      std::to_string(learned.constellation.leds.size()) + " LEDs is in " + file_ +
-                      " and tracked from now on";
+  track(bodies_);
+  std::string message = "body '" + request.name + "' with " +
+                        std::to_string(learned.constellation.leds.size()) + " LEDs is in " + file_ +
+                        " and tracked from now on";
   if (replaces)
-    response->message += "; the body that had this name before is in " + file_ + ".bak";
+    message += "; the body that had this name before is in " + file_ + ".bak";
   if (had_imu)
-    response->message += "; find its IMU again by body_to_base --imu, since its axes have changed";
+    message += "; find its IMU again by body_to_base --imu, since its axes have changed";
   for (const std::string& warning : warnings)
-    response->message += "; but " + warning;
+    message += "; but " + warning;
+  return message;
 }
 
 /// Gives the bodies to the tracker's thread.

@@ -58,11 +58,11 @@ class BodyLearning {
   };
 
   bool onRequest(LearnBody::Request& request, LearnBody::Response& response);
-  std::string refusal(const LearnBody::Request& request);
+  void check(const LearnBody::Request& request);
   Collected collect(const LearnBody::Request& request);
-  void learn(const LearnBody::Request& request,
-             const Collected& collected,
-             LearnBody::Response* response);
+  std::string learn(const LearnBody::Request& request,
+                    const Collected& collected,
+                    LearnBody::Response* response);
   void track(const std::vector<body::Constellation>& bodies);
 
   std::string file_;

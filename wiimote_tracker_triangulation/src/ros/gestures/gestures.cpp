@@ -113,8 +113,7 @@ void Gestures::onPoints(const wiimote_tracker_msgs::TrackedPointArray& message) 
     Hand& hand = place->second;
     if (const auto spotted = hand.spotter.advance(time))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand);
-    const auto path = hand.segmenter.advance(time);
-    if (path && (!parameters_.continuous || wanted_))
+    if (const auto path = hand.segmenter.advance(time))
       onGesture(*path, hand);
     const bool gone = std::none_of(
         message.points.begin(), message.points.end(),
@@ -165,8 +164,7 @@ void Gestures::onPoint(const TrackedPoint& point, double time) {
     if (const auto spotted = hand.spotter.add(here, recognize))
       publish(GestureEvent::RECOGNISED, spotted->recognition, spotted->path, hand);
   }
-  const auto path = hand.segmenter.add(here, point.last_observed.toSec());
-  if (path && (!parameters_.continuous || wanted_))
+  if (const auto path = hand.segmenter.add(here, point.last_observed.toSec()))
     onGesture(*path, hand);
 }
 
@@ -203,8 +201,9 @@ void Gestures::onGesture(const gesture::Path& path, const Hand& hand) {
     keepExample(path, hand);
     return;
   }
-  const auto recognition = recognizer_.recognize(path, zoneOf(path));
-  if (recognition)
+  if (parameters_.continuous)  // the spotter finds gestures
+    return;
+  if (const auto recognition = recognizer_.recognize(path, zoneOf(path)))
     publish(recognition->accepted() ? GestureEvent::RECOGNISED : GestureEvent::REJECTED,
             *recognition, path, hand);
 }
@@ -279,64 +278,46 @@ void Gestures::draw(const std::string& text, const gesture::Path& path, std::uin
   markers_publisher_.publish(array);
 }
 
-/// Why an example cannot be recorded; empty: it can.
-std::string Gestures::refusal(const wiimote_tracker_msgs::RecordGesture::Request& request) const {
+/// @throws Error: an example cannot be recorded.
+void Gestures::check(const wiimote_tracker_msgs::RecordGesture::Request& request) const {
   if (request.gesture.find(geometry::kUnreadableText) != std::string::npos)
-    return "the file of examples cannot have a name with '" +
-           std::string(geometry::kUnreadableText) + "'; choose another one";
+    throw Error("the file of examples cannot have a name with '" +
+                std::string(geometry::kUnreadableText) + "'; choose another one");
   if (!isFreeName(request.gesture))
-    return "a gesture's name must have " + std::string(kFreeName) + "; choose another one";
+    throw Error("a gesture's name must have " + std::string(kFreeName) + "; choose another one");
   const bool known_zone = request.zone.empty() ||
                           std::any_of(zones_.begin(), zones_.end(),
                                       [&](const auto& zone) { return zone.name == request.zone; });
   if (!known_zone)
-    return "the rig has no zone '" + request.zone + "'; name one of its zones, or none";
-  try {
-    guard_.check();
-  } catch (const FileError& e) {
-    return e.what();
-  }
-  return "";
+    throw Error("the rig has no zone '" + request.zone + "'; name one of its zones, or none");
+  guard_.check();
 }
 
 bool Gestures::record(wiimote_tracker_msgs::RecordGesture::Request& request,
                       wiimote_tracker_msgs::RecordGesture::Response& response) {
-  if (request.gesture.empty()) {
-    wanted_.reset();
-    response.success = true;
-    response.message = "recording is cancelled";
-    return true;
-  }
-  response.message = refusal(request);
-  response.success = response.message.empty();
-  if (!response.success)
-    return true;
-  wanted_ = gesture::Example{request.gesture, request.zone, {}};
-  response.message = "the next movement is kept as an example of '" + request.gesture +
-                     "', also one to where it begins; gestures/remove drops all of '" +
-                     request.gesture + "'";
-  return true;
+  return answer(&response, [&]() -> std::string {
+    if (request.gesture.empty()) {
+      wanted_.reset();
+      return "recording is cancelled";
+    }
+    check(request);
+    wanted_ = gesture::Example{request.gesture, request.zone, {}};
+    return "the next movement is kept as an example of '" + request.gesture +
+           "', also one to where it begins; gestures/remove drops all of '" + request.gesture + "'";
+  });
 }
 
 bool Gestures::remove(wiimote_tracker_msgs::RemoveGesture::Request& request,
                       wiimote_tracker_msgs::RemoveGesture::Response& response) {
-  gesture::Recognizer without = recognizer_;
-  const std::size_t removed = without.remove(request.gesture);
-  response.success = false;
-  if (removed == 0) {
-    response.message = "there is no gesture '" + request.gesture + "'; see gestures/list";
-    return true;
-  }
-  try {
+  return answer(&response, [&] {
+    gesture::Recognizer without = recognizer_;
+    const std::size_t removed = without.remove(request.gesture);
+    if (removed == 0)
+      throw Error("there is no gesture '" + request.gesture + "'; see gestures/list");
     writeExamples(without);
-  } catch (const geometry::Error& e) {
-    response.message = e.what();
-    return true;
-  }
-  recognizer_ = without;
-  response.success = true;
-  response.message = "removed " + counted(removed, "example") + " of '" + request.gesture + "'";
-  return true;
+    recognizer_ = without;
+    return "removed " + counted(removed, "example") + " of '" + request.gesture + "'";
+  });
 }
 
 bool Gestures::list(wiimote_tracker_msgs::ListGestures::Request&,

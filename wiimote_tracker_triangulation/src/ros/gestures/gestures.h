@@ -61,7 +61,7 @@ class Gestures {
                const Hand& hand);
   void draw(const std::string& text, const gesture::Path& path, std::uint32_t id);
 
-  std::string refusal(const wiimote_tracker_msgs::RecordGesture::Request& request) const;
+  void check(const wiimote_tracker_msgs::RecordGesture::Request& request) const;
   bool record(wiimote_tracker_msgs::RecordGesture::Request& request,
               wiimote_tracker_msgs::RecordGesture::Response& response);
   bool remove(wiimote_tracker_msgs::RemoveGesture::Request& request,

@@ -10,7 +10,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <string>
 #include <utility>
 
@@ -102,8 +101,6 @@ void MarkerBuilder::setRig(const geometry::Rig& rig) {
     trails_.clear();  // they may be of another world
   if (is_same)
     return;
-  must_clear_ = true;
-  rays_.assign(rig.cameras.size(), 0);
   drawn_.clear();
   trails_.clear();
   time_ = -std::numeric_limits<double>::infinity();
@@ -121,11 +118,10 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
     trails_.clear();
   time_ = time;
   array_.markers.clear();
-  if (must_clear_) {
+  if (drawn_.empty()) {
     Marker clear;
     clear.action = Marker::DELETEALL;
     array_.markers.push_back(clear);
-    must_clear_ = false;
   }
   of_cameras_ = {rig_.world_frame, time, std::max(kCameraLifetime, 3.0 / options_.rate)};
   of_leds_ = {rig_.world_frame, time, std::max(kLedLifetime, 3.0 / options_.rate)};
@@ -135,18 +131,12 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
     addMasks(i);
     addView(i, view, points);
   }
-  std::set<std::uint32_t> gone;
-  gone.swap(drawn_);
   for (const TrackedPoint& point : points.points) {
-    if (point.state == TrackedPoint::LOST)
-      continue;
-    addLed(point);
-    drawn_.insert(point.id);
-    gone.erase(point.id);
+    if (point.state != TrackedPoint::LOST)
+      addLed(point);
   }
-  for (const std::uint32_t id : gone)
-    removeLed(id);
   addTrails();
+  deleteOld();
   return array_;
 }
 
@@ -212,10 +202,6 @@ void MarkerBuilder::addView(std::size_t index,
   Marker blobs = markers::marker(of_leds_, "blob", index, Marker::SPHERE_LIST,
                                  Vector3d::Constant(kBlobDiameter), color(1.0f, 1.0f, 1.0f, 1.0f));
   std::size_t rays = 0;
-  const auto nextRay = [&](const std_msgs::ColorRGBA& color) {
-    return markers::marker(of_leds_, "ray", index + rig_.cameras.size() * rays++, Marker::LINE_LIST,
-                           kLine, color);
-  };
   const bool is_new = view.time && std::abs(time_ - *view.time) < kOldView;
   for (const tracking::SeenSpot& spot : is_new ? view.spots : std::vector<tracking::SeenSpot>()) {
     const auto sight = geometry::sightFromPixel(camera, spot.pixel);
@@ -231,7 +217,8 @@ void MarkerBuilder::addView(std::size_t index,
           return spot.use == tracking::SpotUse::kAssigned && point.id == spot.led;
         });
     double length = kRayLength;
-    Marker ray = nextRay(colorOf(spot.use));
+    Marker ray = markers::marker(of_leds_, "ray", index + rig_.cameras.size() * rays++,
+                                 Marker::LINE_LIST, kLine, colorOf(spot.use));
     if (led != points.points.end()) {
       length = (vectorOf(led->position) - camera.center()).norm();
       const float quality = qualityOf(*led);
@@ -240,13 +227,9 @@ void MarkerBuilder::addView(std::size_t index,
     }
     ray.points.push_back(pointOf(camera.center()));
     ray.points.push_back(pointOf(camera.center() + length * sight->direction));
-    markers::add(ray, &array_);
+    array_.markers.push_back(ray);
   }
   markers::add(blobs, &array_);
-  const std::size_t drawn = rays;
-  while (rays < rays_[index])
-    markers::add(nextRay({}), &array_);
-  rays_[index] = drawn;
 }
 
 void MarkerBuilder::addLed(const TrackedPoint& led) {
@@ -312,29 +295,40 @@ std_msgs::ColorRGBA MarkerBuilder::colorOfLed(const std::string& label, float al
   return result;
 }
 
-void MarkerBuilder::removeLed(std::uint32_t id) {
-  for (const char* ns : {"point", "covariance", "height", "shadow", "label"})
-    markers::add(markers::marker(of_leds_, ns, id, Marker::SPHERE, Vector3d::Ones(), {}), &array_);
-}
-
 void MarkerBuilder::addTrails() {
   for (auto trail = trails_.begin(); trail != trails_.end();) {
     std::deque<Place>& places = trail->second.places;
     const double left = 1.0 - (time_ - places.back().time) / kTrailFades;
-    if (left <= 0.0)
-      places.clear();
     while (!places.empty() && places.front().time < time_ - options_.trail_duration)
       places.pop_front();
+    if (places.empty() || left <= 0.0) {
+      trail = trails_.erase(trail);
+      continue;
+    }
     Marker line = markers::marker(of_leds_, "trail", trail->first, Marker::LINE_STRIP, kLine,
                                   trail->second.color);
     line.color.a *= static_cast<float>(left);
     for (const Place& place : places)
       line.points.push_back(place.position);
-    if (line.points.size() < 2)
-      line.points.clear();
-    markers::add(line, &array_);
-    trail = places.empty() ? trails_.erase(trail) : std::next(trail);
+    if (places.size() > 1)
+      array_.markers.push_back(line);
+    ++trail;
   }
+}
+
+/// Deletes what was in the last array and is not in this one.
+void MarkerBuilder::deleteOld() {
+  std::set<std::pair<std::string, int>> drawn;
+  for (const Marker& marker : array_.markers) {
+    if (marker.action != Marker::DELETEALL)
+      drawn.emplace(marker.ns, marker.id);
+  }
+  for (const auto& [ns, id] : drawn_) {
+    if (drawn.count({ns, id}) == 0)
+      markers::add(markers::marker(of_leds_, ns, id, Marker::POINTS, Vector3d::Ones(), {}),
+                   &array_);
+  }
+  drawn_ = std::move(drawn);
 }
 
 }  // namespace wiimote_tracker

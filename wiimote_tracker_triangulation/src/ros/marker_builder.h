@@ -14,6 +14,7 @@
 #include <map>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -61,17 +62,15 @@ class MarkerBuilder {
                const tracking::CameraView& view,
                const wiimote_tracker_msgs::TrackedPointArray& points);
   void addLed(const wiimote_tracker_msgs::TrackedPoint& point);
-  void removeLed(std::uint32_t id);
   void addTrails();
+  void deleteOld();
 
   MarkerOptions options_;
   geometry::Rig rig_;
-  bool must_clear_ = false;
   double time_ = -std::numeric_limits<double>::infinity();
-  std::vector<std::size_t> rays_;              // how many are drawn, per camera
-  std::set<std::uint32_t> drawn_;              // ids of LEDs
-  std::map<std::uint32_t, Trail> trails_;      // by id
-  std::map<std::string, std::size_t> labels_;  // in the order in which they came
+  std::set<std::pair<std::string, int>> drawn_;  // namespaces and ids in the last array
+  std::map<std::uint32_t, Trail> trails_;        // by id
+  std::map<std::string, std::size_t> labels_;    // in the order in which they came
   visualization_msgs::MarkerArray array_;
   markers::Common of_cameras_, of_leds_;
 };

@@ -21,7 +21,6 @@ using Eigen::Vector3d;
 using markers::color;
 using markers::kLine;
 using markers::kLineWidth;
-using markers::kTextHeight;
 using visualization_msgs::Marker;
 using wiimote_tracker_msgs::TrackedPoint;
 
@@ -53,16 +52,6 @@ std_msgs::ColorRGBA colorOf(tracking::SpotUse use) {
   return color(1.0f, 0.5f, 0.0f, 0.4f);
 }
 
-/// How well the position of an LED is known, from 0 to 1.
-float qualityOf(const TrackedPoint& led) {
-  constexpr double kGood = 0.005, kBad = 0.05;  // standard deviation [m]
-  const auto& c = led.position_covariance;
-  const double stddev = std::sqrt(c[0] + c[4] + c[8]);
-  if (!(stddev < kBad))  // or NaN
-    return 0.0f;
-  return static_cast<float>(std::min(std::log(kBad / stddev) / std::log(kBad / kGood), 1.0));
-}
-
 /// Where a pixel lies on the camera's image plane at a distance, in the world [m].
 Vector3d onImagePlane(const geometry::Camera& camera, const Vector2d& pixel, double distance) {
   const geometry::Intrinsics& i = camera.intrinsics;
@@ -85,9 +74,9 @@ std::array<Vector3d, 4> imageCorners(const geometry::Camera& camera, double dist
 
 visualization_msgs::MarkerArray MarkerBuilder::buildWithoutRig(double time) const {
   visualization_msgs::MarkerArray array;
-  array.markers = {markers::text({rig_.world_frame, time, kAdviceLifetime}, "advice", 0,
-                                 pointOf(kTextHeight * Vector3d::UnitZ()),
-                                 "Not calibrated: open Calibrate", color(1.0f, 1.0f, 1.0f, 1.0f))};
+  array.markers = {markers::textAbove({rig_.world_frame, time, kAdviceLifetime}, "advice", 0,
+                                      Vector3d::Zero(), "Not calibrated: open Calibrate",
+                                      color(1.0f, 1.0f, 1.0f, 1.0f))};
   return array;
 }
 
@@ -144,9 +133,9 @@ void MarkerBuilder::addCamera(std::size_t index, bool has_images) {
   const geometry::Camera& camera = rig_.cameras[index].camera;
   const std::array<Vector3d, 4> corners = imageCorners(camera, options_.image_plane_distance);
   const auto shown = has_images ? color(1.0f, 1.0f, 1.0f, 1.0f) : color(0.55f, 0.55f, 0.55f, 1.0f);
-  array_.markers.push_back(markers::text(of_cameras_, "camera", index,
-                                         pointOf(camera.center() + kTextHeight * Vector3d::UnitZ()),
-                                         camera.name + (has_images ? "" : ": no images"), shown));
+  array_.markers.push_back(markers::textAbove(of_cameras_, "camera", index, camera.center(),
+                                              camera.name + (has_images ? "" : ": no images"),
+                                              shown));
 
   Marker housing = markers::marker(of_cameras_, "housing", index, Marker::CUBE, kHousing, shown);
   housing.pose.position =
@@ -221,9 +210,10 @@ void MarkerBuilder::addView(std::size_t index,
                                  Marker::LINE_LIST, kLine, colorOf(spot.use));
     if (led != points.points.end()) {
       length = (vectorOf(led->position) - camera.center()).norm();
-      const float quality = qualityOf(*led);
+      const auto& c = led->position_covariance;
+      const double quality = markers::qualityOf(std::sqrt(c[0] + c[4] + c[8]));
       ray.scale.x *= 0.5 + 1.5 * quality;
-      ray.color.a = 0.15f + 0.45f * quality;
+      ray.color.a = static_cast<float>(0.15 + 0.45 * quality);
     }
     ray.points.push_back(pointOf(camera.center()));
     ray.points.push_back(pointOf(camera.center() + length * sight->direction));
@@ -257,9 +247,9 @@ void MarkerBuilder::addLed(const TrackedPoint& led) {
   setRotation(Eigen::Quaterniond(rotation), &ellipsoid.pose.orientation);
   array_.markers.push_back(ellipsoid);
 
-  array_.markers.push_back(markers::text(
-      of_leds_, "label", led.id, pointOf(vectorOf(led.position) + kTextHeight * Vector3d::UnitZ()),
-      shownLabel(led.label, led.label_confidence), own_color(alpha)));
+  array_.markers.push_back(markers::textAbove(of_leds_, "label", led.id, vectorOf(led.position),
+                                              shownLabel(led.label, led.label_confidence),
+                                              own_color(alpha)));
 
   Marker height = markers::marker(of_leds_, "height", led.id, Marker::LINE_LIST, kLine,
                                   own_color(0.3f * alpha));

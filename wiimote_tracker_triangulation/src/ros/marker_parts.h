@@ -5,6 +5,8 @@
 #include <std_msgs/ColorRGBA.h>
 #include <visualization_msgs/MarkerArray.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -23,6 +25,15 @@ inline std_msgs::ColorRGBA color(float r, float g, float b, float a) {
   color.b = b;
   color.a = a;
   return color;
+}
+
+/// How well a position is known, from 0 (a standard deviation of 50 mm or more) to 1 (5 mm or
+/// less).
+inline double qualityOf(double stddev) {
+  constexpr double kGood = 0.005, kBad = 0.05;  // [m]
+  if (!(stddev < kBad))                         // or NaN
+    return 0.0;
+  return std::min(std::log(kBad / stddev) / std::log(kBad / kGood), 1.0);
 }
 
 /// What the markers of one array have in common.
@@ -51,17 +62,17 @@ inline visualization_msgs::Marker marker(const Common& common,
   return marker;
 }
 
-/// A text that faces the viewer. @param height of its letters [m]
-inline visualization_msgs::Marker text(const Common& common,
-                                       const std::string& ns,
-                                       std::size_t id,
-                                       const geometry_msgs::Point& position,
-                                       const std::string& words,
-                                       const std_msgs::ColorRGBA& color,
-                                       double height = kTextHeight) {
+/// A text that faces the viewer, above a place. @param height of its letters [m]
+inline visualization_msgs::Marker textAbove(const Common& common,
+                                            const std::string& ns,
+                                            std::size_t id,
+                                            const Eigen::Vector3d& place,
+                                            const std::string& words,
+                                            const std_msgs::ColorRGBA& color,
+                                            double height = kTextHeight) {
   visualization_msgs::Marker text = marker(
       common, ns, id, visualization_msgs::Marker::TEXT_VIEW_FACING, {0.0, 0.0, height}, color);
-  text.pose.position = position;
+  text.pose.position = pointOf(place + height * Eigen::Vector3d::UnitZ());
   text.text = words;
   return text;
 }

@@ -50,11 +50,6 @@ class BodyMarkers {
   static constexpr double kLedDiameter = 0.02;    // [m]
   static constexpr double kLedTextHeight = 0.04;  // [m]
 
-  static geometry_msgs::Point above(geometry_msgs::Point point, double height) {
-    point.z += height;
-    return point;
-  }
-
   void addBody(const TrackedBody& body, std::size_t id) {
     const float alpha = body.state == TrackedBody::TRACKED ? 1.0f : 0.4f;
     const geometry_msgs::Pose& pose = body.pose.pose;
@@ -79,9 +74,9 @@ class BodyMarkers {
     }
     array_.markers.push_back(shape);
 
-    array_.markers.push_back(markers::text(common_, "body_label", id,
-                                           above(pose.position, kAxisLength + markers::kTextHeight),
-                                           body.name, markers::color(1.0f, 1.0f, 1.0f, alpha)));
+    array_.markers.push_back(markers::textAbove(
+        common_, "body_label", id, vectorOf(pose.position) + kAxisLength * Eigen::Vector3d::UnitZ(),
+        body.name, markers::color(1.0f, 1.0f, 1.0f, alpha)));
     addLeds(body, id);
   }
 
@@ -97,10 +92,9 @@ class BodyMarkers {
       leds.points.push_back(led.position);
       leds.colors.push_back(markers::color(1.0f, 0.4f, 0.3f, alpha));
 
-      array_.markers.push_back(markers::text(common_, "body_led_label", body::kMaximumLeds * id + i,
-                                             above(led.position, kLedTextHeight), led.label,
-                                             markers::color(1.0f, 0.8f, 0.7f, alpha),
-                                             kLedTextHeight));
+      array_.markers.push_back(markers::textAbove(
+          common_, "body_led_label", body::kMaximumLeds * id + i, vectorOf(led.position), led.label,
+          markers::color(1.0f, 0.8f, 0.7f, alpha), kLedTextHeight));
 
       for (const geometry::RigCamera& camera : rig_.cameras) {
         const std::string& name = camera.camera.name;

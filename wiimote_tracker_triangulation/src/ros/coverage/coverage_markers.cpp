@@ -7,7 +7,6 @@
 #include <wiimote_tracker_msgs/median.h>
 #include <wiimote_tracker_msgs/text.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
@@ -19,16 +18,14 @@ using geometry::CoverageCell;
 using markers::color;
 using visualization_msgs::Marker;
 
-constexpr double kGood = 0.005;     // green [m]
-constexpr double kBad = 0.05;       // yellow [m]
 constexpr double kCubeShare = 0.3;  // of a cell's size
 
 /// Red, green, blue.
 std::array<std::uint8_t, 3> colorOf(const CoverageCell& cell) {
   if (std::isnan(cell.stddev))
     return {230, 51, 51};
-  const double share = std::log(cell.stddev / kGood) / std::log(kBad / kGood);
-  return {static_cast<std::uint8_t>(255.0 * std::clamp(share, 0.0, 1.0)), 204, 51};
+  const double red = 255.0 * (1.0 - markers::qualityOf(cell.stddev));
+  return {static_cast<std::uint8_t>(red), 204, 51};
 }
 
 constexpr std::size_t kLongestLine = 52;  // [letters]: fits between open docks of 1280 px
@@ -62,10 +59,9 @@ Marker textAbove(const std::string& world_frame,
   Eigen::AlignedBox3d box;
   for (const CoverageCell& cell : cells)
     box.extend(cell.center);
-  return markers::text(
-      commonOf(world_frame), ns, 1,
-      pointOf(Eigen::Vector3d(box.center().x(), box.center().y(), box.max().z() + height)),
-      inLines(words), color(1.0f, 1.0f, 1.0f, 1.0f));
+  return markers::textAbove(commonOf(world_frame), ns, 1,
+                            {box.center().x(), box.center().y(), box.max().z() + height},
+                            inLines(words), color(1.0f, 1.0f, 1.0f, 1.0f));
 }
 
 }  // namespace

@@ -271,10 +271,8 @@ void Gestures::draw(const std::string& text, const gesture::Path& path, std::uin
   for (const gesture::PathPoint& point : path)
     line.points.push_back(pointOf(point.position));
   visualization_msgs::MarkerArray array;
-  array.markers = {
-      line, markers::text(common, "name", id,
-                          pointOf(path.back().position + kTextHeight * Eigen::Vector3d::UnitZ()),
-                          text, orange, kTextHeight)};
+  array.markers = {line, markers::textAbove(common, "name", id, path.back().position, text, orange,
+                                            kTextHeight)};
   markers_publisher_.publish(array);
 }
 

@@ -1,8 +1,6 @@
 #pragma once
 
-#include "tracker/parameters.h"
-#include "tracker/point_message.h"
-#include "wiimote_tracker_triangulation/ros/message_fields.h"
+#include "tracker/publish_each.h"
 
 #include <ros/node_handle.h>
 #include <tf2_ros/transform_broadcaster.h>
@@ -16,95 +14,83 @@
 #include <map>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace wiimote_tracker {
 
-/// Publishes each LED by itself: its point on <label>/point, the transform world -> label, and,
-/// where asked, <label>/odometry. The topics of listed labels exist from the start, those of other
-/// LEDs from their first point until they are lost or get a listed label. Those are advertised in
-/// another thread, one LED after the other: while there is no ROS master, advertising waits for it.
+/// Publishes each LED by itself (see publishEach()). The topics of listed labels exist from the
+/// start, those of other LEDs from their first point until they are lost or get a listed label.
+/// Those are advertised in another thread, one after the other: while there is no ROS master,
+/// advertising waits for it.
 class LedPublishers {
-  using PointStamped = geometry_msgs::PointStamped;
-  using TrackedPoint = wiimote_tracker_msgs::TrackedPoint;
-
  public:
   LedPublishers(const ros::NodeHandle& nh,
                 const std::vector<std::string>& labels,
                 const OutputOptions& options)
       : nh_(nh), listed_(labels.begin(), labels.end()), options_(options) {
-    for (const std::string& label : listed_)
-      topics_[label] = advertise(nh_, label, options_.led_odometry);
+    for (const std::string& label : listed_) {
+      const std::string point = label + "/point", odometry = label + "/odometry";
+      topics_[point] = advertise<geometry_msgs::PointStamped>(nh_, point);
+      if (options_.led_odometry)
+        topics_[odometry] = advertise<nav_msgs::Odometry>(nh_, odometry);
+    }
   }
 
   void publish(const wiimote_tracker_msgs::TrackedPointArray& points) {
     if (advertising_.valid() &&
         advertising_.wait_for(std::chrono::seconds(0)) == std::future_status::ready)
-      topics_[advertising_label_] = advertising_.get();
-    transforms_.clear();
-    for (const TrackedPoint& point : points.points) {
-      if (!isPublished(point, options_.publish_predicted))
-        continue;
-      if (const Topics* topics = topicsOf(point.label)) {
-        topics->point.publish(boost::make_shared<PointStamped>(pointStamped(points, point)));
-        if (options_.led_odometry)
-          topics->odometry.publish(boost::make_shared<nav_msgs::Odometry>(odometry(points, point)));
-      }
-      transforms_.push_back(transform(points, point));
-    }
-    if (!transforms_.empty())
-      broadcaster_.sendTransform(transforms_);
+      topics_[advertised_] = advertising_.get();
+    const auto transforms =
+        publishEach(points, options_, [this](const std::string& topic, const auto& message) {
+          using Message = std::decay_t<decltype(message)>;
+          if (const ros::Publisher* publisher = publisherOf<Message>(topic))
+            publisher->publish(boost::make_shared<Message>(message));
+        });
+    if (!transforms.empty())
+      broadcaster_.sendTransform(transforms);
     removeUnused(points);
   }
 
  private:
-  struct Topics {
-    ros::Publisher point;
-    ros::Publisher odometry;  // none: not asked for
-  };
-
-  static Topics advertise(ros::NodeHandle nh, const std::string& label, bool with_odometry) {
-    Topics topics;
-    topics.point = nh.advertise<PointStamped>(label + "/point", 100);
-    if (with_odometry)
-      topics.odometry = nh.advertise<nav_msgs::Odometry>(label + "/odometry", 100);
-    return topics;
+  template <typename Message>
+  static ros::Publisher advertise(ros::NodeHandle nh, const std::string& topic) {
+    return nh.advertise<Message>(topic, 100);
   }
 
-  /// Null until they are advertised.
-  const Topics* topicsOf(const std::string& label) {
-    const auto found = topics_.find(label);
+  /// Null until it is advertised.
+  template <typename Message>
+  const ros::Publisher* publisherOf(const std::string& topic) {
+    const auto found = topics_.find(topic);
     if (found != topics_.end())
       return &found->second;
     if (!advertising_.valid()) {
-      advertising_label_ = label;
-      advertising_ = std::async(std::launch::async, advertise, nh_, label, options_.led_odometry);
+      advertised_ = topic;
+      advertising_ = std::async(std::launch::async, advertise<Message>, nh_, topic);
     }
     return nullptr;
   }
 
   void removeUnused(const wiimote_tracker_msgs::TrackedPointArray& points) {
-    if (topics_.size() == listed_.size())
-      return;
-    for (auto topics = topics_.begin(); topics != topics_.end();) {
-      const std::string& label = topics->first;
+    using wiimote_tracker_msgs::TrackedPoint;
+    for (auto topic = topics_.begin(); topic != topics_.end();) {
+      const std::string label = topic->first.substr(0, topic->first.rfind('/'));
       const bool is_used =
           listed_.count(label) > 0 ||
           std::any_of(points.points.begin(), points.points.end(), [&](const TrackedPoint& point) {
             return point.label == label && point.state != TrackedPoint::LOST;
           });
-      topics = is_used ? std::next(topics) : topics_.erase(topics);
+      topic = is_used ? std::next(topic) : topics_.erase(topic);
     }
   }
 
   ros::NodeHandle nh_;
   std::set<std::string> listed_;
   OutputOptions options_;
-  std::map<std::string, Topics> topics_;  // by label
-  std::string advertising_label_;
-  std::future<Topics> advertising_;  // invalid: none are being advertised
+  std::map<std::string, ros::Publisher> topics_;  // by name
+  std::string advertised_;                        // topic
+  std::future<ros::Publisher> advertising_;       // invalid: none is being advertised
   tf2_ros::TransformBroadcaster broadcaster_;
-  std::vector<geometry_msgs::TransformStamped> transforms_;  // reused
 };
 
 }  // namespace wiimote_tracker

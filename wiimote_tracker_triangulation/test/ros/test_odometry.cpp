@@ -1,7 +1,6 @@
 // Odometry and twist of bodies and LEDs from the tracker's messages.
 #include "geometry/random_rigs.h"
-#include "ros/tracker/body_message.h"
-#include "ros/tracker/point_message.h"
+#include "ros/tracker/publish_each.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +59,7 @@ TEST(BodyOdometry, TheTwistIsAlongTheBodysAxes) {
   EXPECT_EQ(body.pose, found.pose);
   EXPECT_LT((vectorOf(found.twist.twist.linear) - Vector3d(2.0, -1.0, 3.0)).norm(), 1e-12);
   EXPECT_LT((vectorOf(found.twist.twist.angular) - Vector3d(0.2, -0.1, 0.3)).norm(), 1e-12);
-  const geometry_msgs::TwistWithCovarianceStamped twist = twistOf(found);
+  const geometry_msgs::TwistWithCovarianceStamped twist = twistStamped(found);
   EXPECT_EQ("wand", twist.header.frame_id);
   EXPECT_EQ(found.twist, twist.twist);
 }

@@ -105,37 +105,12 @@ TrackedBodyArray bodyMessage(const body::BodySnapshot& snapshot,
   return message;
 }
 
-geometry_msgs::PoseWithCovarianceStamped poseStamped(const TrackedBodyArray& array,
-                                                     const TrackedBody& body) {
-  geometry_msgs::PoseWithCovarianceStamped message;
-  message.header = array.header;
-  message.pose = body.pose;
-  return message;
-}
-
-geometry_msgs::TransformStamped transform(const TrackedBodyArray& array, const TrackedBody& body) {
-  geometry_msgs::TransformStamped message;
-  message.header = array.header;
-  message.child_frame_id = body.name;
-  setVector(vectorOf(body.pose.pose.position), &message.transform.translation);
-  message.transform.rotation = body.pose.pose.orientation;
-  return message;
-}
-
 nav_msgs::Odometry odometry(const TrackedBodyArray& array, const TrackedBody& body) {
   nav_msgs::Odometry message;
   message.header = array.header;
   message.child_frame_id = body.name;
   message.pose = body.pose;
   message.twist = inBody(body.pose, body.twist);
-  return message;
-}
-
-geometry_msgs::TwistWithCovarianceStamped twistOf(const nav_msgs::Odometry& odometry) {
-  geometry_msgs::TwistWithCovarianceStamped message;
-  message.header = odometry.header;
-  message.header.frame_id = odometry.child_frame_id;
-  message.twist = odometry.twist;
   return message;
 }
 

@@ -5,9 +5,6 @@
 #include "body/inertial_samples.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 
-#include <geometry_msgs/PoseWithCovarianceStamped.h>
-#include <geometry_msgs/TransformStamped.h>
-#include <geometry_msgs/TwistWithCovarianceStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <sensor_msgs/Imu.h>
 #include <wiimote_tracker_msgs/TrackedBodyArray.h>
@@ -25,21 +22,10 @@ wiimote_tracker_msgs::TrackedBodyArray bodyMessage(
     const geometry::Rig& rig,
     const std::string& rig_id);
 
-geometry_msgs::PoseWithCovarianceStamped poseStamped(
-    const wiimote_tracker_msgs::TrackedBodyArray& array,
-    const wiimote_tracker_msgs::TrackedBody& body);
-
-/// World frame -> body.
-geometry_msgs::TransformStamped transform(const wiimote_tracker_msgs::TrackedBodyArray& array,
-                                          const wiimote_tracker_msgs::TrackedBody& body);
-
 /// Pose in the world frame; child frame and twist: the body's. The covariance of the twist includes
 /// that of the orientation, taken as independent of the velocities.
 nav_msgs::Odometry odometry(const wiimote_tracker_msgs::TrackedBodyArray& array,
                             const wiimote_tracker_msgs::TrackedBody& body);
-
-/// The twist alone, in its frame.
-geometry_msgs::TwistWithCovarianceStamped twistOf(const nav_msgs::Odometry& odometry);
 
 /// Along the body's axes, by the clock of the images. Nothing if the message says that it has no
 /// angular velocity or acceleration (REP 145: a covariance that begins with -1), or if a number is

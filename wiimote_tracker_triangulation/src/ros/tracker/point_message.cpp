@@ -61,24 +61,6 @@ TrackedPointArray pointMessage(const tracking::Snapshot& snapshot,
   return message;
 }
 
-geometry_msgs::PointStamped pointStamped(const TrackedPointArray& array,
-                                         const TrackedPoint& point) {
-  geometry_msgs::PointStamped message;
-  message.header = array.header;
-  message.point = point.position;
-  return message;
-}
-
-geometry_msgs::TransformStamped transform(const TrackedPointArray& array,
-                                          const TrackedPoint& point) {
-  geometry_msgs::TransformStamped message;
-  message.header = array.header;
-  message.child_frame_id = point.label;
-  setVector(vectorOf(point.position), &message.transform.translation);
-  message.transform.rotation.w = 1.0;
-  return message;
-}
-
 nav_msgs::Odometry odometry(const TrackedPointArray& array, const TrackedPoint& point) {
   nav_msgs::Odometry message;
   message.header = array.header;

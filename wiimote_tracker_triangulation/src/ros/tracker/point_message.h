@@ -5,8 +5,6 @@
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 #include "wiimote_tracker_triangulation/tracking/snapshot.h"
 
-#include <geometry_msgs/PointStamped.h>
-#include <geometry_msgs/TransformStamped.h>
 #include <nav_msgs/Odometry.h>
 #include <wiimote_tracker_msgs/TrackedPointArray.h>
 
@@ -23,13 +21,6 @@ wiimote_tracker_msgs::TrackedPoint trackedPoint(const tracking::TrackedLed& led,
                                                 double time,
                                                 const geometry::Rig& rig,
                                                 const identity::LedLabels& labels);
-
-geometry_msgs::PointStamped pointStamped(const wiimote_tracker_msgs::TrackedPointArray& array,
-                                         const wiimote_tracker_msgs::TrackedPoint& point);
-
-/// World frame -> label, without rotation.
-geometry_msgs::TransformStamped transform(const wiimote_tracker_msgs::TrackedPointArray& array,
-                                          const wiimote_tracker_msgs::TrackedPoint& point);
 
 /// Of one LED; its frame has the world's axes. What is unknown is 0 with the variance
 /// kUnknownVariance: orientation, angular velocity, and with mode instant the velocity.

@@ -1,8 +1,7 @@
 #include "output.h"
 
 #include "geometry/output_file.h"
-#include "ros/tracker/body_message.h"
-#include "ros/tracker/point_message.h"
+#include "ros/tracker/publish_each.h"
 
 #include <tf2_msgs/TFMessage.h>
 #include <boost/make_shared.hpp>
@@ -99,18 +98,11 @@ void Output::onPoints(const wiimote_tracker_msgs::TrackedPointArrayConstPtr& poi
                       const std::vector<tracking::CameraView>& /*views*/) {
   ++points_;
   write(topics_("points"), now_, *points);
-  TFMessage transforms;
-  for (const TrackedPoint& point : points->points) {
+  for (const TrackedPoint& point : points->points)
     ids_.insert(point.id);
-    if (!isPublished(point, options_.publish_predicted))
-      continue;
-    write(topics_(point.label + "/point"), now_, pointStamped(*points, point));
-    if (options_.led_odometry)
-      write(topics_(point.label + "/odometry"), now_, odometry(*points, point));
-    transforms.transforms.push_back(transform(*points, point));
-  }
-  if (!transforms.transforms.empty())
-    write(kTransforms, now_, transforms);
+  writeTransforms(publishEach(*points, options_, [this](const auto& topic, const auto& message) {
+    write(topics_(topic), now_, message);
+  }));
   writeMeasurements(*points, false);
 }
 
@@ -119,20 +111,17 @@ void Output::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
   write(topics_("bodies"), now_, bodies);
   for (const std::unique_ptr<measurements::Writer>& writer : writers_)
     writer->addBodies(bodies);
-  TFMessage transforms;
-  for (std::size_t i = 0; i < bodies.bodies.size(); ++i) {
-    const wiimote_tracker_msgs::TrackedBody& body = bodies.bodies[i];
-    if (!isPublished(body, options_.publish_predicted || bridged[i]))
-      continue;
-    write(topics_(body.name + "/pose"), now_, poseStamped(bodies, body));
-    const nav_msgs::Odometry motion = odometry(bodies, body);
-    write(topics_(body.name + "/twist"), now_, twistOf(motion));
-    write(topics_(body.name + "/odometry"), now_, motion);
-    if (options_.body_transforms)
-      transforms.transforms.push_back(transform(bodies, body));
-  }
-  if (!transforms.transforms.empty())
-    write(kTransforms, now_, transforms);
+  writeTransforms(publishEach(
+      bodies, bridged, options_,
+      [this](const auto& topic, const auto& message) { write(topics_(topic), now_, message); }));
+}
+
+void Output::writeTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms) {
+  if (transforms.empty())
+    return;
+  TFMessage message;
+  message.transforms = transforms;
+  write(kTransforms, now_, message);
 }
 
 void Output::onTriggeredPoints(const TrackedPointArray& points) {

@@ -4,6 +4,7 @@
 #include "ros/measurements/writer.h"
 #include "ros/tracker/message_tracker.h"
 
+#include <geometry_msgs/TransformStamped.h>
 #include <rosbag/bag.h>
 
 #include <algorithm>
@@ -63,6 +64,7 @@ class Output : public MessageSink {
              const ros::Time& time,
              const Message& message,
              const boost::shared_ptr<ros::M_string>& header = nullptr);
+  void writeTransforms(const std::vector<geometry_msgs::TransformStamped>& transforms);
   void writeMeasurements(const wiimote_tracker_msgs::TrackedPointArray& points, bool triggered);
   [[noreturn]] void fail(const std::string& reason);
   /// Removes all parts, and leaves the bag open until the process ends. Nothing if it is finished.

@@ -31,23 +31,19 @@ class BodyDiagnostics {
   }
 
   void setBodies(const std::vector<body::Constellation>& bodies) {
-    for (const std::string& status : statuses_)
-      updater_.removeByName(status);
-    statuses_.clear();
+    for (const auto& [name, seen] : seen_)
+      updater_.removeByName("body " + name);
     seen_.clear();
     for (const body::Constellation& body : bodies) {
       const std::string warning = joined(shapeWarnings({body}), "; ");
-      statuses_.push_back("body " + body.name);
       seen_[body.name].leds.resize(body.leds.size());
-      updater_.add(statuses_.back(), [=](diagnostic_updater::DiagnosticStatusWrapper& status) {
+      updater_.add("body " + body.name, [=](diagnostic_updater::DiagnosticStatusWrapper& status) {
         report(body, warning, status);
       });
     }
   }
 
   void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies) {
-    for (auto& [name, seen] : seen_)
-      ++seen.images;
     for (const TrackedBody& body : bodies.bodies) {
       Seen& seen = seen_[body.name];
       seen.tracked += body.state == TrackedBody::TRACKED;
@@ -59,6 +55,7 @@ class BodyDiagnostics {
       }
     }
     for (auto& [name, seen] : seen_) {
+      ++seen.images;
       // Time jumped back, as of a bag that starts over.
       if (seen.last_observed > bodies.header.stamp)
         seen.last_observed = ros::Time();
@@ -67,7 +64,7 @@ class BodyDiagnostics {
 
   /// Publishes when due, if there are bodies.
   void update() {
-    if (!statuses_.empty())
+    if (!seen_.empty())
       updater_.update();
   }
 
@@ -120,14 +117,12 @@ class BodyDiagnostics {
     for (std::size_t i = 0; i < seen.leds.size(); ++i)
       status.addf("deviation of LED " + body.labelOf(i) + " [mm]", "%.2f",
                   1e3 * seen.leds[i].value());
-    const std::size_t leds = seen.leds.size();
-    const ros::Time last_observed = seen.last_observed;
-    seen = Seen();
-    seen.leds.resize(leds);
-    seen.last_observed = last_observed;
+    Seen next;
+    next.last_observed = seen.last_observed;
+    next.leds.resize(seen.leds.size());
+    seen = next;
   }
 
-  std::vector<std::string> statuses_;
   std::map<std::string, Seen> seen_;  // by name
   SteadyUpdater updater_;
 };

@@ -263,8 +263,8 @@ class ContinuousServices {
   std::string watched_;                                          // idToWatch() of the last update.
   std::optional<continuous::ContinuousCalibration> continuous_;  // Nothing without a rig.
   std::vector<std::string> new_clocks_;                          // Of the rig that is watched.
-  std::optional<continuous::Proposal> proposal_;                 // The same.
-  std::string contradiction_;                                    // The same, that was logged.
+  std::optional<continuous::Proposal> proposal_;                 // For the rig that is watched.
+  std::string contradiction_;  // The warning on the watched rig that was logged last; empty: none.
   ros::WallTimer timer_;
 };
 

@@ -211,18 +211,6 @@ void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodie
     markers_publisher_.publish(body_markers_.build(bodies));
 }
 
-void Triangulation::onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) {
-  zone_publisher_.publish(event);
-}
-
-void Triangulation::onTriggeredPoints(const TrackedPointArray& points) {
-  triggered_publisher_.publish(points);
-}
-
-void Triangulation::onProblem(const std::string& sentence) {
-  ROS_WARN("%s.", sentence.c_str());
-}
-
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
     const bool is_calibrating = is_calibrating_ && calibration_.getNumPublishers() > 0;

@@ -50,9 +50,13 @@ class Triangulation : private MessageSink {
                 const std::vector<tracking::CameraView>& views) override;
   void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
                 const std::vector<bool>& bridged) override;
-  void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override;
-  void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override;
-  void onProblem(const std::string& sentence) override;
+  void onZoneEvent(const wiimote_tracker_msgs::ZoneEvent& event) override {
+    zone_publisher_.publish(event);
+  }
+  void onTriggeredPoints(const wiimote_tracker_msgs::TrackedPointArray& points) override {
+    triggered_publisher_.publish(points);
+  }
+  void onProblem(const std::string& sentence) override { ROS_WARN("%s.", sentence.c_str()); }
 
   ros::NodeHandle nh_;
   TrackingParameters parameters_;

@@ -3,11 +3,10 @@
 #include "bodies/body_diagnostics.h"
 #include "bodies/body_learning.h"
 #include "bodies/body_markers.h"
-#include "bodies/body_publishers.h"
-#include "led_publishers.h"
 #include "load_shedding.h"
 #include "marker_builder.h"
 #include "rig_subscription.h"
+#include "single_publishers.h"
 #include "tracker/message_tracker.h"
 #include "tracker/parameters.h"
 #include "tracking_diagnostics.h"
@@ -62,8 +61,7 @@ class Triangulation : private MessageSink {
   TrackingParameters parameters_;
   MessageTracker tracker_;
   MarkerBuilder markers_;
-  LedPublishers leds_;
-  BodyPublishers bodies_;
+  SinglePublishers singles_;
   BodyMarkers body_markers_;
   BodyDiagnostics body_diagnostics_;
   BodyLearning learning_;
@@ -76,6 +74,7 @@ class Triangulation : private MessageSink {
   bool is_calibrating_ = false;
 
   ros::Publisher points_publisher_;
+  ros::Publisher bodies_publisher_;
   ros::Publisher markers_publisher_;
   ros::Publisher zone_publisher_;
   ros::Publisher triggered_publisher_;

@@ -3,7 +3,7 @@
 #include "geometry/random_rigs.h"
 #include "ros/blob_image.h"
 #include "ros/callbacks.h"
-#include "ros/led_publishers.h"
+#include "ros/single_publishers.h"
 #include "ros/triangulation.h"
 #include "wiimote_tracker_triangulation/ros/conversions.h"
 
@@ -108,7 +108,7 @@ TEST(LedTopics, EndWithAnLedThatIsSeenForAMomentOnly) {
     ros::this_node::getAdvertisedTopics(topics);
     return std::count(topics.begin(), topics.end(), ros::names::resolve("led_7/point")) > 0;
   };
-  LedPublishers publishers(ros::NodeHandle(), {}, OutputOptions());
+  SinglePublishers publishers(ros::NodeHandle(), {}, OutputOptions());
   wiimote_tracker_msgs::TrackedPointArray points;
   points.points.resize(1);
   points.points[0].label = "led_7";

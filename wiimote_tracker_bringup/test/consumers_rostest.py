@@ -8,31 +8,22 @@ import sys
 import xml.etree.ElementTree as ElementTree
 
 import numpy as np
-import roslaunch
 import rospkg
 import rospy
 import rostest
 import rostopic
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistWithCovarianceStamped
+from launch_files import load
 from live_rig import LiveRigTest
 from nav_msgs.msg import Odometry
 from tf2_msgs.msg import TFMessage
 
 PACKAGE = rospkg.RosPack().get_path('wiimote_tracker_bringup')
-LAUNCH = PACKAGE + '/launch/'
 SETTLE = 1.0         # the drivers' clocks [s]
 JUDGED = 3.0         # [s]
 LEAST_RATE = 150.0  # of four cameras, less what is lost or late [Hz]
 OLDEST = 0.1         # [s]
-
-
-def load(name, *arguments):
-    """The nodes by name and the parameters of a launch file."""
-    config = roslaunch.config.ROSLaunchConfig()
-    roslaunch.xmlloader.XmlLoader().load(LAUNCH + name, config, argv=list(arguments), verbose=False)
-    return ({node.name: node for node in config.nodes},
-            {name: param.value for name, param in config.params.items()})
 
 
 class Consumers(LiveRigTest):

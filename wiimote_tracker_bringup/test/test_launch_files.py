@@ -10,9 +10,8 @@ import xml.etree.ElementTree as ElementTree
 
 import pytest
 import roslaunch.arg_dump
-import roslaunch.config
 
-LAUNCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch')
+from launch_files import LAUNCH, configuration
 
 
 @pytest.mark.parametrize('path', sorted(
@@ -71,9 +70,7 @@ def test_a_file_of_parameters_wins(load, tmp_path, name, given):
     ('../../wiimote_tracker_triangulation/launch/record_points.launch', [], {'/record_points/'}),
     ('../../wiimote_tracker_driver/launch/driver.launch', [], {'/wiimote_1/driver/'})])
 def test_a_parameter_taken_out_of_a_file_is_not_kept_by_the_master(name, arguments, cleared):
-    config = roslaunch.config.load_config_default(
-        [(os.path.join(LAUNCH, name), arguments)], 11311, verbose=False)
-    assert set(config.clear_params) == cleared
+    assert set(configuration(name, *arguments).clear_params) == cleared
 
 
 def test_a_file_of_parameters_wins_over_those_of_the_coverage(load, tmp_path):

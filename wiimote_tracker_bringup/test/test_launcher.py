@@ -6,10 +6,10 @@ import subprocess
 import sys
 
 import pytest
-import roslaunch.config
+from launch_files import LAUNCH, configuration
 from wiimote_tracker_launch import launcher
 
-TRACKER = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/tracker.launch')
+TRACKER = os.path.join(LAUNCH, 'tracker.launch')
 OURS = ['--skip-log-check', 'wiimote_tracker_bringup', 'tracker.launch']
 
 
@@ -60,7 +60,7 @@ def test_arguments_that_nobody_takes_are_told(words, said):
 @pytest.mark.parametrize('here', [False, True])
 def test_launch_files_without_master_watch_tell_it_too(tmp_path, file, given, meant, here):
     package, file = file.split('/') if '/' in file else ('bringup', file)
-    packages = os.path.join(os.path.dirname(TRACKER), '../../wiimote_tracker_')
+    packages = os.path.join(LAUNCH, '../../wiimote_tracker_')
     with open(f'{packages}{package}/launch/{file}.launch', encoding='utf-8') as text:
         assert 'type="check_arguments"' in text.read()
     stand_in = tmp_path / 'roslaunch'
@@ -107,9 +107,7 @@ def test_parameters_that_no_node_reads_are_warned_of(tmp_path, text, warned):
 def test_launch_files_warn_of_parameters_that_no_node_reads(tmp_path, words, read):
     (tmp_path / 'my file.yaml').write_text(''.join(name + ': {a: 1}\n' for name in read + ['b']))
     name, *arguments = words.split()
-    config = roslaunch.config.load_config_default(
-        [(os.path.join(os.path.dirname(TRACKER), name),
-          arguments + [f'parameters:={tmp_path}/my file.yaml'])], 11311, verbose=False)
+    config = configuration(name, *arguments, f'parameters:={tmp_path}/my file.yaml')
     args, = [node.args for node in config.nodes
              if node.type in ('master_watch', 'check_arguments')]
     said, = launcher.warnings(*shlex.split(args))

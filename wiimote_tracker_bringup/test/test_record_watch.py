@@ -8,10 +8,10 @@ from unittest import mock
 
 import program_module
 import pytest
-import roslaunch.config
+
+from launch_files import configuration
 
 watch = program_module.load('launch/record_watch')
-LAUNCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch/record.launch')
 OK, WARN, ERROR = range(3)
 
 
@@ -82,8 +82,7 @@ def test_arguments_may_be_left_out(monkeypatch, given, folder, level):
 
 
 def test_it_looks_where_the_bags_are_written():
-    arguments = ['output:=/my disk/run', 'topics:=/points']
-    nodes = roslaunch.config.load_config_default([(LAUNCH, arguments)], 11311, verbose=False).nodes
+    nodes = configuration('record.launch', 'output:=/my disk/run', 'topics:=/points').nodes
     watched, = [shlex.split(node.args) for node in nodes if node.type == 'record_watch']
     recorded, = [shlex.split(node.args) for node in nodes if node.type == 'record']
     assert watched == ['/my disk/run', '/points'] and '--output-prefix=/my disk/run' in recorded

@@ -3,19 +3,17 @@
 import os
 import shlex
 
-import roslaunch.config
 import roslaunch.core
+from launch_files import configuration
 from rosgraph_msgs.msg import Log
 from wiimote_tracker_bringup import cameras_file
 
 HERE = os.path.dirname(os.path.realpath(__file__))
-LAUNCH_FILE = os.path.join(HERE, '../launch/several_machines.launch')
 CONFIG = os.path.join(HERE, '../config')
 
 
 def load(*arguments):
-    return roslaunch.config.load_config_default([(LAUNCH_FILE, list(arguments))], None,
-                                                verbose=False, assign_machines=False)
+    return configuration('several_machines.launch', *arguments)
 
 
 def test_drivers_run_near_the_remotes_and_the_rest_here():

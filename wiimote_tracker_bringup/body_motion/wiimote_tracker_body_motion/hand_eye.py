@@ -37,7 +37,7 @@ class Problem:
         since = self.body.times - self.body.times[0]
         return np.minimum((since / INTERVAL).astype(int), len(self.durations) - 1)
 
-    @functools.lru_cache(maxsize=1)
+    @functools.lru_cache(maxsize=2)
     def base_at(self, offset):
         """At the times of the states and of the body's poses."""
         return [self.base.at(np.clip(times - offset, *self.base.times[[0, -1]]))
@@ -63,6 +63,6 @@ class Problem:
 def moved(state, odometry, first, ends):
     """Where the odometry comes to from the first states: rotations and positions. odometry, ends:
     its poses at all states, and then."""
-    back = state.rotations[first] * odometry.rotations[first].inv()
+    back = (state.rotations * odometry.rotations.inv())[first]
     return (back * ends.rotations,
             state.vectors[first, 6:] + back.apply(ends.positions - odometry.positions[first]))

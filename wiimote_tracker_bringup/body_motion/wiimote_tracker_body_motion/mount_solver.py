@@ -1,11 +1,11 @@
 """Where a base sits on a body: maximum likelihood over the path of the base and what is constant.
 
-The path is a chain of states. Each residual depends on the constants, a state and the next one.
-There are six groups of them:
+The path is a chain of states. There are six groups of residuals, which depend on the constants,
+a state, and the first four on the next one, too:
 
     0, 1  how the base moves from one state to the next, by odometry or an IMU
-    2, 3  rotations [rad] and positions [m] of the base against the poses of the body
-    4, 5  how the slow errors of the body's rotations [rad] and positions [m] change
+    2, 3  how the slow errors of the body's rotations [rad] and positions [m] change
+    4, 5  rotations [rad] and positions [m] of the base against the poses of the body
 
 Gauss-Newton on the sparse normal equations. The noise of each group is estimated along with the
 rest: its variance is the sum of squares over its redundancy (W. Foerstner, "Ein Verfahren zur
@@ -31,7 +31,7 @@ LEAST_NOISE = 1e-6  # [rad, m], of what else would be exact
 LARGEST_STDDEV = 0.03  # of a translation that is told [m]
 SLOW = 1.0  # autocorrelation time of the slow errors of the body's poses [s]
 # First guesses of the standard deviations of groups 2 to 5 [rad, m].
-BODY_NOISE = 0.01, 0.002, 5e-4, 5e-4
+BODY_NOISE = 5e-4, 5e-4, 0.01, 0.002
 
 
 @dataclasses.dataclass
@@ -90,33 +90,39 @@ def solve(problem, state, names, report):
     return Mount(state.rotation, state.vector[:3], state.vector[3], covariance, *names)
 
 
-def residuals(problem, before, after, rows):
-    """Of each group, rows x values. before, after: as of problem.motions."""
-    rotations, positions = problem.poses(before, rows)
-    turned = rotations * before.rotation.inv()
-    slow_turn, slow_shift = np.split(before.vectors[rows, :6], 2, axis=1)
+def between_states(problem, before, after):
+    """Residuals of groups 0 to 3, steps x values each. before, after: as of problem.motions."""
     # The slow errors are a first-order Gauss-Markov process.
     decay = np.exp(-problem.durations / SLOW)
     changes = (after.vectors[1:, :6] - decay * before.vectors[:-1, :6]) / np.sqrt(1.0 - decay ** 2)
-    return (*problem.motions(before, after),
-            (turned * problem.body.rotations.inv()).as_rotvec() + slow_turn,
-            positions - turned.apply(before.vector[:3]) - problem.body.positions + slow_shift,
-            *np.split(changes, 2, axis=1))
+    return (*problem.motions(before, after), *np.split(changes, 2, axis=1))
 
 
-def derivatives(problem, state, rows, here):
-    """For each group: rows x values x constants, and rows x values x (both states), by forward
-    differences. here: the residuals at the state."""
-    def along(count, ends):
-        moved = [residuals(problem, *ends(step), rows) for step in STEP * np.eye(count)]
-        return [np.stack([(there[group] - here[group]) / STEP for there in moved], axis=2)
-                for group in range(len(here))]
+def at_poses(problem, state, rows):
+    """Residuals of groups 4 and 5, poses x values each."""
+    rotations, positions = problem.poses(state, rows)
+    turned = rotations * state.rotation.inv()
+    slow_turn, slow_shift = np.split(state.vectors[rows, :6], 2, axis=1)
+    return ((turned * problem.body.rotations.inv()).as_rotvec() + slow_turn,
+            positions - turned.apply(state.vector[:3]) - problem.body.positions + slow_shift)
 
-    size = 3 + state.vectors.shape[1]
-    by_constants = along(3 + len(state.vector), lambda step: 2 * [state.with_constants(step)])
-    before = along(size, lambda step: (state.with_chain(step), state))
-    after = along(size, lambda step: (state, state.with_chain(step)))
-    return by_constants, [np.concatenate(both, axis=2) for both in zip(before, after)]
+
+def linearised(problem, state, rows):
+    """For each group: residuals, rows x values; their derivatives by the constants, rows x values x
+    constants, and by the states that they depend on; by forward differences."""
+    constants = [state.with_constants(step) for step in STEP * np.eye(3 + len(state.vector))]
+    chain = [state.with_chain(step) for step in STEP * np.eye(3 + state.vectors.shape[1])]
+    steps, poses = between_states(problem, state, state), at_poses(problem, state, rows)
+
+    def slopes(here, *moved):
+        return [np.stack([(there - group) / STEP for there in theirs], axis=2)
+                for group, *theirs in zip(here, *moved)]
+    return ([*steps, *poses],
+            slopes(steps, *(between_states(problem, moved, moved) for moved in constants))
+            + slopes(poses, *(at_poses(problem, moved, rows) for moved in constants)),
+            slopes(steps, *(between_states(problem, moved, state) for moved in chain),
+                   *(between_states(problem, state, moved) for moved in chain))
+            + slopes(poses, *(at_poses(problem, moved, rows) for moved in chain)))
 
 
 class Equations:
@@ -125,12 +131,11 @@ class Equations:
 
     def __init__(self, problem, state, noise):
         rows, steps = problem.rows(state), np.arange(len(problem.durations))
-        here = residuals(problem, state, state, rows)
-        by_constants, by_states = derivatives(problem, state, rows, here)
+        here, by_constants, by_states = linearised(problem, state, rows)
         self.body, self.size = problem.body, 3 + state.vectors.shape[1]
         parts, times = [], []
         for first, constants, states, stddev in zip(
-                (steps, steps, rows, rows, steps, steps), by_constants, by_states, noise):
+                (*4 * [steps], rows, rows), by_constants, by_states, noise):
             count, values, width = states.shape
             columns = np.repeat(self.size * first[:, None] + np.arange(width), values, axis=0)
             chain = sparse.csr_matrix(
@@ -183,7 +188,7 @@ class Equations:
         features -= features.mean(axis=0)
         features /= np.sqrt((features ** 2).sum() / len(features))  # together 1 (RMS)
         changes = []
-        for group, slow in ((2, 4), (3, 5)):
+        for group, slow in ((4, 2), (5, 3)):
             gains = self.gains[self.group == group].reshape(-1, 3, self.constants)
             changes += [gains[:, axis].T @ features * (noise[slow] / noise[group])
                         for axis in range(3)]
@@ -201,6 +206,6 @@ class Equations:
             redundancy = np.mean(np.sum(probes * self.left(probes), axis=0))
             factors.append(np.sqrt((rest[inside] ** 2).sum() / max(redundancy, 1.0)))
         # Where there are no slow errors, theirs would fall to zero slowly.
-        slow = np.array(factors[4:])
-        factors[4:] = np.where(slow < 1.0, slow ** 4, slow)
+        slow = np.array(factors[2:4])
+        factors[2:4] = np.where(slow < 1.0, slow ** 4, slow)
         return np.clip(factors, 0.2, 5.0)

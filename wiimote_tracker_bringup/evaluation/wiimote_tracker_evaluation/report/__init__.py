@@ -22,10 +22,9 @@ class Report:
 
 
 def write_report(options, runs, seconds):
-    """Writes all files from the sections so far."""
+    """Writes the files of the latest section, and the pages of all sections so far."""
     report = Report(options, runs, seconds)
-    for run in runs:
-        data.write_section(run)
+    data.write_section(runs[-1])
     write(os.path.join(options.output, 'figures.json'), data.figures_json(report))
     write(os.path.join(options.output, 'report.md'), markdown.page(report))
     write(os.path.join(options.output, 'report.html'), html.page(report))

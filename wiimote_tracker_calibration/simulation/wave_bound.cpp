@@ -68,7 +68,7 @@ void append(Eigen::Index column, const Values& values, Row* row) {
     row->emplace_back(column + k, values(k));
 }
 
-/// Sparse normal equations of a wave, row by row: of the cameras, the corners' displacements (2
+/// Linear equations of a wave, one by one. Unknown: the cameras, the corners' displacements (2
 /// each), the wand's length, the control points.
 class Information {
  public:
@@ -165,8 +165,9 @@ class Information {
   }
 
   Eigen::MatrixXd camerasCovariance() const {
-    Eigen::SparseMatrix<double> matrix(size(), size());
-    matrix.setFromTriplets(entries_.begin(), entries_.end());
+    Eigen::SparseMatrix<double> slopes(size(), residuals_);
+    slopes.setFromTriplets(slopes_.begin(), slopes_.end());
+    const Eigen::SparseMatrix<double> matrix = slopes * slopes.transpose();
     // Parameters of very different units.
     const Eigen::VectorXd scale = matrix.diagonal().cwiseSqrt().cwiseInverse();
     const Eigen::SparseMatrix<double> scaled = scale.asDiagonal() * matrix * scale.asDiagonal();
@@ -218,10 +219,9 @@ class Information {
   }
 
   void add(const Row& row, double stddev) {
-    for (const auto& [i, a] : row) {
-      for (const auto& [j, b] : row)
-        entries_.emplace_back(i, j, a * b / (stddev * stddev));
-    }
+    for (const auto& [column, slope] : row)
+      slopes_.emplace_back(column, residuals_, slope / stddev);
+    ++residuals_;
   }
 
   const WaveScene& scene_;
@@ -230,7 +230,9 @@ class Information {
   Eigen::Index leds_;
   double start_ = std::numeric_limits<double>::infinity();
   Eigen::Index intervals_ = 0;
-  std::vector<Eigen::Triplet<double>> entries_;
+  // By parameters (rows) of residuals (columns), divided by their standard deviations.
+  std::vector<Eigen::Triplet<double>> slopes_;
+  Eigen::Index residuals_ = 0;
 };
 
 /// RMS of the points' errors by causes of this covariance, before and after an alignment.

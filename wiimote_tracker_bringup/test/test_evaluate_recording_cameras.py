@@ -20,6 +20,7 @@ sys.path[:0] = [HERE, *(os.path.join(HERE, '..', folder) for folder in (
 
 import simulated_cameras  # noqa: E402
 from wiimote_tracker_bringup.errors import Refusal  # noqa: E402
+from wiimote_tracker_bringup.files import read_yaml, write_yaml  # noqa: E402
 from wiimote_tracker_evaluation.recordings import cameras, flight, pipeline, time_maps  # noqa: E402
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig  # noqa: E402
 
@@ -46,16 +47,14 @@ def true_times(simulated, number, camera):
 
 def exact_rig(simulated, solved, path):
     """The solved rig with the true poses, its clocks and noise left as they are."""
-    with open(solved) as file:
-        content = yaml.safe_load(file)
+    content = read_yaml(solved)
     for number, camera in enumerate(content['cameras'].values()):
         rotation = Rotation.from_matrix(simulated.rotations[number]).as_quat().tolist()
         camera['extrinsics']['transform'] = {
             'translation': dict(zip('xyz', simulated.centers[number].tolist())),
             'rotation': dict(zip('xyzw', rotation))}
         camera['time_offset'] = 0.0
-    with open(path, 'w') as file:
-        yaml.safe_dump(content, file, sort_keys=False)
+    write_yaml(path, content)
     return Rig(path)
 
 

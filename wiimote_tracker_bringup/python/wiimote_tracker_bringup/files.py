@@ -26,8 +26,9 @@ def existing_folder(path: str) -> str:
     return path
 
 
-def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:
-    """Its content. Throws Refusal if it cannot be read, or is no YAML."""
+def read_yaml(path: str, loader=yaml.CSafeLoader) -> Any:
+    """Its content, by libyaml, since a rig's covariance has thousands of numbers. Throws Refusal if
+    it cannot be read, or is no YAML."""
     try:
         with open(path) as file:
             return loader(file).get_single_data()
@@ -43,7 +44,7 @@ def read_yaml(path: str, loader=yaml.SafeLoader) -> Any:
 
 def write_yaml(path: str, content: Any) -> None:
     with open(path, 'w') as file:
-        yaml.safe_dump(content, file, sort_keys=False)
+        yaml.dump(content, file, yaml.CSafeDumper, sort_keys=False)
 
 
 def read_json(path: str) -> Any:

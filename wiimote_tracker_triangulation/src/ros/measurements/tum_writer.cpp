@@ -36,8 +36,8 @@ class TumWriter : public Writer {
     if (!files_.empty())
       return "";
     return folder_ +
-           ": no files, since no body was tracked: check the LEDs' places in the file of bodies, "
-           "and that the cameras saw the bodies";
+           ": no files, since no body was tracked: check that the tracker has a file of bodies, "
+           "that the LEDs' places in it are right, and that the cameras saw the bodies";
   }
 
  private:

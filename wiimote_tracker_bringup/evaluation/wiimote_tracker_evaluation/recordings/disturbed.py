@@ -40,7 +40,11 @@ def evaluate(recording, folder):
         camera.time_offset, camera.time_offset_rule = 0.0, camera.TIME_OFFSET_ONE_EPOCH
     true_rig.covariance = covariance_of(true_rig.cameras)
     played = to_and_fro(recorded.instants)
-    return {camera.name: figures(true_rig, number, played, folder)
+    true_bag, images_bag = (os.path.join(folder, name) for name in ('true.bag', 'images.bag'))
+    write_bag(true_rig, played, true_bag)
+    write_bag(None, played, images_bag)
+    truth = points_of(true_bag, folder)
+    return {camera.name: figures(true_rig, number, played, images_bag, truth, folder)
             for number, camera in enumerate(true_rig.cameras)}
 
 
@@ -56,19 +60,16 @@ def covariance_of(cameras):
     return np.diag(np.square(np.concatenate(deviations))).ravel().tolist()
 
 
-def figures(true_rig, number, played, folder):
+def figures(true_rig, number, played, images_bag, truth, folder):
     """How far pose and clock of the corrected camera are from the truth, RMS errors of points
-    before and after, and when it was corrected; None: never."""
+    before and after, and when it was corrected; None: never. images_bag: of what is played; truth:
+    its points by the true rig."""
     disturbed_rig = copy.deepcopy(true_rig)
     disturb(disturbed_rig.cameras[number], np.random.RandomState(number).randn(3))
-    true_bag, disturbed_bag, images_bag = (os.path.join(folder, name) for name in (
-        'true.bag', 'disturbed.bag', 'images.bag'))
-    write_bag(true_rig, played, true_bag)
+    disturbed_bag, corrected_rig = (os.path.join(folder, name) for name in (
+        'disturbed.bag', 'corrected.yaml'))
     write_bag(disturbed_rig, played, disturbed_bag)
-    write_bag(None, played, images_bag)
-    corrected_rig = os.path.join(folder, 'corrected.yaml')
     programs.run('wiimote_tracker_calibration/keep_calibrated', disturbed_bag, corrected_rig)
-    truth = points_of(true_bag, folder)
     before = points_of(disturbed_bag, folder)
     after = points_of(images_bag, folder, '--rig', corrected_rig)
     return {**errors_of(corrected_rig, true_rig.cameras[number]),
@@ -87,7 +88,7 @@ def disturb(camera, axis):
 def errors_of(path, true_message):
     """Of a camera in a rig's file."""
     content, true = read_yaml(path), camera_of(true_message)
-    found = next(each for each in cameras_of(path) if each.name == true.name)
+    found = next(each for each in cameras_of(content) if each.name == true.name)
     remaining = Rotation.from_matrix(true.rotation.T @ found.rotation)
     offset = content['cameras'][true.name]['time_offset']
     return {'turned_deg': float(np.degrees(remaining.magnitude())),

@@ -22,10 +22,10 @@ def camera_of(message):
                   [place.x, place.y, place.z])
 
 
-def cameras_of(path):
-    """The cameras of a rig's file, whose lenses are taken for plumb_bob."""
+def cameras_of(content):
+    """The cameras of a rig's file, whose lenses are taken for plumb_bob. content: of the file."""
     cameras = []
-    for name, camera in read_yaml(path)['cameras'].items():
+    for name, camera in content['cameras'].items():
         pose = camera['extrinsics']['transform']
         fx, _, cx, _, fy, cy = camera['camera_matrix']['data'][:6]
         cameras.append(Camera(
@@ -54,7 +54,8 @@ class Rig:
 
     def __init__(self, path):
         self.path = path
-        cameras, entries = cameras_of(path), read_yaml(path)['cameras'].values()
+        content = read_yaml(path)
+        cameras, entries = cameras_of(content), content['cameras'].values()
         self.rotations = np.array([camera.rotation for camera in cameras])
         self.positions = np.array([camera.position for camera in cameras])
         self.offsets = np.nan_to_num([entry['time_offset'] for entry in entries])

@@ -130,10 +130,17 @@ RigMotion fitMotion(const geometry::Rig& first,
   RigMotion motion;
   motion.first_from_second = start;
   motion.error_covariance = errorCovariance(first, second, shared);
+  const Eigen::Index first_size = first.covariance.rows();
+  const Eigen::Index second_size = second.covariance.rows();
+  // What the errors contribute is the same for each motion, but for those of the second rig.
+  Eigen::MatrixXd by_fixed = conditionsAt(start, shared).by_errors;
+  by_fixed.middleCols(first_size, second_size).setZero();
+  const Eigen::MatrixXd fixed = geometry::propagated(by_fixed, motion.error_covariance);
   for (int iteration = 0;; ++iteration) {
     const Conditions conditions = conditionsAt(motion.first_from_second, shared);
     const Eigen::MatrixXd covariance =
-        geometry::propagated(conditions.by_errors, motion.error_covariance);
+        fixed + geometry::propagated(conditions.by_errors.middleCols(first_size, second_size),
+                                     second.covariance);
     const Eigen::MatrixXd weighed = geometry::solveSymmetric(covariance, conditions.by_motion);
     const Eigen::MatrixXd gain =
         -geometry::solveSymmetric(conditions.by_motion.transpose() * weighed, weighed.transpose());

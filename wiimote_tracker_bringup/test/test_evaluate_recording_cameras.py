@@ -20,7 +20,7 @@ sys.path[:0] = [HERE, *(os.path.join(HERE, '..', folder) for folder in (
 
 import simulated_cameras  # noqa: E402
 from wiimote_tracker_bringup.errors import Refusal  # noqa: E402
-from wiimote_tracker_bringup.files import read_yaml, write_yaml  # noqa: E402
+from wiimote_tracker_bringup.files import read_rig, write_yaml  # noqa: E402
 from wiimote_tracker_evaluation.recordings import cameras, flight, pipeline, time_maps  # noqa: E402
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig  # noqa: E402
 
@@ -47,7 +47,7 @@ def true_times(simulated, number, camera):
 
 def exact_rig(simulated, solved, path):
     """The solved rig with the true poses, its clocks and noise left as they are."""
-    content = read_yaml(solved)
+    content = read_rig(solved)
     for number, camera in enumerate(content['cameras'].values()):
         rotation = Rotation.from_matrix(simulated.rotations[number]).as_quat().tolist()
         camera['extrinsics']['transform'] = {

@@ -16,7 +16,7 @@ from geometry_msgs.msg import Quaternion
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup import alignment, programs
-from wiimote_tracker_bringup.files import read_yaml
+from wiimote_tracker_bringup.files import read_rig
 from wiimote_tracker_evaluation.recordings import pipeline, replay
 from wiimote_tracker_evaluation.recordings.solved_rig import camera_of, cameras_of
 
@@ -87,7 +87,7 @@ def disturb(camera, axis):
 
 def errors_of(path, true_message):
     """Of a camera in a rig's file."""
-    content, true = read_yaml(path), camera_of(true_message)
+    content, true = read_rig(path), camera_of(true_message)
     found = next(each for each in cameras_of(content) if each.name == true.name)
     remaining = Rotation.from_matrix(true.rotation.T @ found.rotation)
     offset = content['cameras'][true.name]['time_offset']

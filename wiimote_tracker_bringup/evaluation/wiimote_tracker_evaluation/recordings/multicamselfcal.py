@@ -13,7 +13,7 @@ from scipy.optimize import least_squares
 
 from wiimote_tracker_bringup import programs
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.files import read_yaml
+from wiimote_tracker_bringup.files import read_rig
 from wiimote_tracker_evaluation.recordings import reprojection
 from wiimote_tracker_evaluation.recordings.solved_rig import cameras_of, nearest_points
 
@@ -36,7 +36,7 @@ def evaluate(source, folder):
         held_out = split(whole(folder), fitted, half)
         rig = os.path.join(folder, f'half_{half}.yaml')
         programs.run('wiimote_tracker_calibration/self_calibrate', fitted, '--rig', rig)
-        cameras = {camera.name: camera for camera in cameras_of(read_yaml(rig))}
+        cameras = {camera.name: camera for camera in cameras_of(read_rig(rig))}
         for frame, pixels in held_out.items():
             for name in pixels:
                 error = prediction_error(cameras, pixels, name)

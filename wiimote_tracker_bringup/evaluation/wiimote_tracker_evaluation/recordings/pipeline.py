@@ -17,7 +17,7 @@ from wiimote_tracker_msgs.msg import IrBlob, IrBlobArray
 
 from wiimote_tracker_bringup import multicamselfcal, programs
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.files import read_yaml, write_yaml
+from wiimote_tracker_bringup.files import read_rig, write_yaml
 from wiimote_tracker_evaluation.recordings.solved_rig import Rig
 from wiimote_tracker_evaluation.recordings.views import LONGEST_GAP
 
@@ -120,7 +120,7 @@ def lenses_of(views, rig, folder):
     """A file of the rig whose covariance is that of its lenses, whose principal points are off by
     views.accuracy: poses are aligned later."""
     path = os.path.join(folder, 'lenses.yaml')
-    content = read_yaml(rig.path)
+    content = read_rig(rig.path)
     variances = np.zeros((len(views.cameras), PER_CAMERA))
     variances[:, PRINCIPAL_POINT] = views.accuracy ** 2
     content['covariance'].update(data=np.diag(variances.reshape(-1)).reshape(-1).tolist())

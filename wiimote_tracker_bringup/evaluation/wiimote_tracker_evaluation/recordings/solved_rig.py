@@ -4,7 +4,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.files import read_yaml
+from wiimote_tracker_bringup.files import read_rig
 from wiimote_tracker_bringup.scene import Camera
 
 DISTANCE = 3.0  # of a light from cameras in a room [m]
@@ -54,7 +54,7 @@ class Rig:
 
     def __init__(self, path):
         self.path = path
-        content = read_yaml(path)
+        content = read_rig(path)
         cameras, entries = cameras_of(content), content['cameras'].values()
         self.rotations = np.array([camera.rotation for camera in cameras])
         self.positions = np.array([camera.position for camera in cameras])

@@ -299,7 +299,7 @@ def test_a_pixel_is_predicted_from_the_other_cameras(tmp_path):
 
 
 def test_real_pixels_that_were_held_out(monkeypatch):
-    monkeypatch.setattr(disturbed, 'PLAYED', 2.0)  # the next test plays all of it
+    monkeypatch.setattr(disturbed, 'PLAYED', 2.0)  # the next test judges what 40 s correct
     outcome = formats.measure('multicamselfcal', os.path.join(HERE, 'data', 'flydra_excerpt'))
     figures = outcome.scores['pixels']
     assert figures['observations'] == figures['inliers'] == len(outcome.errors) == 429
@@ -321,6 +321,9 @@ def test_the_motion_brings_a_disturbed_camera_back(tmp_path):
         assert own['points_after_mm'] < min(0.2, 0.5 * own['points_before_mm'])
     # These two see the light within too small a place.
     assert result['cam2_0']['after_s'] is None and result['cam3_0']['after_s'] is None
+    rows = dict(disturbed.rows_of(result))
+    assert rows['cam1_0 turned by 2 degrees, 5 ms off'].startswith('after ')
+    assert rows['cam2_0 turned by 2 degrees, 5 ms off'] == 'never corrected'
 
 
 def test_gaps_are_counted_while_in_sight_only():

@@ -107,7 +107,7 @@ visualization_msgs::MarkerArray MarkerBuilder::build(
     trails_.clear();
   time_ = time;
   array_.markers.clear();
-  if (drawn_.empty()) {
+  if (drawn_.empty()) {  // the first array of this rig, since each array shows the cameras
     Marker clear;
     clear.action = Marker::DELETEALL;
     array_.markers.push_back(clear);
@@ -314,9 +314,11 @@ void MarkerBuilder::deleteOld() {
       drawn.emplace(marker.ns, marker.id);
   }
   for (const auto& [ns, id] : drawn_) {
-    if (drawn.count({ns, id}) == 0)
-      markers::add(markers::marker(of_leds_, ns, id, Marker::POINTS, Vector3d::Ones(), {}),
-                   &array_);
+    if (drawn.count({ns, id}) > 0)
+      continue;
+    Marker old = markers::marker(of_leds_, ns, id, Marker::POINTS, Vector3d::Ones(), {});
+    old.action = Marker::DELETE;
+    array_.markers.push_back(old);
   }
   drawn_ = std::move(drawn);
 }

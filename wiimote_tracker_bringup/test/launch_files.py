@@ -9,7 +9,8 @@ LAUNCH = os.path.join(os.path.dirname(os.path.realpath(__file__)), '../launch')
 
 
 def configuration(name, *arguments):
-    """Of a file in the folder launch, without that of roscore, for which it would run programs."""
+    """Of a file in the folder launch. roscore's own file is left out: to load it, roslaunch runs
+    programs."""
     config = roslaunch.config.ROSLaunchConfig()
     roslaunch.xmlloader.XmlLoader().load(os.path.join(LAUNCH, name), config, argv=list(arguments),
                                          verbose=False)

@@ -68,7 +68,7 @@ void append(Eigen::Index column, const Values& values, Row* row) {
     row->emplace_back(column + k, values(k));
 }
 
-/// Linear equations of a wave, one by one. Unknown: the cameras, the corners' displacements (2
+/// Linear equations of a wave, one by one. Unknowns: the cameras, the corners' displacements (2
 /// each), the wand's length, the control points.
 class Information {
  public:
@@ -190,7 +190,7 @@ class Information {
     return wandColumn() + 1 + 3 * (leds_ * control + led);
   }
 
-  /// Number of columns.
+  /// Number of unknowns.
   Eigen::Index size() const { return controlColumn(intervals_ > 0 ? intervals_ + 3 : 0, 0); }
 
   /// Row of the prior of a principal point's coordinate. All of them have the covariance
@@ -230,7 +230,7 @@ class Information {
   Eigen::Index leds_;
   double start_ = std::numeric_limits<double>::infinity();
   Eigen::Index intervals_ = 0;
-  // By parameters (rows) of residuals (columns), divided by their standard deviations.
+  // Derivatives of the residuals (columns) by the unknowns (rows), over their standard deviations.
   std::vector<Eigen::Triplet<double>> slopes_;
   Eigen::Index residuals_ = 0;
 };

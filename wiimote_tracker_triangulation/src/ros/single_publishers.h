@@ -18,10 +18,10 @@
 
 namespace wiimote_tracker {
 
-/// Publishes each LED and each body by itself (see publishEach()). The topics of listed labels and
-/// of bodies exist from the start, those of other LEDs from their first point until they are lost
-/// or get a listed label. Those are advertised in another thread, one after the other: while there
-/// is no ROS master, advertising waits for it.
+/// Publishes each LED and each body by itself (see publishEach()). The topics of listed labels
+/// exist from the start, those of bodies from setBodies(), those of other LEDs from their first
+/// point until they are lost or get a listed label. The latter are advertised in another thread,
+/// one topic after the other: while there is no ROS master, advertising waits for it.
 class SinglePublishers {
  public:
   SinglePublishers(const ros::NodeHandle& nh,
@@ -35,7 +35,8 @@ class SinglePublishers {
     }
   }
 
-  /// The bodies from now on.
+  /// The bodies from now on. The topics of others end with the next points. Bodies that stay keep
+  /// their subscribers: the new publisher begins before the old one ends.
   void setBodies(const std::vector<body::Constellation>& bodies) {
     bodies_.clear();
     for (const body::Constellation& body : bodies) {

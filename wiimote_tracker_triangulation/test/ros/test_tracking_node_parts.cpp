@@ -100,7 +100,7 @@ TEST(ImageMessage, ImpossibleSpotsAreOmitted) {
     const auto fault = readImage(message, camera, &image);
     ASSERT_TRUE(fault) << x << " " << y;
     EXPECT_EQ(ImageFault::Kind::kImpossibleSpots, fault->kind);
-    EXPECT_TRUE(fault->isUsable());
+    EXPECT_TRUE(fault->leavesImageUsable());
     ASSERT_EQ(1u, image.spots.size());
     EXPECT_EQ(11.0, image.spots[0].pixel.x());
     EXPECT_NE(std::string::npos, fault->sentence.find(camera.name));
@@ -120,7 +120,7 @@ TEST(ImageMessage, UnusableImagesAreNamed) {
     const auto fault = readImage(message, camera, &image);
     ASSERT_TRUE(fault) << words;
     EXPECT_EQ(expected, fault->kind);
-    EXPECT_FALSE(fault->isUsable());
+    EXPECT_FALSE(fault->leavesImageUsable());
     EXPECT_NE(std::string::npos, fault->sentence.find(words)) << fault->sentence;
   };
   IrBlobArray message = goodImage(camera);

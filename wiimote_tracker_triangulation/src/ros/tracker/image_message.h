@@ -25,7 +25,7 @@ struct ImageFault {
   Kind kind;
   std::string sentence;  ///< Says what to do.
 
-  bool isUsable() const { return kind == Kind::kImpossibleSpots; }
+  bool leavesImageUsable() const { return kind == Kind::kImpossibleSpots; }
 };
 
 /// Converts a camera's image for the core, without impossible spots.

@@ -113,7 +113,7 @@ bool MessageTracker::takeImage(const std::string& camera,
   const std::size_t index = found - rig_.cameras.data();
   if (const auto fault = readImage(message, found->camera, &image_)) {
     reportProblem(index, fault->sentence, reported_faults_.isNew(index, fault->kind));
-    if (!fault->isUsable())
+    if (!fault->leavesImageUsable())
       return false;
   }
   statistics_.addImage(index, image_, message.frame);

@@ -1,7 +1,7 @@
 """Where a base sits on a body: maximum likelihood over the path of the base and what is constant.
 
-The path is a chain of states. There are six groups of residuals. All depend on a state, the first
-four also on the next one, and all but groups 2 and 3 on the constants:
+The path is a chain of states. There are six groups of residuals. All depend on a state. Groups 0
+to 3 also depend on the next state. Groups 0, 1, 4 and 5 depend on what is constant:
 
     0, 1  how the base moves from one state to the next, by odometry or an IMU
     2, 3  how the slow errors of the body's rotations [rad] and positions [m] change

@@ -47,7 +47,7 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
       parameters_(TrackingParameters::read(ParameterReader(private_nh))),
       tracker_(parameters_, this),
       markers_(parameters_.markers),
-      singles_(nh, parameters_.allLabels(), parameters_.output),
+      single_publishers_(nh, parameters_.allLabels(), parameters_.output),
       body_markers_(parameters_.markers.rate),
       body_diagnostics_(nh, private_nh),
       learning_(nh,
@@ -150,7 +150,7 @@ bool Triangulation::isShed(const ros::Time& receipt) {
 void Triangulation::useBodies(const std::vector<body::Constellation>& bodies) {
   tracker_.setBodies(bodies);
   subscribeToImus(bodies);
-  singles_.setBodies(bodies);
+  single_publishers_.setBodies(bodies);
   body_diagnostics_.setBodies(bodies);
   std::vector<std::string> warnings = shapeWarnings(bodies);
   for (std::string& warning : labelWarnings(bodies, parameters_.blinkingLabels()))
@@ -194,7 +194,7 @@ bool Triangulation::setLabel(SetLabel::Request& request, SetLabel::Response& res
 
 void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
                              const std::vector<tracking::CameraView>& views) {
-  singles_.publish(*points);
+  single_publishers_.publish(*points);
   points_publisher_.publish(points);
   tracker_.statistics().addLatency(ros::Time::now().toSec() - points->latest_arrival.toSec());
   learning_.addPoints(*points);
@@ -205,7 +205,7 @@ void Triangulation::onPoints(const TrackedPointArrayConstPtr& points,
 void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies,
                              const std::vector<bool>& bridged) {
   bodies_publisher_.publish(bodies);
-  singles_.publish(bodies, bridged);
+  single_publishers_.publish(bodies, bridged);
   body_diagnostics_.addBodies(bodies);
   if (markers_publisher_.getNumSubscribers() > 0 &&
       body_markers_.isDue(bodies.header.stamp.toSec()))

@@ -61,7 +61,7 @@ class Triangulation : private MessageSink {
   TrackingParameters parameters_;
   MessageTracker tracker_;
   MarkerBuilder markers_;
-  SinglePublishers singles_;
+  SinglePublishers single_publishers_;
   BodyMarkers body_markers_;
   BodyDiagnostics body_diagnostics_;
   BodyLearning learning_;

@@ -3,6 +3,7 @@
 #include "wiimote_tracker_calibration/simulation/simulated_board.h"
 
 #include <wiimote_tracker_triangulation/geometry/camera.h>
+#include <wiimote_tracker_triangulation/geometry/so3.h>
 
 #include <cmath>
 #include <random>
@@ -48,7 +49,7 @@ inline Samples fisheyeSamples(const geometry::Intrinsics& camera,
     // Turned to the camera, tilted by 20 to 45 degrees.
     const Eigen::Vector3d sight = normalized->homogeneous().normalized();
     Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-    pose.linear() = (Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), sight) *
+    pose.linear() = (geometry::so3::between(Eigen::Vector3d::UnitZ(), sight) *
                      Eigen::AngleAxisd(M_PI / 180.0 * (32.5 + 12.5 * uniform(random)), tilt_axis))
                         .toRotationMatrix();
     pose.translation() = distance * sight - pose.linear() * Eigen::Vector3d(0.15, 0.15, 0.0);

@@ -6,6 +6,8 @@
 #include "capture/moving_spots.h"
 #include "wave/error.h"
 
+#include <wiimote_tracker_triangulation/geometry/so3.h>
+
 #include <Eigen/Geometry>
 
 #include <algorithm>
@@ -53,7 +55,7 @@ void useFirstCameraAsWorld(const Recording& recording, std::vector<geometry::Cam
   Eigen::Isometry3d world_from_first = Eigen::Isometry3d::Identity();
   if (gravity)
     world_from_first.linear() =
-        Eigen::Quaterniond::FromTwoVectors(*gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+        geometry::so3::between(*gravity, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   moveCameras(world_from_first * cameras->front().world_from_camera.inverse(), cameras);
 }
 

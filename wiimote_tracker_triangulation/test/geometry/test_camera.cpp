@@ -10,6 +10,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace wiimote_tracker::geometry::test {
@@ -198,6 +200,18 @@ TEST(So3, AngleBetweenIsThatOfTheTurn) {
   for (const double angle : {0.0, 1e-6, 1.0, M_PI}) {
     EXPECT_NEAR(angle, so3::angleBetween(a, a * so3::exp(angle * axis)), 1e-12);
     EXPECT_NEAR(angle, so3::angleBetween(so3::exp(-angle * axis) * a, a), 1e-12);
+  }
+}
+
+TEST(So3, BetweenTurnsOneDirectionToTheOtherTheShortestWay) {
+  const Vector3d from(0.3, -2.0, 1.0);
+  for (const Vector3d& to : {Vector3d(1.0, 0.5, -3.0), Vector3d(2.0 * from), Vector3d(-0.5 * from),
+                             Vector3d(-from + Vector3d(1e-8, 0.0, 0.0))}) {
+    const Eigen::AngleAxisd turn = so3::between(from, to);
+    EXPECT_TRUE((turn * from.normalized()).isApprox(to.normalized(), 1e-7)) << to.transpose();
+    EXPECT_NEAR(std::acos(std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0)),
+                turn.angle(), 1e-7);
+    EXPECT_NEAR(1.0, turn.axis().norm(), 1e-12);
   }
 }
 

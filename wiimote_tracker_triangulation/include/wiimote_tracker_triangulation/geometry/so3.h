@@ -3,6 +3,8 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <cmath>
+
 /// Rotations and rotation vectors, whose direction is the axis and whose length is the angle [rad].
 namespace wiimote_tracker::geometry::so3 {
 
@@ -28,6 +30,15 @@ inline Eigen::Vector3d log(const Eigen::Matrix3d& rotation) {
 /// The angle by which two attitudes differ [rad, 0..pi].
 inline double angleBetween(const Eigen::Matrix3d& a, const Eigen::Matrix3d& b) {
   return Eigen::AngleAxisd(a.transpose() * b).angle();
+}
+
+/// The smallest rotation that turns the direction of `from` to that of `to`, both not zero.
+/// Opposite directions have many; it is one of them.
+inline Eigen::AngleAxisd between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d across = from.cross(to);
+  const double length = across.norm();
+  return Eigen::AngleAxisd(std::atan2(length, from.dot(to)),
+                           length > 0.0 ? across / length : from.unitOrthogonal());
 }
 
 }  // namespace wiimote_tracker::geometry::so3

@@ -147,8 +147,12 @@ endfunction()
 # wiimote_tracker_check_parameters(NAME): gives this test, which links yaml-cpp, the function of
 # documented_parameters.h, and the package's folder config as CONFIG_FOLDER.
 function(wiimote_tracker_check_parameters name)
-  target_sources(${name} PRIVATE
-    ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support/documented_parameters.cpp)
+  if(NOT TARGET wiimote_tracker_documented_parameters)
+    add_library(wiimote_tracker_documented_parameters STATIC EXCLUDE_FROM_ALL
+      ${WIIMOTE_TRACKER_CMAKE_DIR}/../test_support/documented_parameters.cpp)
+    target_link_libraries(wiimote_tracker_documented_parameters ${YAML_CPP_LIBRARIES} gtest)
+  endif()
+  target_link_libraries(${name} wiimote_tracker_documented_parameters)
   target_compile_definitions(${name} PRIVATE CONFIG_FOLDER="${PROJECT_SOURCE_DIR}/config")
 endfunction()
 

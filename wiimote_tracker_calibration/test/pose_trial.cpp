@@ -2,10 +2,8 @@
 
 #include "simulated_square.h"
 
+#include <wiimote_tracker_triangulation/geometry/linear_algebra.h>
 #include <wiimote_tracker_triangulation/geometry/so3.h>
-
-#include <Eigen/Cholesky>
-#include <Eigen/LU>
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +15,7 @@ namespace wiimote_tracker {
 namespace {
 
 using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Residuals = Eigen::Matrix<double, 8, 1>;
 using square::Random;
 using square::uniform;
@@ -79,10 +78,10 @@ std::optional<square::PlanarPose> minimise(const PoseTrial& trial, geometry::Cam
     const auto jacobian = jacobianOf(trial, camera);
     if (!jacobian)
       return std::nullopt;
-    Eigen::Matrix<double, 6, 6> information = jacobian->transpose() * *jacobian;
+    Matrix6 information = jacobian->transpose() * *jacobian;
     const Vector6 gradient = jacobian->transpose() * residuals;
     information.diagonal() *= 1.0 + damping;
-    const Vector6 step = -information.ldlt().solve(gradient);
+    const Vector6 step = -geometry::solveSymmetric(information, gradient);
     const geometry::Camera next = moved(camera, step);
     const bool better = evaluate(trial, next, &next_residuals) &&
                         next_residuals.squaredNorm() < residuals.squaredNorm();
@@ -106,7 +105,7 @@ geometry::Camera mirrored(const geometry::Camera& camera) {
   const Eigen::Vector3d normal = camera_from_world.linear().col(2);
   const Eigen::Vector3d other = 2.0 * normal.dot(sight) * sight - normal;
   Eigen::Isometry3d result = camera_from_world;
-  result.linear() = Eigen::Quaterniond::FromTwoVectors(normal, other) * camera_from_world.linear();
+  result.linear() = geometry::so3::between(normal, other) * camera_from_world.linear();
   geometry::Camera next = camera;
   next.world_from_camera = result.inverse();
   return next;
@@ -122,7 +121,7 @@ geometry::Camera randomStart(const geometry::Camera& camera, Random& random) {
   if ((other.dot(sight) < 0.0) != (normal.dot(sight) < 0.0))
     other = -other;
   Eigen::Isometry3d start;
-  start.linear() = Eigen::Quaterniond::FromTwoVectors(normal, other) * camera_from_world.linear();
+  start.linear() = geometry::so3::between(normal, other) * camera_from_world.linear();
   start.translation() = uniform(random, 0.7, 1.5) * sight;
   geometry::Camera result = camera;
   result.world_from_camera = start.inverse();
@@ -161,13 +160,13 @@ Vector6 poseError(const PoseTrial& trial, const Eigen::Isometry3d& world_from_ca
 
 /// Fisher information of the pose at the truth, order and units as poseError(), by numerical
 /// differentiation of the projection.
-Eigen::Matrix<double, 6, 6> poseInformation(const PoseTrial& trial) {
+Matrix6 poseInformation(const PoseTrial& trial) {
   const Eigen::Matrix<double, 8, 6> jacobian = jacobianOf(trial, trial.truth).value();
   return jacobian.transpose() * jacobian / (kPosePixelStddev * kPosePixelStddev);
 }
 
 bool isJudged(const PoseTrial& trial, const std::vector<square::PlanarPose>& minima) {
-  const Eigen::Matrix<double, 6, 6> bound = poseInformation(trial).inverse();
+  const Matrix6 bound = geometry::solveSymmetric(poseInformation(trial), Matrix6::Identity());
   return std::sqrt(bound.topLeftCorner<3, 3>().trace()) <= kMostRotation &&
          (minima.size() < 2 || chiSquared(minima[1].cost - minima[0].cost) >= kClear);
 }
@@ -201,8 +200,7 @@ PoseTrial drawPoseTrial(Random& random,
       continue;
     // The square looks back along the line of sight, tilted about any axis across it.
     const Eigen::Vector3d back = -sight->homogeneous().normalized();
-    const Eigen::Quaterniond facing =
-        Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), back);
+    const Eigen::Quaterniond facing(geometry::so3::between(Eigen::Vector3d::UnitZ(), back));
     const Eigen::Vector3d axis =
         facing * Eigen::Vector3d(std::cos(azimuth), std::sin(azimuth), 0.0);
     Eigen::Isometry3d camera_from_world;

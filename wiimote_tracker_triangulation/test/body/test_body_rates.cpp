@@ -1,10 +1,10 @@
 // Velocity and angular velocity of a followed body, compared with the posterior Cramer-Rao bound.
 #include "body/body_scene.h"
 #include "body/body_tracker.h"
+#include "geometry/gaussian.h"
 #include "wiimote_tracker_triangulation/geometry/linear_algebra.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 #include <Eigen/LU>
 
 #include <cmath>
@@ -131,8 +131,7 @@ TEST_P(BodyRates, AreAtTheBoundOfTheSameScene) {
   const geometry::Rig rig = paperRig();
   const Constellation body = fourLeds();
   const BodyTrackerOptions options;
-  const MotionCovariance noise_root =
-      MotionCovariance(motionNoise(GetParam(), kInterval).llt().matrixL());
+  const MotionCovariance noise_root = geometry::test::rootOf(motionNoise(GetParam(), kInterval));
   Random random(71);
   const auto gaussians = [&] {
     Vector12 z;

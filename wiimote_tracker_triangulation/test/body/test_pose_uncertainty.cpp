@@ -5,7 +5,6 @@
 #include "geometry/uncertain_rigs.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Cholesky>
 
 #include <cmath>
 #include <string>
@@ -71,11 +70,9 @@ TEST(CalibrationCovariance, IsTheSpreadOfPosesOverRigsDrawnFromTheCovariance) {
       error << found.translation() - pose.translation(), test::rotationError(pose, found);
       spread += error * error.transpose() / (kSmall * kSmall * kDraws);
     }
-    // Whitened, it is the identity, each element within four standard errors.
-    const PoseCovariance whiten = covariance->llt().matrixL().solve(PoseCovariance::Identity());
-    EXPECT_LT(
-        (whiten * spread * whiten.transpose() - PoseCovariance::Identity()).cwiseAbs().maxCoeff(),
-        4.0 * std::sqrt(2.0 / kDraws) + 0.02);
+    // Each element within four standard errors.
+    EXPECT_LT(geometry::test::whitenedDifference(spread, *covariance),
+              4.0 * std::sqrt(2.0 / kDraws) + 0.02);
   }
 }
 

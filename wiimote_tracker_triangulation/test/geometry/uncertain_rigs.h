@@ -1,11 +1,10 @@
 #pragma once
 
+#include "geometry/gaussian.h"
 #include "geometry/random_rigs.h"
 #include "wiimote_tracker_triangulation/geometry/camera_parameters.h"
 #include "wiimote_tracker_triangulation/geometry/rig.h"
 #include "wiimote_tracker_triangulation/geometry/triangulate.h"
-
-#include <Eigen/Cholesky>
 
 #include <cstddef>
 #include <vector>
@@ -39,7 +38,7 @@ class ParameterErrors {
  public:
   explicit ParameterErrors(Eigen::MatrixXd covariance) {
     covariance.diagonal().array() += 1e-15;
-    root_ = covariance.llt().matrixL();
+    root_ = rootOf(covariance);
   }
 
   Eigen::VectorXd draw(Random& random) const {
@@ -83,14 +82,6 @@ inline Eigen::Vector3d measured(const Rig& rig,
   for (const std::size_t i : cameras)
     observations.push_back({&rig.cameras[i].camera, *truth.cameras[i].camera.project(point)});
   return triangulate(observations, {})->position;
-}
-
-/// How far the spread of drawn errors is from a covariance: whitened by it, the spread would be the
-/// identity, from which this is the largest difference of an element.
-inline double whitenedDifference(const Eigen::MatrixXd& spread, const Eigen::MatrixXd& covariance) {
-  const Eigen::MatrixXd one = Eigen::MatrixXd::Identity(spread.rows(), spread.cols());
-  const Eigen::MatrixXd whiten = covariance.llt().matrixL().solve(one);
-  return (whiten * spread * whiten.transpose() - one).cwiseAbs().maxCoeff();
 }
 
 }  // namespace wiimote_tracker::geometry::test

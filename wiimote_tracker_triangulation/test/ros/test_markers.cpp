@@ -1,6 +1,7 @@
 // Markers of a snapshot.
 #include "seen_led.h"
 
+#include "geometry/gaussian.h"
 #include "ros/marker_builder.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
@@ -142,7 +143,7 @@ TEST_F(Markers, EllipsoidHolds95Percent) {
   EXPECT_NEAR(1.0, q.norm(), 1e-12);
   // Draw errors with that covariance; count how many fall into the drawn body.
   geometry::test::Random random(72);
-  const Eigen::Matrix3d L = seen_.leds[0].position_covariance.llt().matrixL();
+  const Eigen::Matrix3d L = geometry::test::rootOf(seen_.leds[0].position_covariance);
   constexpr int kDraws = 100000;
   int inside = 0;
   for (int i = 0; i < kDraws; ++i) {

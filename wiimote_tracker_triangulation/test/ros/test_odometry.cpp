@@ -1,10 +1,10 @@
 // Odometry and twist of bodies and LEDs from the tracker's messages.
+#include "geometry/gaussian.h"
 #include "geometry/random_rigs.h"
 #include "ros/tracker/publish_each.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
 
 #include <gtest/gtest.h>
-#include <Eigen/Eigenvalues>
 
 #include <cmath>
 #include <limits>
@@ -75,8 +75,8 @@ TEST(BodyOdometry, TheCovarianceIsTheSpreadOfTwists) {
   setMatrix(someCovariance(random, 0.03), &body.twist.covariance);
   const Eigen::Map<const Matrix6> pose(body.pose.covariance.data());
   const Eigen::Map<const Matrix6> in_world(body.twist.covariance.data());
-  const Matrix3d rotation_root = pose.bottomRightCorner<3, 3>().eval().llt().matrixL();
-  const Matrix6 twist_root = Matrix6(in_world).llt().matrixL();
+  const Matrix3d rotation_root = geometry::test::rootOf(pose.bottomRightCorner<3, 3>());
+  const Matrix6 twist_root = geometry::test::rootOf(in_world);
   const geometry_msgs::TwistWithCovariance stated = odometry(arrayOf(body), body).twist;
   Vector6 mean;
   mean << vectorOf(stated.twist.linear), vectorOf(stated.twist.angular);
@@ -98,9 +98,7 @@ TEST(BodyOdometry, TheCovarianceIsTheSpreadOfTwists) {
     spread += error * error.transpose() / kDraws;
   }
   const Matrix6 covariance = Eigen::Map<const Matrix6>(stated.covariance.data());
-  const Matrix6 whiten = covariance.llt().matrixL().solve(Matrix6::Identity());
-  EXPECT_LT((whiten * spread * whiten.transpose() - Matrix6::Identity()).cwiseAbs().maxCoeff(),
-            0.05);
+  EXPECT_LT(geometry::test::whitenedDifference(spread, covariance), 0.05);
 }
 
 TEST(LedOdometry, WhatIsUnknownHasALargeVariance) {
@@ -127,7 +125,7 @@ TEST(LedOdometry, WhatIsUnknownHasALargeVariance) {
     EXPECT_EQ(has_velocity ? 9e-4 : kUnknownVariance, found.twist.covariance[0]);
     for (const auto& covariance : {found.pose.covariance, found.twist.covariance}) {
       const Matrix6 matrix = Eigen::Map<const Matrix6>(covariance.data());
-      EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(matrix).eigenvalues().minCoeff(), 0.0);
+      EXPECT_GT(geometry::test::leastEigenvalue(matrix), 0.0);
     }
   }
 }

@@ -1,13 +1,14 @@
 #include "motion/known_mode.h"
 
-#include <Eigen/Cholesky>
+#include "geometry/gaussian.h"
+
 #include <Eigen/LU>
 
 namespace wiimote_tracker::motion::test {
 SingerTruth::SingerTruth(double stddev, double time, double step) : stddev_(stddev) {
   const Transition transition = singerTransition(stddev, time, step);
   F_ = transition.F;
-  noise_ = transition.Q.llt().matrixL();
+  noise_ = geometry::test::rootOf(transition.Q);
 }
 
 void SingerTruth::place(const Eigen::Vector3d& position, const Eigen::Vector3d& velocity) {

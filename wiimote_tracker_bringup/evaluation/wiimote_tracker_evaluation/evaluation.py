@@ -32,7 +32,7 @@ def parse(arguments: Optional[List[str]]) -> argparse.Namespace:
     parser.add_argument('--sections', metavar='A,B',
                         help=f"only these of: {', '.join(modules)}")
     parser.add_argument('--quick', action='store_true',
-                        help='fewer repetitions; takes two minutes, not a quarter of an hour')
+                        help='fewer repetitions; takes three minutes, not half an hour')
     parser.add_argument('--live', action='store_true',
                         help='measure a running tracker, with prompts for a person')
     parser.add_argument('--output', metavar='DIR', default='wiimote_tracker_evaluation',

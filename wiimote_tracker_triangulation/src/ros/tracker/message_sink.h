@@ -23,7 +23,7 @@ class MessageSink {
                         const std::vector<tracking::CameraView>& /*views*/) {}
 
   /// The rigid bodies at the time of an image, before the points of that image. Times increase
-  /// strictly too. Only while bodies are tracked. `bridged`: for each body of the message,
+  /// strictly too. None without known bodies. `bridged`: for each body of the message,
   /// whether its IMU predicts it, so that its pose is as that of a tracked one.
   virtual void onBodies(const wiimote_tracker_msgs::TrackedBodyArray& /*bodies*/,
                         const std::vector<bool>& /*bridged*/) {}

@@ -144,8 +144,9 @@ function(wiimote_tracker_add_node_test name launch)
   add_dependencies(wiimote_tracker_node_tests ${name})
 endfunction()
 
-# wiimote_tracker_check_parameters(NAME): gives this test, which links yaml-cpp, the function of
-# documented_parameters.h, and the package's folder config as CONFIG_FOLDER.
+# wiimote_tracker_check_parameters(NAME): gives this test the function of documented_parameters.h,
+# compiled once for all packages of a build, and the package's folder config as CONFIG_FOLDER. The
+# package has found yaml-cpp.
 function(wiimote_tracker_check_parameters name)
   if(NOT TARGET wiimote_tracker_documented_parameters)
     add_library(wiimote_tracker_documented_parameters STATIC EXCLUDE_FROM_ALL

@@ -208,6 +208,7 @@ TEST(So3, BetweenTurnsOneDirectionToTheOtherTheShortestWay) {
   for (const Vector3d& to : {Vector3d(1.0, 0.5, -3.0), Vector3d(2.0 * from), Vector3d(-0.5 * from),
                              Vector3d(-from + Vector3d(1e-8, 0.0, 0.0))}) {
     const Eigen::AngleAxisd turn = so3::between(from, to);
+    // So near to opposite, rounding turns the axis, and the angle by acos, by some 1e-8.
     EXPECT_TRUE((turn * from.normalized()).isApprox(to.normalized(), 1e-7)) << to.transpose();
     EXPECT_NEAR(std::acos(std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0)),
                 turn.angle(), 1e-7);

@@ -140,6 +140,30 @@ def test_smoothing_uses_the_spots_that_began_a_track(tmp_path):
     assert np.sqrt(np.mean(np.square(errors))) < 0.003
 
 
+def test_smoothing_keeps_the_errors_of_the_calibration_where_the_led_is_hidden(tmp_path):
+    """All cameras may be off by the same shift, which then shifts every point."""
+    stddev, hidden_at = 0.05, 1.0
+    messages = recorded((recording.walk,), 2.0)
+    per_camera = 3 + 3 + 4 + 5 + 1
+    covariance = np.zeros((len(recording.NAMES), per_camera, len(recording.NAMES), per_camera))
+    for axis in (3, 4, 5):
+        covariance[:, axis, :, axis] = stddev ** 2
+    for _, message, _ in messages:
+        if hasattr(message, 'cameras'):
+            message.covariance = covariance.ravel().tolist()
+        elif seconds_of(message.header.stamp) > hidden_at:
+            message.blobs = []
+    write(tmp_path / 'in.bag', messages)
+    track(tmp_path / 'in.bag', tmp_path / 'out.bag', '--smooth')
+    after = [point for array in arrays(tmp_path / 'out.bag') for point in array.points
+             if point.state == TrackedPoint.PREDICTED
+             and seconds_of(array.header.stamp) > hidden_at]
+    assert len(after) > 10
+    for point in after:
+        stated = np.array(point.position_covariance).reshape(3, 3)
+        assert np.linalg.eigvalsh(stated)[0] > 0.99 * stddev ** 2
+
+
 def test_only_tracks_at_the_times_of_images_are_smoothed(bag, tmp_path):
     for parameters in ('mode: instant', 'output: {predict_to_now: true}'):
         (tmp_path / 'p.yaml').write_text(parameters + '\n')

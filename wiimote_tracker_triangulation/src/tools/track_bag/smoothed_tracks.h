@@ -56,8 +56,8 @@ class SmoothedTracks : public SnapshotFilter {
         track.last.position_covariance = state.positionCovariance();
         track.last.velocity = state.velocity();
         track.last.velocity_covariance = state.velocityCovariance();
-        if (const auto calibration =
-                uncertainty_->covarianceNear(led.position, led.cameras.data(), led.cameras.size()))
+        if (const auto calibration = uncertainty_->covarianceNear(
+                led.position, led.located_by.data(), led.located_by.size()))
           track.last.position_covariance += *calibration;
       }
       led.position = track.last.position;

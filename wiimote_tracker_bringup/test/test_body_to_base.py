@@ -237,6 +237,8 @@ def test_files_and_words(tmp_path):
     assert 'static_transform_publisher' in open(path).read()
     assert 'clock offset      37.30 ms' in '\n'.join(body_to_base.describe(found))
     content = read_yaml(path)
+    mount.write(dataclasses.replace(found, offset=0.0), path)
+    assert mount.read(path).offset == 0.0 and mount.read(path + '.bak').offset == OFFSET
     write_yaml(path, dict(content, translation=content['translation'][:2]))
     with pytest.raises(Refusal, match='no result of body_to_base: cannot reshape'):
         mount.read(path)

@@ -40,7 +40,7 @@ def main(argv=None):
     parser.add_argument('--largest-offset', type=ranges.within(0.01, 1e10), default=2.0,
                         metavar='S', help='of the clocks [s] (default: 2)')
     parser.add_argument('--output', metavar='FILE', default='mount.yaml',
-                        help='default: mount.yaml')
+                        help='default: mount.yaml; a file that is there is kept as FILE.bak')
     arguments = parser.parse_args(argv)
     with interruption.answered('body_to_base'):
         files.check_distinct([arguments.output], [arguments.bag])

@@ -7,7 +7,7 @@ import yaml
 from scipy.spatial.transform import Rotation
 
 from wiimote_tracker_bringup.errors import Refusal
-from wiimote_tracker_bringup.files import read_yaml
+from wiimote_tracker_bringup.files import keep_copy, read_yaml
 
 FORMAT = 'wiimote_tracker_mount'
 
@@ -35,6 +35,7 @@ class Mount:
 
 
 def write(mount, path):
+    """A file that is there is kept as path + '.bak'."""
     node = ('<node pkg="tf2_ros" type="static_transform_publisher" name="body_to_base" '
             f'args="{mount.transform()}"/>')
     stddev = mount.stddev()
@@ -45,6 +46,7 @@ def write(mount, path):
                'stddev': {'rotation': stddev[:3].tolist(), 'translation': stddev[3:6].tolist(),
                           'clock_offset': float(stddev[6])},
                'covariance': mount.covariance.tolist(), 'launch': node}
+    keep_copy(path)
     with open(path, 'w') as file:
         file.write('# body_from_base: p_body = R p_base + translation [m]. clock_offset [s],\n'
                    '# added to the stamps of the base, gives the clock of the tracker.\n'

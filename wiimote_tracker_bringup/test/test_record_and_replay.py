@@ -29,7 +29,7 @@ def test_what_is_recorded_is_an_input_or_kept_apart_in_a_replay(load):
     """But for topics below the name of a body, which a launch file cannot list."""
     recorded = shlex.split(next(iter(load('record.launch')[0].values())).args)[-1]
     names = set(re.split(r'\|(?![^(]*\))', re.match(r'\(\.\*\)/\((.*)\)\|/tf\|', recorded)[1]))
-    inputs = {'ir_blobs', 'camera_info', 'imu/data_raw', 'battery', 'joy', 'trigger',
+    inputs = {'ir_blobs', 'camera_info', 'imu/data', 'imu/data_raw', 'battery', 'joy', 'trigger',
               'calibration/(rig|square|verdict)'}
     assert inputs < names
     apart = {name for name, _ in load('replay.launch', 'bag:=x')[0]['play'].remap_args}
@@ -56,7 +56,7 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
     nodes, _ = load('record.launch')
     arguments = shlex.split(next(iter(nodes.values())).args)
     assert '--output-prefix=/home/my lab/tracker' in arguments
-    for topic in ('/wiimote_1/ir_blobs', '/room/wiimote_1/joy', '/calibration/rig', '/points',
+    for topic in ('/wiimote_1/ir_blobs', '/room/wiimote_1/joy', '/imu/data', '/calibration/rig', '/points',
                   '/bodies', '/wand/pose', '/gestures', '/tf', '/tf_static', '/diagnostics'):
         assert re.fullmatch(arguments[-1], topic), topic
     assert not re.fullmatch(arguments[-1], '/markers')

@@ -198,7 +198,7 @@ def test_a_rig_that_is_moved_keeps_all_else_in_another_folder(tmp_path, capsys):
     rig['cameras'] = dict(zip(['door', 'window', 'desk', 'wall'], rig['cameras'].values()))
     rig['leds']['led']['blink'] = {'codes': 'codes.yaml', 'label': 'led'}
     write_yaml(str(room / 'rig.yaml'), rig)
-    loaded = plan_rig.read_rig(str(room / 'rig.yaml'))
+    loaded = plan_rig.read_description(str(room / 'rig.yaml'))
     write_yaml(str(tmp_path / 'saved.yaml'),
                        descriptions.placed(loaded, np.ones((4, 3)), np.eye(4, 3)))
     saved = read_yaml(str(tmp_path / 'saved.yaml'))

@@ -131,7 +131,7 @@ def main():
         description = rospy.get_param('~description', '')
         if not description:
             rospy.loginfo('looking for places to begin with; rviz shows them then')
-        rig = (plan_rig.read_rig(description) if description
+        rig = (plan_rig.read_description(description) if description
                else plan_rig.description(chosen, *search.proposal(chosen)))
         PlaceCameras(chosen, rig, output)
     except KeyError as error:

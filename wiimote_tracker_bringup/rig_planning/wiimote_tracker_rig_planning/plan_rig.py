@@ -105,7 +105,7 @@ def description(chosen, positions, targets):
         positions, targets)
 
 
-def read_rig(path):
+def read_description(path):
     """A rig description that can be written to another folder."""
     try:
         rig = descriptions.with_absolute_files(files.read_yaml(path), os.path.dirname(path))
@@ -154,7 +154,7 @@ def run(arguments):
     for path in filter(None, (arguments.output, arguments.plot)):
         check_folder(path)
     if arguments.score:
-        rig = read_rig(arguments.score)
+        rig = read_description(arguments.score)
         print(arguments.score)
     else:
         places = search.search(chosen, arguments.seed, arguments.generations, Progress())

@@ -13,8 +13,9 @@ class ImageGate {
   void close() { open_ = false; }
   bool open() const { return open_; }
 
-  /// Whether no camera in this format sends such an image, so that the camera must be checked.
-  bool suspects(const protocol::DataReport& image, double now) {
+  /// @returns whether no camera in this format sends such an image, so that the camera must be
+  /// checked.
+  bool noteSuspicion(const protocol::DataReport& image, double now) {
     if (image.plausible || !open_ || now < accepted_until_)
       return false;
     implausible_ = true;

@@ -39,8 +39,9 @@ Session::Session(const Options& options, Output::Write write, double now)
 
 // ---- The state diagram
 
-// Of each state: the request, how often it is sent, and the next state once it is answered; then
-// what follows when the last has no answer, and when the last of kAttempts (any write) is refused.
+// Of each state: the request, how often it is sent while no answer comes, the next state once it is
+// answered, and what follows when no answer has come, and when the request is refused: kAttempts
+// times, or once, if it writes registers.
 Session::Row Session::row() const {
   using S = Session;
   using protocol::requestStatus;
@@ -51,27 +52,29 @@ Session::Row Session::row() const {
     case kAskStatus:
       return {requestStatus(), kAttempts, kSetLeds, kGiveUp, kGiveUp};
     case kSetLeds:
-      return {protocol::setLeds(options_.leds), commands, kReadFactory, &S::goOn, kGiveUp};
+      return {protocol::setLeds(options_.leds), commands, kReadFactory, &S::goOnUnacknowledged,
+              kGiveUp};
     case kReadFactory:
       return {factory_.request(), kAttempts, factory_.complete() ? kStartClock : kReadFactory,
               &S::skipFactory, &S::skipFactory};
     case kStartClock:
-      return {protocol::setIrClock(true), commands, kStartLogic, &S::goOn, kGiveUp};
+      return {protocol::setIrClock(true), commands, kStartLogic, &S::goOnUnacknowledged, kGiveUp};
     case kStartLogic:
-      return {protocol::setIrLogic(true), commands, kWriteCamera, &S::goOn, kGiveUp};
+      return {protocol::setIrLogic(true), commands, kWriteCamera, &S::goOnUnacknowledged, kGiveUp};
     case kWriteCamera:
       return {camera_.write(block_), kAttempts, nextBlock(CameraConfiguration::kWrites, written),
               kGiveUp, &S::setUpCamera};
     case kReadCamera:
       return {camera_.read(block_), kAttempts, nextBlock(CameraConfiguration::kReads, kSetMode),
-              &S::checkSilent, &S::checkSilent};
+              &S::checkUnanswered, &S::checkUnanswered};
     case kSetMode:
       return {modeRequest(), mode_seen_ ? 1 : kAttempts, kStreaming,
               mode_seen_ ? &S::answered : kGiveUp, kGiveUp};
     case kStreaming:
       break;
     case kCheckBlock:
-      return {camera_.read(block_), kAttempts, kStreaming, &S::checkSilent, &S::checkSilent};
+      return {camera_.read(block_), kAttempts, kStreaming, &S::checkUnanswered,
+              &S::checkUnanswered};
     case kAskWhySilent:
       return {requestStatus(), kAttempts,
               showsPowerCycle(*status_, options_.leds) ? kSetLeds : kStartClock, kGiveUp, kGiveUp};
@@ -94,7 +97,7 @@ void Session::answered(double now) {
   enter(next, now, next == state_ ? block_ + 1 : 0);
 }
 
-void Session::goOn(double now) {
+void Session::goOnUnacknowledged(double now) {
   acknowledges_ = false;
   answered(now);
 }
@@ -210,7 +213,7 @@ void Session::handleMemory(const protocol::MemoryPacket& packet, double now) {
       answered(now);
   } else if ((in(kReadCamera) || in(kCheckBlock)) && camera_.answers(block_, packet)) {
     if (const char* fault = camera_.fault(block_, packet))
-      checkFailed(fault, packet.error != 0, now);
+      checkFailed(fault, packet.error != 0, now);  // an error: no camera answers in the remote
     else
       answered(now);
   }
@@ -247,18 +250,25 @@ std::optional<protocol::DataReport> Session::handleData(const Report& report, do
   const auto image = assembler_.add(report, now);
   if (!image)
     return std::nullopt;
-  if (gate_.suspects(*image, now))
+  if (gate_.noteSuspicion(*image, now))
     doubtCamera(now);
+  // While registers are written, an image may be of the old setting or of the new one.
   if (!gate_.open() || in(kWriteCamera)) {
     watch_.alive(now);
     return std::nullopt;
   }
-  if (watch_.image(*image, now) && fault_ == nullptr)
+  noteImage(*image, now);
+  return image;
+}
+
+// An image of the camera as configured has come, so that what was to be restored is.
+void Session::noteImage(const protocol::DataReport& image, double now) {
+  const bool by_dark_check = watch_.image(image, now);
+  if (by_dark_check && fault_ == nullptr)
     noteFault(registers_ == Registers::kUnreadable ? "the camera was switched off"
                                                    : "the camera's logic was switched off");
   if (fault_ != nullptr && in(kStreaming))
     restored_ = std::exchange(fault_, nullptr);
-  return image;
 }
 
 // Another program has changed the mode, and perhaps the camera as well.
@@ -322,7 +332,7 @@ void Session::checkCamera(State check, int block, double now) {
   }
 }
 
-// `fault`: what a register shows; null when the read had no answer.
+// `fault`: what a register shows; null when the read had no answer, or was refused.
 void Session::checkFailed(const char* fault, bool camera_off, double now) {
   if (registers_ == Registers::kUnknown && set_ups_ + 1 >= kReadAttempts) {
     registers_ = Registers::kUnreadable;

@@ -36,7 +36,8 @@ struct SessionError : Error {
 ///   kStreaming: a status came                 kSetMode
 ///   kStreaming: other report mode, or a check kReadCamera, kCheckBlock; kWriteCamera when the
 ///   is due (StreamWatch)                      registers cannot be read
-///   no images, and no check explains it       kAskWhySilent
+///   no images, and no register explains it,   kAskWhySilent
+///   or the camera is off
 ///
 /// Other programs may use the same remote (the kernel's driver does). So the session expects
 /// answers to requests that are not its own, and matches memory packets by address. When an answer
@@ -116,9 +117,9 @@ class Session {
   bool inCamera() const { return in(kWriteCamera) || in(kReadCamera) || in(kCheckBlock); }
   void enter(State state, double now, int block = 0);
   void answered(double now);
-  void goOn(double now);
+  void goOnUnacknowledged(double now);
   void skipFactory(double now);
-  void checkSilent(double now) { checkFailed(nullptr, false, now); }
+  void checkUnanswered(double now) { checkFailed(nullptr, false, now); }
   void setUpCamera(double now);
 
   void send(double now);
@@ -131,6 +132,7 @@ class Session {
   void handleMemory(const protocol::MemoryPacket& packet, double now);
   void handleAcknowledgement(const protocol::Acknowledgement& acknowledgement, double now);
   std::optional<protocol::DataReport> handleData(const protocol::Report& report, double now);
+  void noteImage(const protocol::DataReport& image, double now);
   void handleOtherMode(std::uint8_t id, double now);
 
   void beginStreaming(double now);

@@ -36,7 +36,8 @@ class KnownTerms {
   /// @param shared_offset block [px].
   void addLenses(const std::vector<CameraSightings>& sightings, Eigen::Vector2d* shared_offset);
 
-  /// Not for a wave with a square, against which accelerometers are only checked (wave/checks).
+  /// Not for a wave with a square, which tell tilts better than accelerometers do: these are only
+  /// checked against them (wave/checks).
   /// @param up in the world.
   void addGravity(const std::vector<CameraSightings>& sightings, const Eigen::Vector3d& up);
 

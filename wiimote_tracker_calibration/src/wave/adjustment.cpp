@@ -93,8 +93,8 @@ class WaveProblem {
     Reporting callback(report);
     ceres::Solver::Options options =
         adjust::solverOptions(ceres::SPARSE_NORMAL_CHOLESKY, 60, {tolerance, 1e-14, 1e-12});
-    // The start is close to the solution. With Ceres' default radius of 1e4, the parameters that
-    // pixels hardly determine would need five more steps.
+    // Most rounds start close to their solution. With Ceres' default radius of 1e4, the parameters
+    // that pixels hardly determine would need five more steps.
     options.initial_trust_region_radius = 1e8;
     options.max_num_consecutive_invalid_steps = 20;  // the trust region shrinks before
     options.callbacks = {&callback};

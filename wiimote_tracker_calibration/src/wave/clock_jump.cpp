@@ -39,17 +39,14 @@ struct Lag {
 };
 
 std::optional<Lag> lagOf(const State& state, const Match& match) {
-  const double kStep = 1e-4;  // [s]
-  const double time = match.stamp + state.offsets[match.camera];
-  const auto pixelAt = [&](double when) {
-    return state.cameras[match.camera].project(
-        state.trajectory.position(state.trajectory.in(match.interval, when), match.led));
-  };
-  const auto pixel = pixelAt(time);
-  const auto later = pixelAt(time + kStep);
-  if (!pixel || !later)
+  const Trajectory::Place place =
+      state.trajectory.in(match.interval, match.stamp + state.offsets[match.camera]);
+  Eigen::Matrix<double, 2, 3> by_point;
+  const auto pixel =
+      state.cameras[match.camera].project(state.trajectory.position(place, match.led), &by_point);
+  if (!pixel)
     return std::nullopt;
-  const Eigen::Vector2d velocity = (*later - *pixel) / kStep;
+  const Eigen::Vector2d velocity = by_point * state.trajectory.velocity(place, match.led);
   const Eigen::Vector2d residual = match.pixel - *pixel;
   return Lag{match.stamp, velocity.squaredNorm(), -residual.dot(velocity), residual.squaredNorm()};
 }

@@ -11,7 +11,8 @@ namespace wiimote_tracker::wave {
 
 namespace {
 
-// Spots of two LEDs closer than this merge into one [px].
+// Spots of two LEDs closer than this are not used: they may have merged into one [px]. Where LEDs
+// farther apart merge, the spot between them is outside a gate of the last rounds.
 constexpr double kRunTogether = 14.0;
 
 /// Predicted spot of one LED in one frame.

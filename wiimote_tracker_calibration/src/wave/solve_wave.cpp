@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <exception>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -59,9 +60,48 @@ void useFirstCameraAsWorld(const Recording& recording, std::vector<geometry::Cam
   moveCameras(world_from_first * cameras->front().world_from_camera.inverse(), cameras);
 }
 
+/// What the adjustment of a state left.
+struct Adjusted {
+  Matching matching;
+  Refinement refinement{};
+  double pixel_stddev;  // of a spot, estimated [px]
+};
+
+double stampStddev(const WaveOptions& options) {
+  return std::hypot(options.stamp, options.wander);
+}
+
 /// Alternates matching and adjusting until neither changes noticeably.
-square::Solution fit(const Task& task, State state, const ProgressCallback& progress) {
+Adjusted adjustInRounds(const Task& task, const std::function<void()>& report, State* state) {
   const WaveOptions& options = task.options;
+  Adjusted result;
+  // Returns the noise over that of the gate.
+  const auto matchAndRefine = [&](const Gate& gate, double loss_scale) {
+    result.matching = matchSpots(task.recording, *state, gate);
+    checkMatching(task.recording, result.matching);
+    result.refinement = refine(task, result.matching.matches, loss_scale, report, state);
+    // Without redundancy it is no reason to expect less noise.
+    const double ratio = result.refinement.noise_ratio;
+    return result.refinement.redundancy ? ratio : std::max(1.0, ratio);
+  };
+  const double stamp = stampStddev(options);
+  for (std::size_t round = 0; round < std::size(kWideGates); ++round)
+    matchAndRefine({options.pixel, stamp, kWideGates[round] / options.pixel},
+                   kWideLosses[round] / options.pixel);
+  result.pixel_stddev = options.pixel;
+  for (int round = 0; round < kFinalRounds; ++round) {
+    const auto before = static_cast<double>(result.matching.matches.size());
+    const double ratio = matchAndRefine({result.pixel_stddev, stamp, kGate}, kInfinity);
+    const double change = static_cast<double>(result.matching.matches.size()) / before - 1.0;
+    if (round > 0 && std::abs(change) < kSpotsSettled && std::abs(ratio - 1.0) < kNoiseSettled)
+      break;
+    result.pixel_stddev *= ratio;
+  }
+  return result;
+}
+
+/// Adjusts the state and turns it into the solution, unless clocks or noise contradict it.
+square::Solution fit(const Task& task, State state, const ProgressCallback& progress) {
   const char* const kStep = "adjusting cameras, clocks and path";
   progress(kStep, kPathDone);
   double fraction = kPathDone;
@@ -69,36 +109,15 @@ square::Solution fit(const Task& task, State state, const ProgressCallback& prog
     fraction += 0.05 * (1.0 - fraction);
     progress(kStep, fraction);
   };
-  Matching matching;
-  Refinement refinement{};
-  // Returns the noise over that of the gate.
-  const auto matchAndRefine = [&](const Gate& gate, double loss_scale) {
-    matching = matchSpots(task.recording, state, gate);
-    checkMatching(task.recording, matching);
-    refinement = refine(task, matching.matches, loss_scale, report, &state);
-    // Without redundancy it is no reason to expect less noise.
-    return refinement.redundancy ? refinement.noise_ratio : std::max(1.0, refinement.noise_ratio);
-  };
-  const double stamp = std::hypot(options.stamp, options.wander);
-  for (std::size_t round = 0; round < std::size(kWideGates); ++round)
-    matchAndRefine({options.pixel, stamp, kWideGates[round] / options.pixel},
-                   kWideLosses[round] / options.pixel);
-  double pixel_stddev = options.pixel;
-  for (int round = 0; round < kFinalRounds; ++round) {
-    const auto before = static_cast<double>(matching.matches.size());
-    const double ratio = matchAndRefine({pixel_stddev, stamp, kGate}, kInfinity);
-    const double change = static_cast<double>(matching.matches.size()) / before - 1.0;
-    if (round > 0 && std::abs(change) < kSpotsSettled && std::abs(ratio - 1.0) < kNoiseSettled)
-      break;
-    pixel_stddev *= ratio;
-  }
-  checkClocks(task, {pixel_stddev, stamp, kGate}, report, state);
-  checkNoise(options, pixel_stddev);
+  Adjusted adjusted = adjustInRounds(task, report, &state);
+  checkClocks(task, {adjusted.pixel_stddev, stampStddev(task.options), kGate}, report, state);
+  checkNoise(task.options, adjusted.pixel_stddev);
   if (!task.floor.empty()) {
     useFloorAsWorld(task, &state);
-    refinement = refine(task, matching.matches, kInfinity, report, &state);
+    adjusted.refinement = refine(task, adjusted.matching.matches, kInfinity, report, &state);
   }
-  return solutionOf(task, state, matching, refinement.redundancy.value_or(1.0), pixel_stddev);
+  return solutionOf(task, state, adjusted.matching, adjusted.refinement.redundancy.value_or(1.0),
+                    adjusted.pixel_stddev);
 }
 
 /// From a start to a solution that passed all checks.

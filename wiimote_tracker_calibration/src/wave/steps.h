@@ -43,7 +43,8 @@ Trajectory startPath(const Recording& recording,
                      const WaveOptions& options,
                      std::vector<geometry::Camera>* cameras);
 
-/// Whether the wand is far from how it must lie, by rough cameras in metres, before the adjustment.
+/// Refuses a wand that is far from how it must lie, by rough cameras in metres, before the
+/// adjustment.
 /// @throws WaveError: see useFloorAsWorld().
 void checkStart(const Task& task, const State& state);
 

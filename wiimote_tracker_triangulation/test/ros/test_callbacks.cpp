@@ -102,12 +102,13 @@ TEST_F(Callbacks, GoOnAfterAnException) {
   EXPECT_EQ((std::vector<std::uint32_t>{0, 2}), handled_);
 }
 
+bool isAdvertised(const std::string& topic) {
+  ros::V_string topics;
+  ros::this_node::getAdvertisedTopics(topics);
+  return std::count(topics.begin(), topics.end(), ros::names::resolve(topic)) > 0;
+}
+
 TEST(LedTopics, EndWithAnLedThatIsSeenForAMomentOnly) {
-  const auto isAdvertised = [] {
-    ros::V_string topics;
-    ros::this_node::getAdvertisedTopics(topics);
-    return std::count(topics.begin(), topics.end(), ros::names::resolve("led_7/point")) > 0;
-  };
   SinglePublishers publishers(ros::NodeHandle(), {}, OutputOptions());
   wiimote_tracker_msgs::TrackedPointArray points;
   points.points.resize(1);
@@ -115,15 +116,28 @@ TEST(LedTopics, EndWithAnLedThatIsSeenForAMomentOnly) {
   points.points[0].state = wiimote_tracker_msgs::TrackedPoint::TRACKED;
   publishers.publish(points);
   const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(20.0);
-  while (!isAdvertised() && ros::WallTime::now() < deadline)
+  while (!isAdvertised("led_7/point") && ros::WallTime::now() < deadline)
     ros::WallDuration(0.01).sleep();
-  ASSERT_TRUE(isAdvertised());
+  ASSERT_TRUE(isAdvertised("led_7/point"));
   points.points.clear();
-  while (isAdvertised() && ros::WallTime::now() < deadline) {
+  while (isAdvertised("led_7/point") && ros::WallTime::now() < deadline) {
     publishers.publish(points);
     ros::WallDuration(0.01).sleep();
   }
-  EXPECT_FALSE(isAdvertised());
+  EXPECT_FALSE(isAdvertised("led_7/point"));
+}
+
+TEST(ListedTopics, StayWhileNothingIsSeenUntilTheBodyIsRemoved) {
+  SinglePublishers publishers(ros::NodeHandle(), {"hand"}, OutputOptions());
+  body::Constellation wand;
+  wand.name = "wand";
+  publishers.setBodies({wand});
+  publishers.publish(wiimote_tracker_msgs::TrackedPointArray());
+  EXPECT_TRUE(isAdvertised("wand/pose"));
+  publishers.setBodies({});
+  publishers.publish(wiimote_tracker_msgs::TrackedPointArray());
+  EXPECT_FALSE(isAdvertised("wand/pose"));
+  EXPECT_TRUE(isAdvertised("hand/point"));
 }
 
 /// An image of LEDs that move, whose tracks come and go.

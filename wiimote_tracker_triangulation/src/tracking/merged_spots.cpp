@@ -96,15 +96,16 @@ bool mayBeMerged(const ImageAssignment& assignment, const Candidate& candidate) 
 
 const Candidate* shownByItsSpot(const ImageAssignment& assignment, const Candidate& candidate) {
   const auto& all = assignment.candidates;
-  // Longer than birth_window, in which radio may lose all images of a camera.
-  const double since = assignment.image.time - assignment.options.tracked_time;
+  // Radio may lose all images of a camera for a while.
+  const double since = assignment.image.time -
+                       std::max(assignment.options.tracked_time, assignment.options.birth_window);
   const auto isOther = [&](const Candidate& led) {
     return led.track != candidate.track && led.expected &&
            led.track->cameras().detecting(since, assignment.image.camera).size() >= 2;
   };
   for (auto a = all.begin(); a != all.end(); ++a) {
     for (auto b = a + 1; b != all.end(); ++b) {
-      if (isOther(*a) && isOther(*b) && mayShowBoth(assignment, *candidate.spot, *a, *b))
+      if (mayShowBoth(assignment, *candidate.spot, *a, *b) && isOther(*a) && isOther(*b))
         return &*a;
     }
   }

@@ -179,11 +179,7 @@ const Snapshot* Tracker::next() {
   updateGroups();
   report(newest_time_, &snapshot_);
   addLost();
-  for (TrackedLed& led : snapshot_.leds) {
-    if (const auto covariance = uncertainty_->covarianceNear(led.position, led.located_by.data(),
-                                                             led.located_by.size()))
-      led.position_covariance += *covariance;
-  }
+  addCalibrationErrors(&snapshot_);
   return &snapshot_;
 }
 
@@ -192,12 +188,16 @@ bool Tracker::predictTo(double time, Snapshot* snapshot) {
     return false;
   updateGroups();
   report(time, snapshot);
+  addCalibrationErrors(snapshot);
+  return true;
+}
+
+void Tracker::addCalibrationErrors(Snapshot* snapshot) {
   for (TrackedLed& led : snapshot->leds) {
-    if (const auto covariance =
-            uncertainty_->covarianceOf(led.position, led.located_by.data(), led.located_by.size()))
+    if (const auto covariance = uncertainty_->covarianceNear(led.position, led.located_by.data(),
+                                                             led.located_by.size()))
       led.position_covariance += *covariance;
   }
-  return true;
 }
 
 /// Writes the images and all LEDs, without the covariance of the calibration.
@@ -218,7 +218,7 @@ void Tracker::report(double time, Snapshot* snapshot) const {
   for (const auto& group : groups_) {
     for (const Track& track : group->tracks()) {
       track.report(time, options_, &*led);
-      if (led->state == TrackState::kTracked && group->isDoubtful())
+      if (led->state == TrackState::kTracked && group->isMisfitPair())
         led->state = TrackState::kPredicted;
       if (track.crowd().isCrowded(time))
         led->position_covariance += mergingCovariance(*led, cameras_, options_.merging_distance);
@@ -267,7 +267,7 @@ std::optional<CameraFault> Tracker::cameraFault(std::size_t camera) const {
 
 bool Tracker::isDoubtful(std::size_t camera) const {
   const CameraGroup& group = *inputs_[camera].group;
-  return group.isDoubtful() || group.isMisfit(camera);
+  return group.isMisfitPair() || group.isMisfit(camera);
 }
 
 ClockError Tracker::clockError(std::size_t camera, std::uint32_t clock_epoch) const {

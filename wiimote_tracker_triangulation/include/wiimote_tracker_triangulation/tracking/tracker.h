@@ -70,6 +70,7 @@ class Tracker : public Estimator {
   void updateGroups();
   void report(double time, Snapshot* snapshot) const;
   void addLost();
+  void addCalibrationErrors(Snapshot* snapshot);
 
   TrackerOptions options_;
   std::unique_ptr<ImageIntake> intake_;

@@ -69,10 +69,11 @@ Triangulation::Triangulation(const ros::NodeHandle& nh, const ros::NodeHandle& p
   zone_publisher_ = nh_.advertise<wiimote_tracker_msgs::ZoneEvent>("zone_events", 100);
   triggered_publisher_ = nh_.advertise<TrackedPointArray>("triggered_points", 100);
   set_label_ = nh_.advertiseService("set_label", &Triangulation::setLabel, this);
-  calibration_ = subscribe<CalibrationStatus>(nh_, "calibration/status", 1, [this](auto& event) {
-    is_calibrating_ = event.getConstMessage()->step != CalibrationStatus::IDLE;
-  });
-  rig_.start(nh_, [this](const RigCalibration& message) { takeRig(message); });
+  status_subscription_ =
+      subscribe<CalibrationStatus>(nh_, "calibration/status", 1, [this](auto& event) {
+        is_calibrating_ = event.getConstMessage()->step != CalibrationStatus::IDLE;
+      });
+  rig_subscription_.start(nh_, [this](const RigCalibration& message) { takeRig(message); });
   trigger_subscriber_ = subscribe<std_msgs::Header>(nh_, "trigger", 100, [this](const auto& event) {
     tracker_.takeTrigger(*event.getConstMessage());
   });
@@ -87,17 +88,17 @@ void Triangulation::takeRig(const RigCalibration& message) {
   try {
     change = tracker_.takeRig(message);
   } catch (const geometry::Error& e) {
-    ROS_ERROR("The rig calibration on %s is refused%s: %s", rig_.topic().c_str(),
+    ROS_ERROR("The rig calibration on %s is refused%s: %s", rig_subscription_.topic().c_str(),
               had_rig ? ", the one before stays in use" : "", e.what());
     return;
   }
-  if (change.cameras) {
+  if (change.points) {
     markers_.setRig(tracker_.rig());
     body_markers_.setRig(tracker_.rig());
     learning_.setRig(tracker_.rig());
     diagnostics_.setRig();
     subscribeToCameras();
-    calibration_.shutdown();
+    status_subscription_.shutdown();
     ROS_INFO("Rig %s with %s is in use.", tracker_.rigId().c_str(),
              counted(tracker_.rig().cameras.size(), "camera").c_str());
   }
@@ -126,7 +127,7 @@ void Triangulation::onImage(const std::string& camera,
                             const ros::MessageEvent<const IrBlobArray>& event) {
   if (const auto bodies = learning_.change())
     useBodies(*bodies);
-  if (!std::exchange(has_former_places_, true))  // now, since their ages count from here
+  if (!std::exchange(former_places_read_, true))  // now, since their ages count from here
     tracker_.labels().setFormerPlaces(
         identity::readPlaces(parameters_.label_places, tracker_.rigId(), kLongestRestart));
   const IrBlobArray& image = *event.getConstMessage();
@@ -214,12 +215,12 @@ void Triangulation::onBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodie
 
 void Triangulation::onTimer() {
   if (!tracker_.hasRig()) {
-    const bool is_calibrating = is_calibrating_ && calibration_.getNumPublishers() > 0;
+    const bool is_calibrating = is_calibrating_ && status_subscription_.getNumPublishers() > 0;
     if (++seconds_without_rig_ > kUntilAdvice && !is_calibrating)
       ROS_WARN_THROTTLE(600.0,
                         "Waiting for a calibrated rig on %s: run  %srosrun "
                         "wiimote_tracker_calibration calibrate  or open Calibrate in rviz.",
-                        rig_.topic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
+                        rig_subscription_.topic().c_str(), shellPrefix(nh_.getNamespace()).c_str());
     markers_publisher_.publish(markers_.buildWithoutRig(ros::Time::now().toSec()));
   }
   for (const auto& [camera, images] : image_subscribers_) {
@@ -239,10 +240,10 @@ void Triangulation::onTimer() {
 /// In another thread: a busy disk, as while a bag is recorded, would keep images waiting.
 void Triangulation::keepPlaces() {
   const std::string& file = parameters_.label_places;
-  if (places_kept_.valid()) {
-    if (places_kept_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
+  if (writing_places_.valid()) {
+    if (writing_places_.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
       return;
-    if (const std::error_code error = places_kept_.get())
+    if (const std::error_code error = writing_places_.get())
       ROS_WARN_ONCE(
           "Cannot write %s (%s), so LEDs may change their labels if this node is killed: mend "
           "that, or name another file in label_places.",
@@ -250,9 +251,10 @@ void Triangulation::keepPlaces() {
   }
   const identity::LedLabels::Places* places = tracker_.labels().placesToKeep();
   if (!file.empty() && places)
-    places_kept_ = std::async(std::launch::async, [file, rig = tracker_.rigId(), copy = *places] {
-      return identity::writePlaces(file, rig, copy);
-    });
+    writing_places_ =
+        std::async(std::launch::async, [file, rig = tracker_.rigId(), copy = *places] {
+          return identity::writePlaces(file, rig, copy);
+        });
 }
 
 }  // namespace wiimote_tracker

@@ -67,9 +67,9 @@ class Triangulation : private MessageSink {
   BodyLearning learning_;
   LoadShedding shedding_;
   TrackingDiagnostics diagnostics_;
-  std::set<std::string> warned_of_;           // sentences about shapes of bodies
-  bool has_former_places_ = false;            // of labels, from a process before
-  std::future<std::error_code> places_kept_;  // as writePlaces(); invalid: none is on its way
+  std::set<std::string> warned_of_;              // sentences about shapes of bodies
+  bool former_places_read_ = false;              // of labels, from a process before
+  std::future<std::error_code> writing_places_;  // as writePlaces(); invalid: none is on its way
   int seconds_without_rig_ = 0;
   bool is_calibrating_ = false;
 
@@ -78,8 +78,8 @@ class Triangulation : private MessageSink {
   ros::Publisher markers_publisher_;
   ros::Publisher zone_publisher_;
   ros::Publisher triggered_publisher_;
-  RigSubscription rig_;
-  ros::Subscriber calibration_;  // its status; while there is no rig
+  RigSubscription rig_subscription_;
+  ros::Subscriber status_subscription_;  // of the calibration; while there is no rig
   ros::Subscriber trigger_subscriber_;
   std::map<std::string, ros::Subscriber> image_subscribers_;  // by camera
   std::map<std::string, ros::Subscriber> imu_subscribers_;    // by body

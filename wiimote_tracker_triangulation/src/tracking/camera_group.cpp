@@ -68,7 +68,7 @@ void CameraGroup::useRig(const std::vector<std::vector<std::size_t>>& partners) 
   history_.changeStates(forgetRays);
 }
 
-bool CameraGroup::isDoubtful() const {
+bool CameraGroup::isMisfitPair() const {
   return members_.size() == 2 && (isMisfit(members_[0]) || isMisfit(members_[1]));
 }
 
@@ -111,7 +111,7 @@ void CameraGroup::updateStatuses(double time, bool in_crowd) {
     if (was_confirmed || !track.mayReacquire())
       continue;
     if (Track* reacquired = reacquiredBy(track, setup_.options, &state_)) {
-      reacquired->reacquire(track);
+      reacquired->continueAs(track);
       track.finish();
     }
   }

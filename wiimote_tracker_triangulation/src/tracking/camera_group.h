@@ -42,7 +42,7 @@ class CameraGroup {
   bool isExplained(std::size_t camera) const { return state_.cameras.at(camera).fit.isExplained(); }
 
   /// Whether there are only two cameras, which do not fit each other: then no LED is located.
-  bool isDoubtful() const;
+  bool isMisfitPair() const;
 
   ClockOffsets& clocks() { return clocks_; }
   const ClockOffsets& clocks() const { return clocks_; }

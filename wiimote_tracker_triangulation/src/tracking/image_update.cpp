@@ -82,26 +82,36 @@ void measureClock(const ImageAssignment& assignment, OffsetRegression* clock) {
   }
 }
 
+/// The spot is of this LED, and perhaps of another one, too.
+void updateBySpot(const ImageAssignment& assignment,
+                  const Candidate& candidate,
+                  const Candidate* merged) {
+  const StoredImage& image = assignment.image;
+  Track& track = *candidate.track;
+  // Rays of two merged spots may meet where no LED is.
+  if (!merged && !track.isConfirmed() && candidate.others.size() < 2)
+    merged = shownByItsSpot(assignment, candidate);
+  const Eigen::Vector2d& pixel = image.pixels[*candidate.spot];
+  if (!track.update(assignment.camera.forRays(), candidate.prediction, pixel))
+    return;
+  const Eigen::Vector2d residual = pixel - candidate.pixel();
+  track.hit(image.camera, residual, merged ? merged->track : nullptr, true);
+  track.cameras().noteRay(image.camera,
+                          assignment.camera.rayOffset(track.filter().position(), residual));
+}
+
 void updateTrack(const ImageAssignment& assignment, const Candidate& candidate) {
   const StoredImage& image = assignment.image;
-  const TrackerCamera& camera = assignment.camera;
   Track& track = *candidate.track;
-  const Candidate* other = mergedWith(assignment, candidate);
-  // Rays of two merged spots may meet where no LED is.
-  if (!other && candidate.spot && !track.isConfirmed() && candidate.others.size() < 2)
-    other = shownByItsSpot(assignment, candidate);
-  // A merged spot is the other's if only this camera sees this LED.
-  const bool is_merged = other && track.isConfirmed();
-  if (is_merged && !candidate.others.empty()) {
-    updateMerged(assignment, candidate, *other);
-  } else if (!is_merged && candidate.spot) {
-    const Eigen::Vector2d& pixel = image.pixels[*candidate.spot];
-    if (!track.update(camera.forRays(), candidate.prediction, pixel))
-      return;
-    const Eigen::Vector2d residual = pixel - candidate.pixel();
-    track.hit(image.camera, residual, other ? other->track : nullptr, true);
-    track.cameras().noteRay(image.camera, camera.rayOffset(track.filter().position(), residual));
-  } else if (is_merged || candidate.expected) {
+  const Candidate* merged = mergedWith(assignment, candidate);
+  if (merged && track.isConfirmed()) {
+    if (candidate.others.empty())
+      track.miss(image.camera, image.time);  // only this camera sees it: the spot is the other's
+    else
+      updateMerged(assignment, candidate, *merged);
+  } else if (candidate.spot) {
+    updateBySpot(assignment, candidate, merged);
+  } else if (candidate.expected) {
     track.miss(image.camera, image.time);
   } else if (candidate.in_view && image.full) {
     track.cameras().noteSaturated(image.camera, image.time);

@@ -77,15 +77,20 @@ class Track {
   /// new LED.
   bool mayReacquire() const { return may_reacquire_ && !finished_; }
 
-  /// A new track turned out to be of the same LED: goes on as that one, under this track's id.
-  void reacquire(const Track& by);
+  /// A newer track turned out to be of the same LED: takes its state, under this track's id.
+  void continueAs(const Track& newer);
   void finish() { finished_ = true; }
 
   /// Writes the LED at a time not before the filter's, without the covariance of the calibration.
   void report(double time, const TrackerOptions& options, TrackedLed* led) const;
 
  private:
-  bool isDoubtful(std::size_t seen_by, std::size_t in_view) const;
+  void updateConfirmed(double time, const TrackerOptions& options);
+  void updateTentative(const Visibility& now,
+                       double time,
+                       const TrackerOptions& options,
+                       bool in_crowd);
+  bool mayBePhantom(std::size_t seen_by, std::size_t in_view) const;
 
   std::uint32_t id_;
   motion::MotionFilter filter_;

@@ -83,7 +83,7 @@ TEST_P(InBothModes, TheSameRigAgainChangesNothing) {
   Studio studio(parametersOf(GetParam()));
   studio.film(0.3, {onCircle});
   const MessageTracker::RigChange change = studio.tracker.takeRig(toMessage(studio.rig));
-  EXPECT_FALSE(change.cameras);
+  EXPECT_FALSE(change.points);
   EXPECT_FALSE(change.correction);
   const std::uint32_t id = studio.heard.arrays.back()->points.at(0).id;
   studio.film(0.3, {onCircle});
@@ -97,7 +97,7 @@ TEST_P(InBothModes, ANewRigTakesEffectWithTheNextImage) {
   const Vector3d shift(1.0, 0.0, 0.0);
   for (geometry::RigCamera& camera : moved.cameras)
     camera.camera.world_from_camera.pretranslate(shift);
-  EXPECT_TRUE(studio.tracker.takeRig(toMessage(moved)).cameras);
+  EXPECT_TRUE(studio.tracker.takeRig(toMessage(moved)).points);
   const double before = studio.heard.arrays.back()->header.stamp.toSec();
   const std::size_t count = studio.heard.arrays.size();
   studio.film(1.5, {onCircle});

@@ -50,7 +50,7 @@ TEST(Clocks, AFaultThatGoesOnIsNotReportedAgainWithEachRig) {
   const std::string fault = "the clock of the computer of camera_2 is";
   const auto takeAnotherRig = [&] {
     studio.rig.cameras[0].camera.world_from_camera.pretranslate(Vector3d(1e-5, 0.0, 0.0));
-    EXPECT_TRUE(studio.tracker.takeRig(toMessage(studio.rig)).cameras);
+    EXPECT_TRUE(studio.tracker.takeRig(toMessage(studio.rig)).points);
   };
   studio.film(1.0, {onCircle});
   takeAnotherRig();
@@ -100,7 +100,7 @@ TEST(Labels, AreNotRememberedAtPlacesOfAnotherWorld) {
   const auto take = [&](const std::vector<std::size_t>& cameras, double way) {
     for (const std::size_t camera : cameras)
       studio.rig.cameras[camera].camera.world_from_camera.pretranslate(Vector3d(way, 0.0, 0.0));
-    EXPECT_TRUE(studio.tracker.takeRig(toMessage(studio.rig)).cameras);
+    EXPECT_TRUE(studio.tracker.takeRig(toMessage(studio.rig)).points);
   };
   studio.film(1.0, {onCircle, besideCircle});
   take({1}, 0.5);

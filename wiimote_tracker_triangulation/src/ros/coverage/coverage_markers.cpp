@@ -50,7 +50,7 @@ markers::Common commonOf(const std::string& world_frame) {
   return {world_frame, 0.0, 0.0};
 }
 
-/// @param height above the cells [m]
+/// @param height of its lower edge above the centres of the highest cells [m]
 Marker textAbove(const std::string& world_frame,
                  const std::string& ns,
                  const std::vector<CoverageCell>& cells,

@@ -80,12 +80,12 @@ MessageTracker::RigChange MessageTracker::takeRig(
   RigChange change;
   if (!estimator_) {
     estimator_ = estimators::makeEstimator(rig, parameters_.estimator);
-    change.cameras = true;
+    change.points = true;
   } else if (rig.id() != rig_.id() || !isSame(rig.covariance, rig_.covariance)) {
     estimator_->setRig(rig);
-    change.cameras = true;
+    change.points = true;
   }
-  if (change.cameras) {
+  if (change.points) {
     bodies_.setRig(rig);
     rig_id_ = idOf(message, rig);
     reported_faults_.useRig(rig_, rig, *estimator_);
@@ -120,6 +120,7 @@ bool MessageTracker::takeImage(const std::string& camera,
 
   const tracking::ClockError clock = estimator_->clockError(index, image_.clock_epoch);
   statistics_.setClock(index, clock);
+  // Takes the bodies' spots out of the image.
   bodies_.take(index, clock, &image_, estimator_->isDoubtful(index));
   if (const body::BodySnapshot* snapshot = bodies_.next())
     publishBodies(*snapshot);

@@ -35,7 +35,7 @@ class MessageTracker {
 
   /// What a new RigCalibration changed.
   struct RigChange {
-    bool cameras = false;     ///< Anything that determines points.
+    bool points = false;      ///< Anything that determines them.
     bool correction = false;  ///< The correction of the volume, which may come after its rig.
   };
 

@@ -324,8 +324,9 @@ int main(int argc, char** argv) {
   parser.option("--bodies FILE", &arguments.bodies,
                 "rigid bodies to track, instead of the parameters' bodies/file");
   measurements::OutputNames& names = arguments.measurements;
-  parser.option("--csv FILE", &names.csv,
-                "also write the points as CSV, and poses of bodies beside it, as FILE_bodies");
+  parser.option(
+      "--csv FILE", &names.csv,
+      "also write the points as CSV, and poses of bodies beside NAME.csv as NAME_bodies.csv");
   parser.option("--mat FILE", &names.matlab, "also write points and bodies as a MATLAB file");
   parser.option("--c3d FILE", &names.c3d, "also write the tracked LEDs, also of bodies, as C3D");
   parser.option("--trc FILE", &names.trc, "the same as TRC");

@@ -8,7 +8,7 @@
 
 namespace wiimote_tracker::tracking {
 
-/// What happened to an image: kLate: it comes before others.
+/// What happened to an image. kLate: it comes before others, or instead of a mistimed one.
 enum class Outcome { kAdded, kLate, kRepeated, kDropped };
 
 /// The latest images in the order of their times, and the state before some of them, so that a late

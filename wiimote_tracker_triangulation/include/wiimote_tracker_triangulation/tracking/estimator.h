@@ -12,7 +12,7 @@ namespace wiimote_tracker::tracking {
 
 /// Totals since the estimator was made.
 struct Counters {
-  std::uint64_t late = 0;        ///< Images older than one that was already used.
+  std::uint64_t late = 0;        ///< Images older than one that was used, or in its place.
   std::uint64_t dropped = 0;     ///< Images that could not be used.
   std::uint64_t repeated = 0;    ///< Images that were added before.
   std::uint64_t disordered = 0;  ///< Images added after one that arrived later.

@@ -56,8 +56,9 @@ def test_a_recording_has_all_results_and_is_written_where_the_user_stands(load):
     nodes, _ = load('record.launch')
     arguments = shlex.split(next(iter(nodes.values())).args)
     assert '--output-prefix=/home/my lab/tracker' in arguments
-    for topic in ('/wiimote_1/ir_blobs', '/room/wiimote_1/joy', '/imu/data', '/calibration/rig', '/points',
-                  '/bodies', '/wand/pose', '/gestures', '/tf', '/tf_static', '/diagnostics'):
+    for topic in ('/wiimote_1/ir_blobs', '/room/wiimote_1/joy', '/imu/data', '/calibration/rig',
+                  '/points', '/bodies', '/wand/pose', '/gestures', '/tf', '/tf_static',
+                  '/diagnostics'):
         assert re.fullmatch(arguments[-1], topic), topic
     assert not re.fullmatch(arguments[-1], '/markers')
 

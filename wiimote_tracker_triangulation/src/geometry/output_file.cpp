@@ -98,12 +98,20 @@ bool OutputFile::isNamedAsPart() const {
 
 void OutputFile::write(const std::string& bytes) {
   if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size())
-    failToWrite(path_, errno);
+    fail();
 }
 
 void OutputFile::flush() {
+  if (failed_ != 0)
+    failToWrite(path_, failed_);
   if (std::fflush(file_.get()) != 0)
-    failToWrite(path_, errno);
+    fail();
+}
+
+/// The C library drops what it could not write: the next call may succeed.
+void OutputFile::fail() {
+  failed_ = errno;
+  failToWrite(path_, failed_);
 }
 
 void OutputFile::finish() {

@@ -27,7 +27,7 @@ class OutputFile {
   /// or ".part.bak2" and so on where that exists.
   explicit OutputFile(const std::string& path, bool keeps_part = true);
 
-  void write(const std::string& bytes);
+  void write(const std::string& bytes);  ///< After it failed, flush() and finish() throw, too.
   void flush();
 
   /// Syncs the part to disk and renames it: for every reader, and after a crash, the file has its
@@ -40,6 +40,7 @@ class OutputFile {
 
  private:
   void openPart();
+  [[noreturn]] void fail();
   bool isNamedAsPart() const;
   void keep() const;
 
@@ -49,6 +50,7 @@ class OutputFile {
 
   std::string path_;
   std::unique_ptr<std::FILE, Close> file_;  // the part
+  int failed_ = 0;                          // errno when bytes were lost; 0: none were
 };
 
 }  // namespace wiimote_tracker::geometry

@@ -50,9 +50,12 @@ class RecordPoints(unittest.TestCase):
         self.addCleanup(publisher.unregister)
         return publisher
 
-    def start(self, *arguments):
-        process = subprocess.Popen([PROGRAM] + list(arguments), stdout=subprocess.PIPE,
-                                   stderr=subprocess.STDOUT, universal_newlines=True)
+    def start(self, *arguments, before=()):
+        """before: words of a program that runs it."""
+        # Python ignores SIGXFSZ; so does then the recorder.
+        process = subprocess.Popen(list(before) + [PROGRAM] + list(arguments),
+                                   stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   universal_newlines=True, restore_signals=not before)
         self.addCleanup(lambda: process.poll() is None and process.kill())
         return process
 
@@ -140,6 +143,23 @@ class RecordPoints(unittest.TestCase):
         self.assertIn('frames of C3D or TRC', self.stop(process, 1))
         self.assertEqual(self.lines(paths['csv']), 3)
         self.assertFalse(os.path.exists(paths['c3d']))
+
+    def test_a_table_that_cannot_be_written_ends_it_and_spoils_no_other(self):
+        points = self.publish('/points', TrackedPointArray, 100)
+        paths = {kind: os.path.join(self.folder, 'out.' + kind) for kind in ('csv', 'c3d')}
+        # A file of limited size fails as one on a full disk.
+        process = self.start('__name:=recorder_on_a_full_disk', '_flush_period:=0.05',
+                             *('_%s:=%s' % item for item in paths.items()),
+                             before=('prlimit', '--fsize=65536'))
+        wait_for(lambda: points.get_num_connections() > 0, 'the recorder')
+        points.publish(array(0, 3))
+        wait_for(lambda: self.lines(paths['csv'] + '.part') == 1, 'a row on the disk')
+        points.publish(array(1, *range(1000)))
+        said = process.communicate(timeout=60)[0]
+        self.assertEqual(process.returncode, 1)
+        self.assertIn('cannot write ' + paths['csv'], said)
+        self.assertFalse(os.path.exists(paths['csv']), 'rows are missing')
+        self.assertEqual(c3d.read(paths['c3d']).labels, ['led'])
 
     def test_says_that_no_points_came(self):
         process = self.start('__name:=recorder_of_nothing', '_csv:=' + self.path, 'points:=/point')

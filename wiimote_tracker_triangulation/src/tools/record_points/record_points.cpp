@@ -64,7 +64,7 @@ class Recorder {
     late_timer_ = nh.createWallTimer(ros::WallDuration(kLate), &Recorder::onLate, this);
   }
 
-  /// Speaks without rosconsole, which has ended by then. @returns whether all files are whole.
+  /// Speaks without rosconsole, which may have ended by then. @returns whether all files are whole.
   bool finish() {
     bool whole = true;
     for (const std::unique_ptr<measurements::Writer>& writer : writers_) {
@@ -144,6 +144,18 @@ class Recorder {
   ros::WallTimer late_timer_;
 };
 
+/// Takes what comes until the node is to end, or a file cannot be written. @returns whether all
+/// that came was taken.
+bool record() {
+  try {
+    ros::spin();
+    return true;
+  } catch (const std::exception& e) {  // the other files can still be completed
+    ROS_FATAL("%s", e.what());
+    return false;
+  }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -151,8 +163,8 @@ int main(int argc, char** argv) {
   const int status = wiimote_tracker::runNode(argc, argv, "record_points", kPurpose,
                                               [&whole](const auto& nh, const auto& private_nh) {
                                                 Recorder recorder(nh, private_nh);
-                                                ros::spin();
-                                                whole = recorder.finish();
+                                                const bool all_taken = record();
+                                                whole = recorder.finish() && all_taken;
                                               });
   return whole ? status : 1;
 }

@@ -1,6 +1,7 @@
 #include "body/constellation.h"
 
 #include "body/align.h"
+#include "identity/led_name.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 
 #include <wiimote_tracker_msgs/text.h>
@@ -80,6 +81,8 @@ void Constellation::check() const {
     throw Error("'" + name +
                 "' cannot be a body's name, which must be a letter, then letters, "
                 "digits and underscores");
+  if (identity::isNumbered(name))
+    throw Error("'" + name + "' is the name of an LED without a label; choose another one");
   const std::string who = "body '" + name + "'";
   if (leds.size() < 3 || leds.size() > kMaximumLeds)
     throw Error(who + " has " + counted(leds.size(), "LED") + ", but must have 3 to " +

@@ -22,7 +22,10 @@ struct ImuMount {
 
 /// The LEDs of a rigid body.
 struct Constellation {
-  std::string name;                   ///< Also its TF frame: a letter, then letters, digits, _.
+  /// Also its TF frame: a letter, then letters, digits, _; not led_ with a number, the name of an
+  /// LED without a label.
+  std::string name;
+
   std::vector<Eigen::Vector3d> leds;  ///< In the body's frame [m]; 3 to kMaximumLeds.
 
   /// One per LED, if they blink, or empty. They identify the LEDs of a symmetric shape.

@@ -1,5 +1,7 @@
 #include "identity/led_labels.h"
 
+#include "identity/led_name.h"
+
 #include <wiimote_tracker_msgs/doubtful_label.h>
 #include <wiimote_tracker_msgs/text.h>
 
@@ -219,7 +221,8 @@ std::string LedLabels::correct(const std::string& label, const std::string& righ
   if (of(*led).identified)
     return "'" + label + "' has its label by its blink code: change its code";
   if (std::find(listed_.begin(), listed_.end(), right) == listed_.end())
-    return "'" + right + "' is no label of LEDs that do not blink: choose from " + joined(listed_);
+    return "'" + right + "' is no label of LEDs that do not blink: " +
+           (listed_.empty() ? "list it in labels" : "choose from " + joined(listed_));
   const bool is_listed = given_.count(*led) > 0;
   if (label != right)
     exchange(label, right, is_listed);
@@ -280,7 +283,7 @@ LedLabel LedLabels::of(std::uint32_t id) const {
   if (given != given_.end())
     return given->second;
   LedLabel label;
-  label.name = "led_" + std::to_string(id);
+  label.name = numberedName(id);
   return label;
 }
 

@@ -33,6 +33,9 @@ std::string messageOf(const Constellation& body) {
 TEST(Constellation, SaysWhatIsWrong) {
   EXPECT_EQ(messageOf(fourLeds()), "not refused");
   EXPECT_NE(messageOf({"", fourLeds().leds}).find("no name"), std::string::npos);
+  EXPECT_EQ(messageOf({"led_3", fourLeds().leds}),
+            "'led_3' is the name of an LED without a label; choose another one");
+  EXPECT_EQ(messageOf({"led_a", fourLeds().leds}), "not refused");
   EXPECT_NE(messageOf({"a", {{0, 0, 0}, {0.1, 0, 0}}}).find("2 LEDs"), std::string::npos);
   EXPECT_NE(messageOf({"a", {{0, 0, 0}, {0.1, 0, 0}, {0.3, 0, 0}}}).find("one line"),
             std::string::npos);

@@ -274,7 +274,12 @@ TEST(LedLabels, AreRightFromThenOnIfAPersonSaysSo) {
   labels.update(kTime + 0.5, {first, second, third});
   expect(labels.of(2), "a", 0.5);  // it met another one again
   EXPECT_NE("", labels.correct("led_7", "a")) << "not tracked";
-  EXPECT_NE("", labels.correct("a", "c")) << "not of the list";
+  EXPECT_EQ("'c' is no label of LEDs that do not blink: choose from a, b",
+            labels.correct("a", "c"));
+  LedLabels none(std::vector<std::string>{});
+  none.update(kTime, {first});
+  EXPECT_EQ("'a' is no label of LEDs that do not blink: list it in labels",
+            none.correct("led_0", "a"));
 }
 
 TEST(LedLabels, AreNotDoubtfulForEverWhereThereIsNoOtherLed) {

@@ -1,5 +1,6 @@
 #include "parameters.h"
 
+#include "identity/led_name.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/geometry/shared_views.h"
 #include "wiimote_tracker_triangulation/identity/blink_codes.h"
@@ -20,18 +21,11 @@ const std::vector<std::string>& methodNames() {
   return names;
 }
 
-/// Whether a track without a label may have this name.
-bool isNumbered(const std::string& label) {
-  const std::string prefix = "led_";
-  return label.compare(0, prefix.size(), prefix) == 0 && label.size() > prefix.size() &&
-         label.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
-}
-
 void checkLabels(const std::string& key, const std::vector<std::string>& labels) {
   std::set<std::string> known;
   for (const std::string& label : labels) {
     const std::string what = key + " has '" + label + "'";
-    if (!isWord(label) || isNumbered(label))
+    if (!isWord(label) || identity::isNumbered(label))
       throw ParameterError(
           what +
           ", but each must be a letter, then letters, digits and underscores, and not led_ with a "
@@ -46,7 +40,7 @@ void checkCodes(const std::string& key,
                 const identity::BlinkCodes& codes,
                 const std::vector<std::string>& labels) {
   for (const identity::BlinkCode& code : codes.codes) {
-    if (isNumbered(code.label))
+    if (identity::isNumbered(code.label))
       throw ParameterError(key + ": rename the code " + code.label +
                            ", since led_ with a number is the name of LEDs without a label");
     if (std::count(labels.begin(), labels.end(), code.label) > 0)

@@ -31,17 +31,24 @@ TrackingDiagnostics::TrackingDiagnostics(const ros::NodeHandle& nh,
 }
 
 void TrackingDiagnostics::setRig() {
-  for (const std::string& camera : cameras_)
-    updater_.removeByName(camera);
-  cameras_.clear();
+  std::vector<std::string> cameras;
   for (const geometry::RigCamera& camera : tracker_->rig().cameras)
-    cameras_.push_back(camera.camera.name);
-  nodes_.assign(cameras_.size(), "");
-  clocks_.clear(cameras_.size());
+    cameras.push_back(camera.camera.name);
+  nodes_.assign(cameras.size(), "");
+  clocks_.clear(cameras.size());
   lenses_.setRig(tracker_->rig());
   since_ = ros::SteadyTime::now();
   updater_.wait(kFirstImages);
   updater_.setHardwareID("rig " + tracker_->rigId());
+  // What is added is reported as starting, also where it was there before.
+  if (cameras != cameras_)
+    setCameras(cameras);
+}
+
+void TrackingDiagnostics::setCameras(const std::vector<std::string>& cameras) {
+  for (const std::string& camera : cameras_)
+    updater_.removeByName(camera);
+  cameras_ = cameras;
   for (std::size_t i = 0; i < cameras_.size(); ++i)
     updater_.add(cameras_[i], [this, i](Status& status) { reportCamera(i, status); });
 }

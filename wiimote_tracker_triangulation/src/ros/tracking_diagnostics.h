@@ -40,6 +40,7 @@ class TrackingDiagnostics {
  private:
   using Status = diagnostic_updater::DiagnosticStatusWrapper;
 
+  void setCameras(const std::vector<std::string>& cameras);
   void report(Status& status);
   bool imagesCome() const;
   void reportCamera(std::size_t camera, Status& status);

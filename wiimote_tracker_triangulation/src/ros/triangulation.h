@@ -67,7 +67,7 @@ class Triangulation : private MessageSink {
   BodyLearning learning_;
   LoadShedding shedding_;
   TrackingDiagnostics diagnostics_;
-  std::set<std::string> warned_of_;              // sentences about shapes of bodies
+  std::set<std::string> warned_of_;              // sentences about bodies
   bool former_places_read_ = false;              // of labels, from a process before
   std::future<std::error_code> writing_places_;  // as writePlaces(); invalid: none is on its way
   int seconds_without_rig_ = 0;

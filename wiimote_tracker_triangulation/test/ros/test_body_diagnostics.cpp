@@ -55,6 +55,22 @@ TEST(BodyDiagnostics, ForgetWhenABodyWasSeenWhereTimeJumpsBack) {
   EXPECT_EQ(0u, nextReport("wand", &diagnostics).find("not seen for "));
 }
 
+TEST(BodyDiagnostics, DistinguishAHiddenBodyFromMissingImages) {
+  BodyDiagnostics diagnostics(ros::NodeHandle(), ros::NodeHandle("~"));
+  diagnostics.setBodies({{"wand", {{0.0, 0.0, 0.0}, {0.1, 0.0, 0.0}, {0.0, 0.2, 0.0}}}});
+  TrackedBodyArray bodies;
+  bodies.header.stamp = ros::Time::now();
+  bodies.bodies.resize(1);
+  bodies.bodies[0].name = "wand";
+  bodies.bodies[0].state = TrackedBody::LOST;
+  bodies.bodies[0].last_observed = bodies.header.stamp;
+  diagnostics.addBodies(bodies);
+  const std::string hidden = nextReport("wand", &diagnostics);
+  EXPECT_NE(std::string::npos, hidden.find("uncover it")) << hidden;
+  EXPECT_EQ("no images come, its topics are silent: see what is said of triangulation",
+            nextReport("wand", &diagnostics));
+}
+
 /// The last test: time stays simulated.
 TEST(BodyDiagnostics, AreReportedAlsoWhenTimeStandsStillOrJumpsBack) {
   ros::Time::setNow(ros::Time(1000.0));

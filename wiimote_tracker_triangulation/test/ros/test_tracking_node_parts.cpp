@@ -262,6 +262,8 @@ TEST(Statistics, CountsEachViewOnceWithoutMaskedSpots) {
   EXPECT_NEAR(5.0, statistics.camera(0).residual(), 1e-9);
   EXPECT_TRUE(std::isnan(statistics.camera(1).inlierRatio())) << "counted at its own time";
   EXPECT_TRUE(std::isnan(statistics.camera(1).residual()));
+  statistics.clear();
+  EXPECT_EQ(0u, statistics.leds(TrackState::kTracked)) << "no image came since";
 }
 
 TEST(Statistics, SayWhatIsTrackedOrSeen) {

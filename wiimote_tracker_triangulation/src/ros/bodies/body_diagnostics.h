@@ -103,6 +103,9 @@ class BodyDiagnostics {
       status.summary(DiagnosticStatus::OK, "tracked");
     else if (seen.last_observed.isZero())
       status.summary(DiagnosticStatus::OK, "not seen yet");
+    else if (seen.images == 0)
+      status.summary(DiagnosticStatus::WARN,
+                     "no images come, its topics are silent: see what is said of triangulation");
     else
       status.summaryf(
           DiagnosticStatus::WARN,

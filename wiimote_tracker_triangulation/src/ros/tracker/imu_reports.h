@@ -57,9 +57,9 @@ class ImuReports {
       return std::nullopt;
     known.reported = time;
     return "the IMU of " + constellation.name + " (" + constellation.imu->topic +
-           ") is not used, since its samples do not fit the images: check that they come 25 "
-           "times a second or more, in m/s^2 with gravity and rad/s, and its clock_offset and "
-           "mount";
+           ") is not used, since its samples are missing or do not fit the images: check that "
+           "they come 25 times a second or more, in m/s^2 with gravity and rad/s, and its "
+           "clock_offset and mount";
   }
 
  private:

@@ -73,6 +73,7 @@ std::string Statistics::describeClock(std::size_t camera, const std::string& nam
 void Statistics::clear() {
   cameras_.assign(for_rays_.size(), CameraStatistics());
   snapshots_ = 0;
+  leds_.fill(0);
   latencies_.clear();
 }
 

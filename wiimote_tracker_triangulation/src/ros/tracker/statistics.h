@@ -53,7 +53,7 @@ class Statistics {
   std::size_t snapshots() const { return snapshots_; }
   const CameraStatistics& camera(std::size_t i) const { return cameras_.at(i); }
 
-  /// LEDs of the newest snapshot in a state.
+  /// LEDs of the newest snapshot in a state; 0 where none came since the last clear().
   std::size_t leds(tracking::TrackState state) const;
 
   /// What is tracked, or seen, in words.

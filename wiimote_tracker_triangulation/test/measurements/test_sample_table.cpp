@@ -1,4 +1,5 @@
 // Positions at irregular times become positions at one rate.
+#include "refusal_of.h"
 #include "ros/measurements/sample_table.h"
 #include "wiimote_tracker_triangulation/geometry/error.h"
 #include "wiimote_tracker_triangulation/ros/message_fields.h"
@@ -66,6 +67,16 @@ TEST(SampleTable, RefusesTimesAYearApart) {
   add(at(365.0 * 86400.0, "led", 1.0), &table);
   EXPECT_THROW(table.resample(kRate), Error);
   EXPECT_EQ(table.resample(0.1).frames, 3153601u);
+}
+
+TEST(SampleTable, RefusesADayOfManyReflections) {
+  SampleTable table;
+  for (int i = 0; i < 1000; ++i)
+    add(at(86.4 * i, "led_" + std::to_string(i), 1.0), &table);
+  const std::string refusal = refusalOf([&] { table.resample(kRate); });
+  EXPECT_NE(refusal.find("and has 1000 LEDs"), std::string::npos) << refusal;
+  EXPECT_NE(refusal.find("mask reflections"), std::string::npos) << refusal;
+  EXPECT_EQ(table.resample(0.01).labels.size(), 1000u);
 }
 
 TEST(SampleTable, BridgesOneAndAHalfFramesOfALowRate) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kLongestGap = 0.05;      // [s]
 constexpr double kLongestInFrames = 1.5;  // at low rates
-constexpr double kMostSamples = 1e8;      // 28 h at the highest rate; 2.4 GB per LED
+constexpr double kMostPositions = 2e8;    // 4.8 GB; 28 h of 20 LEDs at 100 Hz
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double seconds(std::int64_t nanoseconds) {
@@ -55,11 +55,13 @@ Samples SampleTable::resample(double rate) const {
     return result;
   result.start = first;
   const double frames = std::floor(seconds(last - first) * rate + 1e-6) + 1.0;
-  if (frames > kMostSamples)
+  const double positions = frames * static_cast<double>(samples_.size());
+  if (positions > kMostPositions)
     throw Error(
-        format("the recording spans %.1f days, %.0f frames of C3D or TRC, but %.0f are the "
-               "most: cut it where its clock was set, or lower the rate",
-               seconds(last - first) / 86400.0, frames, kMostSamples));
+        format("the recording spans %.1f h, %.0f frames of C3D or TRC, and has %zu LEDs: %.0f "
+               "positions, but %.0f are the most: cut it where its clock was set, lower the rate, "
+               "or mask reflections, which count as LEDs",
+               seconds(last - first) / 3600.0, frames, samples_.size(), positions, kMostPositions));
   result.frames = static_cast<std::size_t>(frames);
   for (const auto& [name, recorded] : samples_) {
     std::vector<Sample> samples = recorded;

@@ -36,8 +36,9 @@ class SampleTable {
   void addBodies(const wiimote_tracker_msgs::TrackedBodyArray& bodies);
 
   /// Linear interpolation between neighbours in time. Those further apart than 0.05 s, and more
-  /// than 1.5 frames, have a gap between them. @throws Error: more than 1e8 frames, as where a
-  /// clock was set meanwhile.
+  /// than 1.5 frames, have a gap between them. @throws Error: frames times LEDs are more than 2e8,
+  /// as where a clock was set meanwhile, or reflections came and went for hours: each of their
+  /// tracks is an LED of its own.
   Samples resample(double rate) const;
 
  private:

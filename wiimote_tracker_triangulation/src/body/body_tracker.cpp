@@ -248,9 +248,9 @@ void BodyTracker::startFromLabels(const std::vector<LabelledPoint>& points) {
     if (const auto pose = poseFromLabels(constellation, points)) {
       state_.bodies[b].emplace(setup_.options, newest.time, *pose, 0);
       newest.starts.push_back({b, *pose});  // for when a late image undoes this one
+      estimateBody(b, time_, setup_, state_, &estimates_[b]);
     }
   }
-  estimate();
 }
 
 void BodyTracker::estimate() {

@@ -140,6 +140,25 @@ def test_discovery_needs_a_file_with_one_line_per_camera(tmp_path):
         drivers.discover(str(path), '')
 
 
+def test_listed_cameras_start_although_others_cannot_be_looked_for(tmp_path, monkeypatch):
+    def fail(*_):
+        raise Refusal('remotes cannot be looked for: the disk is full')
+    said, started = [], []
+    monkeypatch.setattr(drivers, 'discover', fail)
+    monkeypatch.setattr(drivers.rospy, 'logwarn_throttle', lambda period, text: said.append(text))
+    monkeypatch.setattr(drivers.Drivers, '_start', lambda _, name, *__: started.append(name))
+    path = tmp_path / 'cameras.yaml'
+    those = object.__new__(drivers.Drivers)
+    those.is_discovering, those._started, those._common = True, set(), {}
+    those._path, those._socket_directory = str(path), ''
+    path.write_text('discover: true\n' + ONE)
+    those.start()
+    assert started == ['a'] and said == ['remotes cannot be looked for: the disk is full']
+    path.write_text('discover: true\ncameras:\n')
+    with pytest.raises(Refusal, match='the disk is full'):
+        those.start()
+
+
 def test_a_discovered_virtual_remote_keeps_its_socket(tmp_path):
     text = 'discover: true\ncameras:\n  a: "virtual:/tmp/x.sock"\n  b: "00:1f:32:00:00:01"\n'
     assert read(tmp_path, text, '/tmp/s') == [('a', 'virtual:/tmp/x.sock'),
@@ -186,6 +205,18 @@ def test_without_a_master_the_drivers_that_run_stay(monkeypatch):
     monkeypatch.setattr(drivers.rospy, 'logwarn_throttle', lambda period, text: said.append(text))
     drivers.try_to_start_more(NoMaster())
     assert len(said) == 1 and 'check that the ROS master runs' in said[0]
+
+
+@pytest.mark.parametrize('error', [
+    drivers.rospy.exceptions.TransportTerminated('unable to receive data'),
+    ConnectionResetError(104, 'Connection reset by peer')])
+def test_a_manager_may_end_amid_a_request(monkeypatch, error):
+    def request():
+        raise error
+    monkeypatch.setattr(drivers.rospy, 'ServiceProxy', lambda *_: request)
+    manager = object.__new__(drivers.Manager)
+    manager._name = '/manager'
+    assert manager._call('list', drivers.NodeletList) is None
 
 
 def test_a_manager_that_was_started_again_gets_its_drivers_soon(monkeypatch):

@@ -17,7 +17,8 @@ OK, WARN, ERROR = range(3)
 
 @pytest.mark.parametrize('free, level, words', [
     (0.96, ERROR, 'the recording ends, since only 0.96 GB of disk are free in /bags: remove'),
-    (4.2, WARN, '4.20 GB of disk are free in /bags, and the recording ends at 1 GB: remove files'),
+    (4.2, WARN, '4.20 GB of disk are free in /bags, and the recording ends at 1 GB: remove files, '
+     'or keep less of the recording, by gigabytes:='),
     (6.0, OK, '6.00 GB of disk are free in /bags')])
 def test_a_full_disk_is_told(monkeypatch, free, level, words):
     usage = collections.namedtuple('usage', 'free')

@@ -5,18 +5,25 @@
 #include "camera_tile.h"
 #include "health_page.h"
 #include "screenshot.h"
+#include "track_page.h"
 
 #include <QApplication>
 #include <QComboBox>
+#include <QElapsedTimer>
+#include <QFile>
 #include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QLocale>
 #include <QPushButton>
 #include <QStringList>
+#include <QTemporaryDir>
+#include <QThread>
 #include <QTreeWidget>
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 
 namespace wiimote_tracker::panel {
@@ -91,6 +98,8 @@ TEST(CalibratePage, OffersCamerasToSolveAddAndRemove) {
   page.show(guide, 0.3);
   EXPECT_EQ(cameras->currentText().toStdString(), "gone");
   cameras->setCurrentIndex(cameras->findText("new"));
+  page.show(guide, 0.4);
+  EXPECT_EQ(cameras->findText("gone"), -1);
   page.findChild<QPushButton*>("Solve or add it")->click();
   EXPECT_EQ(sent, "recalibrate_camera");
 }
@@ -135,6 +144,52 @@ TEST(CameraTile, KeepsLongWordsToThreeLinesAndItsTooltipHasAll) {
   EXPECT_TRUE(lines.last().endsWith(QChar(0x2026))) << lines.last().toStdString();
   EXPECT_EQ(tile.toolTip().toStdString(), std::string(kLongHealth) + "\nbattery: 75 %");
   screenshot("tile_with_long_words", &tile);
+}
+
+/// Polls the page, without showing it, until the condition holds. @return false: not in time
+bool pollUntil(TrackPage* page, const std::function<bool()>& condition) {
+  QElapsedTimer since;
+  since.start();
+  while (!condition()) {
+    if (since.hasExpired(60000))
+      return false;
+    page->poll();
+    QApplication::processEvents();
+    QThread::msleep(5);
+  }
+  return true;
+}
+
+TEST(TrackPage, EndsARecordingThatDoesNotHearItAtOnceBehindAnotherPage) {
+  const QTemporaryDir folder;
+  const QString began = folder.filePath("began"), ended = folder.filePath("ended");
+  // Like roslaunch while it starts, it hears only the second signal.
+  QFile program(folder.filePath("roslaunch"));
+  ASSERT_TRUE(program.open(QIODevice::WriteOnly));
+  program.write(
+      QString("#!/usr/bin/env python3\n"
+              "import pathlib, signal, time\n"
+              "def end(*_):\n"
+              "    pathlib.Path('%2').touch()\n"
+              "    raise SystemExit\n"
+              "signal.signal(signal.SIGINT, lambda *_: signal.signal(signal.SIGINT, end))\n"
+              "pathlib.Path('%1').touch()\n"
+              "while True:\n"
+              "    time.sleep(0.1)\n")
+          .arg(began, ended)
+          .toUtf8());
+  program.close();
+  program.setPermissions(QFile::ReadOwner | QFile::ExeOwner);
+  const QByteArray path = qgetenv("PATH");
+  qputenv("PATH", folder.path().toUtf8() + ":" + path);
+  TrackPage page(nullptr);
+  page.findChild<QLineEdit*>("path")->setText(folder.filePath("take"));
+  auto* record = page.findChild<QPushButton*>("record");
+  record->click();
+  qputenv("PATH", path);
+  ASSERT_TRUE(pollUntil(&page, [&] { return QFile::exists(began); }));
+  record->click();
+  EXPECT_TRUE(pollUntil(&page, [&] { return QFile::exists(ended); }));
 }
 
 TEST(HealthPage, WrapsLongWords) {

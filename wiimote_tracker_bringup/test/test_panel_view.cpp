@@ -150,6 +150,9 @@ TEST_F(View, LateImagesAreLateAndAncientOnesARecording) {
   EXPECT_EQ(state("a"), CameraState::kLate);
   EXPECT_EQ(words("a"), "images come 250 ms late");
   now_ += 2.0;
+  run(1.0, {"a"}, {}, -0.25);
+  EXPECT_EQ(words("a"), "its clock is 250 ms ahead: run chrony on all computers");
+  now_ += 2.0;
   run(1.0, {"a"}, {}, 1e6);
   EXPECT_EQ(words("a"), "its stamps are not of now: a recording, or a clock that is wrong");
 }

@@ -13,6 +13,7 @@
 #include <QProgressBar>
 #include <QPushButton>
 #include <QScrollArea>
+#include <QStringList>
 #include <QVBoxLayout>
 
 #include <std_srvs/SetBool.h>
@@ -291,16 +292,23 @@ void CalibratePage::addCamera(QVBoxLayout* layout) {
 
 /// Cameras of the rig, and those that are there, can be chosen. What was chosen stays so.
 void CalibratePage::offerCameras(const Guide& guide) {
-  const auto offer = [this](const auto& cameras) {
-    for (const auto& camera : cameras) {
-      if (camera_->findText(text(camera.name)) < 0)
-        camera_->addItem(text(camera.name));
-    }
+  QStringList names;
+  const auto offer = [&names](const auto& cameras) {
+    for (const auto& camera : cameras)
+      names << text(camera.name);
   };
   if (guide.verdict())
     offer(guide.verdict()->cameras);
   if (guide.status())
     offer(guide.status()->cameras);
+  for (int i = camera_->count() - 1; i >= 0; --i) {
+    if (i != camera_->currentIndex() && names.indexOf(camera_->itemText(i)) < 0)
+      camera_->removeItem(i);
+  }
+  for (const QString& name : names) {
+    if (camera_->findText(name) < 0)
+      camera_->addItem(name);
+  }
 }
 
 void CalibratePage::load(const rviz::Config& config) {

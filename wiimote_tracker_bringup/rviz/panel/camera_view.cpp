@@ -64,6 +64,8 @@ std::string CameraView::words(double now, bool others_see) const {
     case CameraState::kLate:
       if (std::abs(delay_) > kOtherClock)
         return "its stamps are not of now: a recording, or a clock that is wrong";
+      if (delay_ < 0.0)
+        return format("its clock is %.0f ms ahead: run chrony on all computers", -1e3 * delay_);
       return format("images come %.0f ms late", 1e3 * delay_);
     case CameraState::kNotCalibrated:
       return "not calibrated, sees " + counted(visible().size(), "spot");

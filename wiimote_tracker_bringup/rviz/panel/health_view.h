@@ -14,10 +14,7 @@ class HealthView {
   static constexpr double kStaleAfter = 5.0;    ///< Parts report every second [s].
   static constexpr double kForgetAfter = 60.0;  ///< [s]
 
-  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message, double now) {
-    for (const auto& status : message.status)
-      entries_[status.name] = {status, now};
-  }
+  void onDiagnostics(const diagnostic_msgs::DiagnosticArray& message, double now);
 
   /// By level, the worst first, then by name. What was not heard of lately is STALE.
   std::vector<diagnostic_msgs::DiagnosticStatus> parts(double now) const;

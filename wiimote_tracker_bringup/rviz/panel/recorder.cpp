@@ -62,7 +62,7 @@ QString Recorder::bag() const {
   return newest_first[0].filePath().remove(written);
 }
 
-QString Recorder::words() {
+void Recorder::poll() {
   if (isRunning()) {
     if (!bag().isEmpty())
       words_ = "Recording to " + bag();
@@ -74,7 +74,6 @@ QString Recorder::words() {
   } else if (words_ == kStarts || words_.startsWith("Recording")) {
     words_ = bag().isEmpty() ? "Nothing was recorded." : "Recorded to " + bag();
   }
-  return words_;
 }
 
 }  // namespace wiimote_tracker::panel

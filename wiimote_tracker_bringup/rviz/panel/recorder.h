@@ -18,8 +18,11 @@ class Recorder {
   void stop();
   bool isRunning() const { return process_.state() != QProcess::NotRunning; }
 
+  /// To be called often: asks roslaunch once more when it does not end, and finds the words.
+  void poll();
+
   /// The bag that it records to, or how it ended.
-  QString words();
+  const QString& words() const { return words_; }
 
  private:
   QString refusal(const QString& prefix) const;

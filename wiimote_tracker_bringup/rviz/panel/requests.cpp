@@ -71,11 +71,13 @@ std::string Requests::captureCorner(int corner) {
   // The client's own waits follow ROS time, which may stand still.
   const std::string no_answer = std::string("calibration/capture_corner") + kNoAnswer;
   CaptureClient client("calibration/capture_corner", true);
-  for (int looks = 0; !client.isServerConnected(); ++looks) {
+  for (int looks = 0; !is_called_off_ && !client.isServerConnected(); ++looks) {
     if (looks == kLooksForServer || mustEnd())
       return no_answer;
     std::this_thread::sleep_for(kLookPeriod);
   }
+  if (is_called_off_)
+    return "the request was cancelled";
   wiimote_tracker_msgs::CaptureCornerGoal goal;
   goal.retake = static_cast<std::uint8_t>(corner >= 0);
   goal.corner = static_cast<std::uint32_t>(std::max(corner, 0));

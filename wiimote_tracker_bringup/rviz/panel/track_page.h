@@ -20,6 +20,8 @@ class TrackPage : public QWidget {
  public:
   explicit TrackPage(QWidget* parent);
 
+  /// To be called also while another page is in front, since a recording goes on.
+  void poll() { recorder_.poll(); }
   void show(const TracksView& tracks, double now);
 
   /// What was typed, in the .rviz file.

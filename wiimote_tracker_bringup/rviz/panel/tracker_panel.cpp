@@ -45,6 +45,7 @@ TrackerPanel::TrackerPanel()
 void TrackerPanel::refresh() {
   ros_input_.poll();
   requests_.poll();
+  track_->poll();
   master_->setText(QString::fromStdString(ros_input_.masterProblem()));
   master_->setVisible(!master_->text().isEmpty());
   const double now = RosInput::now();

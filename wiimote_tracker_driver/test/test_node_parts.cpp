@@ -350,10 +350,9 @@ TEST_F(DiagnosticsTest, ARemoteThatDropsOutOftenIsNotOnlyStreaming) {
   state_.stream.returns = 3;
   const auto status = describe();
   EXPECT_EQ(diagnostic_msgs::DiagnosticStatus::WARN, status.level);
-  EXPECT_EQ(
-      "the images stopped 3 times in ten minutes: bring the remote nearer to its Bluetooth "
-      "adapter, or change its batteries",
-      status.message);
+  EXPECT_EQ(status.message,
+            "the images stopped 3 times in ten minutes: bring the remote nearer to its "
+            "Bluetooth adapter, or change its batteries");
 }
 
 TEST_F(DiagnosticsTest, ProblemsAreInTheSummary) {
@@ -393,6 +392,8 @@ TEST_F(DiagnosticsTest, StateOfTheExposureClock) {
   EXPECT_EQ("learning", value("exposure clock"));
   state_.stamp_stddev = std::numeric_limits<double>::quiet_NaN();
   EXPECT_EQ("off: stamps are arrivals less the latency", value("exposure clock"));
+  state_.link.state = wiimote::Link::State::kSearching;
+  EXPECT_EQ("no images", value("exposure clock"));
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ class Driver {
   const std::shared_ptr<recording::Recorder> recorder_;  // null: not recorded
   RemoteControl control_;
 
-  // Used by the reader thread alone.
+  // Used by the reader thread alone, but for camera_info_.problem(), which diagnostics call.
   wiimote::Wiimote wiimote_;
   CameraInfoPublisher camera_info_;
   BlobPublisher blobs_;

@@ -48,6 +48,8 @@ const char* irModeText(protocol::IrFormat format) {
 }
 
 const char* clockText(const DriverState& state) {
+  if (state.link.state != Link::State::kStreaming)
+    return "no images";
   if (std::isnan(state.stamp_stddev))
     return "off: stamps are arrivals less the latency";
   return state.stamp_stddev < kInStep * state.clock.period ? "in step" : "learning";

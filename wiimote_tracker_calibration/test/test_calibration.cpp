@@ -72,6 +72,24 @@ TEST_F(Workflow, AnExchangedDeviceIsNamed) {
               "camera_2 was first the device 00:00:00:00:00:01, then 00:00:00:00:00:07");
 }
 
+TEST_F(Workflow, ADeviceOfWhichNothingIsKeptMayBeExchanged) {
+  const auto show = [this](const std::string& camera, const char* device) {
+    calibration_.addImage({camera, now_ += 0.01, 0, {{500.0, 400.0}}, {}, device});
+  };
+  ASSERT_TRUE(calibration_.start(2.5, 2.5, names_).success);
+  ASSERT_TRUE(calibration_.beginCapture(std::nullopt, now_).success);
+  show(names_[1], "00:00:00:00:00:01");
+  calibration_.abandonCapture("it failed");
+  for (const Eigen::Vector3d& corner : kCorners)
+    ASSERT_TRUE(capture(corner).success);
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, std::nullopt, now_).success);
+  show(names_[1], "00:00:00:00:00:07");
+  show("not of this run", "00:00:00:00:00:02");
+  show("not of this run", "00:00:00:00:00:03");
+  ASSERT_TRUE(calibration_.endWave().success);
+  EXPECT_TRUE(calibration_.begin(Step::kSolving, "").success);
+}
+
 TEST_F(Workflow, AnExchangedDeviceOfRestoredSamplesIsNamed) {
   captureAll();
   Calibration restored{CalibrationOptions()};

@@ -159,6 +159,17 @@ TEST_F(Workflow, MasksGoIntoTheRigAndVoidNoCorrection) {
   EXPECT_EQ(calibration_.rig()->id(), corrected.id());
 }
 
+TEST_F(Workflow, ASavedRigIsToBeSavedAgainOnceItsMasksChange) {
+  captureAll();
+  ASSERT_TRUE(solve(1.0).success);
+  calibration_.saved(*calibration_.rig());
+  ASSERT_EQ(calibration_.step(), Step::kSaved);
+  ASSERT_TRUE(calibration_.setMasks({{names_[1], {{{1.0, 2.0}, 3.0}}}}));
+  EXPECT_EQ(calibration_.step(), Step::kSolved);
+  ASSERT_TRUE(calibration_.setMasks({}));
+  EXPECT_EQ(calibration_.step(), Step::kSaved);
+}
+
 TEST_F(Workflow, CancelStopsALongTaskFirst) {
   captureAll();
   ASSERT_TRUE(calibration_.begin(Step::kSolving, "solving").success);

@@ -238,6 +238,23 @@ TEST_F(NextStepTest, HandsFreeAndWandNeedNoCapture) {
   EXPECT_TRUE(next().request.empty());
   ASSERT_TRUE(calibration_.startWithoutSquare(names_).success);
   EXPECT_EQ(next().title, "Wand");
+  wave::Wand wand;
+  wand.length = 0.5;
+  ASSERT_TRUE(calibration_.beginWave(cameras_, false, wand, now_).success);
+  ASSERT_TRUE(calibration_.endWave().success);
+  EXPECT_EQ(next().title, "Wand") << "nothing moved, and there is no square to solve";
+}
+
+TEST_F(NextStepTest, AnotherWaveMayBeSolvedThoughTheLastOneWasRefused) {
+  captureAll();
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  wave(3.0);
+  ASSERT_TRUE(calibration_.endWave().success);
+  calibration_.refuseSolution({});
+  EXPECT_EQ(next().title, "Again");
+  ASSERT_TRUE(calibration_.beginWave(cameras_, true, std::nullopt, now_).success);
+  ASSERT_TRUE(calibration_.cancel().success);
+  EXPECT_EQ(next().title, "Wave") << "that wave was dropped";
 }
 
 TEST_F(NextStepTest, AWandOnTheFloorIsCapturedWavedAndSolved) {

@@ -66,6 +66,15 @@ TEST_F(RigChangesTest, GoesBackThroughAllChanges) {
   EXPECT_FALSE(changes_.isReverted()) << "somebody has asked for this change";
 }
 
+TEST_F(RigChangesTest, KeepsACorrectionOfTheVolumeThatIsNewerThanTheChange) {
+  use(changes_.apply(knocked(0), *rig_));
+  rig_->remap.emplace();
+  rig_->remap->rig_id = rig_->id();
+  use(changes_.revert(*rig_));
+  ASSERT_TRUE(rig_->remap);
+  EXPECT_EQ(rig_->remap->rig_id, rig_->id());
+}
+
 TEST_F(RigChangesTest, TakesNothingBackThatSomeoneElseHasMade) {
   use(changes_.apply(knocked(0), *rig_));
   rig_->cameras[0] = turned(rig_->cameras[0], 0.01, random_);

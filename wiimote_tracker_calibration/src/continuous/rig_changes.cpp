@@ -68,7 +68,7 @@ std::optional<geometry::Rig> RigChanges::step(const geometry::Rig& in_use, doubl
 std::optional<geometry::Rig> RigChanges::revert(const geometry::Rig& in_use) {
   if (changes_.empty() || idWithoutMasks(in_use) != changes_.back().id)
     return std::nullopt;
-  const geometry::Rig before = capture::withMasks(changes_.back().before, capture::masksOf(in_use));
+  const geometry::Rig before = appliedRig(changes_.back().before, in_use);
   changes_.pop_back();
   approach_.reset();  // Perhaps before its first step.
   reverted_to_ = idWithoutMasks(before);

@@ -68,6 +68,8 @@ Reply Calibration::beginCapture(std::optional<std::size_t> retake, double now) {
     return refusal("this calibration was started without a square: wave a wand, or start again");
   const Reply reply = captured_.square.begin(retake, now);
   if (reply.success) {
+    if (captured_.square.corners().empty() && !captured_.wave)
+      captured_.forgetDevices();
     busy_ = Step::kCapturing;
     just_solved_ = false;
   }
@@ -102,6 +104,10 @@ Reply Calibration::beginWave(const std::vector<geometry::Camera>& cameras,
   } catch (const wave::WaveError& error) {
     return refusal(error.what());
   }
+  if (captured_.wave)
+    captured_.refused.reset();  // it is dropped
+  if (captured_.square.corners().empty())
+    captured_.forgetDevices();
   captured_.wave.emplace(cameras, posed, wand, options_.coverage, now);
   busy_ = Step::kWaving;
   just_solved_ = false;
@@ -134,12 +140,8 @@ void Calibration::abandonWave(const std::string& why) {
 }
 
 void Calibration::addImage(const capture::Image& image) {
-  if ((isBusyWith(Step::kWaving) || isBusyWith(Step::kCapturing)) && !image.identity.empty()) {
-    const std::string& first =
-        captured_.devices.emplace(image.camera, image.identity).first->second;
-    if (first != image.identity)
-      captured_.other_devices[image.camera] = image.identity;
-  }
+  if (isBusyWith(Step::kWaving) || isBusyWith(Step::kCapturing))
+    captured_.noteDevice(image.camera, image.identity);
   if (isBusyWith(Step::kWaving) && captured_.wave->add(image)) {
     ++captures_;
     shown(
@@ -203,7 +205,8 @@ Reply Calibration::cancel() {
     busy_.reset();
     captured_.wave.reset();
     updateStep();
-    return {true, "the wave was stopped and dropped; the corners stay"};
+    return {true, std::string("the wave was stopped and dropped") +
+                      (captured_.square.corners().empty() ? "" : "; the corners stay")};
   }
   if (busy_) {
     stopping_ = true;
@@ -321,6 +324,8 @@ bool Calibration::setMasks(const capture::Masks& masks) {
     goal_ = capture::withMasks(*goal_, masks);
   if (captured_.solved_to == id)
     captured_.solved_to = rig_->id();
+  if (step_ == Step::kSolved || step_ == Step::kSaved)
+    step_ = stepOfRig();
   return rig_->id() != id;
 }
 

@@ -72,6 +72,13 @@ std::optional<WaveRecorder> waveOf(const wave::Recording& recording,
 
 }  // namespace
 
+void Captured::noteDevice(const std::string& camera, const std::string& identity) {
+  if (identity.empty() || std::count(cameras.begin(), cameras.end(), camera) == 0)
+    return;
+  if (devices.emplace(camera, identity).first->second != identity)
+    other_devices[camera] = identity;
+}
+
 std::string Captured::whyNotSolvable() const {
   if (cameras.empty())
     return "no calibration is started: start one first";

@@ -42,6 +42,14 @@ struct Captured {
   /// Facts from a samples file; empty: this run is captured live.
   CameraFacts restored_facts;
 
+  /// Notes which device a camera of this run is. @param identity empty: not known.
+  void noteDevice(const std::string& camera, const std::string& identity);
+  /// Nothing that was captured remains of them.
+  void forgetDevices() {
+    devices.clear();
+    other_devices.clear();
+  }
+
   /// Whether it can be solved: four corners, or without a square a wand.
   bool isComplete() const { return layout ? square.isComplete() : wave && wave->wand(); }
   /// What it lacks for that, or contradicts itself in, and what to do; empty: it can be solved.

@@ -93,6 +93,8 @@ NextStep complete(const Calibration& calibration) {
     return afterRefusal(*refused);
   if (calibration.wave() && calibration.wave()->report().seconds > 0.0)
     return {"Solve", "All is captured.", "solve", "solve"};
+  if (!calibration.layout())
+    return nextCorner(calibration);
   if (calibration.square().isClockwise())
     return {
         "z is down",

@@ -20,8 +20,10 @@
 #include <wiimote_tracker_msgs/StartWave.h>
 
 #include <algorithm>
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -233,6 +235,33 @@ TEST(Board, AFisheyeModelCanBeRequested) {
   EXPECT_EQ(solved.camera_info.distortion_model, "equidistant");
   EXPECT_EQ(solved.camera_info.D.size(), 4U);
   EXPECT_EQ(solved.stddev.size(), 8U);
+}
+
+TEST(Board, ALensOfViewsThatChangeMeanwhileIsRefused) {
+  // An undo comes before the solver begins, while it runs, or after: so the delay is searched for.
+  std::chrono::microseconds delay(1000);
+  SolveBoard::Response solved;
+  const auto showAndTakeAway = [] {
+    g_bench->hold(intrinsics::randomPose(g_bench->random_));  // the status is newer than an undo
+    ASSERT_TRUE(g_bench->showUntilEnough());
+    ASSERT_TRUE(g_bench->takeAway());
+  };
+  const auto undoWhileSolving = [&] {
+    showAndTakeAway();
+    auto solving = std::async(std::launch::async,
+                              [] { return g_bench->solve(SolveBoard::Request::AUTOMATIC); });
+    const bool is_late = solving.wait_for(delay) == std::future_status::ready;
+    EXPECT_TRUE(g_bench->trigger("undo").success);
+    solved = solving.get();
+    delay = is_late ? delay * 2 / 3 : delay * 2;
+  };
+  EXPECT_TRUE(Bench::repeatUntil(
+      [&] { return solved.message == "the views were changed meanwhile: solve again"; },
+      undoWhileSolving))
+      << solved.message;
+  EXPECT_FALSE(solved.success);
+  EXPECT_SAYS(g_bench->trigger("commit").message, "solve it first");
+  showAndTakeAway();
 }
 
 TEST(Board, CommitGivesTheLensToTheDriver) {

@@ -44,6 +44,17 @@ TEST_F(Node, TheWorldAndTheSquareAreShownBeforeACalibration) {
   EXPECT_TRUE(waitUntil([&] { return square.get() && square.get()->polygon.points.size() == 4; }));
 }
 
+TEST_F(Node, WithoutMasksTheLightsAreToBeLearnedAgain) {
+  call<std_srvs::Trigger>("calibration/cancel");  // of the test before
+  putLed(kCorners[0]);
+  ASSERT_TRUE(waitUntil([] {
+    call<CheckConnection>("calibration/check_connection");
+    return status_->get()->next_request == "start";
+  }));
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/clear_masks").success);
+  EXPECT_TRUE(waitUntil([] { return status_->get()->next_request == "learn_masks"; }));
+}
+
 TEST_F(Node, TheConnectionCheckNamesTheCamerasThatFail) {
   call<std_srvs::Trigger>("calibration/cancel");  // a walk comes before the start
   putLed(kCorners[0]);
@@ -171,6 +182,23 @@ TEST_F(Node, ACaptureCanBePreemptedAndCancelled) {
   EXPECT_FALSE(capture_->getResult()->success);
   EXPECT_SAYS(capture_->getResult()->message, "it was cancelled");
   EXPECT_TRUE(waitForStep(CalibrationStatus::READY));  // the run goes on
+  EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
+  EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
+}
+
+TEST_F(Node, ACaptureThatAnotherOneReplacesSaysSo) {
+  Client other("calibration/capture_corner", true);
+  ASSERT_TRUE(other.waitForServer(ros::Duration(kPatience)));
+  ASSERT_TRUE(start(2.5).success);
+  cameras_->blind({"camera_1", "camera_2", "camera_3", "camera_4"});
+  other.sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+  EXPECT_TRUE(waitForStep(CalibrationStatus::CAPTURING));
+  capture_->sendGoal(wiimote_tracker_msgs::CaptureCornerGoal());
+  ASSERT_TRUE(other.waitForResult(ros::Duration(kPatience)));
+  EXPECT_SAYS(other.getResult()->message, "another request to capture a corner came");
+  capture_->cancelGoal();
+  ASSERT_TRUE(capture_->waitForResult(ros::Duration(kPatience)));
+  EXPECT_SAYS(capture_->getResult()->message, "the request was cancelled");
   EXPECT_TRUE(call<std_srvs::Trigger>("calibration/cancel").success);
   EXPECT_TRUE(waitForStep(CalibrationStatus::IDLE));
 }

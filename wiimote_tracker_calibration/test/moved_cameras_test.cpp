@@ -9,6 +9,7 @@
 #include <rosgraph_msgs/Log.h>
 #include <wiimote_tracker_msgs/AddKnownPlace.h>
 #include <wiimote_tracker_msgs/FitRemap.h>
+#include <wiimote_tracker_msgs/JoinRig.h>
 #include <wiimote_tracker_msgs/RemoveCamera.h>
 #include <wiimote_tracker_msgs/SaveRig.h>
 
@@ -300,6 +301,11 @@ TEST_F(MovedCameras, FindsANewClockAndApproachesTheAdjustedPoses) {
   EXPECT_SAYS(call<wiimote_tracker_msgs::SaveRig>("calibration/save", save).message,
               "the corrected rig, which the one in use still approaches");
   EXPECT_GT(continuous::movementOf(result, geometry::readRigFile(save.path), middle), 0.0003);
+  // That is also what is joined.
+  wiimote_tracker_msgs::JoinRig::Request join;
+  join.path = save.path;
+  EXPECT_SAYS(call<wiimote_tracker_msgs::JoinRig>("calibration/join", join).message,
+              "both are the same rig");
   EXPECT_EQ(result.cameras[2].time_offset_epoch, 1U);
   EXPECT_NEAR(result.cameras[2].time_offset, 0.0, 0.002);
   // What was measured stays.

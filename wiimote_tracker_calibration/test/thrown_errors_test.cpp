@@ -210,7 +210,7 @@ TEST_F(ThrownErrors, ARefusalIsHeardOnce) {
   EXPECT_EQ(refusals(), before + 7);
 }
 
-TEST_F(ThrownErrors, AWandThatCannotBeWavedDropsNothing) {
+TEST_F(ThrownErrors, AStartWithALensOfAnotherImageSizeDropsNothing) {
   captureAll();
   const auto setWidth = [](int width) {
     const Lock lock(node->context().mutex());
@@ -222,6 +222,9 @@ TEST_F(ThrownErrors, AWandThatCannotBeWavedDropsNothing) {
   request.wand_length = 0.5;
   EXPECT_SAYS(replyTo<StartCalibration>("calibration/start", request).message,
               "its starting intrinsics are for 640 x 768");
+  const auto with_square = start(1.0);
+  EXPECT_SAYS(with_square.message, "its starting intrinsics are for 640 x 768");
+  EXPECT_SAYS(with_square.message, "for this camera, and start the node again");
   setWidth(1024);
   EXPECT_TRUE(waitForStep(CalibrationStatus::COMPLETE));
   EXPECT_EQ(status_->get()->corners_captured, 4U);

@@ -133,15 +133,15 @@ class BoardServices {
     options.model = lensModel(call.request.model);
     const intrinsics::IntrinsicsSolution solution =
         context_.compute(&lock, [&] { return intrinsics::solveIntrinsics(samples, options); });
+    if (lens_number != lens_number_)
+      throw Refusal("the views were changed meanwhile: solve again");
     call.response.camera_info = cameraInfo(cameraOf(camera, solution.intrinsics));
     call.response.reprojection_error = solution.reprojection_error;
     const auto parameters = static_cast<Eigen::Index>(4 + call.response.camera_info.D.size());
     for (Eigen::Index i = 0; i < parameters; ++i)
       call.response.stddev.push_back(std::sqrt(solution.covariance(i, i)));
-    if (lens_number == lens_number_) {
-      lens_ = solution.intrinsics;
-      publish("solved: " + solution.summary, lock);
-    }
+    lens_ = solution.intrinsics;
+    publish("solved: " + solution.summary, lock);
     return {true, solution.summary};
   }
 

@@ -149,7 +149,7 @@ std::string CameraInputs::whyIgnored(const std::vector<std::string>& cameras) co
     if (name == ignored_)
       return name +
              " is the button_remote, which moves when its button is pressed: calibrate the "
-             "others, or set button_remote to another remote";
+             "others, or set button_remote to another remote and start the node again";
     if (!discovers_ && cameras_.count(name) == 0)
       left_out.push_back(name);
   }

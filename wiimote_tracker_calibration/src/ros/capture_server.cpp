@@ -10,6 +10,7 @@ namespace wiimote_tracker {
 namespace {
 
 const char kCaptureAction[] = "calibration/capture_corner";
+const char kReplaced[] = "another request to capture a corner came: wait until that is over";
 constexpr double kLatestStamp = 3600.0;  // of a goal or cancellation, from now [s]
 // Between two looks for goals and for the end of the node.
 constexpr std::chrono::milliseconds kLookPeriod(100);
@@ -56,6 +57,8 @@ std::string CaptureServer::whyCancelled() const {
   if (is_restarting_)
     return "a request came from a computer whose clock is wrong: set that clock, then capture "
            "again";
+  if (is_replaced_)
+    return kReplaced;
   return is_preempted_ ? "the request was cancelled" : "";
 }
 
@@ -92,12 +95,12 @@ void CaptureServer::takeGoal(const GoalHandle& goal) {
   const std::lock_guard<std::mutex> lock(goals_mutex_);
   if (next_.isValid()) {
     Result result;
-    result.message = "another request to capture a corner came: wait until that is over";
+    result.message = kReplaced;
     next_.setCanceled(result, result.message);
   }
   next_ = goal;
   is_next_cancelled_ = false;
-  is_preempted_ = true;
+  is_preempted_ = is_replaced_ = true;
   goal_came_.notify_one();
 }
 
@@ -116,6 +119,7 @@ bool CaptureServer::acceptGoal() {
     return false;
   current_ = std::exchange(next_, GoalHandle());
   is_preempted_ = std::exchange(is_next_cancelled_, false);
+  is_replaced_ = false;
   current_.setAccepted();
   return true;
 }

@@ -52,10 +52,11 @@ class CaptureServer {
   std::function<Result(const Goal&)> serve_;
   std::mutex serving_mutex_;  // held while a goal is served and while the server is exchanged
   std::condition_variable goal_came_;
-  std::mutex goals_mutex_;  // guards the next four; locked after serving_mutex_
+  std::mutex goals_mutex_;  // guards the next five; locked after serving_mutex_
   GoalHandle current_;      // changes only with serving_mutex_ locked, too; invalid: none came yet
   std::atomic<bool> is_preempted_{false};
-  GoalHandle next_;  // invalid: none waits
+  std::atomic<bool> is_replaced_{false};  // by the next goal
+  GoalHandle next_;                       // invalid: none waits
   bool is_next_cancelled_ = false;
   std::atomic<bool> is_restarting_{false};
   std::atomic<bool> is_ending_{false};

@@ -154,12 +154,11 @@ class CaptureServices {
     if (!call.request.without_square && side_x == 0.0)
       throw Refusal(
           "the side of the square is 0: measure it, and give side_x in the request or set " +
-          ros::this_node::getName() + "/side_length, in metres");
+          ros::this_node::getName() + "/side_length, in metres, and start the node again");
     const std::optional<wave::Wand> wand = wandOnFloor(call.request, parameters);
-    if (wand) {
+    if (wand)
       requireUp(cameras, &lock);
-      context_.facts(cameras, lock);  // a wave that cannot begin must not drop what was captured
-    }
+    context_.facts(cameras, lock);  // what cannot be solved must not drop what was captured
     workflow::Calibration& calibration = context_.calibration(lock);
     const Reply reply = call.request.without_square ? calibration.startWithoutSquare(cameras)
                                                     : calibration.start(side_x, side_y, cameras);

@@ -15,7 +15,6 @@
 #include <wiimote_tracker_triangulation/ros/conversions.h>
 
 #include <algorithm>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,6 +29,8 @@ namespace {
 std::string nextStart(const std::string& path, const Parameters& parameters) {
   if (isRigFile(path, parameters))
     return "";
+  if (!describeMissingRig(parameters.rig_file).empty())
+    return "; the next start is without a rig: save without a name, too";
   return "; the next start loads " + parameters.rig_file +
          ", and drivers and camera files keep its lenses: save without a name to replace them all";
 }
@@ -50,7 +51,7 @@ bool isEmpty(const wave::Recording& recording) {
 
 class FileServices {
  public:
-  /// Loads and publishes the last saved rig, if there is one.
+  /// Loads and publishes the rig of rig_file, if there is one.
   explicit FileServices(NodeContext* context) : context_(*context) {
     {
       Lock lock(context_.mutex());
@@ -66,8 +67,8 @@ class FileServices {
 
  private:
   Reply save(SaveRig& call, Lock& lock) {
-    const std::optional<geometry::Rig> goal = context_.calibration(lock).goal();
-    const geometry::Rig rig = goal ? *goal : context_.existingRig("to save", lock);
+    const geometry::Rig rig = context_.rigToChange("to save", lock);
+    const bool is_goal = context_.calibration(lock).goal().has_value();
     const double timeout = context_.parameters(lock).set_camera_info_timeout;
     const std::string path = call.response.path =
         rigPath(call.request.path, context_.parameters(lock));
@@ -85,7 +86,7 @@ class FileServices {
     });
     const std::string message =
         "saved to " + path +
-        (goal ? ": the corrected rig, which the one in use still approaches" : "") +
+        (is_goal ? ": the corrected rig, which the one in use still approaches" : "") +
         (context_.calibration(lock).isUnsolved()
              ? "; the calibration under way is not in it: solve that first"
              : "") +
@@ -132,14 +133,15 @@ class FileServices {
   Reply join(JoinRig& call, Lock& lock) {
     const auto work = [&](const remap::MeasuredPoints& measured) {
       context_.calibration(lock).requireIdle();
-      const geometry::Rig second = context_.existingRig("to join", lock);
+      const std::string in_use = context_.existingRig("to join", lock).id();
+      const geometry::Rig second = context_.rigToChange("to join", lock);
       const std::vector<remap::KnownPoint> places = measured.points();
       const double stddev = context_.parameters(lock).solve.square.uncertainty.placement;
       const std::string path = rigPath(call.request.path, context_.parameters(lock));
       rooms::JoinedRigs joined = context_.compute(
           &lock, [&] { return rooms::joinRigs(files_.read(path), second, places, stddev); });
       context_.calibration(lock).requireIdle();
-      context_.requireSameRig(second.id(), lock);
+      context_.requireSameRig(in_use, lock);
       joined.rig.solved_at = NodeContext::now();
       call.response.rig = toMessage(joined.rig);
       useMasks(joined.rig, &context_.inputs());

@@ -31,7 +31,7 @@ class InputQueue {
   std::vector<Input> take(const Lock&) { return std::exchange(waiting_, {}); }
 
  private:
-  static constexpr std::size_t kMostWaiting = 20000;  // A minute of four cameras.
+  static constexpr std::size_t kMostWaiting = 20000;  // Four cameras' images and readings of 25 s.
 
   std::vector<Input> waiting_;
 };

@@ -59,6 +59,7 @@ class MaskServices {
 
   workflow::Reply clear(std_srvs::Trigger&, Lock& lock) {
     context_.calibration(lock).requireIdle();
+    context_.calibration(lock).preparation() = {};  // as before any light was learned
     const std::string saved = context_.setMasks({}, lock) ? kNoneToBeSaved : "";
     return {true, "no light is masked any more" + saved};
   }

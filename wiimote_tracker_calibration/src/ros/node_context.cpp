@@ -30,7 +30,8 @@ square::CameraSightings factsOf(const std::string& name,
     throw Refusal("the images of " + name + " are " + std::to_string(input.width) + " x " +
                   std::to_string(input.height) + ", but its starting intrinsics are for " +
                   std::to_string(lens.width) + " x " + std::to_string(lens.height) + ": set " +
-                  ros::this_node::getName() + "/cameras_intrinsics/" + name + " for this camera");
+                  ros::this_node::getName() + "/cameras_intrinsics/" + name +
+                  " for this camera, and start the node again");
   return {name, input.identity, lens, {}, {}, input.gravity.mean()};
 }
 
@@ -104,9 +105,24 @@ const char* NodeContext::whyEndedEarly() {
                    : "the calibration node ends";
 }
 
+void NodeContext::waitInOrder(Lock* lock, double end, const std::function<bool()>& done) {
+  double time = now();
+  const bool is_done = waitUntil(lock, end, [&] {
+    const double before = std::exchange(time, now());
+    if (done())
+      return true;
+    if (time < before - kUnderWay)
+      throw Refusal(std::string(kTimeJumpedBack) + "try again");
+    end -= std::max(0.0, before - time);  // as waitUntil()
+    return false;
+  });
+  if (!is_done && now() < end)
+    throw Refusal(whyEndedEarly());
+}
+
 void NodeContext::waitFor(double duration, Lock* lock) {
   const double start = now();
-  waitUntil(lock, start + duration, [&] {
+  waitInOrder(lock, start + duration, [&] {
     setProgress(std::max(0.0, (now() - start) / duration), *lock);
     return isCancelled(*lock);
   });
@@ -149,6 +165,11 @@ const geometry::Rig& NodeContext::existingRig(const std::string& purpose, const 
   if (!calibration_.rig())
     throw Refusal("there is no rig " + purpose + ": solve or load one first");
   return *calibration_.rig();
+}
+
+geometry::Rig NodeContext::rigToChange(const std::string& purpose, const Lock& lock) const {
+  const geometry::Rig& in_use = existingRig(purpose, lock);
+  return calibration_.goal().value_or(in_use);
 }
 
 workflow::Reply NodeContext::withPlaces(

@@ -113,7 +113,12 @@ class NodeContext {
   /// Why waitUntil() returned false before its end.
   static const char* whyEndedEarly();
 
-  /// Waits for some time, and sets the progress meanwhile. @throws Refusal: the job was cancelled.
+  /// As waitUntil(), for what needs images in the order of time.
+  /// @throws Refusal: time jumped back before done(), or the wait ended before its end.
+  void waitInOrder(Lock* lock, double end, const std::function<bool()>& done);
+
+  /// Waits for some time, and sets the progress meanwhile.
+  /// @throws Refusal: as waitInOrder(), or the job was cancelled.
   void waitFor(double duration, Lock* lock);
 
   /// Works without the lock. It is locked again afterwards, whatever is thrown.
@@ -172,6 +177,9 @@ class NodeContext {
   const std::optional<geometry::Rig>& rig(const Lock&) const { return calibration_.rig(); }
   /// @param purpose for the refusal, such as "to save". @throws Refusal: there is no rig.
   const geometry::Rig& existingRig(const std::string& purpose, const Lock&) const;
+  /// The rig in use, or the corrected one that it approaches.
+  /// @param purpose for the refusal, such as "to save". @throws Refusal: there is no rig.
+  geometry::Rig rigToChange(const std::string& purpose, const Lock& lock) const;
   static constexpr char kReplaced[] = "the rig was replaced meanwhile: send the request again";
   /// @throws Refusal: the rig in use has another id.
   void requireSameRig(const std::string& id, const Lock&) const;

@@ -17,7 +17,6 @@
 #include <functional>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 namespace wiimote_tracker {
@@ -234,17 +233,11 @@ class PlaceServices {
     const auto watching =
         context_.inputs().watch([&](const capture::Image& image, const Lock&) { led.add(image); });
     const double end_time = start + options.timeout + 2.0 * NodeContext::kUnderWay;
-    double time = start;
-    const bool over = context_.waitUntil(lock, end_time, [&] {
-      const double before = std::exchange(time, NodeContext::now());
-      if (time < before - NodeContext::kUnderWay && led.state() == State::kCollecting)
-        throw Refusal(std::string(NodeContext::kTimeJumpedBack) + "measure it again");
-      led.update(time - NodeContext::kUnderWay);
+    context_.waitInOrder(lock, end_time, [&] {
+      led.update(NodeContext::now() - NodeContext::kUnderWay);
       context_.setProgress(led.progress(), *lock);
       return context_.isCancelled(*lock) || led.state() != State::kCollecting;
     });
-    if (!over && NodeContext::now() < end_time)
-      throw Refusal(NodeContext::whyEndedEarly());
     if (context_.isCancelled(*lock) || led.state() != State::kDone)
       throw Refusal(led.message() + (ignored.empty() ? "" : "; ") +
                     context_.inputs().whyIgnored(ignored));

@@ -38,7 +38,7 @@ class RecalibrateServices {
     if (!(duration > 0.0 && duration <= kLongestDuration))
       throw Refusal("the duration must be within 0 and 300 s: correct it");
     const std::string in_use = context_.existingRig("with this camera", lock).id();
-    const geometry::Rig rig = rigToChange(lock);
+    const geometry::Rig rig = context_.rigToChange("with this camera", lock);
     const recalibrate::Options options = context_.parameters(lock).recalibrateOptions();
     requireSolvable(rig, camera, options, lock);
     const Job job = {Step::kMeasuring,
@@ -59,12 +59,6 @@ class RecalibrateServices {
       context_.setRig(result.rig, message, lock);
       return workflow::Reply{true, message};
     });
-  }
-
-  /// The rig in use, or the corrected one that it approaches.
-  geometry::Rig rigToChange(const Lock& lock) const {
-    const geometry::Rig& in_use = context_.existingRig("with this camera", lock);
-    return context_.calibration(lock).goal().value_or(in_use);
   }
 
   /// A new camera gets the masks that its images have. @returns what to do if it has none yet.
@@ -162,7 +156,7 @@ class RecalibrateServices {
   workflow::Reply remove(RemoveCamera& call, Lock& lock) {
     const std::string& camera = call.request.camera;
     context_.calibration(lock).requireIdle();
-    const geometry::Rig before = rigToChange(lock);
+    const geometry::Rig before = context_.rigToChange("with this camera", lock);
     geometry::Rig rig = recalibrate::withoutCamera(before, camera);
     // The accuracy that the verdict states was with this camera.
     const samples::Grade grade =

@@ -55,8 +55,8 @@ square::Solution solve(const wave::Recording& recording,
       options.square.method == square::Method::kPerCamera || options.correct_principal_points;
   if (exact && !(recording.square->lengths.empty() && recording.square->places.empty()))
     throw square::SquareError(
-        "lengths and known places need the method joint without principal_point_correction: set "
-        "these, record a wave, or drop the lengths and places");
+        "lengths and known places need the method joint without principal_point_correction: record "
+        "a wave, or drop the lengths and places");
   square::Solution found = solveRecording(recording, options);
   if (options.correct_principal_points)
     correctPrincipalPoints(recording, options, progress, &found, trace);
